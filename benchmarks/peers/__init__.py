@@ -1,0 +1,1 @@
+"""General-purpose integrators solving the same impact problem as the package's engine."""

@@ -1,0 +1,40 @@
+"""How a computation ended, in codes for the kernels and in words for people."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Status(IntEnum):
+    """Outcome of a trajectory or of a held frequency."""
+
+    DONE = 0
+    NOT_SETTLED = 1
+    TOO_MANY_EVENTS = 2
+    TOO_MUCH_WORK = 3
+    NOT_FINITE = 4
+    STOPPED = 5
+
+    @property
+    def advice(self) -> str:
+        """What happened, and what the user can do about it."""
+        return _ADVICE[self]
+
+
+_ADVICE = {
+    Status.DONE: "done",
+    Status.NOT_SETTLED: (
+        "the motion had not settled within `max_cycles`; it was measured over a window of "
+        "`window` cycles (raise `max_cycles` if you expect a slow transient)"
+    ),
+    Status.TOO_MANY_EVENTS: (
+        "more contacts and detachments in one forcing cycle than `max_events`: the mass "
+        "chatters on a bumper; raise `max_events`, or give the bumper more damping"
+    ),
+    Status.TOO_MUCH_WORK: (
+        "the fastest rate of the rig is too many times the forcing frequency to follow one "
+        "cycle; raise the frequency or lower the largest stiffness or damping"
+    ),
+    Status.NOT_FINITE: "the motion left the range of numbers; check the orders of magnitude",
+    Status.STOPPED: "stopped on request",
+}

@@ -1,0 +1,98 @@
+"""The loop flight → contact → flight, one segment at a time.
+
+A state is (mode, fresh, u, v, right, left): the mode of `phase`; in flight the side that has
+just been left (0 if none), in contact whether it begins here; displacement and velocity; and
+the deformation of each bumper away from the mass (≥ 0). In contact the pressed bumper's
+deformation is the primary quantity, u follows from it.
+"""
+
+from __future__ import annotations
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.motion import DETACHED, LIMIT, contact, flight, relaxed
+from vibroimpact.engine.phase import FLIGHT, RIGHT, SIZE, TABLES, H
+
+WORK_LIMIT = 3e7
+"""Table steps that one forcing cycle may take, about a second of computing."""
+
+
+@kernel
+def advance(plan, mode, fresh, u, v, s, c, right, left, limit, age):
+    """Go on to the next contact or detachment, or for the time `limit` if that comes first.
+
+    Returns
+    -------
+    event, t, mode, fresh, u, v, s, c, right, left, age
+        What ended the segment (see `motion`), its length (s), and the state behind it.
+    """
+    if mode == FLIGHT:
+        event, t, u, v, s, c, right, left = flight(
+            plan, u, v, s, c, right, left, fresh, limit, age
+        )
+        if event == LIMIT:
+            return event, t, mode, 0, u, v, s, c, right, left, age + t
+        return event, t, event, 1, u, v, s, c, right, left, 0.0
+    at = par.BUMPER + par.WIDTH * (mode - 1)
+    gap = plan[at + par.GAP]
+    if mode == RIGHT:
+        event, t, right, v, s, c = contact(
+            plan, mode, right, v, s, c, fresh == 1, limit, age
+        )
+        left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
+        u = gap + right
+    else:
+        event, t, left, v, s, c = contact(
+            plan, mode, left, -v, -s, -c, fresh == 1, limit, age
+        )
+        right = relaxed(right, plan[par.BUMPER + par.RATE], t)
+        u, v, s, c = -(gap + left), -v, -s, -c
+    if event == DETACHED:
+        return event, t, FLIGHT, mode, u, v, s, c, right, left, 0.0
+    return event, t, mode, 0, u, v, s, c, right, left, age + t
+
+
+@kernel
+def cycle(plan, mode, fresh, u, v, right, left, age, s, c, period, max_events):
+    """One forcing cycle, from one stroboscopic section to the next.
+
+    The phase at the section is (s, c) exactly, each time: angles do not accumulate.
+
+    Returns
+    -------
+    events, mode, fresh, u, v, right, left, age, hits_right, hits_left
+        `events` is the number of contacts and detachments, or more than `max_events` if the
+        cycle was not finished.
+    """
+    t = 0.0
+    events = 0
+    hits_r = 0
+    hits_l = 0
+    while True:
+        event, step, mode, fresh, u, v, s, c, right, left, age = advance(
+            plan, mode, fresh, u, v, s, c, right, left, period - t, age
+        )
+        if event == LIMIT:
+            break
+        t += step
+        events += 1
+        if event != DETACHED:
+            if event == RIGHT:
+                hits_r += 1
+            else:
+                hits_l += 1
+        if events > max_events:
+            break
+        if t >= period:
+            break
+    return events, mode, fresh, u, v, right, left, age, hits_r, hits_l
+
+
+@kernel
+def too_much_work(plan, period):
+    """Whether one cycle could take more than WORK_LIMIT table steps."""
+    for mode in range(3):
+        h = plan[TABLES + SIZE * mode + H]
+        if h > 0.0 and period / h > WORK_LIMIT:
+            return True
+    return False

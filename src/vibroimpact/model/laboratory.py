@@ -1,0 +1,311 @@
+"""The published shaking-table rig: its parameters, case codes and campaign.
+
+A case code such as ``B2-G1-A3`` names a bumper, a total gap and a peak table acceleration.
+Any part may be a value instead: ``B3-10mm-A3``, ``510kN/m-G1-0.05g``.
+
+Two parameter sets exist. ``"table"`` covers every case: the isolator's equivalent stiffness
+for each acceleration, with the paper's ξ = 0.15 and τ_r = 0.01 (Section 7 and Table 1).
+``"identified"`` covers the two cases of Section 5 whose parameters were fitted one by one;
+they differ slightly from the table's and are kept beside them.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal, NamedTuple, TypeAlias
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.dimensionless import peak_displacement
+from vibroimpact.model.oscillator import Bumper, Isolator, Oscillator
+from vibroimpact.model.units import (
+    ACCELERATION,
+    LENGTH,
+    STIFFNESS,
+    Quantity,
+    pretty,
+    read,
+    shown,
+)
+
+Parameters: TypeAlias = Literal["table", "identified"]
+
+MASS = 550.0
+"""M in kg."""
+DAMPING_RATIO = 0.15
+"""ξ of the isolator."""
+RELAXATION_TIME = 0.01
+"""τ_r = ω0 C_j/K_j of every bumper."""
+BUMPERS: Mapping[str, float] = {"B1": 100e3, "B2": 510e3, "B3": 680e3, "B4": 2300e3}
+"""Stiffness K_j in N/m."""
+GAPS: Mapping[str, float] = {"G1": 0.015, "G2": 0.020, "G3": 0.025, "G4": 0.030}
+"""Total gap G in m, shared equally by the two sides."""
+ACCELERATIONS: Mapping[str, float] = {"A1": 0.2941995, "A2": 0.392266, "A3": 0.4903325}
+"""Peak table acceleration A in m/s²: 0.03, 0.04 and 0.05 g."""
+ISOLATOR_STIFFNESS: Mapping[str, float] = {"A1": 33920.0, "A2": 28732.0, "A3": 26290.0}
+"""Equivalent stiffness K in N/m: the rubber isolator softens with the acceleration."""
+FREQUENCIES: tuple[float, ...] = tuple(round(0.1 * k, 10) for k in range(5, 51))
+"""The stepped sweep of the tests: 0.5 to 5 Hz by 0.1 Hz."""
+
+_NO_GAP_LIMIT = ("GINF", "G∞", "INF", "∞", "FREE")
+_ACCEPTED = (
+    "bumper-gap-acceleration is accepted, such as B2-G1-A3: a bumper B1 to B4 or a stiffness "
+    "(510kN/m); a total gap G1 to G4, a length (10mm) or Ginf (no bumpers); a table "
+    "acceleration A1 to A3 or a value from 0.03g to 0.05g"
+)
+
+
+class _Identified(NamedTuple):
+    """A parameter set of Section 5, in N/m and N s/m."""
+
+    stiffness: float
+    damping: float
+    bumper_stiffness: float
+    bumper_damping: float
+
+
+IDENTIFIED: Mapping[str, _Identified] = {
+    "B2-G1-A3": _Identified(26800.0, 1100.0, 510e3, 900.0),
+    "B2-G2-A2": _Identified(31900.0, 1100.0, 510e3, 900.0),
+}
+"""The two cases whose parameters the paper fitted one by one (Section 5)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One test of the rig.
+
+    Attributes
+    ----------
+    code
+        Its code: names in capitals, values as they were given.
+    oscillator
+        The oscillator.
+    amplitude
+        Peak table acceleration A in m/s².
+    frequencies
+        The frequencies of the stepped sweep in Hz, rising.
+    parameters
+        The parameter set: ``"table"`` or ``"identified"``.
+    """
+
+    code: str
+    oscillator: Oscillator
+    amplitude: float
+    frequencies: tuple[float, ...]
+    parameters: Parameters
+
+    @property
+    def slug(self) -> str:
+        """The code as a file name: without a slash, a space or a sign outside ASCII."""
+        return re.sub(r"[^A-Za-z0-9.+-]+", "_", self.code).strip("_")
+
+    def __str__(self) -> str:
+        return (
+            f"Case({self.code}, oscillator={self.oscillator}, "
+            f"amplitude={pretty(self.amplitude, ACCELERATION)}, "
+            f"frequencies={self.frequencies[0]:g} to {self.frequencies[-1]:g} Hz, "
+            f"parameters={self.parameters})"
+        )
+
+
+class Table1(NamedTuple):
+    """The dimensionless parameters of the paper's Table 1.
+
+    The paper prints the gaps to 0.01 and the stiffness ratios to 0.1.
+    """
+
+    gap: dict[str, dict[str, float]]
+    """δ by acceleration and gap: ``gap["A3"]["G1"]``. It is G/(2 u_max), the gap of one
+    side, as the printed numbers are (the text says the sum of both sides)."""
+    stiffness_ratio: dict[str, dict[str, float]]
+    """λ by acceleration and bumper: ``stiffness_ratio["A3"]["B2"]``."""
+
+    def __str__(self) -> str:
+        head = "".join(f"{name:>7}" for name in (*GAPS, *BUMPERS))
+        rows = [
+            f"{a:2}"
+            + "".join(f"{self.gap[a][g]:7.2f}" for g in GAPS)
+            + "".join(f"{self.stiffness_ratio[a][b]:7.1f}" for b in BUMPERS)
+            for a in ACCELERATIONS
+        ]
+        return "\n".join((f"  {head}", *rows))
+
+
+def case(code: str, parameters: Parameters = "table") -> Case:
+    """Return the test that a case code names.
+
+    Parameters
+    ----------
+    code
+        Bumper, total gap and table acceleration joined by hyphens, such as ``B2-G1-A3``. Any
+        part may be a value with its unit: ``B3-10mm-A3``, ``510kN/m-G1-0.05g``. ``Ginf`` is
+        free flight. Names may be written in any case; units may not.
+    parameters
+        ``"table"``: the isolator's equivalent stiffness for the acceleration, ξ = 0.15 and
+        τ_r = 0.01. A value between two of the tested accelerations takes the stiffness
+        interpolated linearly between theirs; outside 0.03 to 0.05 g nothing was measured, and
+        the case is refused.
+        ``"identified"``: the fitted parameters of Section 5, for B2-G1-A3 and B2-G2-A2 only.
+
+    Returns
+    -------
+    Case
+        With ``.oscillator``, ``.amplitude`` and ``.frequencies``.
+
+    Raises
+    ------
+    InputError
+        If the code or the parameter set is unknown, a value cannot be used, or the case has
+        no identified parameters.
+    """
+    if not isinstance(code, str):
+        raise InputError(f"case: {shown(code)} is not a case code; {_ACCEPTED}")
+    parts = _split(code)
+    if len(parts) != 3 or not all(parts):
+        raise InputError(f"case: {shown(code)} is not a case code; {_ACCEPTED}")
+    if parameters not in ("table", "identified"):
+        raise InputError(
+            f"parameters: {shown(parameters)} is unknown; 'table' or 'identified' is accepted"
+        )
+    bumper_name, bumper_stiffness = _part(code, "bumper", parts[0], BUMPERS, STIFFNESS)
+    if parts[1].upper() in _NO_GAP_LIMIT:
+        gap_name, total_gap = "Ginf", math.inf
+    else:
+        gap_name, total_gap = _part(code, "gap", parts[1], GAPS, LENGTH)
+    acceleration_name, amplitude = _part(
+        code, "acceleration", parts[2], ACCELERATIONS, ACCELERATION
+    )
+    if parameters == "identified":
+        names = f"{bumper_name}-{gap_name}-{acceleration_name}"
+        if names not in IDENTIFIED:
+            raise InputError(
+                f"parameters: case {shown(code)} has no identified parameters; they exist for "
+                f"{' and '.join(IDENTIFIED)}, and parameters 'table' for every case"
+            )
+        fitted = IDENTIFIED[names]
+        isolator = Isolator(fitted.stiffness, fitted.damping)
+        bumper = Bumper(fitted.bumper_stiffness, fitted.bumper_damping, total_gap / 2.0)
+        oscillator = Oscillator(MASS, isolator, bumper, bumper)
+    else:
+        oscillator = _from_table(
+            bumper_stiffness, total_gap, _isolator_stiffness(code, parts[2], amplitude)
+        )
+    written = (
+        bumper_name if parts[0].upper() in BUMPERS else parts[0],
+        gap_name if gap_name == "Ginf" or parts[1].upper() in GAPS else parts[1],
+        acceleration_name if parts[2].upper() in ACCELERATIONS else parts[2],
+    )
+    return Case("-".join(written), oscillator, amplitude, FREQUENCIES, parameters)
+
+
+def campaign(parameters: Parameters = "table") -> tuple[Case, ...]:
+    """Return the 48 tests of the published campaign.
+
+    Parameters
+    ----------
+    parameters
+        As for `case`; only ``"table"`` covers them all.
+
+    Returns
+    -------
+    tuple of Case
+        Ordered by acceleration, then bumper, then gap: B1-G1-A1, B1-G2-A1, ..., B4-G4-A3.
+
+    Raises
+    ------
+    InputError
+        If the parameter set is unknown or does not cover the campaign.
+    """
+    return tuple(
+        case(f"{b}-{g}-{a}", parameters) for a in ACCELERATIONS for b in BUMPERS for g in GAPS
+    )
+
+
+def table_1() -> Table1:
+    """Compute the dimensionless parameters that the paper's Table 1 prints.
+
+    Returns
+    -------
+    Table1
+        δ = G/(2 u_max) and λ = K_j/K for every acceleration.
+    """
+    rigs = {a: _from_table(BUMPERS["B1"], math.inf, k) for a, k in ISOLATOR_STIFFNESS.items()}
+    return Table1(
+        gap={
+            a: {
+                g: total / 2.0 / peak_displacement(rig, ACCELERATIONS[a])
+                for g, total in GAPS.items()
+            }
+            for a, rig in rigs.items()
+        },
+        stiffness_ratio={
+            a: {b: k / rig.isolator.stiffness for b, k in BUMPERS.items()}
+            for a, rig in rigs.items()
+        },
+    )
+
+
+def _split(code: str) -> list[str]:
+    """Split a code at its hyphens, but not inside 1e-3m or m/s^-2, nor at a minus sign."""
+    plain = re.sub("[‐‑‒–—−]", "-", code)
+    return [" ".join(part.split()) for part in re.split(r"(?<![\d.][eE])(?<![\^*-])(?<!^)-", plain)]
+
+
+def _part(
+    code: str, role: str, text: str, names: Mapping[str, float], quantity: Quantity
+) -> tuple[str, float]:
+    """Return the name (or the text, for a value that has none) and the SI value of a part."""
+    name = text.upper()
+    if name in names:
+        return name, names[name]
+    known_names = ", ".join((*names, "Ginf") if role == "gap" else names)
+    wanted = (
+        f"{known_names} or {quantity.phrase} such as {quantity.example.replace(' ', '')} "
+        "is accepted"
+    )
+    if text[0].isalpha():
+        raise InputError(f"case {shown(code)}: {role} {shown(text)} is unknown; {wanted}")
+    try:
+        value = read(
+            text,
+            quantity,
+            above=None if quantity is LENGTH else 0.0,
+            minimum=0.0 if quantity is LENGTH else None,
+        )
+    except InputError as error:
+        raise InputError(f"case {shown(code)}: {role}: {error}") from None
+    # A bare number would be in SI units: B3-10-A3 would be a gap of ten metres.
+    if value != 0.0 and not any(c.isalpha() for c in text.lstrip("+-.0123456789eE")):
+        raise InputError(f"case {shown(code)}: {role} {shown(text)} has no unit; {wanted}")
+    for known, exact in names.items():
+        if math.isclose(value, exact, rel_tol=1e-12):
+            return known, exact
+    return text, value
+
+
+def _isolator_stiffness(code: str, text: str, amplitude: float) -> float:
+    """Return the isolator's equivalent stiffness, interpolated between tested accelerations."""
+    tested = [(a, ISOLATOR_STIFFNESS[name]) for name, a in ACCELERATIONS.items()]
+    for (low, k_low), (high, k_high) in pairwise(tested):
+        if low <= amplitude <= high:
+            share = (amplitude - low) / (high - low)
+            return (1.0 - share) * k_low + share * k_high
+    raise InputError(
+        f"case {shown(code)}: acceleration {shown(text)} is outside the tested range, where the "
+        "isolator's stiffness is known; from 0.03g to 0.05g is accepted"
+    )
+
+
+def _from_table(bumper_stiffness: float, total_gap: float, stiffness: float) -> Oscillator:
+    """Build the symmetric rig from ξ and τ_r; an infinite gap is a rig without bumpers."""
+    isolator = Isolator(stiffness, 2.0 * DAMPING_RATIO * math.sqrt(stiffness * MASS))
+    free = Oscillator(MASS, isolator)
+    if math.isinf(total_gap):
+        return free
+    damping = RELAXATION_TIME * bumper_stiffness / free.angular_frequency
+    bumper = Bumper(bumper_stiffness, damping, total_gap / 2.0)
+    return free.replace(right=bumper, left=bumper)

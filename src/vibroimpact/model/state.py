@@ -1,0 +1,78 @@
+"""Where a motion starts, and where it can be taken up again."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.units import ANGLE, LENGTH, VELOCITY, shown
+from vibroimpact.model.validation import Accepts, Model, constructor
+
+
+def _contact(value: Any) -> int | None:
+    if value is None:
+        return None
+    if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
+        value = value.item()  # a numpy scalar or an array of no dimension
+    for side in (-1, 0, 1):
+        if not isinstance(value, bool | str) and value == side:
+            return side
+    raise InputError(f"{shown(value)} is not a side; -1 (left), 0 (none) or 1 (right) is accepted")
+
+
+class State(Model):
+    """The state of an oscillator at one instant.
+
+    A bumper's deformation belongs to it, since it outlives the contact: a bumper that the
+    mass has left is still relaxing.
+
+    Parameters
+    ----------
+    displacement
+        u in m, relative to the base.
+    velocity
+        u̇ in m/s, relative to the base.
+    right_bumper
+        Deformation u_R in m of the right bumper, at least 0. None: at rest, or pressed by
+        the mass if the displacement exceeds the gap.
+    left_bumper
+        Deformation u_L in m of the left bumper, at most 0. None: as for the right one.
+    phase
+        Phase of the excitation at this instant in rad. None: the excitation's own.
+    contact
+        Bumper that the mass touches: -1 left, 0 none, 1 right. None: deduced from the
+        displacement and the deformations.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or a wrong sign.
+    """
+
+    displacement: Annotated[float, Accepts(LENGTH)] = 0.0
+    velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
+    right_bumper: Annotated[float | None, Accepts(LENGTH, minimum=0.0, optional=True)] = None
+    left_bumper: Annotated[float | None, Accepts(LENGTH, maximum=0.0, optional=True)] = None
+    phase: Annotated[float | None, Accepts(ANGLE, optional=True)] = None
+    contact: Annotated[Literal[-1, 0, 1] | None, BeforeValidator(_contact)] = None
+
+    @constructor
+    def __init__(
+        self,
+        displacement: float | str = 0.0,
+        velocity: float | str = 0.0,
+        right_bumper: float | str | None = None,
+        left_bumper: float | str | None = None,
+        phase: float | str | None = None,
+        contact: int | None = None,
+    ) -> None:
+        super().__init__(
+            displacement=displacement,
+            velocity=velocity,
+            right_bumper=right_bumper,
+            left_bumper=left_bumper,
+            phase=phase,
+            contact=contact,
+        )

@@ -1,0 +1,399 @@
+"""Text with units to SI numbers and back.
+
+Everything inside the package is a plain float in SI units. Units exist only at this
+boundary: what a user writes (``"15 mm"``, ``"510 kN/m"``, ``"0.05 g"``) becomes a float
+here, and a float becomes readable text here.
+
+pint reads the units. It is imported on the first text that has a unit, because its
+registry costs about a third of a second that plain numbers need not pay.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from functools import cache
+from typing import Any
+
+from vibroimpact.errors import InputError
+
+GRAVITY = 9.80665
+"""Standard acceleration of gravity in m/s² (the *g* of ``"0.05 g"``)."""
+
+_TWO_PI = Decimal("6.283185307179586476925286766559")
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A kind of physical quantity: which units it takes and how it is written.
+
+    Attributes
+    ----------
+    name
+        What it is called in messages, such as ``"length"``.
+    base
+        Exponents of the SI base units, with the radian counted as a base unit so that an
+        angle is told from a ratio and an angular frequency from a frequency.
+    symbol
+        The SI unit, such as ``"m"``; empty for a ratio.
+    example
+        Text with units that is accepted, such as ``"15 mm"``.
+    number
+        The same example as a plain SI number.
+    scales
+        Units for printing, largest first: (smallest magnitude printed in it, its size in
+        SI units, its symbol).
+    """
+
+    name: str
+    base: tuple[tuple[str, int], ...]
+    symbol: str
+    example: str
+    number: float
+    scales: tuple[tuple[float, float, str], ...]
+
+    @property
+    def phrase(self) -> str:
+        """The name with its article, such as ``"a length"``."""
+        return f"{'an' if self.name[0] in 'aeiou' else 'a'} {self.name}"
+
+
+LENGTH = Quantity(
+    "length",
+    (("meter", 1),),
+    "m",
+    "15 mm",
+    0.015,
+    ((1.0, 1.0, "m"), (1e-4, 1e-3, "mm"), (0.0, 1e-6, "µm")),
+)
+MASS = Quantity(
+    "mass",
+    (("kilogram", 1),),
+    "kg",
+    "550 kg",
+    550,
+    ((1e4, 1e3, "t"), (0.1, 1.0, "kg"), (0.0, 1e-3, "g")),
+)
+STIFFNESS = Quantity(
+    "stiffness",
+    (("kilogram", 1), ("second", -2)),
+    "N/m",
+    "510 kN/m",
+    510000,
+    ((1e10, 1e9, "GN/m"), (1e7, 1e6, "MN/m"), (1e3, 1e3, "kN/m"), (0.0, 1.0, "N/m")),
+)
+DAMPING = Quantity(
+    "damping",
+    (("kilogram", 1), ("second", -1)),
+    "N s/m",
+    "1.1 kN s/m",
+    1100,
+    ((1e7, 1e6, "MN s/m"), (1e2, 1e3, "kN s/m"), (0.0, 1.0, "N s/m")),
+)
+ACCELERATION = Quantity(
+    "acceleration",
+    (("meter", 1), ("second", -2)),
+    "m/s²",
+    "0.05 g",
+    0.4903325,
+    ((0.0, 1.0, "m/s²"),),
+)
+FREQUENCY = Quantity(
+    "frequency",
+    (("second", -1),),
+    "Hz",
+    "2.5 Hz",
+    2.5,
+    ((1e3, 1e3, "kHz"), (0.0, 1.0, "Hz")),
+)
+TIME = Quantity(
+    "time",
+    (("second", 1),),
+    "s",
+    "20 ms",
+    0.02,
+    ((0.1, 1.0, "s"), (0.0, 1e-3, "ms")),
+)
+VELOCITY = Quantity(
+    "velocity",
+    (("meter", 1), ("second", -1)),
+    "m/s",
+    "150 mm/s",
+    0.15,
+    ((1.0, 1.0, "m/s"), (0.0, 1e-3, "mm/s")),
+)
+ANGLE = Quantity("angle", (("radian", 1),), "rad", "90 deg", 1.5708, ((0.0, 1.0, "rad"),))
+DIMENSIONLESS = Quantity("dimensionless number", (), "", "0.15", 0.15, ((0.0, 1.0, ""),))
+
+# Named only so that a message can say what a text of the wrong dimension is.
+_ALSO_NAMED: dict[tuple[tuple[str, int], ...], str] = {
+    (("radian", 1), ("second", -1)): "an angular frequency",
+    (("kilogram", 1), ("meter", 1), ("second", -2)): "a force",
+    (("kilogram", 1), ("meter", 2), ("second", -2)): "an energy",
+    (("kilogram", 1), ("meter", -1), ("second", -2)): "a pressure",
+    (("meter", 2),): "an area",
+    (("kelvin", 1),): "a temperature",
+}
+_NAMES: dict[tuple[tuple[str, int], ...], str] = _ALSO_NAMED | {
+    q.base: q.phrase
+    for q in (
+        LENGTH,
+        MASS,
+        STIFFNESS,
+        DAMPING,
+        ACCELERATION,
+        FREQUENCY,
+        TIME,
+        VELOCITY,
+        ANGLE,
+        DIMENSIONLESS,
+    )
+}
+
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+_NOT_FINITE = re.compile(r"[+-]?(?:inf|infinity|∞|nan)\b|[+-]?∞", re.IGNORECASE)
+
+# Only products of powers with one-digit exponents: pint evaluates what it is given, and
+# an exponent tower such as m^9^9^9 would never return.
+_NAME = r"[A-Za-zµμΩ°%]+(?:_[A-Za-z]+)*"
+_POWER = r"(?:(?:\^|\*\*)?-?[1-9](?!\d)|⁻?[¹²³])"
+_FACTOR = rf"{_NAME}{_POWER}?"
+_TIMES = r"(?: ?[*/·⋅] ?| )"
+_GROUP = rf"\({_FACTOR}(?:{_TIMES}{_FACTOR})*\)"
+_UNITS = re.compile(
+    rf"(?:1 ?/ ?)?(?:{_FACTOR}|{_GROUP})(?:{_TIMES}(?:{_FACTOR}|{_GROUP}))*", re.ASCII
+)
+_BARE_POWER = re.compile(r"(?<=[A-Za-z])(-?[1-9])")
+_GRAVITY_SYMBOL = re.compile(r"(?<![A-Za-z_])(m?)[gG](?![A-Za-z_])")
+
+
+def to_si(
+    value: object,
+    quantity: Quantity,
+    field: str,
+    *,
+    above: float | None = None,
+    minimum: float | None = None,
+    maximum: float | None = None,
+) -> float:
+    """Read a number or a text with units as a float in SI units.
+
+    A plain number, or a text without a unit, is already in SI units (Hz for a frequency,
+    rad for an angle). Text with a unit is converted exactly and rounded once, so that
+    ``"26.8 kN/m"`` equals ``26800.0``. Units multiply by ``*``, ``·`` or a space; powers
+    are written ``m/s^2``, ``m/s**2``, ``m/s²``, ``m/s2`` or ``m s-2``.
+
+    Two readings differ from a plain dimensional conversion:
+
+    - Where an acceleration is expected, ``g`` is gravity (9.80665 m/s²) and ``mg`` a
+      thousandth of it; elsewhere ``g`` is the gram.
+    - Where a frequency is expected, an angle over a time is counted in turns:
+      ``"6.2832 rad/s"``, ``"60 rpm"`` and ``"360 deg/s"`` are 1 Hz. ``"1/s"`` is Hz.
+
+    Parameters
+    ----------
+    value
+        A real number, a text, or a pint quantity.
+    quantity
+        What is expected, such as `LENGTH`.
+    field
+        The name that a message gives to the value.
+    above, minimum, maximum
+        Bounds in SI units: greater than, at least, at most.
+
+    Returns
+    -------
+    float
+        The value in SI units, finite, never a negative zero.
+
+    Raises
+    ------
+    InputError
+        If the value is a bool, is no number, is not finite, is empty, has an unknown unit
+        or a unit of another dimension, or lies outside the bounds.
+    """
+    try:
+        return read(value, quantity, above=above, minimum=minimum, maximum=maximum)
+    except InputError as error:
+        raise InputError(f"{field}: {error}") from None
+
+
+def read(
+    value: object,
+    quantity: Quantity,
+    *,
+    above: float | None = None,
+    minimum: float | None = None,
+    maximum: float | None = None,
+) -> float:
+    """Do what `to_si` does, with a message that does not name the field.
+
+    For a caller that learns the name of the field only later, such as the validation of
+    nested tables.
+    """
+    try:
+        number = _number(value, quantity)
+        if not math.isfinite(number):
+            raise _RefusalError("is not finite")
+        if above is not None and not number > above:
+            raise _RefusalError(f"is not greater than {above:g}")
+        if minimum is not None and not number >= minimum:
+            raise _RefusalError(f"is less than {minimum:g}")
+        if maximum is not None and not number <= maximum:
+            raise _RefusalError(f"is greater than {maximum:g}")
+    except _RefusalError as refusal:
+        wanted = accepted(quantity, above=above, minimum=minimum, maximum=maximum)
+        raise InputError(f"{shown(value)} {refusal}; {wanted}") from None
+    # A negative zero equals zero but prints differently; adding 0.0 removes its sign.
+    return number + 0.0
+
+
+def accepted(
+    quantity: Quantity,
+    *,
+    above: float | None = None,
+    minimum: float | None = None,
+    maximum: float | None = None,
+) -> str:
+    """Say in words what is accepted for a quantity, with an example."""
+    bounds = [
+        f"{words} {bound:g}"
+        for words, bound in (
+            ("greater than", above),
+            ("of at least", minimum),
+            ("of at most", maximum),
+        )
+        if bound is not None
+    ]
+    sign = "-" if maximum is not None and maximum <= 0 else ""
+    number = f"{sign}{quantity.number}"
+    example = (
+        f'"{sign}{quantity.example}" or {number} ({quantity.symbol})' if quantity.symbol else number
+    )
+    return " ".join((quantity.phrase, *bounds, "is accepted, such as", example))
+
+
+def shown(value: object) -> str:
+    """Show a refused value on one short line."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def pretty(value: float, quantity: Quantity) -> str:
+    """Write an SI value with six digits and a unit of fitting size.
+
+    `to_si` reads the text back, to the six digits.
+
+    Parameters
+    ----------
+    value
+        In SI units.
+    quantity
+        What it is.
+
+    Returns
+    -------
+    str
+        Such as ``"510 kN/m"``, ``"7.5 mm"``, ``"0.15"``.
+    """
+    size = abs(value)
+    base_symbol = quantity.symbol
+    if size == 0.0 or not math.isfinite(value):
+        return f"{value:g} {base_symbol}".rstrip()
+    for smallest, unit, symbol in quantity.scales:
+        if size >= smallest:
+            return f"{value / unit:.6g} {symbol}".rstrip()
+    return f"{value:.6g} {base_symbol}".rstrip()
+
+
+class _RefusalError(Exception):
+    """Why a value cannot be used, in words that follow the value."""
+
+
+def _number(value: Any, quantity: Quantity) -> float:
+    """Return the SI value of anything that can be read as one; it may be infinite or NaN."""
+    if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
+        value = value.item()  # a numpy scalar or an array of no dimension
+    if isinstance(value, str):
+        return _from_text(value, quantity)
+    # A bool is an int to Python, but True is no length.
+    if isinstance(value, numbers.Real | Decimal) and not isinstance(value, bool):
+        try:
+            return float(value)
+        except OverflowError:
+            return math.inf
+        except ValueError:  # Decimal("sNaN")
+            return math.nan
+    if hasattr(value, "to_base_units") and isinstance(
+        getattr(value, "magnitude", None), numbers.Real | Decimal
+    ):
+        return _from_pint(value, quantity)
+    raise _RefusalError("is not a number")
+
+
+def _from_text(text: str, quantity: Quantity) -> float:
+    # str.split also takes the no-break spaces that typeset tables hold.
+    clean = " ".join(text.replace("−", "-").split())
+    if not clean:
+        raise _RefusalError("is empty")
+    match = _NUMBER.match(clean)
+    if match is None:
+        finite = _NOT_FINITE.match(clean) is None
+        raise _RefusalError("does not start with a number" if finite else "is not finite")
+    rest = clean[match.end() :].strip()
+    if not rest:
+        return float(clean)
+    if rest.startswith(","):
+        raise _RefusalError("has a comma; write a decimal point")
+    if _UNITS.fullmatch(rest) is None:
+        raise _RefusalError(f"has a unit that cannot be read, '{rest}'")
+    rest = _BARE_POWER.sub(r"**\1", rest.replace("·", "*").replace("⋅", "*"))
+    if quantity is ACCELERATION:
+        rest = _GRAVITY_SYMBOL.sub(
+            lambda m: ("milli" if m[1] else "") + "standard_gravity",
+            rest,
+        )
+    registry = _registry()
+    try:
+        unit = registry.parse_units(rest)
+        measured = registry.Quantity(Decimal(match[0]), unit)
+    except AttributeError:  # pint.UndefinedUnitError, without importing pint by name
+        raise _RefusalError("has an unknown unit") from None
+    except Exception:
+        # pint raises whatever its tokenizer and arithmetic raise; for text from a user
+        # every one of them means the same.
+        raise _RefusalError("has a unit that cannot be read") from None
+    return _from_pint(measured, quantity)
+
+
+def _from_pint(measured: Any, quantity: Quantity) -> float:
+    try:
+        base = measured.to_base_units()
+    except ArithmeticError:
+        raise _RefusalError("is not finite") from None
+    except Exception:  # logarithmic and offset units, which no quantity here takes
+        raise _RefusalError(f"is not {quantity.phrase}") from None
+    dimension = tuple(sorted((str(name), power) for name, power in base.unit_items() if power))
+    magnitude = base.magnitude
+    if quantity is FREQUENCY and dimension == (("radian", 1), ("second", -1)):
+        # pint converts rad/s to Hz by a factor of 1, since it holds the radian for a
+        # number. A frequency counts cycles, and a cycle is 2π radians.
+        turn = _TWO_PI if isinstance(magnitude, Decimal) else math.tau
+        return float(magnitude / turn)
+    if dimension != quantity.base:
+        raise _RefusalError(f"is {_NAMES.get(dimension, 'not ' + quantity.phrase)}")
+    return float(magnitude)
+
+
+@cache
+def _registry() -> Any:
+    """Return pint's registry, made on first use.
+
+    With decimal arithmetic a prefix is exact: 26.8 kN/m is 26800 N/m, not 26800.000000000004.
+    """
+    import pint
+
+    return pint.UnitRegistry(non_int_type=Decimal)

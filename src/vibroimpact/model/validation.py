@@ -1,0 +1,255 @@
+"""What every part of the model shares: immutable, validated, printable.
+
+A mistake in a value raises `InputError` with one line that names the path of the field,
+the value and what is accepted, whether the value came from a constructor call, from a
+nested table of a study file or from a change to an existing object.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
+
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
+from pydantic_core import CoreSchema, core_schema
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.units import Quantity, accepted, pretty, read, shown
+
+_Init = TypeVar("_Init", bound=Callable[..., None])
+_ModelType = TypeVar("_ModelType", bound="Model")
+
+
+@dataclass(frozen=True, slots=True)
+class Accepts:
+    """Annotation of a field: which quantity it takes, within which bounds (SI units).
+
+    ``Annotated[float, Accepts(LENGTH, minimum=0.0)]`` is a float in metres that may be
+    given as a number or as text with units. With ``optional=True`` the field may also be
+    None, which says that the value is not known.
+    """
+
+    quantity: Quantity
+    above: float | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+    optional: bool = False
+
+    def __call__(self, value: object) -> float | None:
+        """Return the value in SI units, or raise `InputError` without the field's name."""
+        if value is None and self.optional:
+            return None
+        return read(
+            value, self.quantity, above=self.above, minimum=self.minimum, maximum=self.maximum
+        )
+
+    def words(self) -> str:
+        """Say what is accepted."""
+        return accepted(self.quantity, above=self.above, minimum=self.minimum, maximum=self.maximum)
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Tell pydantic to call this object before its own check."""
+        return core_schema.no_info_before_validator_function(self, handler(source))
+
+
+def constructor(init: _Init) -> _Init:
+    """Mark an ``__init__`` that only names the fields and passes them on.
+
+    pydantic then builds a nested table field by field, rather than by calling the
+    ``__init__``, and so knows the full path of a mistake in it. The mark is the one that
+    pydantic puts on its own ``__init__``.
+    """
+    init.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+    return init
+
+
+class Model(BaseModel):
+    """Base of the immutable model objects.
+
+    Objects compare and hash by value. ``repr`` is the exact constructor call in SI units;
+    ``str`` is for reading, with units of fitting size.
+
+    Raises
+    ------
+    InputError
+        On construction, if a value cannot be used; on any attempt to set an attribute.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    @constructor
+    def __init__(self, /, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise InputError(_explain(error, type(self), "")) from None
+
+    if not TYPE_CHECKING:  # mypy refuses assignment to a frozen model by itself
+
+        def __setattr__(self, name: str, value: object) -> None:
+            """Refuse: the object is immutable."""
+            kind = type(self).__name__
+            raise InputError(
+                f"{name}: {kind} is immutable; .replace({name}=...) makes a changed copy"
+            )
+
+        def __delattr__(self, name: str) -> None:
+            """Refuse: the object is immutable."""
+            raise InputError(f"{name}: {type(self).__name__} is immutable")
+
+    @classmethod
+    def model_validate(cls, obj: Any, *, where: str = "", **options: Any) -> Self:
+        """Make an object from a table (a mapping), which may hold nested tables.
+
+        Parameters
+        ----------
+        obj
+            The table, or an object of this class, which is returned as it is.
+        where
+            Path of the table in its file, such as ``"oscillator"``; messages begin with it.
+        **options
+            Passed to pydantic.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown or missing, or a value cannot be used.
+        """
+        try:
+            return super().model_validate(obj, **options)
+        except ValidationError as error:
+            raise InputError(_explain(error, cls, where)) from None
+
+    @classmethod
+    def model_validate_json(cls, json_data: str | bytes | bytearray, **options: Any) -> Self:
+        """Make an object from JSON text; errors as for `model_validate`."""
+        try:
+            return super().model_validate_json(json_data, **options)
+        except ValidationError as error:
+            raise InputError(_explain(error, cls, "")) from None
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some fields changed, validated like a new object.
+
+        Raises
+        ------
+        InputError
+            If a field is unknown or its new value cannot be used.
+        """
+        return type(self).model_validate({**dict(self), **changes})
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Return a copy as `replace` does; pydantic's own would not validate the changes."""
+        return self.replace(**(update or {}))
+
+    def __str__(self) -> str:
+        parts = []
+        for name, field in type(self).model_fields.items():
+            value = getattr(self, name)
+            accepts = next((m for m in field.metadata if isinstance(m, Accepts)), None)
+            text = (
+                str(value) if value is None or accepts is None else pretty(value, accepts.quantity)
+            )
+            parts.append(f"{name}={text}")
+        return f"{type(self).__name__}({', '.join(parts)})"
+
+
+def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelType:
+    """Make a model object from a table of a study file.
+
+    Parameters
+    ----------
+    model
+        The class, such as `Oscillator`.
+    data
+        The table: a mapping of field names to numbers, texts with units or tables.
+    where
+        Path of the table in its file, such as ``"oscillator"``.
+
+    Returns
+    -------
+    Model
+        The object.
+
+    Raises
+    ------
+    InputError
+        One line with the full path, such as ``oscillator.right.gap: '15 kg' is a mass; ...``.
+    """
+    return model.model_validate(data, where=where)
+
+
+def _explain(error: ValidationError, model: type[BaseModel], where: str) -> str:
+    """Put the first mistake that pydantic found into one line."""
+    mistakes = error.errors(include_url=False)
+    # A misspelt key is also a missing one; the misspelling is what the user must see.
+    mistakes.sort(key=lambda mistake: mistake["type"] != "extra_forbidden")
+    first = mistakes[0]
+    location = first["loc"]
+    path = _path(where, location)
+    value = shown(first["input"])
+    kind = first["type"]
+    if kind == "value_error":
+        problem = str(first["ctx"]["error"])
+    elif kind == "missing":
+        problem = _missing(_model_at(model, location[:-1]), str(location[-1]))
+    elif kind == "extra_forbidden":
+        problem = _unknown_key(_model_at(model, location[:-1]), str(location[-1]))
+    elif kind in ("model_type", "model_attributes_type"):
+        wanted = _model_at(model, location)
+        problem = f"{value} is not a table; {_fields(wanted)} are accepted"
+        path = path or wanted.__name__
+    else:
+        message = first["msg"]
+        problem = f"{value} is refused: {message[:1].lower()}{message[1:]}"
+    more = f" ({len(mistakes) - 1} more to correct)" if len(mistakes) > 1 else ""
+    return " ".join(f"{path or model.__name__}: {problem}{more}".split())
+
+
+def _path(where: str, location: tuple[int | str, ...]) -> str:
+    path = where
+    for step in location:
+        if isinstance(step, int):
+            path += f"[{step}]"
+        else:
+            path += f".{step}" if path else step
+    return path
+
+
+def _model_at(model: type[BaseModel], location: tuple[int | str, ...]) -> type[BaseModel]:
+    """Find the class of the nested table that a path leads to."""
+    for step in location:
+        field = model.model_fields.get(str(step))
+        if field is None:
+            continue
+        model = next(
+            (
+                kind
+                for kind in (field.annotation, *get_args(field.annotation))
+                if isinstance(kind, type) and issubclass(kind, BaseModel)
+            ),
+            model,
+        )
+    return model
+
+
+def _fields(model: type[BaseModel]) -> str:
+    return f"the fields of {model.__name__} ({', '.join(model.model_fields)})"
+
+
+def _missing(model: type[BaseModel], name: str) -> str:
+    metadata = model.model_fields[name].metadata if name in model.model_fields else []
+    for accepts in metadata:
+        if isinstance(accepts, Accepts):
+            return f"missing; {accepts.words()}"
+    return f"missing; {_fields(model)} are accepted"
+
+
+def _unknown_key(model: type[BaseModel], name: str) -> str:
+    close = difflib.get_close_matches(name, model.model_fields, n=1, cutoff=0.7)
+    hint = f", perhaps {close[0]} is meant" if close else ""
+    return f"unknown key; {_fields(model)} are accepted{hint}"

@@ -1,0 +1,116 @@
+"""Mass, isolator and bumpers."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Bumper, Isolator, Oscillator
+
+ISOLATOR = Isolator(26800.0, 1100.0)
+RIGHT = Bumper(510e3, 900.0, 0.0075)
+LEFT = Bumper(100e3, 0.0, 0.0)
+
+
+def test_positions_keywords_and_text_agree():
+    assert Isolator("26.8 kN/m", "1.1 kN s/m") == ISOLATOR
+    assert Isolator(damping=1100, stiffness=26800) == ISOLATOR
+    assert Bumper("510 kN/m", "0.9 kN s/m", "7.5 mm") == RIGHT
+    assert Bumper(gap="7.5 mm", damping="900", stiffness=510000) == RIGHT
+    assert Oscillator("0.55 t", ISOLATOR, left=LEFT, right=RIGHT) == Oscillator(
+        550.0, ISOLATOR, RIGHT, LEFT
+    )
+
+
+def test_values_are_si_floats():
+    assert RIGHT.stiffness == 510000.0
+    assert RIGHT.gap == 0.0075
+    bumper = Bumper(1, 2, 3)
+    assert all(type(value) is float for _, value in bumper)
+
+
+def test_bumpers_may_be_absent():
+    oscillator = Oscillator(550.0, ISOLATOR)
+    assert oscillator.right is None
+    assert oscillator.left is None
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, math.inf, "", "nan", True, None, "1 K"])
+def test_a_mass_or_a_stiffness_is_positive_and_finite(bad):
+    for make in (
+        lambda: Oscillator(bad, ISOLATOR),
+        lambda: Isolator(bad, 0.0),
+        lambda: Bumper(bad, 0.0, 0.0),
+    ):
+        with pytest.raises(InputError, match=r"^(mass|stiffness): .* greater than 0 is accepted"):
+            make()
+
+
+@pytest.mark.parametrize("bad", [-1e-300, math.nan, -math.inf, "-1", True, None, "1 K"])
+def test_a_damping_or_a_gap_is_not_negative(bad):
+    for make in (
+        lambda: Isolator(1.0, bad),
+        lambda: Bumper(1.0, bad, 0.0),
+        lambda: Bumper(1.0, 0.0, bad),
+    ):
+        with pytest.raises(InputError, match=r"^(damping|gap): .* of at least 0 is accepted"):
+            make()
+
+
+def test_zero_damping_and_zero_gap_are_ordinary():
+    assert LEFT.damping == 0.0
+    assert LEFT.gap == 0.0
+    assert Isolator(1.0, 0.0).damping == 0.0
+
+
+def test_an_unknown_argument_is_refused():
+    with pytest.raises(TypeError):
+        Bumper(1.0, 1.0, 0.0, colour="red")
+
+
+def test_a_rig_beyond_floating_point_is_refused():
+    with pytest.raises(InputError, match="outside the range of floating-point"):
+        Oscillator(1e-200, Isolator(1e200, 0.0))
+    with pytest.raises(InputError, match="outside the range of floating-point"):
+        Oscillator(1e-200, Isolator(1e-200, 0.0))
+
+
+def test_frequency_and_damping_ratio():
+    oscillator = Oscillator(4.0, Isolator(100.0, 2.0))
+    assert oscillator.angular_frequency == 5.0
+    assert oscillator.natural_frequency == 5.0 / math.tau
+    assert oscillator.damping_ratio == 0.05
+
+
+def test_mirrored_exchanges_the_sides():
+    oscillator = Oscillator(550.0, ISOLATOR, RIGHT, LEFT)
+    mirrored = oscillator.mirrored()
+    assert mirrored == Oscillator(550.0, ISOLATOR, LEFT, RIGHT)
+    assert mirrored.mirrored() == oscillator
+    assert Oscillator(550.0, ISOLATOR, RIGHT).mirrored().right is None
+
+
+def test_without_bumpers():
+    assert Oscillator(550.0, ISOLATOR, RIGHT, LEFT).without_bumpers() == Oscillator(550.0, ISOLATOR)
+
+
+def test_str_has_units():
+    assert str(RIGHT) == "Bumper(stiffness=510 kN/m, damping=0.9 kN s/m, gap=7.5 mm)"
+    assert str(Oscillator(550.0, ISOLATOR, RIGHT)) == (
+        "Oscillator(mass=550 kg, isolator=Isolator(stiffness=26.8 kN/m, damping=1.1 kN s/m), "
+        "right=Bumper(stiffness=510 kN/m, damping=0.9 kN s/m, gap=7.5 mm), left=None)"
+    )
+
+
+positive = st.floats(min_value=1e-100, max_value=1e100)
+not_negative = st.floats(min_value=0.0, max_value=1e100)
+
+
+@settings(deadline=None)
+@given(positive, not_negative, not_negative)
+def test_repr_gives_back_every_digit(stiffness, damping, gap):
+    bumper = Bumper(stiffness, damping, gap)
+    assert eval(repr(bumper)) == bumper
+    assert (bumper.stiffness, bumper.damping, bumper.gap) == (stiffness, damping, gap)

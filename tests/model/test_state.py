@@ -1,0 +1,66 @@
+"""Where a motion starts."""
+
+import math
+
+import numpy as np
+import pytest
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import State
+
+
+def test_everything_has_a_default():
+    state = State()
+    assert (state.displacement, state.velocity) == (0.0, 0.0)
+    assert state.right_bumper is None
+    assert state.left_bumper is None
+    assert state.phase is None
+    assert state.contact is None
+
+
+def test_positions_and_text():
+    state = State("2 mm", "-0.1 m/s", "1 mm", "-3 mm", "90 deg", 1)
+    assert state == State(0.002, -0.1, 0.001, -0.003, math.pi / 2, 1)
+
+
+def test_the_signs_of_the_deformations_are_the_paper_s():
+    with pytest.raises(InputError, match=r"^right_bumper: '-1 mm' is less than 0"):
+        State(right_bumper="-1 mm")
+    with pytest.raises(InputError, match=r"^left_bumper: 1.0 is greater than 0; a length of at mo"):
+        State(left_bumper=1.0)
+    assert State(right_bumper=0.0, left_bumper=-0.0) == State(0.0, 0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    "contact", [-1, 0, 1, np.int8(-1), np.int64(1), 1.0, np.float64(0.0), np.array(1)]
+)
+def test_a_contact_from_a_dataset_is_taken(contact):
+    state = State(contact=contact)
+    assert state.contact == contact
+    assert type(state.contact) is int
+
+
+@pytest.mark.parametrize("contact", [2, -2, 0.5, True, False, np.True_, "1", math.nan, [1]])
+def test_a_contact_is_a_side(contact):
+    with pytest.raises(InputError, match=r"^contact: .* -1 \(left\), 0 \(none\) or 1 \(right\)"):
+        State(contact=contact)
+
+
+@pytest.mark.parametrize("name", ["displacement", "velocity", "right_bumper", "phase"])
+@pytest.mark.parametrize("bad", [math.nan, math.inf, True, "1 kg", ""])
+def test_nothing_else_is_taken(name, bad):
+    with pytest.raises(InputError, match=f"^{name}: "):
+        State(**{name: bad})
+
+
+@pytest.mark.parametrize("name", ["displacement", "velocity"])
+def test_displacement_and_velocity_are_known(name):
+    with pytest.raises(InputError, match=f"^{name}: None is not a number"):
+        State(**{name: None})
+
+
+def test_str():
+    assert str(State("2 mm", 0.1, contact=1)) == (
+        "State(displacement=2 mm, velocity=100 mm/s, right_bumper=None, left_bumper=None, "
+        "phase=None, contact=1)"
+    )
