@@ -278,8 +278,8 @@ class _Run:
         gap, inward = [side.sign * side.wall], [-side.sign * value for value in u]
         if side.rate is None or memory <= mp.eps * sum(map(abs, u)):
             return self._first_zero(gap, inward), None
-        decay = side.rate * step
-        if decay <= self.reach:
+        decay, resolved = side.rate * step, self.reach / side.rate
+        if step <= resolved:
             relaxing = [memory]
             for n in range(self.order):
                 relaxing.append(-decay * relaxing[n] / (n + 1))
@@ -288,7 +288,7 @@ class _Run:
         zero = _first_zero(inward)
         # Below the zero of the bound the step is free. Staying clear of it by a tenth keeps
         # rounding from finding the same zero again.
-        return None, zero if zero is None else max(step * zero * 9 / 10, self.reach / side.rate)
+        return None, zero if zero is None else max(step * zero * 9 / 10, resolved)
 
     def _first_zero(self, *terms: list[mpf]) -> mpf | None:
         """First zero of a sum of series that is not the event which began the phase."""

@@ -1,13 +1,32 @@
-"""Every compiler option of the engine, and why."""
+"""Every compiler option of the engine, and why; and the cache of compiled code.
+
+Two decorators: `kernel` for the functions that the physics is made of, `entry` for the few
+that Python calls. An entry carries the kernels that it calls, so only entries are compiled
+and cached.
+"""
 
 from __future__ import annotations
 
+import hashlib
+import os
+import sys
+import threading
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar
 
+import llvmlite
 import numba
+import numpy as np
+from filelock import FileLock
+from numba.core import config
+from numpy.typing import NDArray
+from platformdirs import user_cache_path
 
 F = TypeVar("F", bound=Callable[..., Any])
+
+Vector = NDArray[np.float64]
+"""What kernels read and write."""
 
 OPTIONS: dict[str, Any] = {
     # A product and a sum may become one fused operation: faster and closer to exact.
@@ -21,7 +40,97 @@ OPTIONS: dict[str, Any] = {
     "nogil": True,
 }
 
+announce: Callable[[str], None] = lambda text: print(text, file=sys.stderr, flush=True)  # noqa: E731
+"""Called with one line before a compilation that takes seconds."""
+
+_compiling = threading.Lock()
+_announced = False
+
 
 def kernel(function: F) -> F:
     """Compile a function that only other compiled functions call."""
     return numba.njit(**OPTIONS)(function)  # type: ignore[no-any-return]
+
+
+def cache_directory() -> Path:
+    """Folder of the compiled code of exactly these sources, compilers and processor.
+
+    numba looks at the file of an entry only, not at the kernels that it calls, and would run
+    stale code after an edit elsewhere; a folder named after everything cannot be stale.
+    """
+    digest = hashlib.sha256()
+    for path in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(path.read_bytes())
+    host = numba.core.registry.cpu_target.target_context.codegen().magic_tuple()
+    for part in (numba.__version__, llvmlite.__version__, sys.version, host, OPTIONS):
+        digest.update(repr(part).encode())
+    root = os.environ.get("VIBROIMPACT_CACHE_DIR")
+    base = Path(root) if root else user_cache_path("vibroimpact", appauthor=False)
+    return base / f"engine-{digest.hexdigest()[:16]}"
+
+
+class Entry:
+    """A compiled function that Python calls, compiled for one signature at its first call."""
+
+    def __init__(self, function: Callable[..., Any], signature: str) -> None:
+        self.function = function
+        self.signature = signature
+        self.__doc__ = function.__doc__
+        self.__name__ = function.__name__
+        self._compiled: Callable[..., Any] | None = None
+
+    def __call__(self, *args: Any) -> Any:
+        """Run, compiling or loading first if this is the first call of the process."""
+        if self._compiled is None:
+            self.prepare()
+            assert self._compiled is not None
+        return self._compiled(*args)
+
+    def prepare(self) -> None:
+        """Compile, or load from the cache, one process and one thread at a time.
+
+        Two processes that write numba's cache at once can leave a pair of files that do not
+        belong together, which crashes whoever loads them; hence the lock between processes.
+        """
+        with _compiling:
+            if self._compiled is not None:
+                return
+            if config.DISABLE_JIT:
+                self._compiled = self.function
+                return
+            directory = cache_directory()
+            try:
+                directory.mkdir(parents=True, exist_ok=True)
+                lock = FileLock(directory / "lock")
+                lock.acquire()
+            except OSError:  # nowhere to write: compile for this process only
+                _say()
+                dispatcher = numba.njit(**OPTIONS)(self.function)
+                dispatcher.compile(self.signature)
+                self._compiled = dispatcher
+                return
+            try:
+                if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
+                    _say()
+                before = config.CACHE_DIR
+                config.CACHE_DIR = str(directory)  # read when the decorator runs
+                try:
+                    dispatcher = numba.njit(cache=True, **OPTIONS)(self.function)
+                finally:
+                    config.CACHE_DIR = before
+                dispatcher.compile(self.signature)
+                self._compiled = dispatcher
+            finally:
+                lock.release()
+
+
+def _say() -> None:
+    global _announced
+    if not _announced:
+        _announced = True
+        announce("vibroimpact: compiling the engine, once per installation (about 15 s) ...")
+
+
+def entry(signature: str) -> Callable[[Callable[..., Any]], Entry]:
+    """Mark a function that Python calls with arguments of one numba signature."""
+    return lambda function: Entry(function, signature)

@@ -1,0 +1,1 @@
+"""One exact trajectory of one rig, in plain numbers and arrays."""

@@ -1,0 +1,175 @@
+"""What Python calls: a whole sweep, or a stretch of trajectory. Each frees the interpreter
+lock, so that threads run many at once; each is a pure function of its arguments, so that their
+number changes no bit.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.hold import (
+    AGE,
+    FRESH,
+    LEFT_BUMPER,
+    MODE,
+    NOT_FINITE,
+    OUTCOME,
+    RIGHT_BUMPER,
+    STOPPED,
+    TOO_MANY_EVENTS,
+    TOO_MUCH_WORK,
+    U,
+    V,
+    hold,
+)
+from vibroimpact.engine.jit import entry
+from vibroimpact.engine.phase import PLAN, build
+from vibroimpact.engine.record import (
+    ACCELERATION,
+    CONTACT,
+    DISPLACEMENT,
+    LEFT_FACE,
+    RIGHT_FACE,
+    VELOCITY,
+    record_cycle,
+    seen,
+)
+from vibroimpact.engine.trajectory import cycle, too_much_work
+
+
+@entry(
+    "void(f8[::1], f8, f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])"
+)
+def sweep(
+    rig,
+    amplitude,
+    frequencies,
+    phase,
+    state,
+    tolerance,
+    max_cycles,
+    window,
+    max_events,
+    results,
+    states,
+    progress,
+):
+    """Hold one frequency after the other, carrying the state on.
+
+    Parameters
+    ----------
+    rig : ndarray
+        From `parameters.rig_vector`.
+    amplitude, frequencies, phase : float, ndarray, float
+        m/s², Hz in the order of the sweep, rad at the stroboscopic section.
+    state : ndarray, shape (hold.STATE,)
+        Where the sweep starts; carried on in place.
+    tolerance, max_cycles, window, max_events
+        See `hold.settle`.
+    results, states : ndarray, shape (frequency, hold.RESULTS), (frequency, hold.STATE)
+        Written: the measurements, and the state at the end of each hold.
+    progress : ndarray, shape (2,)
+        [0] is raised by one a hold; the sweep stops when [1] becomes nonzero.
+    """
+    plan = np.zeros(PLAN)
+    plan[: par.SIZE] = rig
+    s, c = math.sin(phase), math.cos(phase)
+    options = (tolerance, max_cycles, window, max_events)
+    for i in range(len(frequencies)):
+        if progress[1] != 0:
+            results[i:, OUTCOME] = STOPPED
+            return
+        hold(plan, state, amplitude, frequencies[i], s, c, options, results[i])
+        states[i] = state
+        progress[0] += 1
+        outcome = results[i, OUTCOME]
+        if outcome == TOO_MANY_EVENTS or outcome == TOO_MUCH_WORK or outcome == NOT_FINITE:
+            # Nothing sound to carry on: start the next frequency from rest.
+            state[:] = 0.0
+
+
+@entry("UniTuple(i8, 3)(f8[::1], f8, f8, f8, f8[::1], f8, f8, i8, i8, f8[:, ::1], f8[:, ::1])")
+def trajectory(
+    rig, amplitude, frequency, phase, state, first, cycles, samples, max_events, out, events
+):
+    """Follow a motion and write it down, until the end or until `events` may overflow.
+
+    Parameters
+    ----------
+    first, cycles : float
+        Cycle to begin with, and how many in all; only the last may be incomplete.
+    samples : int
+        Samples per cycle; 0 for none.
+    out : ndarray, shape (samples from `first` to the end, and one for the end, record.SAMPLE)
+    events : ndarray, shape (capacity > max_events, record.EVENT)
+    rig, amplitude, phase, state, max_events
+        As in `sweep`; the phase is that at whole cycles.
+
+    Returns
+    -------
+    next, count, outcome
+        The cycle to go on with, the number of events written, a `Status`.
+    """
+    plan = np.zeros(PLAN)
+    plan[: par.SIZE] = rig
+    period = 1.0 / frequency
+    build(plan, amplitude, 2.0 * math.pi * frequency)
+    if too_much_work(plan, period):
+        return int(first), 0, TOO_MUCH_WORK
+    s, c = math.sin(phase), math.cos(phase)
+    mode, fresh = int(state[MODE]), int(state[FRESH])
+    u, v = state[U], state[V]
+    right, left, age = state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE]
+    start = int(first)
+    number = start
+    count = 0
+    outcome = 0
+    while number < cycles and outcome == 0 and count + max_events < len(events):
+        share = min(1.0, cycles - number)
+        length = share * period
+        if samples == 0 and share == 1.0 and len(events) == max_events + 1:
+            # Nothing is written down: the fast loop.
+            here, mode, fresh, u, v, right, left, age, _, _ = cycle(
+                plan, mode, fresh, u, v, right, left, age, s, c, period, max_events
+            )
+            complete = here <= max_events
+        else:
+            n = int(math.ceil(share * samples - 1e-9))
+            at = (number - start) * samples
+            complete, mode, fresh, u, v, right, left, age, count = record_cycle(
+                plan,
+                mode,
+                fresh,
+                u,
+                v,
+                right,
+                left,
+                age,
+                s,
+                c,
+                length,
+                period / samples if samples else 0.0,
+                n,
+                number,
+                max_events,
+                out[at : at + n],
+                events,
+                count,
+            )
+        if not complete:
+            outcome = TOO_MANY_EVENTS
+        elif not (abs(u) < 1e200 and abs(v) < 1e200):
+            outcome = NOT_FINITE
+        number += 1
+    if number >= cycles and samples and outcome == 0:
+        last = out[len(out) - 1]
+        last[DISPLACEMENT], last[VELOCITY] = u, v
+        last[ACCELERATION] = seen(plan, mode, u, v, right, left)
+        last[RIGHT_FACE], last[LEFT_FACE] = right, -left
+        last[CONTACT] = 1.0 if mode == 1 else (-1.0 if mode == 2 else 0.0)
+    state[MODE], state[FRESH], state[U], state[V] = mode, fresh, u, v
+    state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE] = right, left, age
+    return number, count, outcome

@@ -1,0 +1,230 @@
+"""One held frequency: wait until the motion has settled, then measure it.
+
+Settled means that the stroboscopic state repeats after n ≤ LONGEST cycles. The distance
+d_n(k) = ‖s_k − s_(k−n)‖ shrinks geometrically on the way to a stable orbit; from its decay over
+two blocks of cycles follows what is still missing, d_n ρⁿ / (1 − ρⁿ), and that must be below
+the tolerance (docs/decisions/0004-sweep-convergence.md).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.extremes import stretch_extremes
+from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.motion import DETACHED, LIMIT
+from vibroimpact.engine.phase import FLIGHT, RIGHT, build
+from vibroimpact.engine.status import Status
+from vibroimpact.engine.trajectory import advance, cycle, too_much_work
+
+LONGEST = 16
+"""Longest period, in forcing cycles, that is recognised."""
+
+_BLOCK = 8
+_STALLED_BLOCKS = 12
+_ROUNDING = 4e-15
+_STALLED = 1e-11
+
+# What a hold writes.
+U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME = range(9)
+RESULTS = 9
+
+# A state as a vector, between holds.
+MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, AGE = range(7)
+STATE = 7
+
+DONE = int(Status.DONE)
+NOT_SETTLED = int(Status.NOT_SETTLED)
+TOO_MANY_EVENTS = int(Status.TOO_MANY_EVENTS)
+TOO_MUCH_WORK = int(Status.TOO_MUCH_WORK)
+NOT_FINITE = int(Status.NOT_FINITE)
+STOPPED = int(Status.STOPPED)
+
+
+@kernel
+def measure(plan, state, s, c, period, cycles, max_events, result):
+    """Follow `cycles` forcing cycles and write their exact extremes and contact counts."""
+    mode, fresh = int(state[MODE]), int(state[FRESH])
+    u, v = state[U], state[V]
+    right, left, age = state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE]
+    u_least, u_most = math.inf, -math.inf
+    a_least, a_most = math.inf, -math.inf
+    hits_r = 0
+    hits_l = 0
+    outcome = DONE
+    done = 0
+    while done < cycles and outcome == DONE:
+        t = 0.0
+        events = 0
+        sine, cosine = s, c
+        while True:
+            was, before, old = mode, (u, v, sine, cosine, right, left), age
+            event, step, mode, fresh, u, v, sine, cosine, right, left, age = advance(
+                plan, mode, fresh, u, v, sine, cosine, right, left, period - t, age
+            )
+            bu, bv, bs, bc, br, bl = before
+            if was == FLIGHT:
+                x0, x1, a0, a1 = stretch_extremes(plan, was, bu, bv, bs, bc, step, old)
+            elif was == RIGHT:
+                x0, x1, a0, a1 = stretch_extremes(plan, was, br, bv, bs, bc, step, old)
+                gap = plan[par.BUMPER + par.GAP]
+                x0, x1 = gap + x0, gap + x1
+            else:
+                x1, x0, a1, a0 = stretch_extremes(plan, was, bl, -bv, -bs, -bc, step, old)
+                gap = plan[par.BUMPER + par.WIDTH + par.GAP]
+                x0, x1, a0, a1 = -(gap + x0), -(gap + x1), -a0, -a1
+            u_least, u_most = min(u_least, x0), max(u_most, x1)
+            a_least, a_most = min(a_least, a0), max(a_most, a1)
+            if event == LIMIT:
+                break
+            t += step
+            events += 1
+            if event != DETACHED:
+                if event == RIGHT:
+                    hits_r += 1
+                else:
+                    hits_l += 1
+            if events > max_events:
+                outcome = TOO_MANY_EVENTS
+                break
+            if t >= period:
+                break
+        done += 1
+    state[MODE], state[FRESH], state[U], state[V] = mode, fresh, u, v
+    state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE] = right, left, age
+    result[U_LEAST], result[U_MOST] = u_least, u_most
+    result[A_LEAST], result[A_MOST] = a_least, a_most
+    result[HITS_RIGHT], result[HITS_LEFT] = hits_r / done, hits_l / done
+    return outcome
+
+
+@kernel
+def settle(plan, state, s, c, period, tolerance, max_cycles, max_events):
+    """Follow the motion until it repeats itself.
+
+    Returns
+    -------
+    outcome, n, cycles
+        `n` is the period in forcing cycles, 0 if the motion did not settle.
+    """
+    mode, fresh = int(state[MODE]), int(state[FRESH])
+    u, v = state[U], state[V]
+    right, left, age = state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE]
+    weight = math.sqrt(plan[par.STIFFNESS])
+    past = np.zeros((LONGEST, 4))
+    block = np.zeros(LONGEST + 1)
+    former = np.full(LONGEST + 1, math.inf)
+    best = math.inf
+    stalled = 0
+    scale = 0.0
+    k = 0
+    n = 0
+    outcome = NOT_SETTLED
+    while k < max_cycles:
+        at = k % LONGEST
+        past[at, 0], past[at, 1], past[at, 2], past[at, 3] = u, v, right, left
+        events, mode, fresh, u, v, right, left, age, _, _ = cycle(
+            plan, mode, fresh, u, v, right, left, age, s, c, period, max_events
+        )
+        k += 1
+        if events > max_events:
+            outcome = TOO_MANY_EVENTS
+            break
+        if not (abs(u) < 1e200 and abs(v) < 1e200):
+            outcome = NOT_FINITE
+            break
+        scale = max(scale, weight * abs(u), abs(v))
+        # Longer periods are looked for only where the simplest has not come soon.
+        longest = 1 if k <= 4 * _BLOCK else LONGEST
+        for i in range(1, longest + 1):
+            q = (k - i) % LONGEST
+            d = max(
+                weight
+                * max(abs(u - past[q, 0]), abs(right - past[q, 2]), abs(left - past[q, 3])),
+                abs(v - past[q, 1]),
+            )
+            block[i] = max(block[i], d)
+        if k % _BLOCK:
+            continue
+        for i in range(1, longest + 1):
+            share = 1.0  # ρ to the power of i
+            if former[i] < math.inf and block[i] < former[i]:
+                share = (block[i] / former[i]) ** (i / _BLOCK)
+            small = block[i] <= _ROUNDING * scale
+            if small or (share < 1.0 and block[i] * share <= tolerance * scale * (1.0 - share)):
+                n = i
+                break
+        if n:
+            # A slowly alternating approach closes on 2 before 1: take the least that fits.
+            for i in range(1, n):
+                if n % i == 0 and block[i] <= max(100.0 * tolerance, _ROUNDING) * scale:
+                    n = i
+                    break
+            outcome = DONE
+            break
+        # Rounding may keep a stiff rig from coming closer: accept where it has stalled.
+        least = math.inf
+        close = 0
+        for i in range(1, longest + 1):
+            if block[i] < least:
+                least = block[i]
+                close = i
+        if least < 0.5 * best:
+            best = least
+            stalled = 0
+        else:
+            stalled += 1
+        if stalled >= _STALLED_BLOCKS and best <= _STALLED * scale:
+            for i in range(1, close + 1):
+                if block[i] <= 4.0 * least:
+                    n = i
+                    break
+            outcome = DONE
+            break
+        scale *= 0.9  # forget the transient's size
+        for i in range(1, LONGEST + 1):
+            former[i] = block[i] if i <= longest else math.inf
+            block[i] = 0.0
+    state[MODE], state[FRESH], state[U], state[V] = mode, fresh, u, v
+    state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE] = right, left, age
+    return outcome, n, k
+
+
+@kernel
+def hold(plan, state, amplitude, frequency, s, c, options, result):
+    """Hold one frequency: settle, then measure.
+
+    Parameters
+    ----------
+    plan, state : ndarray
+        The rig's plan, whose tables are rebuilt here; the state, carried on.
+    amplitude, frequency : float
+        m/s² and Hz.
+    s, c : float
+        Sine and cosine of the forcing phase at the stroboscopic section.
+    options : tuple
+        tolerance, max_cycles, window, max_events.
+    result : ndarray, shape (RESULTS,)
+        Written.
+    """
+    tolerance, max_cycles, window, max_events = options
+    period = 1.0 / frequency
+    build(plan, amplitude, 2.0 * math.pi * frequency)
+    for i in range(RESULTS):
+        result[i] = math.nan
+    result[PERIOD], result[CYCLES] = 0, 0
+    if too_much_work(plan, period):
+        result[OUTCOME] = TOO_MUCH_WORK
+        return
+    outcome, n, k = settle(plan, state, s, c, period, tolerance, max_cycles, max_events)
+    if outcome == DONE or outcome == NOT_SETTLED:
+        over = measure(
+            plan, state, s, c, period, n if n else window, max_events, result
+        )
+        k += n if n else window
+        if over != DONE:
+            outcome = over
+    result[PERIOD], result[CYCLES], result[OUTCOME] = n, k, outcome

@@ -1,0 +1,126 @@
+"""From the model to the engine: rigs as vectors, states checked against their rig."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import hold
+from vibroimpact.engine.parameters import rig_vector
+from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
+from vibroimpact.errors import InputError
+from vibroimpact.model import Bumper, Oscillator, State
+
+TOUCHING = 1e-12
+"""A mass this close to a bumper, as a share of the displacement, touches it."""
+
+
+def engine_rig(oscillator: Oscillator) -> NDArray[np.float64]:
+    """The oscillator as the vector that the engine reads."""
+
+    def numbers(bumper: Bumper | None) -> tuple[float, float, float] | None:
+        return None if bumper is None else (bumper.stiffness, bumper.damping, bumper.gap)
+
+    return rig_vector(
+        oscillator.mass,
+        oscillator.isolator.stiffness,
+        oscillator.isolator.damping,
+        numbers(oscillator.right),
+        numbers(oscillator.left),
+    )
+
+
+def as_state(start: State | xr.DataArray | xr.Dataset | None) -> State:
+    """Accept a `State`, a dataset of `simulate`, or its `final_state`; None is rest."""
+    if start is None:
+        return State()
+    if isinstance(start, State):
+        return start
+    if isinstance(start, xr.Dataset) and "final_state" in start:
+        start = start["final_state"]
+    if isinstance(start, xr.DataArray) and start.dims == ("component",):
+        values: dict[str, Any] = {str(k): float(start.sel(component=k)) for k in start["component"].values}
+        values["contact"] = int(values["contact"])
+        return State(**values)
+    raise InputError(
+        f"start: {type(start).__name__} is not a state; a State, a dataset of simulate or its "
+        "final_state is accepted"
+    )
+
+
+def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
+    """The state as the engine's vector, absent values deduced.
+
+    Raises
+    ------
+    InputError
+        If the mass lies inside a bumper, or is said to touch one that it does not touch.
+    """
+    u, v = state.displacement, state.velocity
+    deformations = [0.0, 0.0]
+    contact = FLIGHT
+    # Seen from each side in turn: s = +1 towards the right bumper, −1 towards the left one.
+    for i, (name, bumper, given, sign) in enumerate(
+        (
+            ("right_bumper", oscillator.right, state.right_bumper, 1),
+            ("left_bumper", oscillator.left, state.left_bumper, -1),
+        )
+    ):
+        if bumper is None:
+            if given:
+                raise InputError(
+                    f"start.{name}: {given:g} m, but the oscillator has no such bumper; "
+                    "0 or nothing is accepted"
+                )
+            if state.contact == sign:
+                raise InputError(
+                    f"start.contact: {sign}, but the oscillator has no bumper there; 0 is accepted"
+                )
+            continue
+        reach = sign * u - bumper.gap
+        slack = TOUCHING * max(bumper.gap, abs(u))
+        deformation = max(reach, 0.0) if given is None else sign * given
+        if reach > deformation + slack:
+            raise InputError(
+                f"start.{name}: {sign * deformation:g} m puts the mass at {u:g} m inside the "
+                f"bumper; {sign * reach:g} m or more is accepted"
+            )
+        touches = deformation - reach <= slack
+        if state.contact == sign and not touches:
+            raise InputError(
+                f"start.contact: {sign}, but the bumper is {deformation - reach:g} m away; "
+                "0 is accepted"
+            )
+        force = bumper.stiffness * deformation + bumper.damping * sign * v
+        if bumper.damping == 0.0 and not touches:
+            deformation = 0.0  # without a dashpot a free bumper is at rest at once
+        presses = force > 0.0 or (deformation == 0.0 and bumper.damping == 0.0 and sign * v > 0.0)
+        if state.contact == sign or (state.contact is None and touches and presses):
+            contact = RIGHT if sign == 1 else LEFT
+        deformations[i] = deformation
+    vector = np.zeros(hold.STATE)
+    vector[hold.MODE] = contact
+    vector[hold.FRESH] = 1.0 if contact != FLIGHT else 0.0
+    vector[hold.U], vector[hold.V] = u, v
+    vector[hold.RIGHT_BUMPER], vector[hold.LEFT_BUMPER] = deformations
+    return vector
+
+
+def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
+    """Engine states (last axis) as the components of a dataset's state."""
+    mode = vector[..., hold.MODE]
+    return np.stack(
+        [
+            vector[..., hold.U],
+            vector[..., hold.V],
+            vector[..., hold.RIGHT_BUMPER],
+            -vector[..., hold.LEFT_BUMPER],
+            np.broadcast_to(phase % (2.0 * math.pi), mode.shape),
+            np.where(mode == RIGHT, 1.0, np.where(mode == LEFT, -1.0, 0.0)),
+        ],
+        axis=-1,
+    )

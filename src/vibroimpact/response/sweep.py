@@ -1,0 +1,344 @@
+"""Stepped-sine sweeps: pseudo-resonance curves, forward and backward.
+
+As in the experiment (the paper's Section 3), each frequency is held until the motion is steady,
+then the next one begins from the state and the phase that were reached.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
+from typing import Any, Protocol
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import batch, hold
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, State, to_si
+from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY
+from vibroimpact.response.free_flight import check_bounded, free_flight_excursions
+from vibroimpact.response.start import as_state, components, engine_rig, engine_state
+from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
+
+DIRECTIONS = ("forward", "backward")
+
+Progress = Callable[[int, int], None]
+"""Called now and then with the number of holds done and the number of all."""
+
+
+class SweptRig(Protocol):
+    """Anything with an oscillator and an amplitude: a `Rig`, a laboratory `Case`."""
+
+    @property
+    def oscillator(self) -> Oscillator:
+        """The oscillator."""
+
+    @property
+    def amplitude(self) -> float:
+        """Peak base acceleration A in m/s²."""
+
+
+def sweep(
+    oscillator: Oscillator,
+    amplitude: float | str,
+    frequencies: Iterable[float | str],
+    directions: Sequence[str] = DIRECTIONS,
+    **options: Any,
+) -> xr.Dataset:
+    """Sweep the frequency up and down, holding each one until the motion is steady.
+
+    Parameters
+    ----------
+    oscillator
+        What vibrates.
+    amplitude
+        Peak base acceleration A in m/s², greater than 0, the same at all frequencies; or
+        text such as ``"0.05 g"``.
+    frequencies
+        The frequencies to hold in Hz, rising; or text such as ``"2.5 Hz"``.
+    directions
+        ``"forward"`` (rising), ``"backward"`` (falling) or both. Each sweep starts afresh.
+    **options
+        As in `sweeps`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims ``direction`` and ``frequency``. ``eta_d`` and ``eta_a`` are the excursions over
+        the maximum, on the same frequencies, of steady free flight (the paper's Section 4).
+        ``section`` is the state at the end of each hold; ``status`` and ``motion`` say how
+        each hold ended. Values are NaN only where ``status`` says that there is none.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    data = sweeps([(oscillator, amplitude)], frequencies, directions, **options)
+    data = data.isel(rig=0, drop=True)
+    data.attrs["created_by"] = "vibroimpact.sweep"
+    return data
+
+
+def sweeps(
+    rigs: Sequence[SweptRig | tuple[Oscillator, float | str]]
+    | Mapping[str, SweptRig | tuple[Oscillator, float | str]],
+    frequencies: Iterable[float | str],
+    directions: Sequence[str] = DIRECTIONS,
+    *,
+    start: State | xr.DataArray | xr.Dataset | None = None,
+    phase: float | str = 0.0,
+    tolerance: float = 1e-12,
+    max_cycles: int = 2000,
+    window: int = 500,
+    max_events: int = 10_000,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Sweep many rigs at once, in parallel over threads.
+
+    Parameters
+    ----------
+    rigs
+        Laboratory cases, `Rig`s or (oscillator, amplitude) pairs; as a mapping, its keys
+        name the rigs.
+    frequencies, directions
+        As in `sweep`.
+    start
+        Where every sweep starts; None is rest.
+    phase
+        Phase φ of the base acceleration A sin(ωt + φ) at the stroboscopic section, in rad.
+    tolerance
+        A motion is steady when its stroboscopic state is estimated to lie within this share
+        of its size from an orbit of at most 16 forcing cycles.
+    max_cycles
+        Forcing cycles to wait for that.
+    window
+        Forcing cycles over which a motion that did not settle is measured.
+    max_events
+        Contacts and detachments in one forcing cycle at which a hold is given up.
+    threads
+        How many sweeps run at once; None for one a processor. No result depends on it.
+    progress
+        Called from the calling thread while the sweeps run.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `sweep`, with the dim ``rig`` first.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    names, pairs = _rigs(rigs)
+    grid = check_frequencies(frequencies)
+    directions = _directions(directions)
+    angle = to_si(phase, ANGLE, "phase")
+    state = as_state(start)
+    if state.phase is not None:
+        angle = state.phase
+    if not 0.0 < tolerance < 1.0:
+        raise InputError(f"tolerance: {tolerance!r}; a number between 0 and 1 is accepted")
+    for field, value in (("max_cycles", max_cycles), ("window", window), ("max_events", max_events)):
+        if not (isinstance(value, int) and value > 0):
+            raise InputError(f"{field}: {value!r}; a whole number greater than 0 is accepted")
+    if threads is not None and not (isinstance(threads, int) and threads > 0):
+        raise InputError(f"threads: {threads!r}; a whole number greater than 0 is accepted")
+
+    free = np.empty((2, len(pairs), len(grid)))
+    prepared = []
+    for r, (oscillator, amplitude) in enumerate(pairs):
+        for i, frequency in enumerate(grid):
+            check_bounded(oscillator, float(frequency), f"frequencies[{i}]")
+        free[:, r] = free_flight_excursions(oscillator, amplitude, grid)
+        prepared.append((engine_rig(oscillator), amplitude, engine_state(oscillator, state)))
+
+    shape = (len(pairs), len(directions), len(grid))
+    results = np.empty((*shape, hold.RESULTS))
+    states = np.zeros((*shape, hold.STATE))
+    counter = np.zeros((len(pairs) * len(directions), 2), dtype=np.int64)
+
+    def one(task: int) -> None:
+        r, d = divmod(task, len(directions))
+        rig, amplitude, begin = prepared[r]
+        order = slice(None, None, 1 if directions[d] == "forward" else -1)
+        found = np.empty((len(grid), hold.RESULTS))
+        reached = np.zeros((len(grid), hold.STATE))
+        batch.sweep(
+            rig,
+            amplitude,
+            np.ascontiguousarray(grid[order]),
+            angle,
+            begin.copy(),
+            tolerance,
+            max_cycles,
+            window,
+            max_events,
+            found,
+            reached,
+            counter[task],
+        )
+        results[r, d] = found[order]
+        states[r, d] = reached[order]
+
+    _run(one, counter, len(grid), threads, progress)
+    data = _dataset(results, states, free, angle)
+    data = data.assign_coords(
+        rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
+    )
+    return describe(
+        data,
+        "vibroimpact.sweeps",
+        {
+            "rigs": [
+                {"oscillator": oscillator_parameters(oscillator), "amplitude": amplitude}
+                for oscillator, amplitude in pairs
+            ],
+            "phase": angle,
+            "tolerance": tolerance,
+            "max_cycles": max_cycles,
+            "window": window,
+            "max_events": max_events,
+        },
+    )
+
+
+def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]:
+    """Frequencies in Hz: at least one, positive, rising.
+
+    Raises
+    ------
+    InputError
+        With the position and the value of the first one that is not.
+    """
+    if isinstance(frequencies, str):
+        raise InputError(
+            f"frequencies: {frequencies!r} is one text; a list of frequencies is accepted"
+        )
+    try:
+        items = list(frequencies)
+    except TypeError:
+        raise InputError(
+            f"frequencies: {frequencies!r} is not a list; a list of frequencies is accepted"
+        ) from None
+    grid = np.array(
+        [to_si(f, FREQUENCY, f"frequencies[{i}]", above=0.0) for i, f in enumerate(items)]
+    )
+    if not len(grid):
+        raise InputError("frequencies: the list is empty; at least one frequency is accepted")
+    for i in np.flatnonzero(np.diff(grid) <= 0.0):
+        raise InputError(
+            f"frequencies[{i + 1}]: {grid[i + 1]:g} Hz follows {grid[i]:g} Hz; "
+            "rising frequencies are accepted"
+        )
+    return grid
+
+
+def _rigs(rigs: Any) -> tuple[list[str], list[tuple[Oscillator, float]]]:
+    if isinstance(rigs, Mapping):
+        names = [str(name) for name in rigs]
+        items = list(rigs.values())
+    else:
+        items = list(rigs)
+        names = [getattr(item, "code", str(i)) for i, item in enumerate(items)]
+    if not items:
+        raise InputError("rigs: the list is empty; at least one rig is accepted")
+    pairs = []
+    for name, item in zip(names, items, strict=True):
+        oscillator, amplitude = (
+            item if isinstance(item, tuple) else (item.oscillator, item.amplitude)
+        )
+        where = "amplitude" if len(items) == 1 else f"rigs[{name}].amplitude"
+        pairs.append((oscillator, to_si(amplitude, ACCELERATION, where, above=0.0)))
+    return names, pairs
+
+
+def _directions(directions: Sequence[str]) -> tuple[str, ...]:
+    given = (directions,) if isinstance(directions, str) else tuple(directions)
+    for direction in given:
+        if direction not in DIRECTIONS:
+            raise InputError(f"directions: {direction!r}; 'forward' and 'backward' are accepted")
+    if not given or len(set(given)) < len(given):
+        raise InputError(
+            f"directions: {list(given)!r}; 'forward', 'backward' or both, once each, are accepted"
+        )
+    return given
+
+
+def _run(
+    one: Callable[[int], None],
+    counter: NDArray[np.int64],
+    holds: int,
+    threads: int | None,
+    progress: Progress | None,
+) -> None:
+    """Run the tasks on threads; tell the progress; stop them all on Ctrl-C."""
+    batch.sweep.prepare()  # once, before the threads would queue for it
+    tasks = range(len(counter))
+    workers = min(threads or len(os.sched_getaffinity(0)), len(counter))
+    total = holds * len(counter)
+    with ThreadPoolExecutor(workers) as pool:
+        futures = [pool.submit(one, task) for task in tasks]
+        try:
+            pending = set(futures)
+            while pending:
+                pending = wait(pending, timeout=0.05 if progress else None).not_done
+                if progress:
+                    progress(int(counter[:, 0].sum()), total)
+        except BaseException:
+            counter[:, 1] = 1
+            raise
+        for future in futures:
+            future.result()
+
+
+def _dataset(
+    results: NDArray[np.float64],
+    states: NDArray[np.float64],
+    free: NDArray[np.float64],
+    phase: float,
+) -> xr.Dataset:
+    dims = ("rig", "direction", "frequency")
+    low, high = results[..., hold.U_LEAST], results[..., hold.U_MOST]
+    floor, ceiling = results[..., hold.A_LEAST], results[..., hold.A_MOST]
+    excursion, peak = high - low, ceiling - floor
+    reference = free.max(axis=-1)[..., np.newaxis, np.newaxis]
+    period = results[..., hold.PERIOD].astype(np.int64)
+    values = {
+        "displacement_excursion": excursion,
+        "acceleration_excursion": peak,
+        "eta_d": excursion / reference[0],
+        "eta_a": peak / reference[1],
+        "displacement_max": high,
+        "displacement_min": low,
+        "acceleration_max": ceiling,
+        "acceleration_min": floor,
+        "eccentricity": 0.5 * (high + low),
+        "impacts_right": results[..., hold.HITS_RIGHT],
+        "impacts_left": results[..., hold.HITS_LEFT],
+        "motion": np.where(period > 0, "periodic", "undecided"),
+        "period": period,
+        "cycles": results[..., hold.CYCLES].astype(np.int64),
+        "status": results[..., hold.OUTCOME].astype(np.int64),
+    }
+    data = xr.Dataset({name: (dims, value) for name, value in values.items()})
+    data["section"] = ((*dims, "component"), components(states, phase))
+    data["free_displacement_excursion"] = (("rig", "frequency"), free[0])
+    data["free_acceleration_excursion"] = (("rig", "frequency"), free[1])
+    return data
+
+
+def advice(data: xr.Dataset) -> list[str]:
+    """What the holds that did not end well ask for, in words; empty where all did."""
+    codes, counts = np.unique(data["status"].values, return_counts=True)
+    return [
+        f"{count} of {data['status'].size} holds: {Status(code).advice}"
+        for code, count in zip(codes, counts, strict=True)
+        if Status(code) is not Status.DONE
+    ]
