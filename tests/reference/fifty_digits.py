@@ -4,8 +4,8 @@ Only tests use it. It shares no code and no method with the package: where the p
 closed forms from tables, this file
 
 1. expands the linear motion of each phase (flight, or contact with one bumper) in a Taylor
-   series of high order, over a step so short that a norm bound puts the remainder below the
-   wanted digits;
+   series of high order, over a step so short that a bound puts the remainder below the wanted
+   digits;
 2. finds the first zero of the clearance (flight) or of the contact force (contact) on the step by
    Descartes' rule of signs in exact integers with bisection (Collins and Akritas), which proves
    that there is none or isolates it, and then refines it by bracketed Newton steps;
@@ -21,13 +21,14 @@ mass relative to the base, deformation u_R >= 0 of the right and u_L <= 0 of the
   the contact force falls to zero.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise, zip_longest
+from itertools import zip_longest
 from typing import NamedTuple
 
 from mpmath import mp, mpf
+
+from reference.first_zero import first_zero, polynomial_value
 
 State = tuple[mpf, mpf, mpf, mpf]
 
@@ -62,8 +63,8 @@ class Event(NamedTuple):
     kind: str
     u: mpf
     v: mpf
-    u_R: mpf
-    u_L: mpf
+    u_right: mpf
+    u_left: mpf
 
 
 @dataclass(frozen=True)
@@ -113,10 +114,9 @@ def integrate(
     ValueError
         If the rig or the start is impossible.
     """
-    reach = _reach(order, digits + 10)
-    # Partial sums of a series grow to exp(reach) before they settle; the guard digits cover it.
-    with mp.workdps(digits + 20 + math.ceil(reach / math.log(10))):
-        run = _Run(rig, amplitude, frequency, phase, start, order, reach, mpf(10) ** -(digits + 10))
+    # The terms of a series grow to exp(order / 3) before they fall; the last guard digits cover it.
+    with mp.workdps(digits + 20 + order // 6):
+        run = _Run(rig, amplitude, frequency, phase, start, order, mpf(10) ** -(digits + 10))
         states = [run.state]
         for _ in range(cycles):
             run.cycle()
@@ -150,7 +150,6 @@ class _Run:
         phase: float,
         start: Sequence[float],
         order: int,
-        reach: float,
         tolerance: mpf,
     ) -> None:
         if not (rig.mass > 0 and rig.stiffness >= 0 and rig.damping >= 0 and frequency > 0):
@@ -159,11 +158,12 @@ class _Run:
         self.amplitude, self.phase = mpf(amplitude), mpf(phase)
         self.omega = 2 * mp.pi * mpf(frequency)
         self.period = 1 / mpf(frequency)
-        self.order, self.reach, self.tolerance = order, mpf(reach), tolerance
+        self.order, self.tolerance = order, tolerance
         pairs = (("right", 1, rig.right), ("left", -1, rig.left))
         self.sides = [_Side(name, sign, stop) for name, sign, stop in pairs if stop is not None]
         self.u, self.v = mpf(start[0]), mpf(start[1])
         self.bumper = {"right": mpf(start[2]), "left": mpf(start[3])}
+        self.factorial, self.size = mp.factorial(order), mpf(0)
         self.elapsed, self.cycles_done = mpf(0), 0
         self.events: list[Event] = []
         self.contact: _Side | None = None
@@ -200,9 +200,9 @@ class _Run:
 
     def _step(self) -> None:
         """Go on to the next event, to the end of the step or to the end of the period."""
-        step = min(self._longest_step(), self.period - self.elapsed)
+        longest = self.period - self.elapsed
         while True:
-            u, v = self._series(step)
+            step, u, v = self._series(longest)
             if self.contact is not None:
                 found = [(self._release(u, v), self.contact)]
                 break
@@ -211,7 +211,7 @@ class _Run:
             if not limits:
                 found = [(zero, side) for (zero, _), side in touches]
                 break
-            step = min(limits)
+            longest = min(limits)
         zeros = [(zero, side) for zero, side in found if zero is not None]
         at, side = min(zeros, key=lambda pair: pair[0]) if zeros else (mpf(1), None)
         self._advance(u, v, step * at, at)
@@ -220,16 +220,6 @@ class _Run:
             self.changes_here = 0
         if side is not None:
             self._change_phase(side)
-
-    def _longest_step(self) -> mpf:
-        """Step with remainder below tolerance: reach / (norm of the system matrix).
-
-        With s = max(sqrt(k), omega) the norm of (s u, v) under its own matrix is at most s + c,
-        forcing scaled by 8 / omega couples into it with omega / 8.
-        """
-        stiffness, damping, _ = self._coefficients()
-        norm = max(mp.sqrt(stiffness), self.omega) + damping + self.omega / 8
-        return self.reach / norm
 
     def _coefficients(self) -> tuple[mpf, mpf, mpf]:
         """(k, c, b) of the phase: u'' + c u' + k u = b - A sin(...)."""
@@ -240,14 +230,20 @@ class _Run:
             load = self.contact.stiffness * self.contact.wall
         return stiffness / self.mass, damping / self.mass, load / self.mass
 
-    def _series(self, step: mpf) -> tuple[list[mpf], list[mpf]]:
-        """Taylor coefficients of u and v in x = time / step, 0 <= x <= 1."""
+    def _series(self, longest: mpf) -> tuple[mpf, list[mpf], list[mpf]]:
+        """Step and Taylor coefficients of u and v in x = time / step, 0 <= x <= 1.
+
+        Let z = (s u, v, 8 A / omega sin, 8 A / omega cos) with s = max(sqrt(k), omega): z' = B z,
+        and the norm of B is at most s + c + omega / 8. Let z_n be the n-th coefficient of z. What
+        follows the last, z_N, is at most |z_N| q / (1 - q) with q = |B| step / (N + 1). So the
+        step is at most N / (3 |B|), and short enough that |z_N| is within the tolerance.
+        """
         stiffness, damping, load = self._coefficients()
-        angle = self.omega * self.elapsed + self.phase
-        turn = self.omega * step
+        scale = max(mp.sqrt(stiffness), self.omega)
+        step = min(longest, self.order / (3 * (scale + damping + self.omega / 8)))
+        angle, turn = self.omega * self.elapsed + self.phase, self.omega * step
         # push[n]: coefficient of b - A sin(...), the sine's from its own recurrence.
-        sine, cosine = mp.sin(angle), mp.cos(angle)
-        push = [-self.amplitude * sine, -self.amplitude * turn * cosine]
+        push = [-self.amplitude * mp.sin(angle), -self.amplitude * turn * mp.cos(angle)]
         for n in range(self.order - 1):
             push.append(-(turn**2) * push[n] / ((n + 1) * (n + 2)))
         push[0] += load
@@ -255,7 +251,17 @@ class _Run:
         for n in range(self.order):
             u.append(step * v[n] / (n + 1))
             v.append(step * (push[n] - damping * v[n] - stiffness * u[n]) / (n + 1))
-        return u, v
+        forcing = 8 * abs(self.amplitude) / self.omega
+        self.size = abs(self.u) + (abs(self.v) + forcing) / scale
+        last = scale * abs(u[-1]) + abs(v[-1]) + forcing * turn**self.order / self.factorial
+        excess = last / (self.tolerance * scale * self.size) if last else mpf(0)
+        if excess > 1:
+            shrink = excess ** (mpf(-1) / self.order)
+            powers = [shrink**n for n in range(self.order + 1)]
+            u = [value * power for value, power in zip(u, powers, strict=True)]
+            v = [value * power for value, power in zip(v, powers, strict=True)]
+            step *= shrink
+        return step, u, v
 
     def _release(self, u: list[mpf], v: list[mpf]) -> mpf | None:
         """First zero of the contact force on the step, as a fraction of it."""
@@ -276,16 +282,18 @@ class _Run:
         """
         memory = side.sign * self.bumper[side.name]
         gap, inward = [side.sign * side.wall], [-side.sign * value for value in u]
-        if side.rate is None or memory <= mp.eps * sum(map(abs, u)):
+        if side.rate is None or memory <= mp.eps * self.size:
             return self._first_zero(gap, inward), None
-        decay, resolved = side.rate * step, self.reach / side.rate
+        decay = side.rate * step
+        power = self.tolerance * self.size / memory * self.factorial
+        resolved = min(power ** (mpf(1) / self.order), mpf(self.order) / 3) / side.rate
         if step <= resolved:
             relaxing = [memory]
             for n in range(self.order):
                 relaxing.append(-decay * relaxing[n] / (n + 1))
             return self._first_zero(gap, inward, relaxing), None
         inward[0] += gap[0] + memory * mp.exp(-decay)
-        zero = _first_zero(inward)
+        zero = first_zero(inward)
         # Below the zero of the bound the step is free. Staying clear of it by a tenth keeps
         # rounding from finding the same zero again.
         return None, zero if zero is None else max(step * zero * 9 / 10, resolved)
@@ -301,11 +309,11 @@ class _Run:
             if abs(value) > (self.tolerance * sum(map(abs, column)) if self.fresh else 0):
                 break
             known += 1
-        return _first_zero(total[known:]) if known < len(total) else None
+        return first_zero(total[known:]) if known < len(total) else None
 
     def _advance(self, u: list[mpf], v: list[mpf], time: mpf, fraction: mpf) -> None:
         """Move the state on by a part of the step."""
-        self.u, self.v = _value(u, fraction), _value(v, fraction)
+        self.u, self.v = polynomial_value(u, fraction), polynomial_value(v, fraction)
         # The end of the period is a fixed number: the sum of its steps may miss it by a rounding.
         left = self.period - self.elapsed
         self.elapsed = self.period if time >= left else self.elapsed + time
@@ -329,85 +337,3 @@ class _Run:
         self.changes_here += 1
         if self.changes_here > 4:
             raise ArithmeticError(f"contact and flight alternate without end at t = {time}")
-
-
-def _reach(order: int, digits: int) -> float:
-    """Largest x = norm * step with remainder x**(order + 1) exp(x) / (order + 1)! < 10**-digits."""
-    low, high = 0.0, float(order)
-    for _ in range(60):
-        middle = (low + high) / 2
-        remainder = (order + 1) * math.log(middle) - math.lgamma(order + 2) + middle
-        low, high = (middle, high) if remainder < -digits * math.log(10) else (low, middle)
-    return low
-
-
-def _value(series: list[mpf], x: mpf) -> mpf:
-    total = mpf(0)
-    for coefficient in reversed(series):
-        total = total * x + coefficient
-    return total
-
-
-def _first_zero(series: list[mpf]) -> mpf | None:
-    """First x in [0, 1) where a polynomial that starts positive changes sign; 0 if it does not.
-
-    A pair of zeros closer than half the working precision is a tangency and passes as no zero.
-    """
-    if series[0] <= 0:
-        return mpf(0)
-    if series[0] > sum(map(abs, series[1:])):
-        return None
-    scale = mp.prec - mp.mag(max(map(abs, series)))
-    cell = _isolate([int(mp.ldexp(value, scale)) for value in series], mp.prec // 2)
-    if cell is None:
-        return None
-    index, level = cell
-    low, high = mp.ldexp(index, -level), mp.ldexp(index + 1, -level)
-    slopes = [n * value for n, value in enumerate(series)][1:]
-    x = (low + high) / 2
-    for _ in range(2 * mp.prec):
-        value, slope = _value(series, x), _value(slopes, x)
-        low, high = (x, high) if value > 0 else (low, x)
-        newer = x - value / slope if slope < 0 else high
-        if not low < newer < high:
-            newer = (low + high) / 2
-        done = abs(newer - x) <= 8 * mp.eps * x
-        x = newer
-        if done:
-            break
-    return x
-
-
-def _isolate(series: list[int], deepest: int) -> tuple[int, int] | None:
-    """Cell (i, k), that is [i / 2**k, (i + 1) / 2**k], with the first sign change on [0, 1).
-
-    Descartes' rule on the cell: no variation of sign proves that there is no zero, a single one
-    that there is exactly one. All arithmetic is exact.
-    """
-    degree = len(series) - 1
-    cells = [(series, 0, 0)]
-    while cells:
-        polynomial, index, level = cells.pop()
-        variations = _variations(polynomial)
-        if variations == 1 or (variations % 2 == 1 and level == deepest):
-            return index, level
-        if variations > 1 and level < deepest:
-            left = [value << (degree - n) for n, value in enumerate(polynomial)]
-            cells.append((_shift(left), 2 * index + 1, level + 1))
-            cells.append((left, 2 * index, level + 1))
-    return None
-
-
-def _variations(polynomial: list[int]) -> int:
-    """Sign variations of (1 + x)**n p(1 / (1 + x)): the Bernstein coefficients' on [0, 1]."""
-    signs = [value > 0 for value in _shift(polynomial[::-1]) if value]
-    return sum(a != b for a, b in pairwise(signs))
-
-
-def _shift(polynomial: list[int]) -> list[int]:
-    """Coefficients of p(x + 1), by additions only."""
-    shifted = list(polynomial)
-    for first in range(len(shifted) - 1):
-        for n in range(len(shifted) - 2, first - 1, -1):
-            shifted[n] += shifted[n + 1]
-    return shifted

@@ -226,8 +226,10 @@ def quick_root(plan, table, weight_x, weight_v, level, y, second, x, v, s, c):
         y = k * (1.0 / FINE) + d + e
         if not abs(e) < 1e-8 or y < 0.0 or y > 1.0 or not 2.0 * slope > second * y:
             break
-        fx += e * (fv + e * a2)
-        fv += e * 2 * a2
+        fx += e * fv
+        fv += e * (2 * a2 + d * (6 * a3 + d * 12 * a4))
+        e *= plan[table + SCALED_W]
+        fs, fc = fs + e * fc, fc - e * fs
         return y, fx, fv * plan[table + RATE], fs, fc
     return NONE, x, v, s, c
 

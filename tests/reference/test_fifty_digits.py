@@ -1,0 +1,313 @@
+"""The reference integrator against closed forms, its own limits and the physics it stands for."""
+
+import math
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+
+import pytest
+from mpmath import mp, mpc, mpf
+
+from reference.fifty_digits import Event, Reference, Rig, State, Stop, integrate
+from reference.first_zero import first_zero
+
+MASS, STIFFNESS, FREQUENCY, AMPLITUDE = 550.0, 26290.0, 1.1, 0.05 * 9.80665
+NATURAL = math.sqrt(STIFFNESS / MASS)
+DAMPING = 2 * 0.15 * NATURAL * MASS
+REST = (0.0, 0.0, 0.0, 0.0)
+
+
+def stop(stiffness: float = 510e3, relaxation: float = 0.01, gap: float = 0.0075) -> Stop:
+    """A bumper with the paper's dimensionless relaxation time omega_0 C_j / K_j."""
+    return Stop(stiffness, relaxation * stiffness / NATURAL, gap)
+
+
+def rig(right: Stop | None, left: Stop | None, damping: float = DAMPING) -> Rig:
+    return Rig(MASS, STIFFNESS, damping, right, left)
+
+
+def both(*, damping: float = DAMPING, **changes: float) -> Rig:
+    return rig(stop(**changes), stop(**changes), damping)
+
+
+PRESSED = (0.0125, 0.1, 0.005, 0.0)
+RUNS = {
+    "typical": (both(), REST),
+    "soft": (both(stiffness=0.25 * STIFFNESS), REST),
+    "hard": (both(stiffness=1e5 * STIFFNESS), REST),
+    "hard and elastic": (both(stiffness=1e5 * STIFFNESS, relaxation=0.0), REST),
+    "elastic": (both(relaxation=0.0), REST),
+    "all but elastic": (both(relaxation=1e-8), REST),
+    "overdamped contact": (both(relaxation=10.0), REST),
+    "no gap": (both(gap=0.0), REST),
+    "no gap, elastic": (both(gap=0.0, relaxation=0.0), REST),
+    "no gap on the left": (rig(stop(), stop(gap=0.0)), REST),
+    "no bumper on the left": (rig(stop(), None), REST),
+    "undamped isolator": (both(damping=0.0), REST),
+    "overdamped isolator": (both(damping=20 * DAMPING, gap=1e-4), REST),
+    "unequal": (rig(stop(gap=0.004), stop(1e6, 0.3, 0.009)), REST),
+    "pressed start": (both(), PRESSED),
+    "pressed start, elastic": (both(relaxation=0.0), PRESSED),
+    "deformed bumpers": (both(), (0.0, 0.0, 0.003, -0.004)),
+}
+
+
+def closed_form(
+    coefficients: tuple[mpf, mpf, mpf], time: mpf, state: State
+) -> Callable[[mpf], tuple[mpf, mpf]]:
+    """(u, v) at a later time for u'' + c u' + k u = b - A sin(omega t), by complex exponentials."""
+    stiffness, damping, load = coefficients
+    omega = 2 * mp.pi * mpf(FREQUENCY)
+    swing = -mpf(AMPLITUDE) / mpc(stiffness - omega**2, damping * omega)
+    split = mp.sqrt(mpc(damping**2 / 4 - stiffness))
+    roots = (split - damping / 2, -split - damping / 2)
+
+    def forced(t: mpf) -> tuple[mpf, mpf]:
+        turning = swing * mp.expj(omega * t)
+        return mp.im(turning) + load / stiffness, mp.im(turning * mpc(0, omega))
+
+    here = forced(time)
+    offset = (state[0] - here[0], state[1] - here[1])
+    weights = [(offset[1] - roots[1 - i] * offset[0]) / (roots[i] - roots[1 - i]) for i in range(2)]
+
+    def at(t: mpf) -> tuple[mpf, mpf]:
+        u, v = forced(t)
+        modes = [w * mp.exp(root * (t - time)) for w, root in zip(weights, roots, strict=True)]
+        return u + mp.re(sum(modes)), v + mp.re(modes[0] * roots[0] + modes[1] * roots[1])
+
+    return at
+
+
+class Piece:
+    """One phase, or a part of it: what the closed forms say about it."""
+
+    def __init__(self, rig: Rig, contact: str, begin: tuple[mpf, State], end: tuple[mpf, State]):
+        self.contact, self.begin, self.end = contact, begin, end
+        self.stops = {"right": (1, rig.right), "left": (-1, rig.left)}
+        stiffness, damping, load = mpf(rig.stiffness), mpf(rig.damping), mpf(0)
+        if contact:
+            sign, stop = self.stops[contact]
+            assert stop is not None
+            stiffness, damping = stiffness + mpf(stop.stiffness), damping + mpf(stop.damping)
+            load = sign * mpf(stop.stiffness) * mpf(stop.gap)
+        mass = mpf(rig.mass)
+        self.motion = closed_form((stiffness / mass, damping / mass, load / mass), *begin)
+
+    def bumper(self, name: str, t: mpf) -> mpf:
+        sign, stop = self.stops[name]
+        if stop is None:
+            return mpf(0)
+        if name == self.contact:
+            return self.motion(t)[0] - sign * mpf(stop.gap)
+        memory = self.begin[1][2 if name == "right" else 3]
+        if not stop.damping:
+            return mpf(0)
+        return memory * mp.exp(-(t - self.begin[0]) * mpf(stop.stiffness) / mpf(stop.damping))
+
+    def margins(self, t: mpf) -> list[mpf]:
+        """What may not be negative: the contact force, or in flight every clearance."""
+        u, v = self.motion(t)
+        if self.contact:
+            sign, stop = self.stops[self.contact]
+            assert stop is not None
+            deformation = self.bumper(self.contact, t)
+            return [sign * (mpf(stop.stiffness) * deformation + mpf(stop.damping) * v)]
+        return [
+            mpf(stop.gap) + sign * (self.bumper(name, t) - u)
+            for name, (sign, stop) in self.stops.items()
+            if stop is not None
+        ]
+
+
+def pieces(rig: Rig, run: Reference) -> Iterator[tuple[Piece, Event | None]]:
+    """The pieces between events and periods, each with the event that ends it."""
+    period = 1 / mpf(FREQUENCY)
+    marks: list[tuple[mpf, State, Event | None]]
+    marks = [(n * period, state, None) for n, state in enumerate(run.states)]
+    marks += [(event.time, event[2:], event) for event in run.events]
+    marks.sort(key=lambda mark: mark[0])
+    # A start that presses is told by its first event, which then is a detachment.
+    first = run.events[0].kind.split("_") if run.events else ["contact", ""]
+    contact = first[1] if first[0] == "detach" else ""
+    for begin, end in pairwise(marks):
+        yield Piece(rig, contact, begin[:2], end[:2]), end[2]
+        if end[2] is not None:
+            what, side = end[2].kind.split("_")
+            assert (what == "contact") == (not contact)
+            contact = side if what == "contact" else ""
+
+
+def largest_difference(one: Reference, other: Reference) -> mpf:
+    """Over states and events; their kinds must agree."""
+    assert [event.kind for event in one.events] == [event.kind for event in other.events]
+    rows = [*zip(one.states, other.states, strict=True)]
+    rows += [
+        ((a.time, *a[2:]), (b.time, *b[2:])) for a, b in zip(one.events, other.events, strict=True)
+    ]
+    with mp.workdps(80):
+        return max(abs(a - b) for row in rows for a, b in zip(*row, strict=True))
+
+
+@pytest.mark.parametrize("damping", [0.0, DAMPING, 100 * DAMPING])
+def test_free_flight_is_the_closed_form(damping: float) -> None:
+    run = integrate(rig(None, None, damping), AMPLITUDE, FREQUENCY, 0.0, (0.01, -0.2, 0, 0), 10)
+    assert run.events == []
+    with mp.workdps(70):
+        coefficients = (mpf(STIFFNESS) / MASS, mpf(damping) / mpf(MASS), mpf(0))
+        motion = closed_form(coefficients, mpf(0), run.states[0])
+        for n, state in enumerate(run.states):
+            u, v = motion(n / mpf(FREQUENCY))
+            assert abs(state[0] - u) < mpf(10) ** -50
+            assert abs(state[1] - v) < mpf(10) ** -50
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_every_phase_is_its_closed_form_and_ends_at_its_first_zero(name: str) -> None:
+    setup, start = RUNS[name]
+    run = integrate(setup, AMPLITUDE, FREQUENCY, 0.0, start, 3)
+    assert run.events
+    with mp.workdps(70):
+        for piece, event in pieces(setup, run):
+            (begin, _), (end, state) = piece.begin, piece.end
+            arrived = (*piece.motion(end), piece.bumper("right", end), piece.bumper("left", end))
+            if event is None or event.kind.startswith("contact") or piece.bumper("right", end):
+                differences = [abs(a - b) for a, b in zip(arrived, state, strict=True)]
+                assert max(differences) < mpf(10) ** -48
+            # Contact force and clearance are zero at their event, and never negative before.
+            scale = mpf(STIFFNESS) * 1000 if piece.contact else mpf(1)
+            if event is not None:
+                assert min(map(abs, piece.margins(end))) < scale * mpf(10) ** -48
+            for n in range(1, 40):
+                margins = piece.margins(begin + (end - begin) * n / 40)
+                assert min(margins) > -scale * mpf(10) ** -48
+
+
+@pytest.mark.parametrize("name", ["typical", "elastic", "overdamped contact", "no gap", "unequal"])
+def test_base_work_is_dissipated_or_stored(name: str) -> None:
+    setup, start = RUNS[name]
+    run = integrate(setup, AMPLITUDE, FREQUENCY, 0.0, start, 2)
+    with mp.workdps(50):
+        omega = 2 * mp.pi * mpf(FREQUENCY)
+
+        def energy(state: State) -> mpf:
+            held = setup.mass * state[1] ** 2 + setup.stiffness * state[0] ** 2
+            for stop, deformation in ((setup.right, state[2]), (setup.left, state[3])):
+                held += stop.stiffness * deformation**2 if stop else 0
+            return held / 2
+
+        balance = energy(run.states[0]) - energy(run.states[-1])
+        for piece, _ in pieces(setup, run):
+
+            def gain(t: mpf, piece: Piece = piece) -> mpf:
+                v = piece.motion(t)[1]
+                power = -setup.mass * mpf(AMPLITUDE) * mp.sin(omega * t) * v - setup.damping * v**2
+                for name, (_, stop) in piece.stops.items():
+                    if stop and name == piece.contact:
+                        power -= stop.damping * v**2
+                    elif stop and stop.damping:
+                        # A free bumper burns what it holds.
+                        power -= (stop.stiffness * piece.bumper(name, t)) ** 2 / stop.damping
+                return power
+
+            # Relaxation is the fastest rate here: it sets how the quadrature is divided.
+            parts = 1 + int((piece.end[0] - piece.begin[0]) * 30)
+            nodes = mp.linspace(piece.begin[0], piece.end[0], parts + 1)
+            balance += mp.quad(gain, nodes, method="gauss-legendre", maxdegree=5)
+        assert abs(balance) < mpf(10) ** -25 * energy((mpf("0.01"), mpf("0.1"), 0, 0))
+
+
+@pytest.mark.parametrize("name", ["typical", "hard", "overdamped contact", "no gap"])
+def test_order_and_digits_change_nothing(name: str) -> None:
+    setup, start = RUNS[name]
+    run = integrate(setup, AMPLITUDE, FREQUENCY, 0.3, start, 5)
+    other_order = integrate(setup, AMPLITUDE, FREQUENCY, 0.3, start, 5, order=45)
+    fewer_digits = integrate(setup, AMPLITUDE, FREQUENCY, 0.3, start, 5, digits=30)
+    assert largest_difference(run, other_order) < mpf(10) ** -48
+    assert largest_difference(run, fewer_digits) < mpf(10) ** -28
+
+
+def test_the_mirrored_rig_moves_mirrored() -> None:
+    setup, _ = RUNS["unequal"]
+    run = integrate(setup, AMPLITUDE, FREQUENCY, 0.3, (0.001, 0.1, 0.002, 0.0), 3)
+    swapped = rig(setup.left, setup.right)
+    mirror = integrate(swapped, -AMPLITUDE, FREQUENCY, 0.3, (-0.001, -0.1, 0.0, -0.002), 3)
+    with mp.workdps(80):
+        back = [(-u, -v, -left, -right) for u, v, right, left in mirror.states]
+    assert largest_difference(Reference(run.states, []), Reference(back, [])) < mpf(10) ** -55
+    sides = {"right": "left", "left": "right"}
+    for event, image in zip(run.events, mirror.events, strict=True):
+        what, side = image.kind.split("_")
+        assert event.kind == f"{what}_{sides[side]}"
+
+
+@pytest.mark.parametrize("stiffness", [510e3, 1e5 * STIFFNESS])
+@pytest.mark.parametrize("relaxation", [0.0, 0.01])
+@pytest.mark.parametrize("depth", ["1e-8", "1e-24", "-1e-24"])
+def test_no_grazing_pass_is_missed_or_invented(
+    depth: str, relaxation: float, stiffness: float
+) -> None:
+    with mp.workdps(80):
+        omega = 2 * mp.pi * mpf(FREQUENCY)
+        swing = -mpf(AMPLITUDE) / mpc(
+            mpf(STIFFNESS) / mpf(MASS) - omega**2, mpf(DAMPING) / mpf(MASS) * omega
+        )
+        start = (mp.im(swing), omega * mp.re(swing), 0, 0)
+        grazed = stop(stiffness, relaxation, abs(swing) * (1 - mpf(depth)))
+    run = integrate(rig(grazed, None), AMPLITUDE, FREQUENCY, 0.0, start, 1)
+    passed = ["contact_right", "detach_right"] if mpf(depth) > 0 else []
+    assert [event.kind for event in run.events] == passed
+
+
+def test_a_touching_start_goes_where_force_and_motion_point() -> None:
+    def first(setup: Rig, start: tuple[float, float, float, float], amplitude: float) -> str:
+        return integrate(setup, amplitude, FREQUENCY, 0.0, start, 1).events[0].kind
+
+    for relaxation in (0.0, 0.01):
+        closed = both(gap=0.0, relaxation=relaxation)
+        # The acceleration is zero at the start; what follows is its slope, against the base's.
+        assert first(closed, REST, AMPLITUDE) == "detach_left"
+        assert first(closed, REST, -AMPLITUDE) == "detach_right"
+        assert first(closed, (0.0, 0.1, 0.0, 0.0), AMPLITUDE) == "detach_right"
+        assert first(closed, (0.0, -0.1, 0.0, 0.0), AMPLITUDE) == "detach_left"
+    # The mass leaves a deformed damped bumper faster than it relaxes: flight from the start.
+    assert first(both(), (0.0125, -5.0, 0.005, 0.0), AMPLITUDE) == "contact_left"
+
+
+@pytest.mark.parametrize(
+    ("setup", "start"),
+    [
+        (both(), (0.02, 0.0, 0.0, 0.0)),
+        (both(), (0.0, 0.0, -0.001, 0.0)),
+        (both(relaxation=0.0), (0.0, 0.0, 0.001, 0.0)),
+        (both(stiffness=-1.0), REST),
+        (both(gap=-0.001), REST),
+    ],
+)
+def test_the_impossible_is_refused(setup: Rig, start: tuple[float, float, float, float]) -> None:
+    with pytest.raises(ValueError):
+        integrate(setup, AMPLITUDE, FREQUENCY, 0.0, start, 1)
+
+
+@pytest.mark.parametrize(
+    ("zeros", "first"),
+    [
+        (["0.5"], "0.5"),
+        (["0.7", "0.71", "0.2"], "0.2"),
+        (["0.25", "0.25", "0.75"], "0.75"),
+        (["0.3", "0.3000000000000000000001", "0.9"], "0.3"),
+        (["1.2", "-0.4"], None),
+    ],
+)
+def test_the_first_zero_is_the_first(zeros: list[str], first: str | None) -> None:
+    with mp.workdps(70):
+        series = [mpf(1)]
+        for zero in zeros:
+            shifted = [mpf(0), *series]
+            series = [mpf(zero) * a - b for a, b in zip([*series, mpf(0)], shifted, strict=True)]
+        if series[0] < 0:
+            series = [-value for value in series]
+        found = first_zero(series)
+        if first is None:
+            assert found is None
+        else:
+            assert found is not None
+            assert abs(found - mpf(first)) < mpf(10) ** -40
