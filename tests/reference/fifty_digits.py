@@ -167,8 +167,9 @@ class _Run:
         self.elapsed, self.cycles_done = mpf(0), 0
         self.events: list[Event] = []
         self.contact: _Side | None = None
-        # A phase that has just begun may start on a zero of its own watched quantity.
-        self.fresh, self.changes_here = True, 0
+        # How often the clearance or the force that ended the last phase vanishes here, by side.
+        self.known_zeros: dict[str, int] = {}
+        self.changes_here = 0
         for side in self.sides:
             self._settle(side)
 
@@ -215,7 +216,7 @@ class _Run:
         zeros = [(zero, side) for zero, side in found if zero is not None]
         at, side = min(zeros, key=lambda pair: pair[0]) if zeros else (mpf(1), None)
         self._advance(u, v, step * at, at)
-        self.fresh = side is not None
+        self.known_zeros = {}
         if at > 0:
             self.changes_here = 0
         if side is not None:
@@ -249,8 +250,9 @@ class _Run:
         push[0] += load
         u, v = [self.u], [self.v]
         for n in range(self.order):
-            u.append(step * v[n] / (n + 1))
-            v.append(step * (push[n] - damping * v[n] - stiffness * u[n]) / (n + 1))
+            weight = step / (n + 1)
+            u.append(weight * v[n])
+            v.append(weight * (push[n] - damping * v[n] - stiffness * u[n]))
         forcing = 8 * abs(self.amplitude) / self.omega
         self.size = abs(self.u) + (abs(self.v) + forcing) / scale
         last = scale * abs(u[-1]) + abs(v[-1]) + forcing * turn**self.order / self.factorial
@@ -269,9 +271,8 @@ class _Run:
         assert side is not None
         stiffness, damping = side.sign * side.stiffness, side.sign * side.damping
         rest = [-stiffness * side.wall]
-        return self._first_zero(
-            rest, [stiffness * value for value in u], [damping * value for value in v]
-        )
+        elastic, viscous = [stiffness * value for value in u], [damping * value for value in v]
+        return self._first_zero(side, rest, elastic, viscous)
 
     def _touch(self, side: _Side, u: list[mpf], step: mpf) -> tuple[mpf | None, mpf | None]:
         """First zero of a clearance on the step, or a shorter step on which to ask again.
@@ -283,7 +284,7 @@ class _Run:
         memory = side.sign * self.bumper[side.name]
         gap, inward = [side.sign * side.wall], [-side.sign * value for value in u]
         if side.rate is None or memory <= mp.eps * self.size:
-            return self._first_zero(gap, inward), None
+            return self._first_zero(side, gap, inward), None
         decay = side.rate * step
         power = self.tolerance * self.size / memory * self.factorial
         resolved = min(power ** (mpf(1) / self.order), mpf(self.order) / 3) / side.rate
@@ -291,23 +292,19 @@ class _Run:
             relaxing = [memory]
             for n in range(self.order):
                 relaxing.append(-decay * relaxing[n] / (n + 1))
-            return self._first_zero(gap, inward, relaxing), None
+            return self._first_zero(side, gap, inward, relaxing), None
         inward[0] += gap[0] + memory * mp.exp(-decay)
         zero = first_zero(inward)
         # Below the zero of the bound the step is free. Staying clear of it by a tenth keeps
         # rounding from finding the same zero again.
         return None, zero if zero is None else max(step * zero * 9 / 10, resolved)
 
-    def _first_zero(self, *terms: list[mpf]) -> mpf | None:
+    def _first_zero(self, side: _Side, *terms: list[mpf]) -> mpf | None:
         """First zero of a sum of series that is not the event which began the phase."""
-        columns = list(zip_longest(*terms, fillvalue=mp.zero))
-        total = [sum(column) for column in columns]
-        # At detachment the clearance and its slope vanish, at an elastic contact the force: these
-        # zeros at x = 0 are known, so they are divided out and what is left decides.
-        known = 0
-        for value, column in zip(total, columns, strict=True):
-            if abs(value) > (self.tolerance * sum(map(abs, column)) if self.fresh else 0):
-                break
+        total = [sum(column) for column in zip_longest(*terms, fillvalue=mp.zero)]
+        known = self.known_zeros.get(side.name, 0)
+        # At a touching start leading coefficients are exactly zero: the next one decides.
+        while known < len(total) and not total[known]:
             known += 1
         return first_zero(total[known:]) if known < len(total) else None
 
@@ -329,6 +326,9 @@ class _Run:
         began = self.contact is None
         self.contact = side if began else None
         elastic = side.rate is None
+        # Detachment from a damped bumper leaves the clearance and its slope zero; an elastic one
+        # has no force at contact and no clearance at detachment.
+        self.known_zeros[side.name] = int(elastic) if began else 2 - int(elastic)
         self.bumper[side.name] = mpf(0) if elastic and not began else self.u - side.wall
         time = self.cycles_done * self.period + self.elapsed
         if time > 0 or not began:

@@ -30,16 +30,17 @@ def first_zero(series: list[mpf]) -> mpf | None:
     cell = _isolate([int(mp.ldexp(value, scale)) for value in series], mp.prec // 2)
     if cell is None:
         return None
-    index, level = cell
-    low, high = mp.ldexp(index, -level), mp.ldexp(index + 1, -level)
+    low, high = cell
+    if low == high:
+        return low
     slopes = [n * value for n, value in enumerate(series)][1:]
     x = (low + high) / 2
     for _ in range(2 * mp.prec):
         value, slope = polynomial_value(series, x), polynomial_value(slopes, x)
         low, high = (x, high) if value > 0 else (low, x)
-        newer = x - value / slope if slope < 0 else high
-        if not low <= newer <= high:
-            newer = (low + high) / 2
+        newer = (low + high) / 2
+        if slope < 0 and low <= x - value / slope <= high:
+            newer = x - value / slope
         done = abs(newer - x) <= 8 * mp.eps * x
         x = newer
         if done:
@@ -47,8 +48,8 @@ def first_zero(series: list[mpf]) -> mpf | None:
     return x
 
 
-def _isolate(series: list[int], deepest: int) -> tuple[int, int] | None:
-    """Cell (i, k), that is [i / 2**k, (i + 1) / 2**k], with the first sign change on [0, 1).
+def _isolate(series: list[int], deepest: int) -> tuple[mpf, mpf] | None:
+    """Cell (low, high) of the first sign change on [0, 1); low = high where it is a border.
 
     Descartes' rule on the cell: no variation of sign proves that there is no zero, a single one
     that there is exactly one. All arithmetic is exact.
@@ -57,11 +58,13 @@ def _isolate(series: list[int], deepest: int) -> tuple[int, int] | None:
     cells = [(series, 0, 0)]
     while cells:
         polynomial, index, level = cells.pop()
-        variations = _variations(polynomial)
+        low, high = mp.ldexp(index, -level), mp.ldexp(index + 1, -level)
         # A zero on the border of two cells shows as a cell that starts below zero.
-        begins_below = next((value < 0 for value in polynomial if value), False)
-        if variations == 1 or begins_below or (variations % 2 == 1 and level == deepest):
-            return index, level
+        if next((value < 0 for value in polynomial if value), False):
+            return low, low
+        variations = _variations(polynomial)
+        if variations == 1 or (variations % 2 == 1 and level == deepest):
+            return low, high
         if variations > 1 and level < deepest:
             left = [value << (degree - n) for n, value in enumerate(polynomial)]
             cells.append((_shift(left), 2 * index + 1, level + 1))

@@ -40,9 +40,7 @@ from vibroimpact.engine.record import (
 from vibroimpact.engine.trajectory import cycle, too_much_work
 
 
-@entry(
-    "void(f8[::1], f8, f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])"
-)
+@entry("void(f8[::1], f8, f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])")
 def sweep(
     rig,
     amplitude,

@@ -51,8 +51,14 @@ def value(plan, offset, sign, memory, rate, start, double, y):
         if double:
             f1 -= rate * memory * math.expm1(-x)
             if x < 0.02:  # the series keeps the digits that exp(−x) − 1 + x cancels
-                f += memory * x * x * (
-                    1 / 2 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120 - x * (1 / 720 - x / 5040))))
+                f += (
+                    memory
+                    * x
+                    * x
+                    * (
+                        1 / 2
+                        - x * (1 / 6 - x * (1 / 24 - x * (1 / 120 - x * (1 / 720 - x / 5040))))
+                    )
                 )
             else:
                 f += memory * (math.expm1(-x) + x)
@@ -109,8 +115,10 @@ def first_root(plan, offset, sign, memory, rate, double, low, high):
         if double and p == start:
             f = 0.0
             f1 = 0.0
-        elif f <= 0.0 and f1 < 0.0:
-            return p
+        elif f <= 0.0:
+            if f1 < 0.0:
+                return p
+            f = 0.0  # on the point of parting, to within rounding
         jerk = polynomial
         if memory > 0.0:
             jerk += rate * rate * rate * memory * math.exp(-rate * (p - start))
@@ -119,16 +127,14 @@ def first_root(plan, offset, sign, memory, rate, double, low, high):
             b1 = f + f1 * w / 3.0
             b2 = f + 2.0 * f1 * w / 3.0 + f2 * w * w / 6.0
             b3 = f + f1 * w + 0.5 * f2 * w * w - jerk * w * w * w / 6.0
-            # At the start f may be zero by construction: then the next coefficients decide.
-            if f >= 0.0 and b1 >= 0.0 and b2 > 0.0 and b3 > 0.0 and (f > 0.0 or p == start):
+            # Where f is zero and does not fall, the next coefficients decide.
+            if b1 >= 0.0 and b2 > 0.0 and b3 > 0.0:
                 break
             s1 = f1 + 0.5 * f2 * w
             s2 = f1 + f2 * w + 0.5 * jerk * w * w
-            if f1 < 0.0 and s1 < 0.0 and s2 < 0.0 and f >= 0.0:
+            if f1 < 0.0 and s1 < 0.0 and s2 < 0.0:
                 end, _, _ = value(plan, offset, sign, memory, rate, start, double, p + w)
                 if end <= 0.0:
-                    if f == 0.0:
-                        return p
                     return polish(plan, offset, sign, memory, rate, start, double, p, p + w)
             width = 0.5 * w
             if width < _SMALLEST:

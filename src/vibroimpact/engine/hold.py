@@ -142,8 +142,7 @@ def settle(plan, state, s, c, period, tolerance, max_cycles, max_events):
         for i in range(1, longest + 1):
             q = (k - i) % LONGEST
             d = max(
-                weight
-                * max(abs(u - past[q, 0]), abs(right - past[q, 2]), abs(left - past[q, 3])),
+                weight * max(abs(u - past[q, 0]), abs(right - past[q, 2]), abs(left - past[q, 3])),
                 abs(v - past[q, 1]),
             )
             block[i] = max(block[i], d)
@@ -221,9 +220,7 @@ def hold(plan, state, amplitude, frequency, s, c, options, result):
         return
     outcome, n, k = settle(plan, state, s, c, period, tolerance, max_cycles, max_events)
     if outcome == DONE or outcome == NOT_SETTLED:
-        over = measure(
-            plan, state, s, c, period, n if n else window, max_events, result
-        )
+        over = measure(plan, state, s, c, period, n if n else window, max_events, result)
         k += n if n else window
         if over != DONE:
             outcome = over

@@ -81,7 +81,9 @@ def turn(s, c, angle):
 @kernel
 def row(plan, at, x, v, s, c):
     """One linear function of the state row."""
-    return ((plan[at] * x + plan[at + 1] * v) + (plan[at + 2] * s + plan[at + 3] * c)) + plan[at + 4]
+    return ((plan[at] * x + plan[at + 1] * v) + (plan[at + 2] * s + plan[at + 3] * c)) + plan[
+        at + 4
+    ]
 
 
 @kernel
@@ -238,16 +240,14 @@ def quick_root(plan, table, weight_x, weight_v, level, y, second, x, v, s, c):
 def search_flight(plan, gap_r, gap_l, right, left, rate_r, rate_l, low_r, low_l, high):
     """First contact on an interval whose series is in the scratch: (y, side), or (NONE, LIMIT).
 
-    The deformations are those at y = −1/2; rates are per step.
+    The deformations are those at `low` of their side; rates are per step.
     """
     y_r = NONE
     y_l = NONE
     if low_r < high and gap_r < math.inf:
-        memory = relaxed(right, rate_r, low_r + 0.5)
-        y_r = first_root(plan, gap_r, -1.0, memory, rate_r, False, low_r, high)
+        y_r = first_root(plan, gap_r, -1.0, right, rate_r, False, low_r, high)
     if low_l < high and gap_l < math.inf:
-        memory = relaxed(left, rate_l, low_l + 0.5)
-        y_l = first_root(plan, gap_l, 1.0, memory, rate_l, False, low_l, high)
+        y_l = first_root(plan, gap_l, 1.0, left, rate_l, False, low_l, high)
     if y_r == NONE and y_l == NONE:
         return NONE, LIMIT
     if y_r <= y_l:
@@ -302,9 +302,7 @@ def flight(plan, u, v, s, c, right, left, launched, limit, age):
     while True:
         table = TABLES + 3 * SIZE if age + t >= plan[TABLES + 3 * SIZE + VALID_FROM] else TABLES
         h = plan[table + H]
-        band = (
-            plan[table + BAND_X] * abs(u) + plan[table + BAND_V] * abs(v) + plan[table + BAND_0]
-        )
+        band = plan[table + BAND_X] * abs(u) + plan[table + BAND_V] * abs(v) + plan[table + BAND_0]
         second = 8.0 * band  # per step squared
         span = (limit - t) * plan[table + RATE]
         if launched:
@@ -321,12 +319,25 @@ def flight(plan, u, v, s, c, right, left, launched, limit, age):
             if clear < 1.0:
                 high = min(0.5, span)
                 expand(plan, table + TAYLOR, u, v, s, c)
-                y = leave(plan, launched, memory, rate, high)
+                # The other bumper may be as near: where both gaps are zero it is.
+                if launched == RIGHT:
+                    y, side = search_flight(
+                        plan, math.inf, gap_l, 0.0, left, rate_r * h, rate_l * h, 0.0, 0.0, high
+                    )
+                else:
+                    y, side = search_flight(
+                        plan, gap_r, math.inf, right, 0.0, rate_r * h, rate_l * h, 0.0, 0.0, high
+                    )
+                again = leave(plan, launched, memory, rate, high)
+                if again < y:
+                    y, side = again, launched
                 if y != NONE:
                     u, v, s, c = travel(plan, table, y, u, v, s, c)
                     t = h * y
                     right, left = relaxed(right, rate_r, t), relaxed(left, rate_l, t)
-                    return launched, t, u, v, s, c, right, left
+                    u = gap_r + right if side == RIGHT else -(gap_l + left)
+                    return side, t, u, v, s, c, right, left
+                clear_r = clear_l = high
                 clear = max(clear, high)
             if launched == RIGHT:
                 clear_r = clear
@@ -379,16 +390,18 @@ def flight(plan, u, v, s, c, right, left, launched, limit, age):
             if y == NONE:
                 mu, mv, ms, mc = moved(plan, table + MIDDLE, nu, nv, ns, nc)
                 expand(plan, table + TAYLOR, mu, mv, ms, mc)
+                low_r = max(0.0, clear_r - i)
+                low_l = max(0.0, clear_l - i)
                 y, side = search_flight(
                     plan,
                     gap_r,
                     gap_l,
-                    memory_r,
-                    memory_l,
+                    relaxed(memory_r, rate_r, low_r * h),
+                    relaxed(memory_l, rate_l, low_l * h),
                     rate_r * h,
                     rate_l * h,
-                    max(-0.5, clear_r - i - 0.5),
-                    max(-0.5, clear_l - i - 0.5),
+                    low_r - 0.5,
+                    low_l - 0.5,
                     min(0.5, span - i - 0.5),
                 )
                 if y != NONE:

@@ -279,7 +279,11 @@ def build(plan, amplitude, omega):
             plan[table + FORCE_X] = (stiffness * second_x + damping * third_x) * eighth
             plan[table + FORCE_V] = (stiffness * second_v + damping * third_v) * eighth
             plan[table + FORCE_0] = (stiffness * second_0 + damping * third_0) * eighth
-            plan[table + SCALED_C], plan[table + SCALED_K], plan[table + SCALED_D] = c * h, k * h * h, d * h * h
+            plan[table + SCALED_C], plan[table + SCALED_K], plan[table + SCALED_D] = (
+                c * h,
+                k * h * h,
+                d * h * h,
+            )
             plan[table + SCALED_A], plan[table + SCALED_W] = amplitude * h * h, omega * h
             plan[table + RATE] = 1.0 / h
             _fill(plan, table, series, omega, stiffness, damping, mode > 0)

@@ -110,7 +110,24 @@ def sample_stretch(plan, mode, u, v, s, c, right, left, age, begin, length, step
 
 @kernel
 def record_cycle(
-    plan, mode, fresh, u, v, right, left, age, s, c, length, step, n, number, max_events, out, events, count
+    plan,
+    mode,
+    fresh,
+    u,
+    v,
+    right,
+    left,
+    age,
+    s,
+    c,
+    length,
+    step,
+    n,
+    number,
+    max_events,
+    out,
+    events,
+    count,
 ):
     """One forcing cycle, or its first `length` seconds, written down.
 
@@ -130,9 +147,7 @@ def record_cycle(
         if n:
             # The last stretch takes what rounding left over.
             reach = math.inf if event == LIMIT else dt
-            i = sample_stretch(
-                plan, m0, u0, v0, s0, c0, r0, l0, age0, t, reach, step, i, n, out
-            )
+            i = sample_stretch(plan, m0, u0, v0, s0, c0, r0, l0, age0, t, reach, step, i, n, out)
         if event == LIMIT:
             return True, mode, fresh, u, v, right, left, age, count
         t += dt

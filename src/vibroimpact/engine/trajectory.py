@@ -11,7 +11,7 @@ from __future__ import annotations
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import kernel
 from vibroimpact.engine.motion import DETACHED, LIMIT, contact, flight, relaxed
-from vibroimpact.engine.phase import FLIGHT, RIGHT, SIZE, TABLES, H
+from vibroimpact.engine.phase import FLIGHT, RIGHT, SIZE, TABLES, VALID_FROM, H
 
 WORK_LIMIT = 3e7
 """Table steps that one forcing cycle may take, about a second of computing."""
@@ -27,24 +27,18 @@ def advance(plan, mode, fresh, u, v, s, c, right, left, limit, age):
         What ended the segment (see `motion`), its length (s), and the state behind it.
     """
     if mode == FLIGHT:
-        event, t, u, v, s, c, right, left = flight(
-            plan, u, v, s, c, right, left, fresh, limit, age
-        )
+        event, t, u, v, s, c, right, left = flight(plan, u, v, s, c, right, left, fresh, limit, age)
         if event == LIMIT:
             return event, t, mode, 0, u, v, s, c, right, left, age + t
         return event, t, event, 1, u, v, s, c, right, left, 0.0
     at = par.BUMPER + par.WIDTH * (mode - 1)
     gap = plan[at + par.GAP]
     if mode == RIGHT:
-        event, t, right, v, s, c = contact(
-            plan, mode, right, v, s, c, fresh == 1, limit, age
-        )
+        event, t, right, v, s, c = contact(plan, mode, right, v, s, c, fresh == 1, limit, age)
         left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
         u = gap + right
     else:
-        event, t, left, v, s, c = contact(
-            plan, mode, left, -v, -s, -c, fresh == 1, limit, age
-        )
+        event, t, left, v, s, c = contact(plan, mode, left, -v, -s, -c, fresh == 1, limit, age)
         right = relaxed(right, plan[par.BUMPER + par.RATE], t)
         u, v, s, c = -(gap + left), -v, -s, -c
     if event == DETACHED:
@@ -92,7 +86,12 @@ def cycle(plan, mode, fresh, u, v, right, left, age, s, c, period, max_events):
 def too_much_work(plan, period):
     """Whether one cycle could take more than WORK_LIMIT table steps."""
     for mode in range(3):
-        h = plan[TABLES + SIZE * mode + H]
-        if h > 0.0 and period / h > WORK_LIMIT:
-            return True
+        early = TABLES + SIZE * mode
+        late = early + 3 * SIZE
+        if plan[early + H] > 0.0:
+            steps = min(period, plan[late + VALID_FROM]) / plan[early + H]
+            if plan[late + VALID_FROM] < period:
+                steps += period / plan[late + H]
+            if not steps < WORK_LIMIT:
+                return True
     return False

@@ -94,17 +94,24 @@ def simulate(
         if samples:
             found.append(buffer[:events].copy())
     status = Status(outcome)
+    if status is not Status.DONE:
+        # The cycle that was given up is left out; its events until then are kept.
+        whole = max(at - 1, 0)
+        warnings.warn(
+            f"simulate stopped in cycle {whole}: {status.advice}", RuntimeWarning, stacklevel=2
+        )
+        out = out[: whole * samples]
+        length = float(whole)
     data = xr.Dataset(
         {"final_state": ("component", components(vector, phase + 2.0 * math.pi * (length % 1.0)))},
         coords={"component": COMPONENTS},
     )
     if samples:
-        _add_samples(data, oscillator, excitation, phase, out, samples, length)
+        complete = status is Status.DONE
+        _add_samples(
+            data, oscillator, excitation, phase, out, samples, length if complete else None
+        )
         _add_events(data, np.concatenate(found), 1.0 / excitation.frequency)
-    if status is not Status.DONE:
-        warnings.warn(f"simulate stopped in cycle {at}: {status.advice}", RuntimeWarning, stacklevel=2)
-        if samples:
-            data = data.isel(time=slice(0, (at - 1) * samples))
     data.attrs["status"] = status.advice
     return describe(
         data,
@@ -126,12 +133,12 @@ def _add_samples(
     phase: float,
     out: NDArray[np.float64],
     samples: int,
-    length: float,
+    length: float | None,
 ) -> None:
     whole, part = np.divmod(np.arange(len(out)), samples)
-    # The last value is the end itself, which need not lie on the grid.
     share = part / samples
-    whole[-1], share[-1] = math.floor(length), length % 1.0
+    if length is not None:  # the last value is the end itself, which need not lie on the grid
+        whole[-1], share[-1] = math.floor(length), length % 1.0
     cycle = whole + share
     time = cycle / excitation.frequency
     data.coords["time"] = time
@@ -141,7 +148,9 @@ def _add_samples(
     touching = out[:, record.CONTACT]
     absent = np.full(len(u), np.nan)
 
-    def clearance(gap: float | None, distance: NDArray[np.float64], side: int) -> NDArray[np.float64]:
+    def clearance(
+        gap: float | None, distance: NDArray[np.float64], side: int
+    ) -> NDArray[np.float64]:
         # Eq. 4; no bumper, no clearance; in contact it is zero by definition.
         return absent if gap is None else np.where(touching == side, 0.0, gap + distance)
 
@@ -159,7 +168,7 @@ def _add_samples(
         "contact": touching,
     }
     for name, value in values.items():
-        data[name] = ("time", value.astype(np.int64) if name == "contact" else value)
+        data[name] = ("time", value.astype(np.int64) if name == "contact" else value + 0.0)
 
 
 def _add_events(data: xr.Dataset, events: NDArray[np.float64], period: float) -> None:
@@ -183,4 +192,4 @@ def _add_events(data: xr.Dataset, events: NDArray[np.float64], period: float) ->
     ):
         data[name] = ("event", events[:, column].astype(np.int64))
     for name, column in columns.items():
-        data[name] = ("event", events[:, column].copy())
+        data[name] = ("event", events[:, column] + 0.0)  # no negative zeros

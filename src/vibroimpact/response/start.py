@@ -43,7 +43,9 @@ def as_state(start: State | xr.DataArray | xr.Dataset | None) -> State:
     if isinstance(start, xr.Dataset) and "final_state" in start:
         start = start["final_state"]
     if isinstance(start, xr.DataArray) and start.dims == ("component",):
-        values: dict[str, Any] = {str(k): float(start.sel(component=k)) for k in start["component"].values}
+        values: dict[str, Any] = {
+            str(k): float(start.sel(component=k)) for k in start["component"].values
+        }
         values["contact"] = int(values["contact"])
         return State(**values)
     raise InputError(
@@ -113,7 +115,7 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
 def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
     """Engine states (last axis) as the components of a dataset's state."""
     mode = vector[..., hold.MODE]
-    return np.stack(
+    stacked = np.stack(
         [
             vector[..., hold.U],
             vector[..., hold.V],
@@ -124,3 +126,4 @@ def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]
         ],
         axis=-1,
     )
+    return stacked + 0.0  # no negative zeros

@@ -145,7 +145,11 @@ def sweeps(
         angle = state.phase
     if not 0.0 < tolerance < 1.0:
         raise InputError(f"tolerance: {tolerance!r}; a number between 0 and 1 is accepted")
-    for field, value in (("max_cycles", max_cycles), ("window", window), ("max_events", max_events)):
+    for field, value in (
+        ("max_cycles", max_cycles),
+        ("window", window),
+        ("max_events", max_events),
+    ):
         if not (isinstance(value, int) and value > 0):
             raise InputError(f"{field}: {value!r}; a whole number greater than 0 is accepted")
     if threads is not None and not (isinstance(threads, int) and threads > 0):

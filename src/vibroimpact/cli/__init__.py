@@ -1,0 +1,86 @@
+"""The command line: one thin file a command.
+
+A command's module imports what computes only when the command runs, so that
+``vibroimpact --help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable
+
+from cyclopts import App, CycloptsError
+
+from vibroimpact._version import __version__
+from vibroimpact.cli.simulate import simulate
+from vibroimpact.cli.sweep import sweep
+from vibroimpact.errors import InputError
+
+_HELP = """
+Exact, fast dynamics of oscillators that hit deformable stops.
+
+A mass on an isolator between two bumpers, shaken by its base. A rig is named by a case code of
+the published laboratory tests (B2-G1-A3: bumper 2, gap 1, acceleration 3) or described in a
+study file; options replace single parameters of either.
+
+For example:
+
+    vibroimpact sweep B2-G1-A3
+    vibroimpact sweep B3-10mm-A3 --from 0.3Hz --to 4Hz --step 0.01Hz
+    vibroimpact sweep study.toml --gap 12mm --output results
+    vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
+
+More about a command: vibroimpact COMMAND --help
+"""
+
+
+def main(arguments: Iterable[str] | None = None) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    arguments
+        Words of the command line after the program's name; None takes them from the system.
+
+    Returns
+    -------
+    int
+        Exit code: 0 done, 2 wrong input, 130 interrupted.
+    """
+    try:
+        result = _app()(sys.argv[1:] if arguments is None else list(arguments))
+        sys.stdout.flush()
+    except InputError as error:
+        return _refuse(str(error))
+    except CycloptsError as error:
+        return _refuse(f"{str(error).rstrip('.')}; --help lists what is accepted")
+    except KeyboardInterrupt:
+        print("vibroimpact: interrupted", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        # Whoever read the output has left, as `head` does; the files are written by then.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    return result if isinstance(result, int) else 0
+
+
+def _refuse(message: str) -> int:
+    print(f"vibroimpact: error: {' '.join(message.split())}", file=sys.stderr)
+    return 2
+
+
+def _app() -> App:
+    app = App(
+        name="vibroimpact",
+        help=_HELP,
+        help_format="markdown",
+        version=f"vibroimpact {__version__}",
+        exit_on_error=False,
+        print_error=False,
+        suppress_keyboard_interrupt=False,
+        result_action="return_value",
+    )
+    for command in (sweep, simulate):
+        app.command(command)
+    return app

@@ -1,0 +1,90 @@
+"""Frequencies to hold, as exact decimals."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+
+from vibroimpact.cli.study import SweepTable
+from vibroimpact.errors import InputError
+from vibroimpact.model import to_si
+from vibroimpact.model.units import FREQUENCY
+
+DEFAULT = (0.5, 5.0, 0.01)
+"""From, to and step in Hz: the range of the published tests, ten times as fine."""
+
+MOST = 1_000_000
+"""More frequencies than anyone means."""
+
+
+def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
+    """Return the frequencies from `start` to `stop`, both included.
+
+    They are decimals, rounded once: 0.3 + 40 × 0.01 is 0.7, not 0.7000000000000001. If the
+    range is no multiple of the step, the last step is shorter.
+
+    Raises
+    ------
+    InputError
+        If the range is empty or has more than `MOST` frequencies.
+    """
+    if start > stop:
+        raise InputError(
+            f"--from: {start:g} Hz is above --to, {stop:g} Hz; rising frequencies are accepted "
+            "(--direction backward runs through them downwards)"
+        )
+    first, last, width = (Decimal(repr(value)) for value in (start, stop, step))
+    whole = int((last - first) / width)
+    if whole >= MOST:
+        raise InputError(
+            f"--step: {step:g} Hz makes {whole + 1} frequencies; at most {MOST} are accepted"
+        )
+    grid = [float(first + k * width) for k in range(whole + 1)]
+    # Units such as rad/s make long decimals, whose last digit may miss the end.
+    if stop - grid[-1] > 1e-9 * step:
+        grid.append(stop)
+    grid[-1] = stop
+    return tuple(grid)
+
+
+def frequencies(
+    start: str | None,
+    stop: str | None,
+    step: str | None,
+    listed: str | None,
+    table: SweepTable | None,
+) -> tuple[float, ...] | tuple[str, ...]:
+    """Return the frequencies that options and study ask for; options come first.
+
+    Parameters
+    ----------
+    start, stop, step, listed
+        Texts of ``--from``, ``--to``, ``--step`` and ``--frequencies``.
+    table
+        The study's ``[sweep]``.
+
+    Returns
+    -------
+    tuple
+        Numbers in Hz, or the texts of a list, which the sweep will read.
+
+    Raises
+    ------
+    InputError
+        If a text is no frequency greater than 0, or both ways are used.
+    """
+    given = {"--from": start, "--to": stop, "--step": step}
+    if listed is not None:
+        for option, text in given.items():
+            if text is not None:
+                raise InputError(f"{option}: given with --frequencies; one of the two is accepted")
+        return tuple(part.strip() for part in listed.split(",")) if listed.strip() else ()
+    if all(text is None for text in given.values()) and table and table.frequencies is not None:
+        return tuple(table.frequencies)
+    from_study = (table.start, table.to, table.step) if table else (None, None, None)
+    numbers = [
+        to_si(text, FREQUENCY, option, above=0.0)
+        if text is not None
+        else (default if studied is None else studied)
+        for (option, text), studied, default in zip(given.items(), from_study, DEFAULT, strict=True)
+    ]
+    return frequency_grid(*numbers)

@@ -1,0 +1,135 @@
+"""Options that commands share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, TypeAlias
+
+from cyclopts import Group, Parameter, Token
+
+RIG = Group("Rig (replacing values of the case or study)", sort_key=2)
+COMPUTATION = Group("Computation", sort_key=3)
+OUTPUT = Group("Output", sort_key=4)
+
+# A text with units may begin with a minus sign: the model says what is wrong with it.
+_RIG = Parameter(group=RIG, allow_leading_hyphen=True)
+
+RigName: TypeAlias = Annotated[
+    str,
+    Parameter(
+        name="CASE|STUDY.toml",
+        help=(
+            "Case code, bumper-gap-acceleration: B1 to B4 or a stiffness, G1 to G4 or a total gap "
+            "(shared equally by the two sides), A1 to A3 or an acceleration; such as B2-G1-A3, "
+            "B3-10mm-A3, 510kN/m-G1-0.05g; Ginf is without bumpers. Or a study file."
+        ),
+    ),
+]
+
+
+def _whole(_type: Any, tokens: Sequence[Token]) -> int:
+    """Read a whole number; cyclopts would cut 1.5 down to 1."""
+    text = tokens[0].value
+    try:
+        number = float(text)
+        whole = int(number)
+    except (ValueError, OverflowError):
+        whole, number = 0, 0.5
+    if whole != number:
+        raise ValueError(f"{text!r} is not a whole number")
+    return whole
+
+
+Whole: TypeAlias = Annotated[int, Parameter(converter=_whole)]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class RigOptions:
+    """What replaces values of the case or study."""
+
+    parameters: Annotated[
+        Literal["table", "identified"] | None,
+        Parameter(
+            group=RIG,
+            help=(
+                "Parameter set of a case: 'table' (every case; the default) or 'identified' "
+                "(fitted, for B2-G1-A3 and B2-G2-A2)."
+            ),
+        ),
+    ] = None
+    amplitude: Annotated[
+        str | None,
+        _RIG,
+        Parameter(help="Peak base acceleration, such as 0.05g (gravity) or 0.49m/s^2."),
+    ] = None
+    mass: Annotated[str | None, _RIG, Parameter(help="Mass, such as 550kg.")] = None
+    stiffness: Annotated[
+        str | None, _RIG, Parameter(help="Stiffness of the isolator, such as 26.8kN/m.")
+    ] = None
+    damping: Annotated[
+        str | None, _RIG, Parameter(help="Damping of the isolator, such as '1.1 kN s/m'.")
+    ] = None
+    bumper_stiffness: Annotated[
+        str | None, _RIG, Parameter(help="Stiffness of both bumpers, such as 510kN/m.")
+    ] = None
+    bumper_damping: Annotated[
+        str | None, _RIG, Parameter(help="Damping of both bumpers, such as '0.9 kN s/m'.")
+    ] = None
+    gap: Annotated[
+        str | None,
+        _RIG,
+        Parameter(help="Gap of each side (half the total gap of a case code), such as 7.5mm."),
+    ] = None
+    right_stiffness: Annotated[
+        str | None, _RIG, Parameter(help="Stiffness of the right bumper.")
+    ] = None
+    right_damping: Annotated[str | None, _RIG, Parameter(help="Damping of the right bumper.")] = (
+        None
+    )
+    right_gap: Annotated[str | None, _RIG, Parameter(help="Gap of the right side.")] = None
+    left_stiffness: Annotated[str | None, _RIG, Parameter(help="Stiffness of the left bumper.")] = (
+        None
+    )
+    left_damping: Annotated[str | None, _RIG, Parameter(help="Damping of the left bumper.")] = None
+    left_gap: Annotated[str | None, _RIG, Parameter(help="Gap of the left side.")] = None
+    no_right: Annotated[
+        bool,
+        Parameter(group=RIG, negative="", show_default=False, help="Take the right bumper away."),
+    ] = False
+    no_left: Annotated[
+        bool,
+        Parameter(group=RIG, negative="", show_default=False, help="Take the left bumper away."),
+    ] = False
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class OutputOptions:
+    """Where results go, and how they are told."""
+
+    output: Annotated[
+        str,
+        Parameter(
+            name=["--output", "-o"],
+            group=OUTPUT,
+            help="Folder for the files; made if it does not exist.",
+        ),
+    ] = "out"
+    name: Annotated[
+        str | None,
+        Parameter(group=OUTPUT, help="Beginning of the files' names; by default the rig's name."),
+    ] = None
+    figure: Annotated[
+        Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, help="Format of the figure.")
+    ] = "png"
+    json: Annotated[
+        bool,
+        Parameter(
+            group=OUTPUT,
+            negative="",
+            show_default=False,
+            help="Print the summary as JSON, for other programs, and nothing else.",
+        ),
+    ] = False

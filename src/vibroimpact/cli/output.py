@@ -1,0 +1,116 @@
+"""Where results go: a folder that can be written to, files that are whole, text on stdout."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from vibroimpact.errors import InputError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+WIDTH = 100
+"""Columns of a summary in a file."""
+
+
+@contextmanager
+def output_folder(text: str) -> Iterator[Path]:
+    """Make a folder and prove that it can be written to, before anything is computed.
+
+    If what follows fails, folders made here are removed again unless they hold something.
+
+    Raises
+    ------
+    InputError
+        If it is no folder, or cannot be made or written to.
+    """
+    folder = Path(text)
+    made = []
+    for part in (folder, *folder.parents):
+        if part.exists():
+            break
+        made.append(part)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        reason = "it is a file" if folder.is_file() else error.strerror or str(error)
+        _remove_empty(made)
+        raise InputError(
+            f"--output: {text!r} cannot be written to ({reason}); "
+            "a folder that you may write to is accepted"
+        ) from None
+    try:
+        yield folder
+    except BaseException:
+        _remove_empty(made)
+        raise
+
+
+def _remove_empty(folders: list[Path]) -> None:
+    for folder in folders:
+        try:
+            folder.rmdir()
+        except OSError:
+            return
+
+
+@contextmanager
+def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
+    """Yield a function that shows progress on stderr, or None where nobody would see it."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(file=sys.stderr), transient=True) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+def tell(summary: RenderableType, facts: dict[str, Any], as_json: bool) -> None:
+    """Print a summary for people, or the facts in it as JSON and nothing else."""
+    if as_json:
+        print(json.dumps(_plain(facts), indent=2, allow_nan=False))
+        return
+    from rich.console import Console
+
+    # A file or a pipe has no width of its own.
+    width = None if sys.stdout.isatty() else WIDTH
+    Console(file=sys.stdout, width=width, highlight=False).print(summary)
+
+
+def write_text(path: Path, summary: RenderableType) -> None:
+    """Write a summary to a file as plain text of `WIDTH` columns."""
+    from rich.console import Console
+
+    console = Console(record=True, file=io.StringIO(), width=WIDTH, highlight=False)
+    console.print(summary)
+    lines = console.export_text(styles=False).splitlines()
+    path.write_text("".join(f"{line.rstrip()}\n" for line in lines), encoding="utf-8")
+
+
+def warn(message: str) -> None:
+    """Print one line on stderr."""
+    print(f"vibroimpact: warning: {' '.join(message.split())}", file=sys.stderr)
+
+
+def _plain(value: Any) -> Any:
+    """Return what JSON can hold: no NaN, no infinity, no tuples with names."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return str(value) if isinstance(value, Path) else value

@@ -1,0 +1,138 @@
+"""Study files: a rig and what is to be done with it, in TOML.
+
+A file names a case of the laboratory or describes an oscillator; the rest is optional::
+
+    name = "moat-wall"
+
+    [oscillator]
+    mass = "550 kg"
+    isolator = { stiffness = "26.8 kN/m", damping = "1.1 kN s/m" }
+    right = { stiffness = "510 kN/m", damping = "0.9 kN s/m", gap = "7.5 mm" }
+    left = { stiffness = "510 kN/m", damping = "0.9 kN s/m", gap = "9 mm" }
+
+    [excitation]
+    amplitude = "0.05 g"
+
+    [sweep]
+    from = "0.3 Hz"
+    to = "4 Hz"
+    step = "0.01 Hz"
+"""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal, Self
+
+from pydantic import create_model, model_validator
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Model, Oscillator, validate
+from vibroimpact.model.units import ACCELERATION, ANGLE, DIMENSIONLESS, FREQUENCY, LENGTH, VELOCITY
+from vibroimpact.model.validation import Accepts
+
+_Frequency = Annotated[float | None, Accepts(FREQUENCY, above=0.0, optional=True)]
+
+
+class ExcitationTable(Model):
+    """``[excitation]``: how the base moves, at whatever frequency."""
+
+    amplitude: Annotated[float | None, Accepts(ACCELERATION, above=0.0, optional=True)] = None
+    phase: Annotated[float, Accepts(ANGLE)] = 0.0
+
+
+class _SweepTable(Model):
+    """``[sweep]``: which frequencies are held, and for how long."""
+
+    to: _Frequency = None
+    step: _Frequency = None
+    frequencies: list[Annotated[float, Accepts(FREQUENCY, above=0.0)]] | None = None
+    direction: Literal["forward", "backward", "both"] | None = None
+    tolerance: Annotated[
+        float | None, Accepts(DIMENSIONLESS, above=0.0, maximum=1.0, optional=True)
+    ] = None
+    max_cycles: int | None = None
+
+    @property
+    def start(self) -> float | None:
+        """The first frequency, ``from`` in the file, in Hz."""
+        value: float | None = getattr(self, "from")
+        return value
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        if self.frequencies is not None and not (self.start is self.to is self.step is None):
+            raise InputError(
+                "frequencies are listed and given by from, to or step as well; "
+                "one of the two is accepted"
+            )
+        return self
+
+
+if TYPE_CHECKING:
+    SweepTable = _SweepTable
+else:
+    # A class statement cannot name a field by a keyword of Python, but the file should say
+    # what the command line says.
+    SweepTable = create_model("SweepTable", __base__=_SweepTable, **{"from": (_Frequency, None)})
+
+
+class SimulateTable(Model):
+    """``[simulate]``: one motion."""
+
+    frequency: _Frequency = None
+    cycles: Annotated[float | None, Accepts(DIMENSIONLESS, above=0.0, optional=True)] = None
+    samples: int | None = None
+    displacement: Annotated[float, Accepts(LENGTH)] = 0.0
+    velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
+
+
+class Study(Model):
+    """A study file: ``case`` or ``[oscillator]``, and tables for the commands."""
+
+    name: str | None = None
+    case: str | None = None
+    parameters: Literal["table", "identified"] | None = None
+    oscillator: Oscillator | None = None
+    excitation: ExcitationTable = ExcitationTable()
+    sweep: SweepTable = SweepTable()
+    simulate: SimulateTable = SimulateTable()
+
+    @model_validator(mode="after")
+    def _one_rig(self) -> Self:
+        if (self.case is None) == (self.oscillator is None):
+            given = "neither" if self.case is None else "both"
+            raise InputError(
+                f"{given} of case and oscillator given; one of them is accepted, "
+                'such as case = "B2-G1-A3"'
+            )
+        if self.parameters is not None and self.case is None:
+            raise InputError("parameters are given without a case; they are accepted beside one")
+        return self
+
+
+def read_study(path: Path) -> Study:
+    """Read a study file.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is not TOML, has an unknown key or a value that cannot be used;
+        the line names the file and the path of the key in it.
+    """
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(
+            f"study: {str(path)!r} cannot be read ({error.strerror or error}); "
+            "a study file or a case code is accepted"
+        ) from None
+    except UnicodeDecodeError:
+        raise InputError(f"study: {str(path)!r} is not UTF-8 text; TOML is accepted") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"study: {str(path)!r} is not TOML ({error}); TOML is accepted") from None
+    try:
+        return validate(Study, data)
+    except InputError as error:
+        raise InputError(f"study {str(path)!r}: {error}") from None

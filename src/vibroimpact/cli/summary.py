@@ -1,0 +1,269 @@
+"""What a command found, for people and for programs."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from vibroimpact._version import __version__
+from vibroimpact.cli.rig import Subject
+from vibroimpact.errors import InputError
+from vibroimpact.model import GRAVITY, Bumper, Dimensionless, to_dimensionless
+from vibroimpact.model.units import DAMPING, LENGTH, MASS, STIFFNESS, VELOCITY, pretty
+from vibroimpact.response.resonance import Features, Range
+
+_CURVES = {"eta_a": "η_a", "eta_d": "η_d"}
+_LATELY = 10.0
+"""Cycles at the end over which contacts are counted."""
+
+
+def rig_facts(subject: Subject) -> dict[str, Any]:
+    """Return the rig in SI units and, where they exist, in dimensionless parameters."""
+    scaled = _dimensionless(subject)
+    return {
+        "name": subject.name,
+        "vibroimpact_version": __version__,
+        "oscillator": subject.oscillator.model_dump(),
+        "amplitude": subject.amplitude,
+        "natural_frequency": subject.oscillator.natural_frequency,
+        "dimensionless": None if scaled is None else scaled.model_dump(),
+    }
+
+
+def rig_text(subject: Subject) -> RenderableType:
+    """Return the rig with every parameter that was used."""
+    oscillator = subject.oscillator
+    isolator = oscillator.isolator
+    scaled = _dimensionless(subject)
+    table = _plain_table()
+    table.add_row(
+        "mass",
+        pretty(oscillator.mass, MASS),
+        f"natural frequency {oscillator.natural_frequency:.4g} Hz",
+    )
+    table.add_row(
+        "isolator",
+        f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}",
+        f"ξ = {oscillator.damping_ratio:.4g}",
+    )
+    for side in ("right", "left"):
+        bumper: Bumper | None = getattr(oscillator, side)
+        if bumper is None:
+            table.add_row(f"{side} bumper", "none", "")
+            continue
+        group = getattr(scaled, side) if scaled else None
+        table.add_row(
+            f"{side} bumper",
+            f"K = {pretty(bumper.stiffness, STIFFNESS)}, C = {pretty(bumper.damping, DAMPING)}, "
+            f"gap {pretty(bumper.gap, LENGTH)}",
+            f"λ = {group.stiffness_ratio:.4g}, δ0 = {group.gap:.4g}, "
+            f"τ = {group.relaxation_time:.3g}"
+            if group
+            else "",
+        )
+    amplitude = subject.amplitude
+    table.add_row("base", f"A = {amplitude:.7g} m/s² = {amplitude / GRAVITY:.6g} g", "")
+    return Group(Text(subject.name, style="bold"), table)
+
+
+def sweep_facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[str, Any]:
+    """Return what a sweep shows as nested plain values, frequencies in Hz."""
+    frequency = data["frequency"].values
+    return {
+        "frequencies": {
+            "from": float(frequency[0]),
+            "to": float(frequency[-1]),
+            "count": len(frequency),
+        },
+        "directions": [str(direction) for direction in data["direction"].values],
+        "peaks": [peak._asdict() for peak in found.peaks],
+        "jumps": [
+            {**jump._asdict(), "frequency": jump.frequency, "upward": jump.upward}
+            for jump in found.jumps
+        ],
+        "hysteresis": [item._asdict() for item in found.hysteresis],
+        "unsettled": [item._asdict() for item in found.unsettled],
+        "contact": [item._asdict() for item in found.contact],
+        "advice": advice,
+    }
+
+
+def sweep_text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType:
+    """Return what a sweep shows as tables."""
+    frequency = data["frequency"].values
+    directions = " and ".join(str(d) for d in data["direction"].values)
+    parts: list[RenderableType] = [
+        Text(
+            f"{len(frequency)} frequencies from {frequency[0]:g} to {frequency[-1]:g} Hz, "
+            f"{directions}"
+            if len(frequency) > 1
+            else f"1 frequency, {frequency[0]:g} Hz, {directions}"
+        ),
+        Text(),
+        _peaks(found),
+        Text(),
+        _jumps(found),
+        Text(),
+        _hysteresis(data, found),
+        _ranges("Contact with a bumper", found.contact, "nowhere"),
+        _ranges("Not settled", found.unsettled, "nowhere"),
+    ]
+    parts += [Text(f"Advice: {line}", style="yellow") for line in advice]
+    return Group(*parts)
+
+
+def motion_facts(data: xr.Dataset) -> dict[str, Any]:
+    """Return where a motion ended and how often it touched the bumpers lately, in SI units."""
+    last = float(data["cycle"].values[-1])
+    lately = min(_LATELY, last)
+    frequency = json.loads(data.attrs["parameters"])["frequency"]
+    when = data["event_cycle"] + data["event_cycle_time"] * frequency
+    begins = (data["event_contact"] == 1) & (when > last - lately)
+    return {
+        "frequency": frequency,
+        "cycles": last,
+        "time": float(data["time"].values[-1]),
+        "final_state": {
+            str(component): value + 0.0  # no negative zeros
+            for component, value in zip(
+                data["component"].values, data["final_state"].values.tolist(), strict=True
+            )
+        },
+        "contacts": {
+            "over_cycles": lately,
+            "right_per_cycle": int((begins & (data["event_side"] == 1)).sum()) / lately,
+            "left_per_cycle": int((begins & (data["event_side"] == -1)).sum()) / lately,
+        },
+        "status": data.attrs["status"],
+    }
+
+
+def motion_text(facts: dict[str, Any]) -> RenderableType:
+    """Return what `motion_facts` found as lines."""
+    state, contacts = facts["final_state"], facts["contacts"]
+    touching = {1: "right bumper", -1: "left bumper", 0: "none"}[int(state["contact"])]
+    table = _plain_table()
+    rows = [
+        ("displacement", pretty(state["displacement"], LENGTH)),
+        ("velocity", pretty(state["velocity"], VELOCITY)),
+        ("right bumper", f"deformed by {pretty(state['right_bumper'], LENGTH)}"),
+        ("left bumper", f"deformed by {pretty(state['left_bumper'], LENGTH)}"),
+        ("phase", f"{state['phase']:.6g} rad"),
+        ("contact", touching),
+    ]
+    for row in rows:
+        table.add_row(*row, "")
+    return Group(
+        Text(f"State after {facts['cycles']:g} cycles ({facts['time']:.6g} s)"),
+        table,
+        Text(
+            f"Contacts per cycle, over the last {contacts['over_cycles']:g}: "
+            f"{contacts['right_per_cycle']:g} right, {contacts['left_per_cycle']:g} left"
+        ),
+    )
+
+
+def files_text(files: dict[str, Path]) -> RenderableType:
+    """Return the paths of the files written, a line each that is never broken."""
+    lines = [f"  {path}" for path in files.values()]
+    return Text("\n".join(["Files", *lines]), no_wrap=True, overflow="ignore")
+
+
+def _dimensionless(subject: Subject) -> Dimensionless | None:
+    try:
+        return to_dimensionless(subject.oscillator, subject.amplitude)
+    except InputError:  # an undamped isolator has no peak to scale a gap by
+        return None
+
+
+def _peaks(found: Features) -> RenderableType:
+    table = _table("Resonances", "curve", "sweep", "kind")
+    for name in ("frequency (Hz)", "value", "prominence"):
+        table.add_column(name, justify="right")
+    for curve, symbol in _CURVES.items():
+        for peak in found.peaks:
+            if peak.curve == curve:
+                kind = "primary" if peak.primary else "secondary"
+                table.add_row(
+                    symbol,
+                    peak.direction,
+                    f"{kind}, at the end" if peak.at_end else kind,
+                    f"{peak.frequency:g}",
+                    f"{peak.value:.4g}",
+                    f"{peak.prominence:.3g}",
+                )
+    return table
+
+
+def _jumps(found: Features) -> RenderableType:
+    if not found.jumps:
+        return Text("Jumps: none")
+    table = _table("Jumps", "sweep", "jump", "between (Hz)", "η_a", "η_d", "")
+    for jump in found.jumps:
+        table.add_row(
+            jump.direction,
+            "upward" if jump.upward else "downward",
+            f"{jump.before:g} and {jump.after:g}",
+            f"{jump.eta_a[0]:.4g} → {jump.eta_a[1]:.4g}",
+            f"{jump.eta_d[0]:.4g} → {jump.eta_d[1]:.4g}",
+            "" if jump.settled else "not settled",
+        )
+    return table
+
+
+def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
+    if data.sizes["direction"] < 2:
+        return Text("Hysteresis: not sought, needs both directions")
+    if not found.hysteresis:
+        return Text("Hysteresis: none")
+    lines = []
+    for item in found.hysteresis:
+        above = "forward above backward" if item.side == "right" else "backward above forward"
+        notes = [f"{item.side} ({above})"]
+        if item.below is None or item.above is None:
+            notes.append("goes on beyond the range")
+        if not item.settled:
+            notes.append("not settled")
+        lines.append(f"  {_span(item.low, item.high)} Hz: {', '.join(notes)}")
+    return Text("\n".join(["Hysteresis", *lines]))
+
+
+def _ranges(title: str, ranges: tuple[Range, ...], none: str) -> RenderableType:
+    if not ranges:
+        return Text(f"{title}: {none}")
+    lines = []
+    for direction in dict.fromkeys(item.direction for item in ranges):
+        spans = [_span(item.low, item.high) for item in ranges if item.direction == direction]
+        lines.append(f"  {direction}: {', '.join(spans)} Hz")
+    return Text("\n".join([title, *lines]))
+
+
+def _span(low: float, high: float) -> str:
+    return f"{low:g}" if low == high else f"{low:g} to {high:g}"
+
+
+def _plain_table() -> Table:
+    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
+    for style in ("bold", "", "dim"):
+        table.add_column(style=style)
+    return table
+
+
+def _table(title: str, *columns: str) -> Table:
+    table = Table(
+        *columns,
+        title=title,
+        title_justify="left",
+        title_style="",
+        box=None,
+        pad_edge=False,
+        padding=(0, 2, 0, 2),
+        header_style="dim",
+    )
+    return table

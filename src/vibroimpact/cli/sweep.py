@@ -1,0 +1,120 @@
+"""``vibroimpact sweep``: pseudo-resonance curves of a rig."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from cyclopts import Group, Parameter
+
+from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Whole
+
+_FREQUENCIES = Group("Frequencies", sort_key=1)
+_FREQUENCY = Parameter(group=_FREQUENCIES, allow_leading_hyphen=True)
+
+
+def sweep(
+    rig: RigName,
+    /,
+    *,
+    start: Annotated[
+        str | None, _FREQUENCY, Parameter(name="--from", help="First frequency; 0.5Hz.")
+    ] = None,
+    stop: Annotated[
+        str | None, _FREQUENCY, Parameter(name="--to", help="Last frequency; 5Hz.")
+    ] = None,
+    step: Annotated[
+        str | None,
+        _FREQUENCY,
+        Parameter(help="Distance of two frequencies; 0.01Hz (the published tests: 0.1Hz)."),
+    ] = None,
+    frequencies: Annotated[
+        str | None, _FREQUENCY, Parameter(help="A list instead, such as 0.5Hz,0.7Hz,1.1Hz.")
+    ] = None,
+    direction: Annotated[
+        Literal["forward", "backward", "both"] | None,
+        Parameter(group=_FREQUENCIES, help="Rising, falling, or (the default) both."),
+    ] = None,
+    changes: RigOptions | None = None,
+    threads: Annotated[
+        Whole | None,
+        Parameter(group=COMPUTATION, help="How many sweeps run at once; one a processor."),
+    ] = None,
+    tolerance: Annotated[
+        float | None,
+        Parameter(
+            group=COMPUTATION,
+            help="A motion is steady when it is as close as this to a periodic one; 1e-12.",
+        ),
+    ] = None,
+    max_cycles: Annotated[
+        Whole | None,
+        Parameter(group=COMPUTATION, help="Forcing cycles to wait for a steady motion; 2000."),
+    ] = None,
+    output: OutputOptions | None = None,
+) -> int:
+    """Sweep the frequency up and down, and draw the resonance curves.
+
+    Each frequency is held until the motion is steady, then the next one begins from the state
+    and phase that were reached, as in a stepped-sine test. Prints resonances, jumps and
+    hysteresis; writes NAME-sweep.nc (all data), NAME-sweep.png (the curves) and
+    NAME-sweep.txt (the summary).
+
+    For example:
+
+        vibroimpact sweep B2-G1-A3 --parameters identified
+        vibroimpact sweep B3-10mm-A3 --from 0.3Hz --to 4Hz --step 0.01Hz
+        vibroimpact sweep B2-G1-A3 --left-gap 9mm --no-right --output one-sided
+        vibroimpact sweep study.toml --direction forward --json
+    """
+    from vibroimpact.cli import grid, summary
+    from vibroimpact.cli.output import output_folder, progress_bar, tell, write_text
+    from vibroimpact.cli.rig import subject
+
+    out = output or OutputOptions()
+    what = subject(rig, changes or RigOptions(), out.name)
+    table = what.study.sweep if what.study else None
+    held = grid.frequencies(start, stop, step, frequencies, table)
+    way = direction or (table and table.direction) or "both"
+    options: dict[str, Any] = {
+        "tolerance": tolerance if tolerance is not None else table and table.tolerance,
+        "max_cycles": max_cycles if max_cycles is not None else table and table.max_cycles,
+        "phase": what.study and what.study.excitation.phase,
+        "threads": threads,
+    }
+
+    with output_folder(out.output) as folder:
+        from rich.console import Group as Together
+        from rich.text import Text
+
+        from vibroimpact.response import resonance
+        from vibroimpact.response.files import save, write_whole
+        from vibroimpact.response.sweep import DIRECTIONS, advice
+        from vibroimpact.response.sweep import sweep as run
+
+        with progress_bar("sweeping") as progress:
+            data = run(
+                what.oscillator,
+                what.amplitude,
+                held,
+                DIRECTIONS if way == "both" else (way,),
+                progress=progress,
+                **{name: value for name, value in options.items() if value is not None},
+            )
+        data.attrs["title"] = what.name
+        found = resonance.features(data)
+        hints = advice(data)
+        text = Together(summary.rig_text(what), summary.sweep_text(data, found, hints))
+
+        # Imported late: whoever waits for numbers need not wait for matplotlib.
+        from vibroimpact.figures import resonance_curves, save_figure
+
+        axes = resonance_curves(data, found=found, title=what.name)
+        stem = folder / f"{what.slug}-sweep"
+        files = {
+            "data": save(data, f"{stem}.nc"),
+            "figure": save_figure(axes[0], f"{stem}.{out.figure}"),
+            "summary": write_whole(f"{stem}.txt", lambda path: write_text(path, text)),
+        }
+    facts = {**summary.rig_facts(what), **summary.sweep_facts(data, found, hints), "files": files}
+    tell(Together(text, Text(), summary.files_text(files)), facts, out.json)
+    return 0

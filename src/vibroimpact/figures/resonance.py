@@ -1,0 +1,218 @@
+"""Pseudo-resonance curves, forward and backward, as in the paper's Figs. 4, 7 and 11."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import FancyArrowPatch, Patch
+from matplotlib.transforms import ScaledTranslation
+from numpy.typing import NDArray
+
+from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, curve_style, panels
+from vibroimpact.response.resonance import Curve, Features, Jump, features
+
+_PANELS: tuple[tuple[Curve, str, str], ...] = (
+    (
+        "eta_a",
+        "free_acceleration_excursion",
+        "normalised excursion of\nabsolute acceleration $\\eta_a$ (–)",
+    ),
+    (
+        "eta_d",
+        "free_displacement_excursion",
+        "normalised excursion of\nrelative displacement $\\eta_d$ (–)",
+    ),
+)
+_HATCHES = {"right": "", "left": "/////"}
+_LABELS = {
+    "right": "right hysteresis (forward above)",
+    "left": "left hysteresis (backward above)",
+}
+_ARROWS_APART = 5.0
+"""Least distance in points between a forward and a backward arrow."""
+_MARKS = 90
+"""How many marks of motions that did not settle fit side by side."""
+
+
+def resonance_curves(
+    data: xr.Dataset,
+    axes: Any = None,
+    *,
+    found: Features | None = None,
+    title: str | None = None,
+) -> tuple[Axes, Axes]:
+    """Draw η_a and η_d against the excitation frequency.
+
+    Forward sweep red and solid with dots, backward blue and dashed with squares, free flight
+    black; vertical arrows where a sweep jumps; hysteresis shaded, left hysteresis hatched as
+    well; a cross where the motion did not settle.
+
+    Parameters
+    ----------
+    data
+        Dataset of `vibroimpact.sweep`, or one rig of `vibroimpact.sweeps`.
+    axes
+        Two Axes, for η_a and η_d. None makes a new figure.
+    found
+        Features to mark, if they are known already; otherwise found here.
+    title
+        Title of a new figure.
+
+    Returns
+    -------
+    tuple of Axes
+        For η_a and η_d; ``axes[0].figure`` is the figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a sweep of one rig, or there are not two axes.
+    """
+    found = features(data) if found is None else found
+    upper, lower = panels(axes, 2, "η_a and η_d", (7.2, 6.8), title)
+    for ax, (curve, free, label) in zip((upper, lower), _PANELS, strict=True):
+        _panel(ax, data, found, curve, free)
+        ax.set_ylabel(label)
+    lower.set_xlabel("excitation frequency $f$ (Hz)")
+    entries = _legend(data, found)
+    upper.legend(handles=entries, ncols=2 if len(entries) <= 4 else 3, **LEGEND)
+    return upper, lower
+
+
+def _panel(ax: Axes, data: xr.Dataset, found: Features, curve: Curve, free: str) -> None:
+    frequency = data["frequency"].values
+    reference = data[free].values / np.nanmax(data[free].values)
+    values = data[curve].values
+    margin = 0.02 * (frequency[-1] - frequency[0]) or 0.05 * frequency[0]
+    ax.set_xlim(frequency[0] - margin, frequency[-1] + margin)
+    ax.set_ylim(0.0, 1.06 * max(np.nanmax(reference), np.nanmax(values, initial=0.0)))
+
+    for item in found.hysteresis:
+        if item.settled:
+            ax.axvspan(
+                *item.ends,
+                facecolor=SHADE,
+                edgecolor=EDGE,
+                lw=0.0,
+                hatch=_HATCHES[item.side],
+                zorder=0,
+            )
+    ax.plot(
+        frequency,
+        reference,
+        color=FREE.colour,
+        linestyle=FREE.dashes,
+        linewidth=FREE.width,
+        label=FREE.label,
+        zorder=2,
+    )
+    jumps = [jump for jump in found.jumps if jump.settled]
+    for layer, direction in enumerate(d for d in SWEEPS if d in data["direction"]):
+        one = data.sel(direction=direction)
+        look = SWEEPS[direction]
+        mine = [jump for jump in jumps if jump.direction == direction]
+        x, y = _parted(frequency, one[curve].values, mine)
+        ax.plot(x, y, label=look.label, zorder=3 + layer, **curve_style(look, len(x)))
+        loose = _thinned(frequency, one["motion"].values != "periodic")
+        if len(loose):
+            ax.plot(
+                frequency[loose],
+                one[curve].values[loose],
+                linestyle="none",
+                marker="x" if look.filled else "+",
+                markersize=5.0,
+                markeredgewidth=0.9,
+                color=look.colour,
+                label=f"{look.label}, not settled",
+                zorder=5 + layer,
+            )
+    _draw_jumps(ax, curve, jumps)
+
+
+def _parted(
+    frequency: NDArray[np.float64], values: NDArray[np.float64], jumps: list[Jump]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Part a curve at its jumps, where an arrow takes the line's place."""
+    cuts = np.searchsorted(frequency, sorted(max(jump.before, jump.after) for jump in jumps))
+    return np.insert(frequency, cuts, np.nan), np.insert(values, cuts, np.nan)
+
+
+def _thinned(frequency: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Return the indices of some of the true values: no two marks closer than a mark's width."""
+    least = (frequency[-1] - frequency[0]) / _MARKS
+    kept: list[int] = []
+    for i in np.flatnonzero(where):
+        if not kept or frequency[i] - frequency[kept[-1]] >= least:
+            kept.append(int(i))
+    return np.array(kept, dtype=np.intp)
+
+
+def _draw_jumps(ax: Axes, curve: Curve, jumps: list[Jump]) -> None:
+    """Draw vertical arrows from value to value, half-way between the two frequencies."""
+    box = ax.get_window_extent()
+    points = 72.0 / ax.figure.dpi
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    per_hertz = box.width * points / (right - left)
+    per_unit = box.height * points / (top - bottom)
+    for jump in jumps:
+        start, end = getattr(jump, curve)
+        # Arrows of a narrow hysteresis would cover each other: move them apart a little, the
+        # lower frequency to the left.
+        others = [o.frequency for o in jumps if o.direction != jump.direction]
+        away = min((jump.frequency - f for f in others), key=abs, default=np.inf) * per_hertz
+        tie = 1.0 if jump.direction == "forward" else -1.0
+        shift = 0.5 * max(0.0, _ARROWS_APART - abs(away)) * (np.sign(away) or tie)
+        ax.add_patch(
+            FancyArrowPatch(
+                (jump.frequency, start),
+                (jump.frequency, end),
+                transform=ax.transData
+                + ScaledTranslation(shift / 72.0, 0.0, ax.figure.dpi_scale_trans),
+                arrowstyle="-|>",
+                # The head of a short arrow must leave some of its shaft.
+                mutation_scale=float(np.clip(0.7 * abs(end - start) * per_unit, 4.0, 11.0)),
+                shrinkA=0.0,
+                shrinkB=0.0,
+                linewidth=1.2,
+                color=SWEEPS[jump.direction].colour,
+                zorder=7,
+                label=f"{jump.direction} jump {'up' if jump.upward else 'down'}",
+            )
+        )
+
+
+def _legend(data: xr.Dataset, found: Features) -> list[Artist]:
+    """Return an entry for each thing that is there to see."""
+    entries: list[Artist] = []
+    loose: list[Artist] = []
+    for direction, look in SWEEPS.items():
+        if direction not in data["direction"]:
+            continue
+        entries.append(Line2D([], [], label=look.label, **curve_style(look, 1)))
+        if (data["motion"].sel(direction=direction) != "periodic").any():
+            loose.append(
+                Line2D(
+                    [],
+                    [],
+                    linestyle="none",
+                    marker="x" if look.filled else "+",
+                    color=look.colour,
+                    markersize=5.0,
+                    label=f"{look.label}, not settled",
+                )
+            )
+    entries.append(
+        Line2D([], [], color="black", linestyle=FREE.dashes, linewidth=FREE.width, label=FREE.label)
+    )
+    sides = {item.side for item in found.hysteresis if item.settled}
+    entries += [
+        Patch(facecolor=SHADE, edgecolor=EDGE, lw=0.0, hatch=_HATCHES[side], label=_LABELS[side])
+        for side in ("right", "left")
+        if side in sides
+    ]
+    return [*entries, *loose]

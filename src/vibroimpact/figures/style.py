@@ -1,0 +1,134 @@
+"""What all figures share: colours, marks, panels, and how they are written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from vibroimpact.errors import InputError
+from vibroimpact.response.files import write_whole
+
+FORMATS = ("png", "pdf", "svg")
+
+
+class Look(NamedTuple):
+    """How one kind of curve is drawn; shape and dashes tell it without colour, too."""
+
+    label: str
+    colour: str
+    dashes: Literal["-", "--", "-."]
+    width: float
+    marker: str
+    size: float
+    filled: bool
+
+
+SWEEPS = {
+    "forward": Look("forward sweep", "#c8102e", "-", 1.6, "o", 3.6, True),
+    "backward": Look("backward sweep", "#1f4fbf", "--", 1.3, "s", 5.6, False),
+}
+"""As in the paper: forward red, backward blue. An open square shows a dot that it falls on."""
+
+FREE = Look("free flight", "black", "-.", 0.9, "", 0.0, False)
+
+SHADE = "0.9"
+"""Light grey of a shaded range."""
+EDGE = "0.55"
+"""Grey of hatches and edges on it."""
+
+LEGEND: dict[str, Any] = {
+    "loc": "lower center",
+    "bbox_to_anchor": (0.5, 1.01),
+    "frameon": False,
+    "fontsize": "small",
+    "borderaxespad": 0.0,
+    "columnspacing": 1.6,
+}
+"""Above the panel, where it cannot cover a curve."""
+
+
+def curve_style(look: Look, points: int, marks: int = 45) -> dict[str, Any]:
+    """Return the keywords of `Axes.plot` for a curve: of a dense one not every point is marked.
+
+    Parameters
+    ----------
+    look
+        Kind of the curve.
+    points
+        Number of its points.
+    marks
+        About how many of them are marked.
+    """
+    every = max(1, points // marks)
+    # Open markers half-way between the filled ones, where both cannot be at every point.
+    first = 0 if look.filled else every // 2
+    return {
+        "color": look.colour,
+        "linestyle": look.dashes,
+        "linewidth": look.width,
+        "marker": look.marker,
+        "markersize": look.size,
+        "markerfacecolor": look.colour if look.filled else "none",
+        "markeredgewidth": 0.9,
+        "markevery": (first, every),
+    }
+
+
+def panels(
+    axes: Any, count: int, what: str, size: tuple[float, float], title: str | None
+) -> tuple[Axes, ...]:
+    """Return the given axes, or those of a new figure: panels one below the other.
+
+    Raises
+    ------
+    InputError
+        If axes are given, but not as many as there are panels.
+    """
+    if axes is None:
+        figure = Figure(figsize=size, layout="constrained")
+        made = figure.subplots(count, 1, sharex=True, squeeze=False)
+        figure.align_ylabels()
+        if title:
+            figure.suptitle(title)
+        return tuple(made[:, 0])
+    given = tuple(np.ravel(axes))
+    if len(given) != count:
+        raise InputError(f"axes: {len(given)} given; {count} are accepted, for {what}")
+    return given
+
+
+def save_figure(axes: Axes, path: Path | str) -> Path:
+    """Write the figure of some axes to a PNG, PDF or SVG file.
+
+    The same data make the same file, to the byte: it holds no date and no version.
+
+    Raises
+    ------
+    InputError
+        If the file's ending is another one, or the file cannot be written; a file that was
+        there is then as it was.
+    """
+    import matplotlib
+
+    kind = Path(path).suffix.lower().lstrip(".")
+    blank: dict[str, dict[str, str | None]] = {
+        "png": {"Software": None},
+        "pdf": {"CreationDate": None, "Producer": None, "Creator": None},
+        "svg": {"Date": None, "Creator": None},
+    }
+    if kind not in blank:
+        raise InputError(
+            f"figure: {str(path)!r}; a name that ends in {', '.join(FORMATS)} is accepted"
+        )
+    figure = axes.get_figure(root=True)
+    assert figure is not None  # axes without one have been removed from it
+    # SVG marks its parts with random names unless it is given a seed.
+    with matplotlib.rc_context({"svg.hashsalt": "vibroimpact"}):
+        return write_whole(
+            path,
+            lambda beside: figure.savefig(beside, format=kind, dpi=200, metadata=blank[kind]),
+        )

@@ -1,0 +1,433 @@
+"""What a pair of resonance curves shows: peaks, jumps, hysteresis (the paper's Section 4).
+
+Every function takes the dataset of `vibroimpact.sweep` and judges the normalised excursions
+η_a and η_d at the frequencies that were held; nothing is interpolated between them.
+
+Hysteresis is told by comparing the two directions: where both have settled on the same motion
+their excursions agree to rounding, so a difference of one per cent is another motion.
+
+- Right hysteresis, as at the primary resonance: forward above backward. Its upper end is the
+  forward sweep's downward jump, its lower end the backward sweep's upward jump.
+- Left hysteresis, as at secondary resonances: backward above forward. Its upper end is the
+  forward sweep's upward jump, its lower end the backward sweep's downward jump.
+
+Whichever the side, above the upper end both directions follow one motion. The backward sweep
+arrives from there, so it is the forward one that has changed motion, and the lower end mirrors
+this: **the forward sweep jumps at the upper end, the backward sweep at the lower end.**
+
+A curve by itself also tells of a jump, by a step that neither of its neighbours announces
+(`STEP`). This finds the jumps of a sweep in one direction, and those of a hysteresis so narrow
+that it hides between two neighbouring frequencies.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+
+APART = 0.01
+"""Excursions that differ by more than this share belong to different motions.
+
+Settled sweeps on the same motion agree to about 1e-9; the motions that coexist in the published
+rig differ by at least 1.4 %.
+"""
+
+UNSETTLED_APART = 0.1
+"""As `APART`, where one of the motions did not settle.
+
+Its excursion is the largest seen in a window, and two windows of the same motion differ: by up
+to 2 % near the bifurcations of the published rig.
+"""
+
+STEP = 5.0
+"""A step this many times steeper than both its neighbours is a jump.
+
+No continuous branch makes such a step: where it turns as a square root (at a fold, at grazing)
+a step is at most 1/(√2 - 1) = 2.4 times its neighbour, and at a cusp, where hysteresis is about
+to begin and the branch rises as a cube root to both sides, at most 4.5 times.
+"""
+
+PROMINENCE = 0.02
+"""Least prominence of a peak, as a share of its height.
+
+Smaller ripples would be lost in any measurement, and unsettled motions make them by chance.
+"""
+
+PRIMARY_HEIGHT = 0.5
+"""Least height of the primary resonance, as a share of the curve's maximum."""
+
+Curve: TypeAlias = Literal["eta_a", "eta_d"]
+Direction: TypeAlias = Literal["forward", "backward"]
+
+CURVES: tuple[Curve, ...] = ("eta_a", "eta_d")
+
+_Array: TypeAlias = NDArray[np.float64]
+
+
+class Peak(NamedTuple):
+    """A local maximum of one curve, or its end where the curve is highest."""
+
+    direction: Direction
+    curve: Curve
+    frequency: float
+    """In Hz, one of those held."""
+    value: float
+    prominence: float
+    """Height above the higher one of the valleys that part it from higher ground."""
+    primary: bool
+    """The primary resonance: the peak at the highest frequency that has at least
+    `PRIMARY_HEIGHT` of the curve's maximum and a period of one forcing cycle. A secondary
+    resonance of the backward sweep can be higher than what is left of the primary one, but
+    it lies below it."""
+    at_end: bool
+    """The curve still rises at the end of the range: the resonance lies beyond it."""
+
+
+class Jump(NamedTuple):
+    """A sudden change of one direction's motion between two neighbouring frequencies."""
+
+    direction: Direction
+    before: float
+    """Last frequency, in the order of the sweep, on the old motion (Hz)."""
+    after: float
+    """First frequency on the new motion (Hz)."""
+    eta_a: tuple[float, float]
+    """η_a before and after."""
+    eta_d: tuple[float, float]
+    """η_d before and after."""
+    settled: bool
+    """False if the motions beside it did not settle, so that a transient may look like it."""
+
+    @property
+    def upward(self) -> bool:
+        """Whether the acceleration's excursion, which changes most, grows."""
+        return self.eta_a[1] > self.eta_a[0]
+
+    @property
+    def frequency(self) -> float:
+        """Middle of the two frequencies (Hz)."""
+        return 0.5 * (self.before + self.after)
+
+
+class Hysteresis(NamedTuple):
+    """A range of frequencies in which the two directions follow different motions."""
+
+    side: Literal["right", "left"]
+    """``"right"``: forward above backward; ``"left"``: backward above forward."""
+    low: float
+    """Lowest frequency at which they differ (Hz)."""
+    high: float
+    """Highest frequency at which they differ (Hz)."""
+    below: float | None
+    """Next lower frequency, where they agree; None if the sweep does not reach so far."""
+    above: float | None
+    """Next higher frequency, where they agree; None if the sweep does not reach so far."""
+    settled: bool
+    """False if at no frequency both motions settled, so that transients may look like it."""
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Best estimate of its ends: the middle between the last two frequencies (Hz)."""
+        low = self.low if self.below is None else 0.5 * (self.below + self.low)
+        high = self.high if self.above is None else 0.5 * (self.high + self.above)
+        return low, high
+
+
+class Range(NamedTuple):
+    """Neighbouring frequencies of one direction that have something in common."""
+
+    direction: Direction
+    low: float
+    """First frequency (Hz)."""
+    high: float
+    """Last frequency (Hz)."""
+    holds: int
+    """How many frequencies."""
+
+
+class Features(NamedTuple):
+    """All that a sweep shows."""
+
+    peaks: tuple[Peak, ...]
+    jumps: tuple[Jump, ...]
+    hysteresis: tuple[Hysteresis, ...]
+    unsettled: tuple[Range, ...]
+    """Where the motion did not become periodic within the cycle limit."""
+    contact: tuple[Range, ...]
+    """Where the mass touches a bumper."""
+
+
+def features(
+    data: xr.Dataset,
+    *,
+    apart: float = APART,
+    unsettled_apart: float = UNSETTLED_APART,
+    step: float = STEP,
+    prominence: float = PROMINENCE,
+) -> Features:
+    """Find all features of a sweep; the thresholds are those of the functions below.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a sweep of one rig.
+    """
+    return Features(
+        peaks(data, prominence=prominence),
+        jumps(data, apart=apart, unsettled_apart=unsettled_apart, step=step),
+        hysteresis(data, apart=apart, unsettled_apart=unsettled_apart),
+        ranges(data, data["motion"] != "periodic"),
+        ranges(data, data["impacts_right"] + data["impacts_left"] > 0.0),
+    )
+
+
+def peaks(data: xr.Dataset, *, prominence: float = PROMINENCE) -> tuple[Peak, ...]:
+    """Find the maxima of η_a and η_d of each direction, by frequency.
+
+    Parameters
+    ----------
+    data
+        Dataset of a sweep.
+    prominence
+        See `PROMINENCE`.
+
+    Returns
+    -------
+    tuple of Peak
+        The highest point of each curve is always among them.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a sweep of one rig.
+    """
+    found: list[Peak] = []
+    for direction in _directions(data):
+        one = data.sel(direction=direction)
+        for name in CURVES:
+            curve = one[name].values
+            known = np.flatnonzero(np.isfinite(curve))
+            if not len(known):
+                continue
+            y = curve[known]
+            top = int(np.argmax(y))
+            places = [i for i in _summits(y) if i == top or _prominence(y, i) > prominence * y[i]]
+            if top not in places:  # at an end of the range
+                places = sorted([*places, top])
+            period = one["period"].values[known]
+            primary = max(
+                (i for i in places if y[i] >= PRIMARY_HEIGHT * y[top] and period[i] <= 1),
+                default=top,
+            )
+            frequency = one["frequency"].values[known]
+            found += [
+                Peak(
+                    direction,
+                    name,
+                    float(frequency[i]),
+                    float(y[i]),
+                    float(_prominence(y, i)),
+                    i == primary,
+                    i in (0, len(y) - 1),
+                )
+                for i in places
+            ]
+    return tuple(found)
+
+
+def hysteresis(
+    data: xr.Dataset, *, apart: float = APART, unsettled_apart: float = UNSETTLED_APART
+) -> tuple[Hysteresis, ...]:
+    """Find the ranges in which forward and backward sweep follow different motions.
+
+    Parameters
+    ----------
+    data
+        Dataset of a sweep. With one direction there is nothing to compare.
+    apart, unsettled_apart
+        See `APART` and `UNSETTLED_APART`; either η_a or η_d has to differ.
+
+    Returns
+    -------
+    tuple of Hysteresis
+        By frequency. A range that changes its side in both η_a and η_d at once is two ranges.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a sweep of one rig.
+    """
+    if len(_directions(data)) < 2:
+        return ()
+    periodic = (data["motion"] == "periodic").all("direction").values
+    excess = {
+        name: _relative(*(data[name].sel(direction=d).values for d in ("forward", "backward")))
+        for name in CURVES
+    }
+    known = np.flatnonzero(np.isfinite(excess["eta_a"] + excess["eta_d"]))
+    settled = periodic[known]
+    least = np.where(settled, apart, unsettled_apart)
+    a, d = excess["eta_a"][known], excess["eta_d"][known]
+    differ = (np.abs(a) > least) | (np.abs(d) > least)
+    turns = (np.sign(a[1:]) != np.sign(a[:-1])) & (np.sign(d[1:]) != np.sign(d[:-1]))
+    frequency = data["frequency"].values[known]
+
+    found = []
+    for first, last in _runs(differ, turns):
+        right = a[first : last + 1].sum() > 0.0
+        found.append(
+            Hysteresis(
+                "right" if right else "left",
+                float(frequency[first]),
+                float(frequency[last]),
+                float(frequency[first - 1]) if first > 0 else None,
+                float(frequency[last + 1]) if last + 1 < len(frequency) else None,
+                bool(settled[first : last + 1].any()),
+            )
+        )
+    return tuple(found)
+
+
+def jumps(
+    data: xr.Dataset,
+    *,
+    apart: float = APART,
+    unsettled_apart: float = UNSETTLED_APART,
+    step: float = STEP,
+) -> tuple[Jump, ...]:
+    """Find the jumps of each direction: the ends of hysteresis, and breaks in the curve itself.
+
+    Parameters
+    ----------
+    data
+        Dataset of a sweep, in one direction or both.
+    apart, unsettled_apart
+        See `APART` and `UNSETTLED_APART`. A break in a curve has to be so large, too.
+    step
+        See `STEP`.
+
+    Returns
+    -------
+    tuple of Jump
+        Those of each direction in the order of its sweep.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a sweep of one rig.
+    """
+    places = {
+        direction: _breaks(data.sel(direction=direction), apart, unsettled_apart, step)
+        for direction in _directions(data)
+    }
+    for found in hysteresis(data, apart=apart, unsettled_apart=unsettled_apart):
+        if found.above is not None:
+            places["forward"][found.high, found.above] = found.settled
+        if found.below is not None:
+            places["backward"][found.below, found.low] = found.settled
+    return tuple(
+        _jump(data, direction, *(pair if direction == "forward" else pair[::-1]), settled)
+        for direction, found_there in places.items()
+        for pair, settled in sorted(found_there.items(), reverse=direction == "backward")
+    )
+
+
+def ranges(data: xr.Dataset, where: xr.DataArray) -> tuple[Range, ...]:
+    """Find the runs of neighbouring frequencies, in each direction, at which `where` is true."""
+    frequency = data["frequency"].values
+    return tuple(
+        Range(direction, float(frequency[first]), float(frequency[last]), last - first + 1)
+        for direction in _directions(data)
+        for first, last in _runs(where.sel(direction=direction).values)
+    )
+
+
+def _directions(data: xr.Dataset) -> list[Direction]:
+    if set(data.get("eta_a", xr.DataArray()).dims) != {"direction", "frequency"}:
+        raise InputError(
+            f"data: a dataset with the dims {dict(data.sizes)} is not the sweep of one rig; "
+            "a dataset of sweep is accepted, or one rig of sweeps, such as data.isel(rig=0)"
+        )
+    present = data["direction"].values
+    return [d for d in ("forward", "backward") if d in present]
+
+
+def _relative(one: _Array, other: _Array) -> _Array:
+    """Return by how much one exceeds the other, as a share of the larger; 0 where both are 0."""
+    larger = np.maximum(np.abs(one), np.abs(other))
+    return np.divide(one - other, larger, out=np.zeros_like(larger), where=larger != 0.0)
+
+
+def _runs(true: NDArray[np.bool_], split: NDArray[np.bool_] | None = None) -> list[tuple[int, int]]:
+    """Return first and last index of each run; `split` parts a run between two neighbours."""
+    found: list[tuple[int, int]] = []
+    for i in np.flatnonzero(true):
+        joined = found and found[-1][1] == i - 1 and not (split is not None and split[i - 1])
+        if joined:
+            found[-1] = (found[-1][0], int(i))
+        else:
+            found.append((int(i), int(i)))
+    return found
+
+
+def _breaks(
+    one: xr.Dataset, apart: float, unsettled_apart: float, step: float
+) -> dict[tuple[float, float], bool]:
+    """Find the steps of one direction's curves that are far steeper than both neighbours.
+
+    The first and the last step have one neighbour only, and are not judged.
+
+    Returns
+    -------
+    dict
+        The two frequencies of each, rising; and whether a motion settled on both its sides.
+    """
+    found: dict[tuple[float, float], bool] = {}
+    for name in CURVES:
+        curve = one[name].values
+        known = np.flatnonzero(np.isfinite(curve))
+        if len(known) < 4:
+            continue
+        frequency, y = one["frequency"].values[known], curve[known]
+        settled = one["motion"].values[known] == "periodic"
+        slope = np.abs(np.diff(y) / np.diff(frequency))
+        steep = slope[1:-1] > step * np.maximum(slope[:-2], slope[2:])
+        least = np.where(settled[1:-2] & settled[2:-1], apart, unsettled_apart)
+        large = np.abs(_relative(y[1:-2], y[2:-1])) > least
+        # Near a fold the motion slows down: the last hold before a jump may not settle, but
+        # the one before it will.
+        evident = (settled[:-3] | settled[1:-2]) & (settled[2:-1] | settled[3:])
+        for i in np.flatnonzero(steep & large):
+            found[float(frequency[i + 1]), float(frequency[i + 2])] = bool(evident[i])
+    return found
+
+
+def _jump(
+    data: xr.Dataset, direction: Direction, before: float, after: float, settled: bool
+) -> Jump:
+    ends = data.sel(direction=direction, frequency=[before, after])
+    eta_a, eta_d = ((float(v[0]), float(v[1])) for v in (ends[name].values for name in CURVES))
+    return Jump(direction, before, after, eta_a, eta_d, settled)
+
+
+def _summits(y: _Array) -> list[int]:
+    """Interior local maxima; of a plateau, its first point."""
+    change = np.flatnonzero(np.diff(y) != 0.0)
+    rises = np.diff(y)[change] > 0.0
+    return [int(change[k]) + 1 for k in np.flatnonzero(rises[:-1] & ~rises[1:])]
+
+
+def _prominence(y: _Array, i: int) -> float:
+    """Height of y[i] above the higher one of the valleys beside it; an end has one valley."""
+    valleys = []
+    for side in (y[i::-1], y[i:]):
+        higher = np.flatnonzero(side > y[i])
+        stretch = side[: higher[0]] if len(higher) else side
+        if len(stretch) > 1:
+            valleys.append(float(stretch.min()))
+    return float(y[i]) - max(valleys, default=float(y[i]))

@@ -1,0 +1,63 @@
+"""Frequency grids are exact decimals, both ends included."""
+
+from __future__ import annotations
+
+import pytest
+
+from vibroimpact.cli.grid import DEFAULT, frequencies, frequency_grid
+from vibroimpact.cli.study import SweepTable
+from vibroimpact.errors import InputError
+
+
+def test_values_are_the_decimals_that_were_meant():
+    grid = frequency_grid(0.3, 4.0, 0.01)
+    assert len(grid) == 371
+    assert grid == tuple(float(f"{0.3 + 0.01 * k:.2f}") for k in range(371))
+    assert 0.7 in grid
+    assert grid[-1] == 4.0
+
+
+def test_a_million_steps_without_drift():
+    grid = frequency_grid(1.0, 10.0, 0.00001)
+    assert grid[123_456] == 2.23456
+    assert grid[-1] == 10.0
+
+
+def test_the_end_is_included_even_off_the_grid():
+    assert frequency_grid(0.5, 0.75, 0.1) == (0.5, 0.6, 0.7, 0.75)
+    assert frequency_grid(1.0, 1.05, 0.1) == (1.0, 1.05)
+    assert frequency_grid(1.0, 1.0, 0.1) == (1.0,)
+
+
+def test_long_decimals_do_not_double_the_end():
+    start = 2.0 / 6.283185307179586
+    grid = frequency_grid(start, start + 5 * 0.1, 0.1)
+    assert len(grid) == 6
+
+
+def test_options_come_before_the_study_and_it_before_the_default():
+    table = SweepTable.model_validate({"from": "0.4 Hz", "step": "0.2 Hz"})
+    assert frequencies(None, "1Hz", None, None, table) == (0.4, 0.6, 0.8, 1.0)
+    assert frequencies("0.6Hz", "1Hz", None, None, table) == (0.6, 0.8, 1.0)
+    assert frequencies(None, None, None, None, None) == frequency_grid(*DEFAULT)
+    listed = SweepTable(frequencies=["1 Hz", 2])
+    assert frequencies(None, None, None, None, listed) == (1.0, 2.0)
+    assert frequencies("1Hz", "1.01Hz", None, None, listed) == (1.0, 1.01)
+    assert frequencies(None, None, None, "3Hz, 4", listed) == ("3Hz", "4")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("0Hz", None, None, None), r"--from: '0Hz' is not greater than 0"),
+        ((None, "-1Hz", None, None), r"--to: '-1Hz' is not greater than 0"),
+        ((None, None, "nan", None), r"--step: 'nan' is not finite"),
+        (("1kg", None, None, None), r"--from: '1kg' is a mass; a frequency"),
+        (("6Hz", None, None, None), r"--from: 6 Hz is above --to, 5 Hz"),
+        ((None, None, "1nHz", None), r"--step: 1e-09 Hz makes 4500000001 frequencies; at most"),
+        ((None, "4Hz", None, "1Hz"), r"--to: given with --frequencies"),
+    ],
+)
+def test_what_cannot_be_used(arguments, message):
+    with pytest.raises(InputError, match=message):
+        frequencies(*arguments, None)

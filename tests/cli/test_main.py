@@ -1,0 +1,86 @@
+"""The program as a whole: its help, its version, its installed entry point."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli import main
+
+
+def test_version(capsys):
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out == f"vibroimpact {vi.__version__}\n"
+
+
+@pytest.mark.parametrize("words", [["--help"], ["-h"], []])
+def test_help_names_the_commands_with_examples(capsys, words):
+    assert main(words) == 0
+    told = capsys.readouterr().out
+    assert "sweep " in told
+    assert "simulate " in told
+    assert "vibroimpact sweep B2-G1-A3" in told
+
+
+def test_help_of_a_command_names_its_options(capsys):
+    assert main(["sweep", "--help"]) == 0
+    told = capsys.readouterr().out
+    for option in ("--from", "--to", "--step", "--frequencies", "--direction", "--parameters"):
+        assert option in told
+    for option in ("--mass", "--stiffness", "--damping", "--bumper-stiffness", "--bumper-damping"):
+        assert option in told
+    for option in ("--gap", "--right-gap", "--left-gap", "--no-right", "--no-left", "--amplitude"):
+        assert option in told
+    for option in ("--output", "-o", "--json", "--threads", "--tolerance", "--max-cycles"):
+        assert option in told
+    for hidden in ("--no-json", "--no-no-right", "--changes", "--start"):
+        assert hidden not in told
+
+
+@pytest.mark.parametrize("words", [["swep"], ["--bogus"], ["sweep"], ["sweep", "--bogus"]])
+def test_usage_errors_are_one_line(capsys, words):
+    assert main(words) == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err.startswith("vibroimpact: error: ")
+    assert told.err.count("\n") == 1
+    assert "--help" in told.err
+
+
+def test_help_loads_nothing_that_computes():
+    code = (
+        "import sys; from vibroimpact.cli import main\n"
+        "main(['--help']); main(['sweep', '--help'])\n"
+        "heavy = {'numpy', 'numba', 'xarray', 'matplotlib', 'pydantic', 'pint'}\n"
+        "assert not heavy & set(sys.modules), heavy & set(sys.modules)\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL)
+
+
+def test_installed_program(tmp_path):
+    program = shutil.which("vibroimpact", path=str(Path(sys.executable).parent))
+    assert program is not None
+    words = ["sweep", "B2-G1-A3", "--step", "0.5Hz", "--json"]
+    done = subprocess.run([program, *words], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("{")
+    assert (tmp_path / "out/B2-G1-A3-sweep.nc").is_file()
+    wrong = subprocess.run(
+        [program, "sweep", "B9-G1-A3"], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert (wrong.returncode, wrong.stdout) == (2, "")
+    assert "Traceback" not in wrong.stderr
+
+
+def test_a_reader_that_leaves(tmp_path):
+    program = (
+        f"{sys.executable} -c 'import sys; from vibroimpact.cli import main; sys.exit(main())'"
+    )
+    line = f"{program} sweep B2-G1-A3 --step 0.5Hz --json | true; exit ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", line], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, "Error" in done.stderr) == (0, False)

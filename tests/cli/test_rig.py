@@ -1,0 +1,103 @@
+"""Options replace values of a case or a study."""
+
+from __future__ import annotations
+
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.rig import changed, subject
+
+CASE = vi.laboratory.case("B2-G1-A3").oscillator
+
+
+def test_a_case():
+    what = subject("b2-g1-a3", RigOptions())
+    case = vi.laboratory.case("B2-G1-A3")
+    assert what[:4] == ("B2-G1-A3", "B2-G1-A3", case.oscillator, case.amplitude)
+    assert subject("510kN/m-G1-0.05g", RigOptions())[:2] == (
+        "510kN/m-G1-0.05g",
+        "510kN_m-G1-0.05g",
+    )
+
+
+def test_parameter_sets():
+    what = subject("B2-G1-A3", RigOptions(parameters="identified"))
+    assert what.oscillator == vi.laboratory.case("B2-G1-A3", "identified").oscillator
+    assert what.name == "B2-G1-A3, identified parameters"
+    assert what.slug == "B2-G1-A3"
+
+
+def test_name():
+    assert subject("B2-G1-A3", RigOptions(), "my/rig 1")[:2] == ("my/rig 1", "my_rig_1")
+    assert subject("B2-G1-A3", RigOptions(), "../..").slug == "rig"
+
+
+def test_every_option_replaces_its_value_and_nothing_else():
+    for options, expected in [
+        (RigOptions(mass="600kg"), CASE.replace(mass=600.0)),
+        (
+            RigOptions(stiffness="20 kN/m"),
+            CASE.replace(isolator=CASE.isolator.replace(stiffness=20e3)),
+        ),
+        (
+            RigOptions(damping="1 kN s/m"),
+            CASE.replace(isolator=CASE.isolator.replace(damping=1e3)),
+        ),
+        (RigOptions(right_gap="1mm"), CASE.replace(right=CASE.right.replace(gap=1e-3))),
+        (RigOptions(left_damping="0"), CASE.replace(left=CASE.left.replace(damping=0.0))),
+        (RigOptions(left_stiffness="1MN/m"), CASE.replace(left=CASE.left.replace(stiffness=1e6))),
+        (RigOptions(no_left=True), CASE.replace(left=None)),
+        (RigOptions(no_left=True, no_right=True), CASE.without_bumpers()),
+    ]:
+        assert changed(CASE, options) == expected
+    assert changed(CASE, RigOptions()) == CASE
+
+
+def test_options_of_both_sides():
+    both = changed(CASE, RigOptions(gap="9mm", bumper_stiffness="1MN/m", bumper_damping="5"))
+    assert both.right == both.left == vi.Bumper(1e6, 5.0, 9e-3)
+    # One side's option comes before that of both.
+    assert changed(CASE, RigOptions(gap="9mm", left_gap="3mm")).left.gap == 3e-3
+    # They change what is there, and make no bumper beside it.
+    one_sided = CASE.replace(left=None)
+    assert changed(one_sided, RigOptions(gap="9mm")).left is None
+    assert changed(CASE, RigOptions(gap="9mm", no_right=True)).right is None
+
+
+def test_new_bumpers_need_all_three_values():
+    free = CASE.without_bumpers()
+    made = changed(free, RigOptions(gap="9mm", bumper_stiffness="1MN/m", bumper_damping="5"))
+    assert made.right == made.left == vi.Bumper(1e6, 5.0, 9e-3)
+    values = {"left_gap": "9mm", "left_stiffness": "1MN/m", "left_damping": "5"}
+    made = changed(free, RigOptions(**values))
+    assert (made.right, made.left) == (None, vi.Bumper(1e6, 5.0, 9e-3))
+    with pytest.raises(vi.InputError, match="--right-stiffness: missing"):
+        changed(free, RigOptions(gap="9mm"))
+    with pytest.raises(vi.InputError, match="--left-damping: missing"):
+        changed(CASE.replace(left=None), RigOptions(left_gap="9mm", left_stiffness="5"))
+
+
+def test_gravity():
+    assert subject("B2-G1-A3", RigOptions(amplitude="0.04 g")).amplitude == 0.392266
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"mass": "-5kg"}, "--mass: '-5kg' is not greater than 0"),
+        ({"mass": "5m"}, "--mass: '5m' is a length; a mass"),
+        ({"stiffness": "nan"}, "--stiffness: 'nan' is not finite"),
+        ({"damping": "-1"}, "--damping: '-1' is less than 0"),
+        ({"gap": "15 kg"}, "--gap: '15 kg' is a mass; a length of at least 0 is accepted"),
+        ({"right_gap": "-1mm"}, "--right-gap: '-1mm' is less than 0"),
+        ({"bumper_stiffness": "0"}, "--bumper-stiffness: '0' is not greater than 0"),
+        ({"amplitude": "0g"}, "--amplitude: '0g' is not greater than 0"),
+        ({"amplitude": "5 kg"}, "--amplitude: '5 kg' is a mass"),
+        ({"left_gap": "1mm", "no_left": True}, "--left-gap: given with --no-left"),
+        ({"gap": "1mm", "no_left": True, "no_right": True}, "--gap: given with --no-right and"),
+    ],
+)
+def test_what_cannot_be_used(options, message):
+    with pytest.raises(vi.InputError, match=message):
+        subject("B2-G1-A3", RigOptions(**options))

@@ -1,0 +1,132 @@
+"""``vibroimpact simulate`` from the words typed to the files written."""
+
+from __future__ import annotations
+
+import functools
+import json
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli import main
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch, capsys):
+    """Run a command in an empty folder; return exit code, stdout and stderr."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words: str) -> tuple[int, str, str]:
+        code = main(words)
+        told = capsys.readouterr()
+        return code, told.out, told.err
+
+    return run
+
+
+def test_summary_and_files(run, tmp_path):
+    code, told, _ = run("simulate", "B2-G1-A3", "--frequency", "0.58Hz")
+    assert code == 0
+    assert "State after 100 cycles" in told
+    assert "Contacts per cycle, over the last 10: 1 right, 1 left" in told
+    stem = "B2-G1-A3-0.58Hz-history"
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {f"{stem}.nc", f"{stem}.png"}
+    data = vi.load(tmp_path / f"out/{stem}.nc")
+    case = vi.laboratory.case("B2-G1-A3")
+    direct = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 0.58), 100)
+    np.testing.assert_array_equal(data["displacement"], direct["displacement"])
+    np.testing.assert_array_equal(data["event_time"], direct["event_time"])
+
+
+def test_json_and_options(run, tmp_path):
+    code, told, _ = run(
+        *("simulate", "B2-G1-A3", "--frequency", "2.5 Hz", "--cycles", "300", "--samples", "16"),
+        *("--displacement", "5mm", "--velocity", "-50 mm/s", "--shown", "2", "--json"),
+    )
+    assert code == 0
+    facts = json.loads(told)
+    case = vi.laboratory.case("B2-G1-A3")
+    data = vi.simulate(
+        case.oscillator, vi.Harmonic(case.amplitude, 2.5), 300, vi.State(5e-3, -0.05), 16
+    )
+    assert facts["final_state"]["displacement"] == float(data["final_state"][0])
+    assert facts["cycles"] == 300.0
+    assert facts["status"] == "done"
+    for path in facts["files"].values():
+        assert (tmp_path / path).is_file()
+
+
+def test_the_start_chooses_the_motion(run):
+    words = ("simulate", "B2-G1-A3", "--frequency", "2Hz", "--json")
+    contacts = []
+    for start in ("0", "25mm"):
+        _, told, _ = run(
+            *words,
+            "--right-gap",
+            "30mm",
+            "--left-gap",
+            "30mm",
+            "--name",
+            start,
+            "--displacement",
+            start,
+            "--cycles",
+            "1",
+        )
+        contacts.append(json.loads(told)["final_state"]["displacement"])
+    assert contacts[0] != contacts[1]
+
+
+def test_study(run, tmp_path):
+    (tmp_path / "wall.toml").write_text(
+        'case = "B2-G1-A3"\n[simulate]\nfrequency = "1.5 Hz"\ncycles = 7\nsamples = 8\n'
+    )
+    assert run("simulate", "wall.toml")[0] == 0
+    data = vi.load(tmp_path / "out/wall-1.5Hz-history.nc")
+    assert data.sizes["time"] == 57
+    assert run("simulate", "wall.toml", "--frequency", "1.6Hz", "--cycles", "2.5")[0] == 0
+    assert vi.load(tmp_path / "out/wall-1.6Hz-history.nc").sizes["time"] == 21
+
+
+def test_a_motion_that_is_given_up_is_said_to_be(run, monkeypatch):
+    from vibroimpact.response import simulate as module
+
+    # The limit of events cannot be reached by an ordinary rig: lower it.
+    limited = functools.partial(module.simulate, max_events=1)
+    monkeypatch.setattr(module, "simulate", limited)
+    code, _, errors = run("simulate", "B2-G1-A3", "--frequency", "0.58Hz")
+    assert "max_events" in errors
+    assert "Traceback" not in errors
+    assert code in (0, 2)  # with what was found until then, if there is anything
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        ([], "--frequency: missing"),
+        (["--frequency", "0Hz"], "--frequency"),
+        (["--frequency", "-2Hz"], "--frequency"),
+        (["--frequency", "2kg"], "is a mass"),
+        (["--frequency", "2Hz", "--cycles", "0"], "--cycles"),
+        (["--frequency", "2Hz", "--cycles", "nan"], "--cycles"),
+        (["--frequency", "2Hz", "--cycles", "inf"], "--cycles"),
+        (["--frequency", "2Hz", "--cycles", "1e9"], "--cycles"),
+        (["--frequency", "2Hz", "--samples", "0"], "--samples"),
+        (["--frequency", "2Hz", "--samples", "16.5"], "--samples"),
+        (["--frequency", "2Hz", "--displacement", "5kg"], "--displacement"),
+        (["--frequency", "2Hz", "--velocity", "5mm"], "--velocity"),
+        (["--frequency", "2Hz", "--shown", "0"], "--shown"),
+        (["--frequency", "2Hz", "--gap", "15 kg"], "--gap"),
+        (["--frequency", "2Hz", "--output", "/proc/vibroimpact"], "--output"),
+        (["--frequncy", "2Hz"], "--frequncy"),
+    ],
+)
+def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):
+    code, told, errors = run("simulate", "B2-G1-A3", *words)
+    assert code == 2
+    assert told == ""
+    assert errors.startswith("vibroimpact: error: ")
+    assert errors.count("\n") == 1
+    assert named in errors
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,126 @@
+"""Study files: what they say, and what is said about mistakes in them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.rig import subject
+from vibroimpact.cli.study import read_study
+
+RIG = """
+[oscillator]
+mass = "550 kg"
+isolator = { stiffness = "26.8 kN/m", damping = "1.1 kN s/m" }
+right = { stiffness = "510 kN/m", damping = 900, gap = "7.5 mm" }
+"""
+
+
+@pytest.fixture
+def write(tmp_path):
+    def write(text: str, name: str = "wall.toml") -> Path:
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def test_own_oscillator(write):
+    path = write(RIG + '[excitation]\namplitude = "0.05 g"\n')
+    what = subject(str(path), RigOptions())
+    assert what.oscillator == vi.Oscillator(
+        550, vi.Isolator(26800, 1100), vi.Bumper(510e3, 900, 7.5e-3)
+    )
+    assert what.amplitude == 0.4903325
+    assert what[:2] == ("wall", "wall")
+
+
+def test_case_with_changes(write):
+    path = write('name = "my wall"\ncase = "B2-G1-A3"\nparameters = "identified"\n')
+    what = subject(str(path), RigOptions(gap="9mm"))
+    expected = vi.laboratory.case("B2-G1-A3", "identified").oscillator
+    assert what.oscillator.isolator == expected.isolator
+    assert what.oscillator.right.gap == 9e-3
+    assert what[:2] == ("my wall", "my_wall")
+    table = subject(str(path), RigOptions(parameters="table"))
+    assert table.oscillator == vi.laboratory.case("B2-G1-A3").oscillator
+
+
+def test_amplitude_of_the_study_comes_before_that_of_the_case(write):
+    path = write('case = "B2-G1-A3"\n[excitation]\namplitude = "0.04 g"\n')
+    assert subject(str(path), RigOptions()).amplitude == 0.392266
+    assert subject(str(path), RigOptions(amplitude="0.03 g")).amplitude == 0.2941995
+
+
+def test_tables_of_the_commands(write):
+    study = read_study(
+        write(
+            'case = "B2-G1-A3"\n[sweep]\nfrom = "300 mHz"\nto = 4\ndirection = "forward"\n'
+            "max_cycles = 500\ntolerance = 1e-9\n"
+            '[simulate]\nfrequency = "2.5 Hz"\nvelocity = "-10 mm/s"\n'
+        )
+    )
+    assert (study.sweep.start, study.sweep.to, study.sweep.step) == (0.3, 4.0, None)
+    assert (study.sweep.direction, study.sweep.max_cycles) == ("forward", 500)
+    assert (study.simulate.frequency, study.simulate.velocity) == (2.5, -0.01)
+
+
+def test_a_study_needs_no_ending(write):
+    assert subject(str(write('case = "B2-G1-A3"', "study")), RigOptions()).name == "study"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('case = "B2-G1-A3"\n[sweep]\nform = 1', r"sweep.form: unknown key; .*perhaps from is"),
+        (RIG.replace("mass", "mas"), r"oscillator.mas: unknown key; .*perhaps mass is meant"),
+        (RIG.replace("gap", "gapp"), r"oscillator.right.gapp: unknown key; .*perhaps gap is"),
+        (
+            RIG.replace("7.5 mm", "15 kg"),
+            r"oscillator.right.gap: '15 kg' is a mass; a length of at least 0 is accepted",
+        ),
+        (RIG.replace("550", "-550"), r"oscillator.mass: '-550 kg' is not greater than 0"),
+        (RIG.replace("900", "nan"), r"oscillator.right.damping: nan is not finite"),
+        (RIG + '[sweep]\nfrom = "0 Hz"', r"sweep.from: '0 Hz' is not greater than 0"),
+        (RIG, r"excitation.amplitude: missing; an acceleration"),
+        (RIG + 'parameters = "table"', r"oscillator.parameters: unknown key"),
+        ('parameters = "table"' + RIG, r"parameters are given without a case"),
+        ('case = "B2-G1-A3"' + RIG, r"both of case and oscillator given; one of them"),
+        ('name = "x"', r"neither of case and oscillator given; one of them"),
+        ('case = "B9-G1-A3"', r"study .*bumper 'B9' is unknown"),
+        ('case = "B2-G1-A3"\n[sweep]\ndirection = "up"', r"sweep.direction: 'up' is refused"),
+        ('case = "B2-G1-A3"\n[sweep]\nfrequencies = 1', r"sweep.frequencies: 1 is refused"),
+        (
+            'case = "B2-G1-A3"\n[sweep]\nfrequencies = [1]\nto = 2',
+            r"sweep: frequencies are listed and given by from, to or step",
+        ),
+        ("case =\n\n", r"is not TOML \(.*line 1"),
+    ],
+)
+def test_mistakes_are_named_with_file_and_path(write, text, message):
+    path = write(text)
+    with pytest.raises(vi.InputError, match=message) as caught:
+        subject(str(path), RigOptions())
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_parameter_set_of_an_own_oscillator(write):
+    path = write(RIG + "[excitation]\namplitude = 1")
+    with pytest.raises(vi.InputError, match="--parameters: 'table', but"):
+        subject(str(path), RigOptions(parameters="table"))
+
+
+def test_files_that_cannot_be_read(tmp_path):
+    with pytest.raises(vi.InputError, match="No such file"):
+        read_study(tmp_path / "none.toml")
+    (tmp_path / "folder.toml").mkdir()
+    with pytest.raises(vi.InputError, match="cannot be read"):
+        read_study(tmp_path / "folder.toml")
+    (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(vi.InputError, match="not UTF-8"):
+        read_study(tmp_path / "binary.toml")

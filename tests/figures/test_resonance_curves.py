@@ -1,0 +1,249 @@
+"""The figure of resonance curves: what is on it, and that it is written."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.colors import same_color, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyArrowPatch
+from matplotlib.text import Text
+
+import vibroimpact as vi
+from vibroimpact.figures import resonance_curves, save_figure
+from vibroimpact.figures.style import SWEEPS
+
+
+@cache
+def swept(code: str, start=0.5, stop=5.0, step=0.1, parameters="table") -> xr.Dataset:
+    case = vi.laboratory.case(code, parameters)
+    grid = [round(start + k * step, 9) for k in range(round((stop - start) / step) + 1)]
+    return vi.sweep(case.oscillator, case.amplitude, grid)
+
+
+def arrows(ax) -> dict[str, FancyArrowPatch]:
+    return {p.get_label(): p for p in ax.patches if isinstance(p, FancyArrowPatch)}
+
+
+def ends(arrow: FancyArrowPatch) -> tuple[tuple[float, float], tuple[float, float]]:
+    start, end = arrow._posA_posB
+    return tuple(start), tuple(end)
+
+
+def lines(ax):
+    return {line.get_label(): line for line in ax.lines}
+
+
+def shades(ax) -> list[tuple[float, float, bool]]:
+    return [
+        (p.get_x(), p.get_x() + p.get_width(), bool(p.get_hatch()))
+        for p in ax.patches
+        if not isinstance(p, FancyArrowPatch)
+    ]
+
+
+def legend_texts(ax) -> list[str]:
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+class TestPrimaryResonance:
+    axes = property(lambda self: resonance_curves(swept("B2-G1-A3", parameters="identified")))
+
+    def test_labels_with_units(self):
+        upper, lower = self.axes
+        assert "\\eta_a" in upper.get_ylabel()
+        assert "\\eta_d" in lower.get_ylabel()
+        assert "frequency" in lower.get_xlabel()
+        assert "(Hz)" in lower.get_xlabel()
+
+    def test_forward_red_backward_blue_free_black(self):
+        for ax in self.axes:
+            found = lines(ax)
+            red, _, blue = to_rgb(found["forward sweep"].get_color())
+            assert red > 0.6 > 0.3 > blue
+            red, _, blue = to_rgb(found["backward sweep"].get_color())
+            assert blue > 0.6 > 0.3 > red
+            assert same_color(found["free flight"].get_color(), "black")
+
+    def test_readable_without_colour(self):
+        ax, _ = self.axes
+        forward, backward, free = (
+            lines(ax)[n] for n in ("forward sweep", "backward sweep", "free flight")
+        )
+        assert len({line.get_linestyle() for line in (forward, backward, free)}) == 3
+        assert len({line.get_marker() for line in (forward, backward, free)}) == 3
+
+    def test_values(self):
+        data = swept("B2-G1-A3", parameters="identified")
+        for ax, curve in zip(self.axes, ("eta_a", "eta_d"), strict=True):
+            for direction, look in SWEEPS.items():
+                line = lines(ax)[look.label]
+                known = np.isfinite(line.get_ydata())
+                np.testing.assert_array_equal(line.get_xdata()[known], data["frequency"])
+                np.testing.assert_array_equal(
+                    line.get_ydata()[known], data[curve].sel(direction=direction)
+                )
+            assert lines(ax)["free flight"].get_ydata().max() == 1.0
+
+    def test_arrows_where_the_sweeps_jump(self):
+        data = swept("B2-G1-A3", parameters="identified")
+        for ax, curve in zip(self.axes, ("eta_a", "eta_d"), strict=True):
+            found = arrows(ax)
+            assert set(found) == {"forward jump down", "backward jump up"}
+            down, up = found["forward jump down"], found["backward jump up"]
+            forward, backward = (data[curve].sel(direction=d) for d in ("forward", "backward"))
+            at = lambda one, f: float(one.sel(frequency=f, method="nearest"))  # noqa: E731
+            assert ends(down) == (
+                pytest.approx((2.65, at(forward, 2.6))),
+                pytest.approx((2.65, at(forward, 2.7))),
+            )
+            assert ends(up) == (
+                pytest.approx((1.75, at(backward, 1.8))),
+                pytest.approx((1.75, at(backward, 1.7))),
+            )
+            assert same_color(down.get_edgecolor(), SWEEPS["forward"].colour)
+            assert same_color(up.get_edgecolor(), SWEEPS["backward"].colour)
+
+    def test_no_line_across_a_jump(self):
+        ax, _ = self.axes
+        line = lines(ax)["forward sweep"]
+        (cut,) = np.flatnonzero(np.isnan(line.get_ydata()))
+        assert line.get_xdata()[cut - 1 : cut + 2 : 2] == pytest.approx([2.6, 2.7])
+
+    def test_hysteresis_is_shaded_between_the_arrows(self):
+        for ax in self.axes:
+            ((low, high, hatched),) = shades(ax)
+            assert (low, high) == pytest.approx((1.75, 2.65))
+            assert not hatched
+
+    def test_legend_names_what_is_there(self):
+        upper, lower = self.axes
+        assert legend_texts(upper) == [
+            "forward sweep",
+            "backward sweep",
+            "free flight",
+            "right hysteresis (forward above)",
+        ]
+        assert lower.get_legend() is None
+
+    def test_nothing_covers_anything(self):
+        axes = resonance_curves(swept("B2-G1-A3", parameters="identified"), title="B2-G1-A3")
+        figure = axes[0].figure
+        figure.draw_without_rendering()
+        texts = [t for t in figure.findobj(Text) if t.get_visible() and t.get_text().strip()]
+        boxes = [(t.get_text(), t.get_window_extent()) for t in texts]
+        for (name, box), (other, another) in combinations(boxes, 2):
+            assert not box.overlaps(another), (name, other)
+        legend = axes[0].get_legend().get_window_extent()
+        assert not any(legend.overlaps(ax.get_window_extent()) for ax in axes)
+        tight, whole = figure.get_tightbbox(), figure.bbox_inches
+        assert whole.x0 <= tight.x0 < tight.x1 <= whole.x1
+        assert whole.y0 <= tight.y0 < tight.y1 <= whole.y1
+
+
+class TestOtherSweeps:
+    def test_left_hysteresis_is_told_from_right(self):
+        upper, _ = resonance_curves(swept("B3-10mm-A3", 0.5, 4, 0.01))
+        found = shades(upper)
+        assert [hatched for _, _, hatched in found] == [True, False]
+        assert found[0][:2] == pytest.approx((0.675, 0.725))
+        assert "left hysteresis (backward above)" in legend_texts(upper)
+        assert {"forward jump up", "backward jump down"} < set(arrows(upper))
+
+    def test_unsettled_motions_are_marked(self):
+        data = swept("B3-10mm-A3", 0.5, 4, 0.01)
+        upper, lower = resonance_curves(data)
+        for ax in (upper, lower):
+            marks = lines(ax)["forward sweep, not settled"]
+            assert marks.get_linestyle() == "None"
+            assert marks.get_marker() == "x"
+            x = marks.get_xdata()
+            assert (x >= 1.0).all()
+            assert (x <= 1.12).all()
+            assert np.diff(x).min() >= 0.01
+        assert "backward sweep, not settled" in legend_texts(upper)
+
+    def test_arrows_of_a_narrow_hysteresis_stand_apart(self):
+        upper, _ = resonance_curves(swept("B2-G4-A1", 0.5, 5, 0.01))
+        upper.figure.draw_without_rendering()
+        down, up = (arrows(upper)[n] for n in ("forward jump down", "backward jump up"))
+        points = 72 / upper.figure.dpi
+        places = [a.get_transform().transform(ends(a)[0])[0] * points for a in (up, down)]
+        assert places[1] - places[0] > 4.0
+
+    def test_free_flight_has_no_arrow_and_no_shade(self):
+        upper, _ = resonance_curves(swept("B2-Ginf-A3"))
+        assert list(upper.patches) == []
+        assert legend_texts(upper) == ["forward sweep", "backward sweep", "free flight"]
+
+    @pytest.mark.parametrize("direction", ["forward", "backward"])
+    def test_one_direction(self, direction):
+        upper, _ = resonance_curves(swept("B2-G1-A3").sel(direction=[direction]))
+        assert legend_texts(upper) == [SWEEPS[direction].label, "free flight"]
+        assert len(arrows(upper)) == 1
+        assert shades(upper) == []
+
+    def test_dense_sweep_marks_some_points_only(self):
+        data = swept("B2-G1-A3", 0.5, 4.0, 0.001)
+        upper, _ = resonance_curves(data)
+        line = lines(upper)["forward sweep"]
+        assert len(line.get_xdata()) > 3500
+        assert line.get_markevery()[1] > 50
+
+    def test_absent_values(self, tmp_path):
+        data = swept("B2-G1-A3").copy(deep=True)
+        data["eta_a"][0, 3:6] = np.nan
+        data["eta_d"][:] = np.nan
+        axes = resonance_curves(data)
+        save_figure(axes[0], tmp_path / "a.png")
+
+    def test_one_frequency(self, tmp_path):
+        axes = resonance_curves(swept("B2-G1-A3").isel(frequency=[7]))
+        save_figure(axes[0], tmp_path / "a.png")
+
+    def test_given_axes(self):
+        figure = Figure()
+        mine = figure.subplots(2, 1)
+        assert resonance_curves(swept("B2-G1-A3"), mine) == tuple(mine)
+        with pytest.raises(vi.InputError, match=r"axes: 1 given; 2 are accepted"):
+            resonance_curves(swept("B2-G1-A3"), mine[0])
+
+    def test_several_rigs_are_refused(self):
+        data = vi.sweeps([vi.laboratory.case("B2-G1-A3")], [1.0, 2.0])
+        with pytest.raises(vi.InputError, match="one rig"):
+            resonance_curves(data)
+
+
+class TestFiles:
+    @pytest.mark.parametrize(
+        ("kind", "magic"), [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")]
+    )
+    def test_the_same_to_the_byte(self, tmp_path, kind, magic):
+        written = []
+        for name in ("a", "b"):
+            axes = resonance_curves(swept("B2-G1-A3"), title="B2-G1-A3")
+            written.append(save_figure(axes[0], tmp_path / f"{name}.{kind}").read_bytes())
+        assert written[0] == written[1]
+        assert written[0].startswith(magic)
+
+    def test_unknown_format(self, tmp_path):
+        axes = resonance_curves(swept("B2-G1-A3"))
+        with pytest.raises(vi.InputError, match="png, pdf, svg"):
+            save_figure(axes[0], tmp_path / "a.xyz")
+        assert list(tmp_path.iterdir()) == []
+
+
+def test_the_package_does_not_import_matplotlib_and_figures_not_pyplot():
+    code = (
+        "import sys, vibroimpact as vi; vi.sweep, vi.simulate, vi.laboratory\n"
+        "assert 'matplotlib' not in sys.modules\n"
+        "import vibroimpact.figures\n"
+        "assert 'matplotlib.pyplot' not in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -1,0 +1,351 @@
+"""Peaks, jumps and hysteresis: on the published rig, and on curves made to try the definitions."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+from vibroimpact.response.resonance import (
+    Features,
+    Hysteresis,
+    Jump,
+    features,
+    hysteresis,
+    jumps,
+    peaks,
+    ranges,
+)
+
+
+def grid(start: float, stop: float, step: float) -> list[float]:
+    return [round(start + k * step, 9) for k in range(round((stop - start) / step) + 1)]
+
+
+@cache
+def swept(code: str, start: float, stop: float, step: float, parameters="table") -> xr.Dataset:
+    case = vi.laboratory.case(code, parameters)
+    return vi.sweep(case.oscillator, case.amplitude, grid(start, stop, step))
+
+
+def made(frequency, forward, backward=None, *, settled=True, period=1) -> xr.Dataset:
+    """A dataset as a sweep makes it, from given curves (η_a and η_d alike)."""
+    curves = {"forward": forward} | ({} if backward is None else {"backward": backward})
+    shape = (len(curves), len(frequency))
+    dims = ("direction", "frequency")
+    eta = np.array(list(curves.values()), dtype=float)
+    settled = np.broadcast_to(settled, shape)
+    return xr.Dataset(
+        {
+            "eta_a": (dims, eta),
+            "eta_d": (dims, eta),
+            "motion": (dims, np.where(settled, "periodic", "undecided")),
+            "period": (dims, np.broadcast_to(period, shape)),
+            "impacts_right": (dims, np.zeros(shape)),
+            "impacts_left": (dims, np.zeros(shape)),
+        },
+        coords={"direction": list(curves), "frequency": np.asarray(frequency, dtype=float)},
+    )
+
+
+def brackets(found: tuple[Jump, ...], direction: str) -> list[tuple[float, float, str]]:
+    return [
+        (j.before, j.after, "up" if j.upward else "down") for j in found if j.direction == direction
+    ]
+
+
+def secondary(found: Features, direction: str, curve: str = "eta_a") -> list[float]:
+    return [
+        p.frequency
+        for p in found.peaks
+        if (p.direction, p.curve, p.primary) == (direction, curve, False)
+    ]
+
+
+def primary(found: Features, direction: str, curve: str = "eta_a") -> float:
+    (only,) = (
+        p for p in found.peaks if (p.direction, p.curve, p.primary) == (direction, curve, True)
+    )
+    return only.frequency
+
+
+class TestPublishedRig:
+    def test_secondary_resonance_and_right_hysteresis(self):
+        found = features(swept("B2-G1-A3", 0.5, 5, 0.01, "identified"))
+        assert brackets(found.jumps, "forward") == [(2.65, 2.66, "down")]
+        assert brackets(found.jumps, "backward") == [(1.68, 1.67, "up")]
+        assert found.hysteresis == (Hysteresis("right", 1.68, 2.65, 1.67, 2.66, True),)
+        assert found.hysteresis[0].ends == pytest.approx((1.675, 2.655))
+        for direction in ("forward", "backward"):
+            assert secondary(found, direction) == [0.57]
+        assert primary(found, "forward") == 2.63
+        assert primary(found, "backward") == 1.67
+        assert found.unsettled == ()
+        assert [(r.direction, r.low, r.high) for r in found.contact] == [
+            ("forward", 0.5, 2.65),
+            ("backward", 0.5, 1.67),
+        ]
+
+    def test_the_same_on_the_coarse_grid_of_the_tests(self):
+        found = features(swept("B2-G1-A3", 0.5, 5, 0.1, "identified"))
+        assert brackets(found.jumps, "forward") == [(2.6, 2.7, "down")]
+        assert brackets(found.jumps, "backward") == [(1.8, 1.7, "up")]
+        assert secondary(found, "forward") == [0.6]
+
+    def test_a_fine_sweep_resolves_the_small_left_hysteresis(self):
+        found = features(swept("B2-G1-A3", 0.5, 0.62, 0.001, "identified"))
+        assert [(h.side, h.low, h.high) for h in found.hysteresis] == [("left", 0.561, 0.567)]
+        assert brackets(found.jumps, "forward") == [(0.567, 0.568, "up")]
+        assert brackets(found.jumps, "backward") == [(0.561, 0.56, "down")]
+
+    @pytest.mark.parametrize("direction", ["forward", "backward"])
+    @pytest.mark.parametrize("step", [0.1, 0.01])
+    def test_one_direction_alone_shows_its_jump(self, direction, step):
+        both = swept("B2-G1-A3", 0.5, 5, step, "identified")
+        alone = both.sel(direction=[direction])
+        assert jumps(alone) == tuple(j for j in jumps(both) if j.direction == direction)
+        assert hysteresis(alone) == ()
+
+    def test_scenario_with_the_primary_resonance_only(self):
+        found = features(swept("B2-G2-A2", 0.5, 5, 0.01, "identified"))
+        assert brackets(found.jumps, "forward") == [(2.11, 2.12, "down")]
+        assert brackets(found.jumps, "backward") == [(1.53, 1.52, "up")]
+        assert secondary(found, "forward") == secondary(found, "backward") == []
+        assert found.contact[0].low == 0.71
+
+    def test_left_hysteresis_and_motions_that_do_not_settle(self):
+        found = features(swept("B3-10mm-A3", 0.3, 4, 0.01))
+        left = [h for h in found.hysteresis if h.side == "left"]
+        assert (left[-1].low, left[-1].high) == (0.68, 0.72)
+        assert [(h.low, h.high) for h in found.hysteresis if h.side == "right"] == [(1.91, 3.29)]
+        # Left hysteresis: the forward sweep jumps up at its upper end, the backward sweep
+        # down at its lower end.
+        assert (0.72, 0.73, "up") in brackets(found.jumps, "forward")
+        assert (0.68, 0.67, "down") in brackets(found.jumps, "backward")
+        assert all(j.settled for j in found.jumps)
+        for direction in ("forward", "backward"):
+            loose = [r for r in found.unsettled if r.direction == direction]
+            assert any(r.low <= 1.02 and r.high >= 1.1 for r in loose)
+            assert all(r.low > 0.99 and r.high < 1.27 for r in loose)
+
+    def test_a_backward_secondary_resonance_may_be_the_higher_one(self):
+        found = features(swept("B3-10mm-A3", 0.3, 4, 0.01))
+        heights = {p.frequency: p.value for p in found.peaks if p[:2] == ("backward", "eta_a")}
+        assert heights[0.68] > heights[1.9]
+        assert primary(found, "backward") == 1.9
+        assert primary(found, "forward") == 3.28
+
+    @pytest.mark.parametrize(
+        ("code", "low", "high"), [("B2-G4-A1", 1.293, 1.3), ("B1-G1-A1", 1.538, 1.662)]
+    )
+    def test_narrow_right_hysteresis(self, code, low, high):
+        found = features(swept(code, 1.2, 1.8, 0.001))
+        assert [(h.side, h.low, h.high) for h in found.hysteresis] == [("right", low, high)]
+        assert brackets(found.jumps, "forward") == [(high, round(high + 0.001, 9), "down")]
+        assert brackets(found.jumps, "backward") == [(low, round(low - 0.001, 9), "up")]
+
+    @pytest.mark.parametrize("code", ["B2-Ginf-A3", "B3-0mm-A3"])
+    @pytest.mark.parametrize("step", [0.1, 0.01, 0.001])
+    def test_no_jump_on_a_smooth_resonance(self, code, step):
+        stop = 8.0 if step > 0.005 else 2.0
+        found = features(swept(code, 0.3, stop, step))
+        assert found.jumps == ()
+        assert found.hysteresis == ()
+        assert found.unsettled == ()
+
+    @pytest.mark.parametrize("step", [0.1, 0.03, 0.01])
+    @pytest.mark.parametrize("damping_ratio", [0.003, 0.03, 0.9])
+    def test_no_jump_in_free_flight_however_sharp_its_peak(self, damping_ratio, step):
+        oscillator, amplitude = vi.from_dimensionless(None, 0, 0, damping_ratio)
+        f0 = oscillator.natural_frequency
+        data = vi.sweep(oscillator, amplitude, [f0 * r for r in grid(0.3, 3, step)])
+        assert jumps(data) == ()
+
+    def test_no_jump_where_soft_bumpers_only_bend_the_curve(self):
+        oscillator, amplitude = vi.from_dimensionless(0.1, 0.5, 0.01, 0.15)
+        f0 = oscillator.natural_frequency
+        data = vi.sweep(oscillator, amplitude, [f0 * r for r in grid(0.3, 3, 0.02)])
+        assert features(data).contact != ()
+        assert jumps(data) == ()
+
+    def test_a_transient_that_outlasts_the_cycle_limit_is_no_evidence(self):
+        oscillator, amplitude = vi.from_dimensionless(None, 0, 0, 1e-4)
+        f0 = oscillator.natural_frequency
+        data = vi.sweep(
+            oscillator, amplitude, [f0 * r for r in grid(0.9, 1.1, 0.01)], max_cycles=300
+        )
+        found = features(data)
+        assert found.unsettled != ()
+        assert not any(j.settled for j in found.jumps)
+        assert not any(h.settled for h in found.hysteresis)
+
+
+class TestHysteresis:
+    f = grid(1, 2, 0.1)
+
+    def test_sides(self):
+        low, high = np.ones(11), np.ones(11)
+        high[4:7] = 1.5
+        right = hysteresis(made(self.f, high, low))
+        left = hysteresis(made(self.f, low, high))
+        assert right == (Hysteresis("right", 1.4, 1.6, 1.3, 1.7, True),)
+        assert left == (Hysteresis("left", 1.4, 1.6, 1.3, 1.7, True),)
+
+    def test_which_sweep_jumps_where(self):
+        low, high = np.ones(11), np.ones(11)
+        high[4:7] = 1.5
+        right = jumps(made(self.f, high, low))
+        assert ("forward", 1.6, 1.7) in [j[:3] for j in right]
+        assert ("backward", 1.4, 1.3) in [j[:3] for j in right]
+
+    def test_range_that_goes_on_beyond_the_sweep(self):
+        data = made(self.f, np.full(11, 2.0), np.full(11, 1.0))
+        assert hysteresis(data) == (Hysteresis("right", 1.0, 2.0, None, None, True),)
+        assert hysteresis(data)[0].ends == (1.0, 2.0)
+        assert jumps(data) == ()
+
+    def test_small_differences_are_the_same_motion(self):
+        forward = np.ones(11)
+        backward = forward * 1.009
+        assert hysteresis(made(self.f, forward, backward)) == ()
+        assert len(hysteresis(made(self.f, forward, backward), apart=0.005)) == 1
+
+    def test_wide_tolerance_where_a_motion_did_not_settle(self):
+        forward = np.ones(11)
+        settled = np.ones((2, 11), dtype=bool)
+        settled[0, 3:8] = False
+        backward = np.where(settled[0], forward, 1.09)
+        assert hysteresis(made(self.f, forward, backward, settled=settled)) == ()
+        backward = np.where(settled[0], forward, 1.2)
+        (found,) = hysteresis(made(self.f, forward, backward, settled=settled))
+        assert not found.settled
+
+    def test_two_sides_beside_each_other_are_two_ranges(self):
+        forward, backward = np.ones(11), np.ones(11)
+        backward[3:5], forward[5:8] = 2.0, 2.0
+        found = hysteresis(made(self.f, forward, backward))
+        assert [(h.side, h.low, h.high) for h in found] == [("left", 1.3, 1.4), ("right", 1.5, 1.7)]
+
+    def test_absent_values_are_left_out(self):
+        forward, backward = np.ones(11), np.ones(11)
+        forward[4:7] = 1.5
+        backward[5] = np.nan
+        (found,) = hysteresis(made(self.f, forward, backward))
+        assert (found.low, found.high) == (1.4, 1.6)
+
+
+class TestBreaks:
+    """Jumps of a curve by itself."""
+
+    def test_step_between_level_parts(self):
+        f = grid(1, 2, 0.1)
+        data = made(f, np.where(np.array(f) < 1.45, 2.0, 1.0) + 0.001 * np.array(f))
+        assert brackets(jumps(data), "forward") == [(1.4, 1.5, "down")]
+
+    @pytest.mark.parametrize("power", [1 / 2, 1 / 3])
+    @pytest.mark.parametrize("place", [0.0, 0.1, 0.25, 0.5, 0.9])
+    def test_no_continuous_branch_jumps(self, power, place):
+        # The steepest ways in which a branch turns: fold or grazing, and cusp.
+        x = np.arange(-20, 21) + place
+        for curve in (np.sign(x) * np.abs(x) ** power, np.where(x > 0, np.abs(x) ** power, 0)):
+            assert jumps(made(x + 30, curve - curve.min() + 1.0)) == ()
+            assert jumps(made(x + 30, 3.0 - curve)) == ()
+
+    def test_uneven_steps_of_frequency_do_not_matter(self):
+        f = np.array([1.0, 1.01, 1.02, 1.03, 1.5, 1.51, 1.52, 1.53])
+        assert jumps(made(f, f)) == ()
+        assert len(jumps(made(f, np.where(f < 1.025, f, f + 1)))) == 1
+
+    def test_both_directions_across_a_hysteresis_narrower_than_a_step(self):
+        f = grid(1, 2, 0.1)
+        curve = np.where(np.array(f) < 1.45, 1.0, 2.0) + 0.001 * np.array(f)
+        found = jumps(made(f, curve, curve))
+        assert brackets(found, "forward") == [(1.4, 1.5, "up")]
+        assert brackets(found, "backward") == [(1.5, 1.4, "down")]
+        assert found[0].eta_a == pytest.approx((1.0014, 2.0015))
+        assert found[1].eta_a == pytest.approx((2.0015, 1.0014))
+
+    def test_unsettled_curve_may_wander(self):
+        f = grid(1, 2, 0.1)
+        curve = np.where(np.array(f) < 1.45, 1.0, 1.08)
+        assert jumps(made(f, curve, settled=False)) == ()
+        assert len(jumps(made(f, curve))) == 1
+
+    def test_short_and_empty_curves(self):
+        assert jumps(made([1.0], [1.0])) == ()
+        assert jumps(made([1.0, 2.0, 3.0], [1.0, 9.0, 1.0])) == ()
+        assert jumps(made([1.0, 2.0], [np.nan, np.nan])) == ()
+
+
+class TestPeaks:
+    f = grid(1, 2, 0.1)
+
+    def found(self, curve, **options):
+        return [p for p in peaks(made(self.f, curve, **options)) if p.curve == "eta_a"]
+
+    def test_prominence(self):
+        first, second = self.found([0, 1, 3, 2, 1.5, 2, 5, 4, 1, 1, 1])
+        assert (first.frequency, first.value, first.prominence) == (1.2, 3.0, 1.5)
+        assert (second.frequency, second.value, second.prominence) == (1.6, 5.0, 4.0)
+        assert (first.primary, second.primary) == (False, True)
+
+    def test_ripples_are_left_out(self):
+        curve = [1, 2, 1.99, 2, 3, 5, 4, 3, 2, 1.5, 1]
+        assert [p.frequency for p in self.found(curve)] == [1.5]
+
+    def test_plateau_counts_once(self):
+        (only,) = self.found([1, 2, 3, 3, 3, 2, 1, 1, 1, 1, 1])
+        assert only.frequency == 1.2
+
+    def test_curve_that_still_rises_at_the_end(self):
+        (only,) = self.found(np.arange(11.0))
+        assert (only.frequency, only.at_end, only.primary) == (2.0, True, True)
+        (only,) = self.found(-np.arange(11.0) + 20)
+        assert (only.frequency, only.at_end) == (1.0, True)
+
+    def test_subharmonic_resonance_is_not_the_primary_one(self):
+        period = np.ones(11, dtype=int)
+        period[6:10] = 2
+        first, second = self.found([0, 1, 3, 2, 1.5, 2, 5, 4, 1, 1, 1], period=period)
+        assert (first.primary, second.primary) == (True, False)
+
+    def test_absent_values(self):
+        (only,) = self.found([1, 2, np.nan, 5, 2, 1, 1, 1, 1, 1, np.nan])
+        assert only.frequency == 1.3
+        assert self.found([np.nan] * 11) == []
+
+    def test_every_curve_has_one_primary_peak(self):
+        found = features(swept("B4-G1-A3", 0.5, 5, 0.1))
+        for direction in ("forward", "backward"):
+            for curve in ("eta_a", "eta_d"):
+                primary(found, direction, curve)
+
+
+def test_ranges_are_runs():
+    f = grid(1, 2, 0.1)
+    data = made(f, np.ones(11))
+    where = data["eta_a"].copy(data=np.isin(np.arange(11), [0, 1, 5, 10])[np.newaxis])
+    found = ranges(data, where)
+    assert [r[1:] for r in found] == [(1.0, 1.1, 2), (1.5, 1.5, 1), (2.0, 2.0, 1)]
+
+
+def test_several_rigs_are_refused():
+    case = vi.laboratory.case("B2-G1-A3")
+    data = vi.sweeps([case], [1.0, 2.0])
+    with pytest.raises(vi.InputError, match=r"isel\(rig=0\)"):
+        features(data)
+    assert features(data.isel(rig=0)).peaks
+    with pytest.raises(vi.InputError, match="not the sweep"):
+        features(xr.Dataset())
+
+
+def test_jumps_are_in_the_order_of_their_sweep():
+    found = jumps(swept("B3-10mm-A3", 0.3, 4, 0.01))
+    for direction, rising in (("forward", True), ("backward", False)):
+        places = [j.frequency for j in found if j.direction == direction]
+        assert len(places) > 2
+        assert all((a < b) == rising for a, b in pairwise(places))
