@@ -19,6 +19,9 @@ mass relative to the base, deformation u_R >= 0 of the right and u_L <= 0 of the
   the left bumper goes on relaxing. Contact with the left bumper mirrors it, u_L = u + G_L.
 - Contact begins when the clearance G_R + u_R - u, or G_L + u - u_L, falls to zero, and ends when
   the contact force falls to zero.
+
+The cost grows with the norm of the phase's matrix times its length: twenty cycles of the paper's
+rig take about a second, contacts that last for thousands of M / C_j take minutes.
 """
 
 from collections.abc import Sequence

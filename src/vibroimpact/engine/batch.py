@@ -25,7 +25,7 @@ from vibroimpact.engine.hold import (
     V,
     hold,
 )
-from vibroimpact.engine.jit import entry
+from vibroimpact.engine.jit import entry, kernel, pointer
 from vibroimpact.engine.phase import PLAN, build
 from vibroimpact.engine.record import (
     ACCELERATION,
@@ -72,10 +72,18 @@ def sweep(
     progress : ndarray, shape (2,)
         [0] is raised by one a hold; the sweep stops when [1] becomes nonzero.
     """
-    plan = np.zeros(PLAN)
-    plan[: par.SIZE] = rig
-    s, c = math.sin(phase), math.cos(phase)
+    memory = np.zeros(PLAN)
+    memory[: par.SIZE] = rig
     options = (tolerance, max_cycles, window, max_events)
+    _sweep(
+        pointer(memory), amplitude, frequencies, phase, state, options, results, states, progress
+    )
+    memory[0] = 0.0  # the pointer does not keep the memory alive; this does
+
+
+@kernel
+def _sweep(plan, amplitude, frequencies, phase, state, options, results, states, progress):
+    s, c = math.sin(phase), math.cos(phase)
     for i in range(len(frequencies)):
         if progress[1] != 0:
             results[i:, OUTCOME] = STOPPED
@@ -111,17 +119,37 @@ def trajectory(
     next, count, outcome
         The cycle to go on with, the number of events written, a `Status`.
     """
-    plan = np.zeros(PLAN)
-    plan[: par.SIZE] = rig
+    memory = np.zeros(PLAN)
+    memory[: par.SIZE] = rig
+    ended = _trajectory(
+        pointer(memory),
+        amplitude,
+        frequency,
+        phase,
+        state,
+        int(first),
+        cycles,
+        samples,
+        max_events,
+        out,
+        events,
+    )
+    memory[0] = 0.0  # keeps it alive until here
+    return ended
+
+
+@kernel
+def _trajectory(
+    plan, amplitude, frequency, phase, state, start, cycles, samples, max_events, out, events
+):
     period = 1.0 / frequency
     build(plan, amplitude, 2.0 * math.pi * frequency)
     if too_much_work(plan, period):
-        return int(first), 0, TOO_MUCH_WORK
+        return start, 0, TOO_MUCH_WORK
     s, c = math.sin(phase), math.cos(phase)
     mode, fresh = int(state[MODE]), int(state[FRESH])
     u, v = state[U], state[V]
     right, left, age = state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE]
-    start = int(first)
     number = start
     count = 0
     outcome = 0
@@ -135,7 +163,7 @@ def trajectory(
             )
             complete = here <= max_events
         else:
-            n = int(math.ceil(share * samples - 1e-9))
+            n = int(math.ceil(share * samples - 1e-9))  # noqa: RUF046 (a float to numba)
             at = (number - start) * samples
             complete, mode, fresh, u, v, right, left, age, count = record_cycle(
                 plan,

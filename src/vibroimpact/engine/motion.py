@@ -176,6 +176,16 @@ def travel(plan, table, y, x, v, s, c):
 
 
 @kernel
+def crossing_guess(earlier, before, now, level, j):
+    """Where between nodes j − 1 and j the parabola through the last three meets the level."""
+    rise = now - before
+    y = (level - before) / rise
+    if j > 1:
+        y += 0.5 * (rise - (before - earlier)) * y * (1.0 - y) / rise
+    return y
+
+
+@kernel
 def quick_root(plan, table, weight_x, weight_v, level, y, second, x, v, s, c):
     """The first time at which weight_x·x + weight_v·x′ rises through `level`, if beyond doubt.
 
@@ -218,13 +228,18 @@ def quick_root(plan, table, weight_x, weight_v, level, y, second, x, v, s, c):
                 break
             y = new
             continue
-        f = f0 + d * (f1 + d * (f2 + d * (f3 + d * (f4 + d * (f5 + d * f6)))))
-        slope = f1 + d * (2 * f2 + d * (3 * f3 + d * (4 * f4 + d * (5 * f5 + d * (6 * f6)))))
-        fx = a0 + d * (a1 + d * (a2 + d * (a3 + d * (a4 + d * (a5 + d * a6)))))
-        fv = a1 + d * (2 * a2 + d * (3 * a3 + d * (4 * a4 + d * (5 * a5 + d * (6 * a6)))))
+        # Polynomials in pairs of terms: they wait for one another less than nested ones.
+        dd = d * d
+        dddd = dd * dd
+        f = ((f0 + d * f1) + dd * (f2 + d * f3)) + dddd * ((f4 + d * f5) + dd * f6)
+        slope = ((f1 + d * (2 * f2)) + dd * (3 * f3 + d * (4 * f4))) + dddd * (5 * f5 + d * (6 * f6))
+        fx = ((a0 + d * a1) + dd * (a2 + d * a3)) + dddd * ((a4 + d * a5) + dd * a6)
+        fv = ((a1 + d * (2 * a2)) + dd * (3 * a3 + d * (4 * a4))) + dddd * (5 * a5 + d * (6 * a6))
         fs, fc = turn(fs, fc, plan[table + SCALED_W] * d)
-        # What is left is below 1e-8 steps: first order for x′, second for x.
-        e = (level - f) / slope
+        # What is left is below 1e-8 steps. Not to wait for another division: 1 / slope to
+        # second order, where that is as good.
+        q = d * (2.0 * b + 3.0 * d * (f3 * inverse))
+        e = (level - f) * inverse * (1.0 - q * (1.0 - q)) if abs(q) < 0.01 else (level - f) / slope
         y = k * (1.0 / FINE) + d + e
         if not abs(e) < 1e-8 or y < 0.0 or y > 1.0 or not 2.0 * slope > second * y:
             break
@@ -348,6 +363,7 @@ def flight(plan, u, v, s, c, right, left, launched, limit, age):
         bottom = band - gap_l
         x = u
         before = u
+        earlier = u  # at the node before that, for the guess
         j = 0
         done = -1
         while True:
@@ -358,6 +374,7 @@ def flight(plan, u, v, s, c, right, left, launched, limit, age):
                 if j >= span or j == NODES:
                     j = -1
                     break
+                earlier = before
                 before = x
                 x = row(plan, table + NODE + j * WIDTH, u, v, s, c)
                 j += 1
@@ -375,13 +392,13 @@ def flight(plan, u, v, s, c, right, left, launched, limit, age):
                 # The usual case: a clean crossing, no memory left on that side.
                 if x > gap_r and memory_r == 0.0:
                     side = RIGHT
-                    guess = (gap_r - before) / (x - before)
+                    guess = crossing_guess(earlier, before, x, gap_r, j)
                     y, eu, ev, es, ec = quick_root(
                         plan, table, 1.0, 0.0, gap_r, guess, second, nu, nv, ns, nc
                     )
                 elif -x > gap_l and memory_l == 0.0:
                     side = LEFT
-                    guess = (gap_l + before) / (before - x)
+                    guess = crossing_guess(earlier, before, x, -gap_l, j)
                     y, eu, ev, es, ec = quick_root(
                         plan, table, -1.0, 0.0, gap_l, guess, second, nu, nv, ns, nc
                     )
@@ -415,6 +432,7 @@ def flight(plan, u, v, s, c, right, left, launched, limit, age):
             if i == j:
                 if j == NODES:
                     break
+                earlier = before
                 before = x
                 x = row(plan, table + NODE + j * WIDTH, u, v, s, c)
                 j += 1
@@ -490,6 +508,7 @@ def contact(plan, side, x, v, s, c, fresh, limit, age):
             clear = 2.0 * slope / second
         fresh = False
         before = f
+        earlier = f
         j = 0
         done = -1
         while True:
@@ -499,6 +518,7 @@ def contact(plan, side, x, v, s, c, fresh, limit, age):
                 if j >= span or j == NODES:
                     j = -1
                     break
+                earlier = before
                 before = f
                 f = row(plan, table + FORCE + j * 5, x, v, s, c)
                 j += 1
@@ -510,7 +530,7 @@ def contact(plan, side, x, v, s, c, fresh, limit, age):
             nx, nv, ns, nc = node(plan, table, i, x, v, s, c)
             y = NONE
             if i == j - 1 and f < 0.0 and plan[table + LATE] == 0.0 and before > 0.0:
-                guess = before / (before - f)
+                guess = crossing_guess(earlier, before, f, 0.0, j)
                 y, ex, ev, es, ec = quick_root(
                     plan,
                     table,
@@ -542,6 +562,7 @@ def contact(plan, side, x, v, s, c, fresh, limit, age):
             if i == j:
                 if j == NODES:
                     break
+                earlier = before
                 before = f
                 f = row(plan, table + FORCE + j * 5, x, v, s, c)
                 j += 1
