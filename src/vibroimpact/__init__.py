@@ -36,7 +36,25 @@ _HOME = {
     "to_dimensionless": "model",
 }
 
-__all__ = ["__version__", *_HOME]
+__all__ = [
+    "Bumper",
+    "Dimensionless",
+    "Harmonic",
+    "InputError",
+    "Isolator",
+    "Oscillator",
+    "Rig",
+    "State",
+    "__version__",
+    "from_dimensionless",
+    "laboratory",
+    "load",
+    "save",
+    "simulate",
+    "sweep",
+    "sweeps",
+    "to_dimensionless",
+]
 
 if TYPE_CHECKING:
     from vibroimpact.errors import InputError

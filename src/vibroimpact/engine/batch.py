@@ -1,6 +1,7 @@
-"""What Python calls: a whole sweep, or a stretch of trajectory. Each frees the interpreter
-lock, so that threads run many at once; each is a pure function of its arguments, so that their
-number changes no bit.
+"""What Python calls: a whole sweep, or a stretch of trajectory.
+
+Each frees the interpreter lock, so that threads run many at once; each is a pure function of its
+arguments, so that their number changes no bit.
 """
 
 from __future__ import annotations
@@ -8,6 +9,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.hold import (
@@ -25,7 +27,8 @@ from vibroimpact.engine.hold import (
     V,
     hold,
 )
-from vibroimpact.engine.jit import entry, kernel, pointer
+from vibroimpact.engine.jit import Vector, entry, kernel
+from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.phase import PLAN, build
 from vibroimpact.engine.record import (
     ACCELERATION,
@@ -42,19 +45,19 @@ from vibroimpact.engine.trajectory import cycle, too_much_work
 
 @entry("void(f8[::1], f8, f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])")
 def sweep(
-    rig,
-    amplitude,
-    frequencies,
-    phase,
-    state,
-    tolerance,
-    max_cycles,
-    window,
-    max_events,
-    results,
-    states,
-    progress,
-):
+    rig: Vector,
+    amplitude: float,
+    frequencies: Vector,
+    phase: float,
+    state: Vector,
+    tolerance: float,
+    max_cycles: int,
+    window: int,
+    max_events: int,
+    results: Vector,
+    states: Vector,
+    progress: NDArray[np.int64],
+) -> None:
     """Hold one frequency after the other, carrying the state on.
 
     Parameters
@@ -82,7 +85,17 @@ def sweep(
 
 
 @kernel
-def _sweep(plan, amplitude, frequencies, phase, state, options, results, states, progress):
+def _sweep(
+    plan: Vector,
+    amplitude: float,
+    frequencies: Vector,
+    phase: float,
+    state: Vector,
+    options: tuple[float, int, int, int],
+    results: Vector,
+    states: Vector,
+    progress: NDArray[np.int64],
+) -> None:
     s, c = math.sin(phase), math.cos(phase)
     for i in range(len(frequencies)):
         if progress[1] != 0:
@@ -92,15 +105,25 @@ def _sweep(plan, amplitude, frequencies, phase, state, options, results, states,
         states[i] = state
         progress[0] += 1
         outcome = results[i, OUTCOME]
-        if outcome == TOO_MANY_EVENTS or outcome == TOO_MUCH_WORK or outcome == NOT_FINITE:
+        if outcome in (TOO_MANY_EVENTS, TOO_MUCH_WORK, NOT_FINITE):
             # Nothing sound to carry on: start the next frequency from rest.
             state[:] = 0.0
 
 
 @entry("UniTuple(i8, 3)(f8[::1], f8, f8, f8, f8[::1], f8, f8, i8, i8, f8[:, ::1], f8[:, ::1])")
 def trajectory(
-    rig, amplitude, frequency, phase, state, first, cycles, samples, max_events, out, events
-):
+    rig: Vector,
+    amplitude: float,
+    frequency: float,
+    phase: float,
+    state: Vector,
+    first: float,
+    cycles: float,
+    samples: int,
+    max_events: int,
+    out: Vector,
+    events: Vector,
+) -> tuple[int, int, int]:
     """Follow a motion and write it down, until the end or until `events` may overflow.
 
     Parameters
@@ -140,8 +163,18 @@ def trajectory(
 
 @kernel
 def _trajectory(
-    plan, amplitude, frequency, phase, state, start, cycles, samples, max_events, out, events
-):
+    plan: Vector,
+    amplitude: float,
+    frequency: float,
+    phase: float,
+    state: Vector,
+    start: int,
+    cycles: float,
+    samples: int,
+    max_events: int,
+    out: Vector,
+    events: Vector,
+) -> tuple[int, int, int]:
     period = 1.0 / frequency
     build(plan, amplitude, 2.0 * math.pi * frequency)
     if too_much_work(plan, period):

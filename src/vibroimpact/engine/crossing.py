@@ -1,7 +1,8 @@
 """The first root of a clearance or contact force on one interval, with certainty.
 
 The function is f(y) = offset + sign·Σ a_n yⁿ + memory·E(rate·(y − start)), y in steps of the
-phase's table, its series a_n in the scratch of the plan, with E(x) = exp(−x), or E(x) = exp(−x) − 1 + x where f leaves a double root.
+phase's table, the series a_n in the scratch of the plan, with E(x) = exp(−x), or
+E(x) = exp(−x) − 1 + x where f leaves a double root.
 
 From a point p with f > 0 the search tries a width w and does one of three things
 (docs/theory.md, section 3, has the proof):
@@ -20,7 +21,7 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.phase import ORDER, SCRATCH
 
 NONE = 9.0
@@ -30,7 +31,16 @@ _SMALLEST = 2.0**-50
 
 
 @kernel
-def value(plan, offset, sign, memory, rate, start, double, y):
+def value(
+    plan: Vector,
+    offset: float,
+    sign: float,
+    memory: float,
+    rate: float,
+    start: float,
+    double: bool,
+    y: float,
+) -> tuple[float, float, float]:
     """f, f′ and f″ at y."""
     p = 0.0
     p1 = 0.0
@@ -69,7 +79,7 @@ def value(plan, offset, sign, memory, rate, start, double, y):
 
 
 @kernel
-def third_bound(plan):
+def third_bound(plan: Vector) -> float:
     """Bound on |Σ a_n yⁿ|‴ over |y| ≤ 1/2."""
     bound = 0.0
     power = 1.0
@@ -80,7 +90,17 @@ def third_bound(plan):
 
 
 @kernel
-def polish(plan, offset, sign, memory, rate, start, double, low, high):
+def polish(
+    plan: Vector,
+    offset: float,
+    sign: float,
+    memory: float,
+    rate: float,
+    start: float,
+    double: bool,
+    low: float,
+    high: float,
+) -> float:
     """The only root between `low` (f > 0) and `high` (f ≤ 0), f falling: Newton, guarded."""
     y = 0.5 * (low + high)
     for _ in range(100):
@@ -99,7 +119,16 @@ def polish(plan, offset, sign, memory, rate, start, double, low, high):
 
 
 @kernel
-def first_root(plan, offset, sign, memory, rate, double, low, high):
+def first_root(
+    plan: Vector,
+    offset: float,
+    sign: float,
+    memory: float,
+    rate: float,
+    double: bool,
+    low: float,
+    high: float,
+) -> float:
     """The first y in [low, high] at which f falls through zero, or NONE.
 
     `double` says that f and f′ vanish at `low` by construction, with a₀ = a₁ = offset = 0;

@@ -7,8 +7,8 @@ extreme is found and polished (docs/theory.md, section 4).
 
 from __future__ import annotations
 
-from vibroimpact.engine.jit import kernel
-from vibroimpact.engine.motion import expand, moved, node
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.motion import absolute_acceleration, expand, moved, node
 from vibroimpact.engine.phase import (
     MIDDLE,
     NODE,
@@ -31,7 +31,7 @@ _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
 
 
 @kernel
-def _series(plan, y):
+def _series(plan: Vector, y: float) -> tuple[float, float, float]:
     """Value and first two derivatives of the series in the scratch."""
     p = 0.0
     p1 = 0.0
@@ -44,7 +44,9 @@ def _series(plan, y):
 
 
 @kernel
-def series_extremes(plan, low, high, least, most):
+def series_extremes(
+    plan: Vector, low: float, high: float, least: float, most: float
+) -> tuple[float, float]:
     """Extend [least, most] by the values of the series in the scratch over [low, high]."""
     third = 0.0
     power = 1.0
@@ -87,7 +89,9 @@ def series_extremes(plan, low, high, least, most):
 
 
 @kernel
-def stretch_extremes(plan, mode, x, v, s, c, length, age):
+def stretch_extremes(
+    plan: Vector, mode: int, x: float, v: float, s: float, c: float, length: float, age: float
+) -> tuple[float, float, float, float]:
     """Extremes of x and of the absolute acceleration over `length` seconds of one phase.
 
     In contact x, v, s, c and the result are measured towards the bumper, as in
@@ -99,10 +103,7 @@ def stretch_extremes(plan, mode, x, v, s, c, length, age):
     """
     x_least, x_most = x, x
     table = TABLES + SIZE * mode
-    acceleration = (
-        (plan[table + SCALED_D] - plan[table + SCALED_K] * x)
-        - plan[table + SCALED_C] * v * plan[table + H]
-    ) * (plan[table + RATE] * plan[table + RATE])
+    acceleration = absolute_acceleration(plan, mode, x, v)
     a_least, a_most = acceleration, acceleration
     t = 0.0
     while t < length:

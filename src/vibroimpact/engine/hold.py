@@ -14,7 +14,7 @@ import numpy as np
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.extremes import stretch_extremes
-from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import DETACHED, LIMIT
 from vibroimpact.engine.phase import FLIGHT, RIGHT, build
 from vibroimpact.engine.status import Status
@@ -45,7 +45,16 @@ STOPPED = int(Status.STOPPED)
 
 
 @kernel
-def measure(plan, state, s, c, period, cycles, max_events, result):
+def measure(
+    plan: Vector,
+    state: Vector,
+    s: float,
+    c: float,
+    period: float,
+    cycles: int,
+    max_events: int,
+    result: Vector,
+) -> int:
     """Follow `cycles` forcing cycles and write their exact extremes and contact counts."""
     mode, fresh = int(state[MODE]), int(state[FRESH])
     u, v = state[U], state[V]
@@ -102,7 +111,16 @@ def measure(plan, state, s, c, period, cycles, max_events, result):
 
 
 @kernel
-def settle(plan, state, s, c, period, tolerance, max_cycles, max_events):
+def settle(
+    plan: Vector,
+    state: Vector,
+    s: float,
+    c: float,
+    period: float,
+    tolerance: float,
+    max_cycles: int,
+    max_events: int,
+) -> tuple[int, int, int]:
     """Follow the motion until it repeats itself.
 
     Returns
@@ -193,7 +211,16 @@ def settle(plan, state, s, c, period, tolerance, max_cycles, max_events):
 
 
 @kernel
-def hold(plan, state, amplitude, frequency, s, c, options, result):
+def hold(
+    plan: Vector,
+    state: Vector,
+    amplitude: float,
+    frequency: float,
+    s: float,
+    c: float,
+    options: tuple[float, int, int, int],
+    result: Vector,
+) -> None:
     """Hold one frequency: settle, then measure.
 
     Parameters
@@ -219,7 +246,7 @@ def hold(plan, state, amplitude, frequency, s, c, options, result):
         result[OUTCOME] = TOO_MUCH_WORK
         return
     outcome, n, k = settle(plan, state, s, c, period, tolerance, max_cycles, max_events)
-    if outcome == DONE or outcome == NOT_SETTLED:
+    if outcome in (DONE, NOT_SETTLED):
         over = measure(plan, state, s, c, period, n if n else window, max_events, result)
         k += n if n else window
         if over != DONE:

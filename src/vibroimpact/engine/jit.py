@@ -8,7 +8,6 @@ and cached.
 from __future__ import annotations
 
 import hashlib
-import operator
 import os
 import sys
 import threading
@@ -20,9 +19,7 @@ import llvmlite
 import numba
 import numpy as np
 from filelock import FileLock
-from llvmlite import ir
-from numba.core import config, types
-from numba.extending import intrinsic, overload
+from numba.core import config
 from numpy.typing import NDArray
 from platformdirs import user_cache_path
 
@@ -53,70 +50,6 @@ _announced = False
 def kernel(function: F) -> F:
     """Compile a function that only other compiled functions call."""
     return numba.njit(**OPTIONS)(function)  # type: ignore[no-any-return]
-
-
-def pointer(array: Vector) -> Vector:
-    """The memory of an array that outlives the call, for kernels to index.
-
-    numba passes an array as seven words, counts references to it and checks each index for
-    being negative; a plan goes through a dozen calls a forcing cycle, and that was a third of
-    the time. To the kernels a pointer looks like the array.
-    """
-    return array
-
-
-@intrinsic  # type: ignore[untyped-decorator]
-def _address(typing: Any, array: Any) -> Any:
-    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return context.make_array(signature.args[0])(context, builder, args[0]).data
-
-    return types.CPointer(array.dtype)(array), build
-
-
-@intrinsic  # type: ignore[untyped-decorator]
-def _load(typing: Any, memory: Any, index: Any) -> Any:
-    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        at = builder.gep(args[0], [args[1]], inbounds=True, source_etype=ir.DoubleType())
-        return builder.load(at, typ=ir.DoubleType())
-
-    return types.float64(memory, index), build
-
-
-@intrinsic  # type: ignore[untyped-decorator]
-def _store(typing: Any, memory: Any, index: Any, value: Any) -> Any:
-    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        at = builder.gep(args[0], [args[1]], inbounds=True, source_etype=ir.DoubleType())
-        builder.store(args[2], at)
-        return context.get_dummy_value()
-
-    return types.void(memory, index, types.float64), build
-
-
-_DOUBLES = types.CPointer(types.float64)
-
-
-@overload(pointer)
-def _pointer(array: Any) -> Any:
-    def implementation(array: Any) -> Any:
-        return _address(array)
-
-    return implementation
-
-
-@overload(operator.getitem)
-def _getitem(memory: Any, index: Any) -> Any:
-    def implementation(memory: Any, index: Any) -> Any:
-        return _load(memory, index)
-
-    return implementation if memory == _DOUBLES and isinstance(index, types.Integer) else None
-
-
-@overload(operator.setitem)
-def _setitem(memory: Any, index: Any, value: Any) -> Any:
-    def implementation(memory: Any, index: Any, value: Any) -> Any:
-        _store(memory, index, value)
-
-    return implementation if memory == _DOUBLES and isinstance(index, types.Integer) else None
 
 
 def cache_directory() -> Path:
@@ -162,7 +95,7 @@ class Entry:
         with _compiling:
             if self._compiled is not None:
                 return
-            if config.DISABLE_JIT:
+            if config.DISABLE_JIT:  # type: ignore[attr-defined]
                 self._compiled = self.function
                 return
             directory = cache_directory()
@@ -179,12 +112,13 @@ class Entry:
             try:
                 if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
                     _say()
-                before = config.CACHE_DIR
-                config.CACHE_DIR = str(directory)  # read when the decorator runs
+                before = config.CACHE_DIR  # type: ignore[attr-defined]
+                # Read when the decorator runs.
+                config.CACHE_DIR = str(directory)  # type: ignore[attr-defined]
                 try:
                     dispatcher = numba.njit(cache=True, **OPTIONS)(self.function)
                 finally:
-                    config.CACHE_DIR = before
+                    config.CACHE_DIR = before  # type: ignore[attr-defined]
                 dispatcher.compile(self.signature)
                 self._compiled = dispatcher
             finally:

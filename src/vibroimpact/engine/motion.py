@@ -12,7 +12,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.crossing import NONE, first_root
-from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.phase import (
     BAND_0,
     BAND_V,
@@ -57,7 +57,7 @@ _RADIUS = 1.0 / 40.0
 
 
 @kernel
-def relaxed(deformation, rate, t):
+def relaxed(deformation: float, rate: float, t: float) -> float:
     """A free bumper's deformation after the time t."""
     if deformation > 0.0:
         x = rate * t
@@ -66,7 +66,7 @@ def relaxed(deformation, rate, t):
 
 
 @kernel
-def turn(s, c, angle):
+def turn(s: float, c: float, angle: float) -> tuple[float, float]:
     """The phasor (sin θ, cos θ) turned by a small angle (at most half a step)."""
     q = angle * angle
     sine = angle * (
@@ -79,15 +79,16 @@ def turn(s, c, angle):
 
 
 @kernel
-def row(plan, at, x, v, s, c):
+def row(plan: Vector, at: int, x: float, v: float, s: float, c: float) -> float:
     """One linear function of the state row."""
-    return ((plan[at] * x + plan[at + 1] * v) + (plan[at + 2] * s + plan[at + 3] * c)) + plan[
-        at + 4
-    ]
+    pairs: float = (plan[at] * x + plan[at + 1] * v) + (plan[at + 2] * s + plan[at + 3] * c)
+    return pairs + plan[at + 4]
 
 
 @kernel
-def moved(plan, at, x, v, s, c):
+def moved(
+    plan: Vector, at: int, x: float, v: float, s: float, c: float
+) -> tuple[float, float, float, float]:
     """The state at a node or fine point from the state at its origin."""
     cosine = plan[at + COSINE]
     sine = plan[at + SINE]
@@ -100,7 +101,9 @@ def moved(plan, at, x, v, s, c):
 
 
 @kernel
-def node(plan, table, i, x, v, s, c):
+def node(
+    plan: Vector, table: int, i: int, x: float, v: float, s: float, c: float
+) -> tuple[float, float, float, float]:
     """The state at node i of the window."""
     if i == 0:
         return x, v, s, c
@@ -108,7 +111,7 @@ def node(plan, table, i, x, v, s, c):
 
 
 @kernel
-def expand(plan, at, x, v, s, c):
+def expand(plan: Vector, at: int, x: float, v: float, s: float, c: float) -> None:
     """Write the long series about a state to the scratch.
 
     `at` is where TAYLOR (for x) or TAYLOR_F (for the contact force) of a table begins.
@@ -121,7 +124,7 @@ def expand(plan, at, x, v, s, c):
 
 
 @kernel
-def horner(plan, y):
+def horner(plan: Vector, y: float) -> tuple[float, float]:
     """Value and slope of the long series in the scratch at y."""
     p = plan[SCRATCH + ORDER - 1]
     p1 = 0.0
@@ -132,7 +135,9 @@ def horner(plan, y):
 
 
 @kernel
-def short_series(plan, table, x, v, s, c):
+def short_series(
+    plan: Vector, table: int, x: float, v: float, s: float, c: float
+) -> tuple[float, float, float, float, float, float, float]:
     """Taylor coefficients a₀…a₆ of x in steps, from the equation of motion (early tables).
 
     Written so that each coefficient waits for one product only.
@@ -153,7 +158,20 @@ def short_series(plan, table, x, v, s, c):
 
 
 @kernel
-def travel(plan, table, y, x, v, s, c):
+def absolute_acceleration(plan: Vector, mode: int, x: float, v: float) -> float:
+    """ü + A_t from the state (mirrored for a left contact, as in `contact`)."""
+    table = TABLES + SIZE * mode
+    rate = plan[table + RATE]
+    scaled: float = (plan[table + SCALED_D] - plan[table + SCALED_K] * x) - plan[
+        table + SCALED_C
+    ] * (v * plan[table + H])
+    return scaled * (rate * rate)
+
+
+@kernel
+def travel(
+    plan: Vector, table: int, y: float, x: float, v: float, s: float, c: float
+) -> tuple[float, float, float, float]:
     """The state y steps after a node, 0 ≤ y ≤ 1."""
     if plan[table + LATE] == 0.0:
         k = min(int(y * FINE + 0.5), FINE - 1)
@@ -176,7 +194,7 @@ def travel(plan, table, y, x, v, s, c):
 
 
 @kernel
-def crossing_guess(earlier, before, now, level, j):
+def crossing_guess(earlier: float, before: float, now: float, level: float, j: int) -> float:
     """Where between nodes j − 1 and j the parabola through the last three meets the level."""
     rise = now - before
     y = (level - before) / rise
@@ -186,7 +204,19 @@ def crossing_guess(earlier, before, now, level, j):
 
 
 @kernel
-def quick_root(plan, table, weight_x, weight_v, level, y, second, x, v, s, c):
+def quick_root(
+    plan: Vector,
+    table: int,
+    weight_x: float,
+    weight_v: float,
+    level: float,
+    y: float,
+    second: float,
+    x: float,
+    v: float,
+    s: float,
+    c: float,
+) -> tuple[float, float, float, float, float]:
     """The first time at which weight_x·x + weight_v·x′ rises through `level`, if beyond doubt.
 
     Parameters
@@ -232,7 +262,9 @@ def quick_root(plan, table, weight_x, weight_v, level, y, second, x, v, s, c):
         dd = d * d
         dddd = dd * dd
         f = ((f0 + d * f1) + dd * (f2 + d * f3)) + dddd * ((f4 + d * f5) + dd * f6)
-        slope = ((f1 + d * (2 * f2)) + dd * (3 * f3 + d * (4 * f4))) + dddd * (5 * f5 + d * (6 * f6))
+        slope = ((f1 + d * (2 * f2)) + dd * (3 * f3 + d * (4 * f4))) + dddd * (
+            5 * f5 + d * (6 * f6)
+        )
         fx = ((a0 + d * a1) + dd * (a2 + d * a3)) + dddd * ((a4 + d * a5) + dd * a6)
         fv = ((a1 + d * (2 * a2)) + dd * (3 * a3 + d * (4 * a4))) + dddd * (5 * a5 + d * (6 * a6))
         fs, fc = turn(fs, fc, plan[table + SCALED_W] * d)
@@ -252,7 +284,18 @@ def quick_root(plan, table, weight_x, weight_v, level, y, second, x, v, s, c):
 
 
 @kernel
-def search_flight(plan, gap_r, gap_l, right, left, rate_r, rate_l, low_r, low_l, high):
+def search_flight(
+    plan: Vector,
+    gap_r: float,
+    gap_l: float,
+    right: float,
+    left: float,
+    rate_r: float,
+    rate_l: float,
+    low_r: float,
+    low_l: float,
+    high: float,
+) -> tuple[float, int]:
     """First contact on an interval whose series is in the scratch: (y, side), or (NONE, LIMIT).
 
     The deformations are those at `low` of their side; rates are per step.
@@ -271,7 +314,7 @@ def search_flight(plan, gap_r, gap_l, right, left, rate_r, rate_l, low_r, low_l,
 
 
 @kernel
-def leave(plan, side, memory, rate, high):
+def leave(plan: Vector, side: int, memory: float, rate: float, high: float) -> float:
     """Re-contact within [0, high] of a detachment at y = 0, or NONE.
 
     The series in the scratch is that of the displacement from the detachment, where the
@@ -285,7 +328,18 @@ def leave(plan, side, memory, rate, high):
 
 
 @kernel
-def flight(plan, u, v, s, c, right, left, launched, limit, age):
+def flight(
+    plan: Vector,
+    u: float,
+    v: float,
+    s: float,
+    c: float,
+    right: float,
+    left: float,
+    launched: int,
+    limit: float,
+    age: float,
+) -> tuple[int, float, float, float, float, float, float, float]:
     """Fly until the first contact or the limit.
 
     Parameters
@@ -459,7 +513,17 @@ def flight(plan, u, v, s, c, right, left, launched, limit, age):
 
 
 @kernel
-def contact(plan, side, x, v, s, c, fresh, limit, age):
+def contact(
+    plan: Vector,
+    side: int,
+    x: float,
+    v: float,
+    s: float,
+    c: float,
+    fresh: bool,
+    limit: float,
+    age: float,
+) -> tuple[int, float, float, float, float, float]:
     """Stay in contact until the force stops pressing, or until the limit.
 
     Parameters

@@ -16,10 +16,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.jit import Vector, kernel
 
 NODES = 16
 """Intervals in a table; node j is j steps after the table's start."""
@@ -90,7 +89,9 @@ _SERIES = ORDER + 6
 
 
 @kernel
-def _series(h, c, k, d, amplitude, omega, out):
+def _series(
+    h: float, c: float, k: int, d: float, amplitude: float, omega: float, out: Vector
+) -> None:
     """Taylor coefficients (times hⁿ) of x from each unit state row: out[n, column]."""
     wh = omega * h
     for column in range(5):
@@ -110,7 +111,17 @@ def _series(h, c, k, d, amplitude, omega, out):
 
 
 @kernel
-def _late_series(h, c, k, d, amplitude, omega, fast, slow, out):
+def _late_series(
+    h: float,
+    c: float,
+    k: int,
+    d: float,
+    amplitude: float,
+    omega: float,
+    fast: float,
+    slow: float,
+    out: Vector,
+) -> None:
     """As `_series`, of what is left when the fast part has decayed.
 
     `fast` and `slow` are the decay rates of an overdamped phase, or `slow` is 0 for an
@@ -143,7 +154,7 @@ def _late_series(h, c, k, d, amplitude, omega, fast, slow, out):
 
 
 @kernel
-def _at(series, y, h, omega, plan, at):
+def _at(series: Vector, y: float, h: float, omega: float, plan: Vector, at: int) -> None:
     """Rows at y steps from a series."""
     for column in range(5):
         x = 0.0
@@ -158,7 +169,7 @@ def _at(series, y, h, omega, plan, at):
 
 
 @kernel
-def _compose(plan, first, then, out):
+def _compose(plan: Vector, first: int, then: int, out: int) -> None:
     """Rows of one stretch of time followed by another."""
     cosine, sine = plan[first + COSINE], plan[first + SINE]
     for i in range(2):
@@ -177,7 +188,15 @@ def _compose(plan, first, then, out):
 
 
 @kernel
-def _fill(plan, table, series, omega, stiffness, damping, contact):
+def _fill(
+    plan: Vector,
+    table: int,
+    series: Vector,
+    omega: float,
+    stiffness: float,
+    damping: float,
+    contact: bool,
+) -> None:
     """Lay out nodes, fine points and long series of one table."""
     h = plan[table + H]
     _at(series, 0.0, h, omega, plan, table + FINE_NODE)
@@ -205,7 +224,7 @@ def _fill(plan, table, series, omega, stiffness, damping, contact):
 
 
 @kernel
-def build(plan, amplitude, omega):
+def build(plan: Vector, amplitude: float, omega: float) -> None:
     """Make the tables of all phases for one forcing.
 
     Parameters

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import kernel
-from vibroimpact.engine.motion import LIMIT, moved, node, relaxed, travel
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.motion import LIMIT, absolute_acceleration, moved, node, relaxed, travel
 from vibroimpact.engine.phase import (
     FLIGHT,
     LEFT,
@@ -14,9 +14,6 @@ from vibroimpact.engine.phase import (
     NODES,
     RATE,
     RIGHT,
-    SCALED_C,
-    SCALED_D,
-    SCALED_K,
     SIZE,
     TABLES,
     VALID_FROM,
@@ -35,18 +32,7 @@ EVENT = 10
 
 
 @kernel
-def absolute_acceleration(plan, mode, x, v):
-    """ü + A_t from the state (mirrored for a left contact, as in `motion.contact`)."""
-    table = TABLES + SIZE * mode
-    rate = plan[table + RATE]
-    return (
-        (plan[table + SCALED_D] - plan[table + SCALED_K] * x)
-        - plan[table + SCALED_C] * (v * plan[table + H])
-    ) * (rate * rate)
-
-
-@kernel
-def seen(plan, mode, u, v, right, left):
+def seen(plan: Vector, mode: int, u: float, v: float, right: float, left: float) -> float:
     """Absolute acceleration in the direction of u, from a full state."""
     if mode == FLIGHT:
         return absolute_acceleration(plan, mode, u, v)
@@ -56,7 +42,23 @@ def seen(plan, mode, u, v, right, left):
 
 
 @kernel
-def sample_stretch(plan, mode, u, v, s, c, right, left, age, begin, length, step, first, n, out):
+def sample_stretch(
+    plan: Vector,
+    mode: int,
+    u: float,
+    v: float,
+    s: float,
+    c: float,
+    right: float,
+    left: float,
+    age: float,
+    begin: float,
+    length: float,
+    step: float,
+    first: int,
+    n: int,
+    out: Vector,
+) -> int:
     """Fill samples first, first+1, … that fall within one stretch; return the next one.
 
     Sample i is at i·step from the cycle's start, the stretch lasts from `begin` to
@@ -110,25 +112,25 @@ def sample_stretch(plan, mode, u, v, s, c, right, left, age, begin, length, step
 
 @kernel
 def record_cycle(
-    plan,
-    mode,
-    fresh,
-    u,
-    v,
-    right,
-    left,
-    age,
-    s,
-    c,
-    length,
-    step,
-    n,
-    number,
-    max_events,
-    out,
-    events,
-    count,
-):
+    plan: Vector,
+    mode: int,
+    fresh: int,
+    u: float,
+    v: float,
+    right: float,
+    left: float,
+    age: float,
+    s: float,
+    c: float,
+    length: float,
+    step: float,
+    n: int,
+    number: int,
+    max_events: int,
+    out: Vector,
+    events: Vector,
+    count: int,
+) -> tuple[bool, int, int, float, float, float, float, float, int]:
     """One forcing cycle, or its first `length` seconds, written down.
 
     Returns

@@ -9,7 +9,7 @@ deformation is the primary quantity, u follows from it.
 from __future__ import annotations
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import DETACHED, LIMIT, contact, flight, relaxed
 from vibroimpact.engine.phase import FLIGHT, RIGHT, SIZE, TABLES, VALID_FROM, H
 
@@ -18,7 +18,19 @@ WORK_LIMIT = 3e7
 
 
 @kernel
-def advance(plan, mode, fresh, u, v, s, c, right, left, limit, age):
+def advance(
+    plan: Vector,
+    mode: int,
+    fresh: int,
+    u: float,
+    v: float,
+    s: float,
+    c: float,
+    right: float,
+    left: float,
+    limit: float,
+    age: float,
+) -> tuple[int, float, int, int, float, float, float, float, float, float, float]:
     """Go on to the next contact or detachment, or for the time `limit` if that comes first.
 
     Returns
@@ -47,7 +59,20 @@ def advance(plan, mode, fresh, u, v, s, c, right, left, limit, age):
 
 
 @kernel
-def cycle(plan, mode, fresh, u, v, right, left, age, s, c, period, max_events):
+def cycle(
+    plan: Vector,
+    mode: int,
+    fresh: int,
+    u: float,
+    v: float,
+    right: float,
+    left: float,
+    age: float,
+    s: float,
+    c: float,
+    period: float,
+    max_events: int,
+) -> tuple[int, int, int, float, float, float, float, float, int, int]:
     """One forcing cycle, from one stroboscopic section to the next.
 
     The phase at the section is (s, c) exactly, each time: angles do not accumulate.
@@ -83,7 +108,7 @@ def cycle(plan, mode, fresh, u, v, right, left, age, s, c, period, max_events):
 
 
 @kernel
-def too_much_work(plan, period):
+def too_much_work(plan: Vector, period: float) -> bool:
     """Whether one cycle could take more than WORK_LIMIT table steps."""
     for mode in range(3):
         early = TABLES + SIZE * mode

@@ -1,0 +1,79 @@
+"""Raw memory for kernels to index.
+
+numba passes an array as seven words, counts references to it and checks each index for being
+negative. A plan goes through a dozen calls a forcing cycle; that was a third of the time
+(docs/decisions/0003-numba-and-cache.md).
+"""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+from llvmlite import ir
+from numba.core import types
+from numba.extending import intrinsic, overload
+
+from vibroimpact.engine.jit import Vector
+
+_DOUBLES = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
+
+
+def pointer(array: Vector) -> Vector:
+    """The memory of a contiguous array of floats, indexed like it.
+
+    The array must outlive the pointer: whoever makes one uses the array again behind it.
+    Without the compiler this is the array itself.
+    """
+    return array
+
+
+@intrinsic
+def _address(typing: Any, array: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return context.make_array(signature.args[0])(context, builder, args[0]).data
+
+    return _DOUBLES(array), build
+
+
+@intrinsic
+def _load(typing: Any, memory: Any, index: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        at = builder.gep(args[0], [args[1]], inbounds=True, source_etype=ir.DoubleType())
+        return builder.load(at, typ=ir.DoubleType())
+
+    return types.float64(memory, index), build
+
+
+@intrinsic
+def _store(typing: Any, memory: Any, index: Any, value: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        at = builder.gep(args[0], [args[1]], inbounds=True, source_etype=ir.DoubleType())
+        builder.store(args[2], at)
+        return context.get_dummy_value()
+
+    return types.void(memory, index, types.float64), build
+
+
+@overload(pointer)
+def _pointer(array: Any) -> Any:
+    def implementation(array: Any) -> Any:
+        return _address(array)  # type: ignore[call-arg]
+
+    return implementation
+
+
+@overload(operator.getitem)
+def _getitem(memory: Any, index: Any) -> Any:
+    def implementation(memory: Any, index: Any) -> Any:
+        return _load(memory, index)  # type: ignore[call-arg]
+
+    return implementation if memory == _DOUBLES and isinstance(index, types.Integer) else None
+
+
+@overload(operator.setitem)
+def _setitem(memory: Any, index: Any, value: Any) -> Any:
+    def implementation(memory: Any, index: Any, value: Any) -> Any:
+        _store(memory, index, value)  # type: ignore[call-arg]
+
+    return implementation if memory == _DOUBLES and isinstance(index, types.Integer) else None
