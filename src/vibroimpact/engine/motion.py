@@ -82,7 +82,8 @@ def turn(s: float, c: float, angle: float) -> tuple[float, float]:
 def row(plan: Vector, at: int, x: float, v: float, s: float, c: float) -> float:
     """One linear function of the state row."""
     pairs: float = (plan[at] * x + plan[at + 1] * v) + (plan[at + 2] * s + plan[at + 3] * c)
-    return pairs + plan[at + 4]
+    total: float = pairs + plan[at + 4]
+    return total
 
 
 @kernel
@@ -165,7 +166,8 @@ def absolute_acceleration(plan: Vector, mode: int, x: float, v: float) -> float:
     scaled: float = (plan[table + SCALED_D] - plan[table + SCALED_K] * x) - plan[
         table + SCALED_C
     ] * (v * plan[table + H])
-    return scaled * (rate * rate)
+    acceleration: float = scaled * (rate * rate)
+    return acceleration
 
 
 @kernel
