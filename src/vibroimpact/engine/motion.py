@@ -52,7 +52,7 @@ from vibroimpact.engine.phase import (
 LIMIT, RIGHT, LEFT, DETACHED = 0, 1, 2, 3
 """What ended the phase: the time limit, a contact on a side, or the detachment."""
 
-_LATE_ENOUGH = 0.45
+_WEAK_PULL = 0.45  # theory, section 3.3
 _RADIUS = 1.0 / 40.0
 
 
@@ -377,13 +377,13 @@ def flight(
         second = 8.0 * band  # per step squared
         span = (limit - t) * plan[table + RATE]
         if launched:
-            # A lower bound of the clearance just after detachment (theory, section 3.4).
+            # A lower bound of the clearance just after detachment (theory, section 3.3).
             memory = right if launched == RIGHT else left
             rate = (rate_r if launched == RIGHT else rate_l) * h
             clear = 0.0
             if memory > 0.0:
                 q = second / (rate * rate * memory)
-                if q <= _LATE_ENOUGH:
+                if q <= _WEAK_PULL:
                     clear = 2.0 * rate * memory * (1.0 - q) / second
             else:
                 clear = 2.0 * abs(v) * h / second
@@ -410,10 +410,11 @@ def flight(
                     return side, t, u, v, s, c, right, left
                 clear_r = clear_l = high
                 clear = max(clear, high)
+            # The bound on u″ holds for this window only.
             if launched == RIGHT:
-                clear_r = clear
+                clear_r = min(clear, NODES)
             else:
-                clear_l = clear
+                clear_l = min(clear, NODES)
             launched = 0
         top = gap_r - band
         bottom = band - gap_l
