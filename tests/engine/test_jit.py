@@ -1,0 +1,78 @@
+"""The cache of compiled code: loaded by the next process, safe for several at once."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from vibroimpact.engine import jit
+
+PREPARE = "from vibroimpact.engine import batch; batch.trajectory.prepare()"
+NOTICE = "compiling the engine"
+
+
+def start(code: str, cache: Path, **environment: str) -> subprocess.Popen[str]:
+    env = {**os.environ, "VIBROIMPACT_CACHE_DIR": str(cache), **environment}
+    return subprocess.Popen(
+        [sys.executable, "-W", "error", "-c", code],
+        env=env,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def run(code: str, cache: Path, **environment: str) -> str:
+    """Run in a fresh process; what it wrote on standard error."""
+    process = start(code, cache, **environment)
+    _, error = process.communicate()
+    assert process.returncode == 0, error
+    return error
+
+
+def test_processes_share_the_cache_safely(tmp_path: Path) -> None:
+    """Two at once on an empty cache: one compiles, one waits and loads; so does a third."""
+    both = [start(PREPARE, tmp_path) for _ in range(2)]
+    errors = [process.communicate()[1] for process in both]
+    assert [process.returncode for process in both] == [0, 0], errors
+    assert sorted(NOTICE in error for error in errors) == [False, True]
+    assert NOTICE not in run(PREPARE, tmp_path)
+    assert len(list(tmp_path.glob("engine-*"))) == 1
+
+
+def test_where_the_cache_cannot_be_written_the_process_compiles_for_itself(tmp_path: Path) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("in the way")
+    # A small entry: what is tested is where the code goes.
+    code = (
+        "from vibroimpact.engine.jit import entry\n"
+        "e = entry('f8(f8)')(eval('lambda x: 2 * x'))\n"
+        "assert e(2.0) == 4.0"
+    )
+    assert NOTICE in run(code, blocked)
+
+
+def test_without_the_compiler_an_entry_is_the_function() -> None:
+    code = (
+        "from vibroimpact.engine import batch\n"
+        "batch.trajectory.prepare()\n"
+        "assert batch.trajectory._compiled is batch.trajectory.function"
+    )
+    run(code, Path("unused"), NUMBA_DISABLE_JIT="1")
+
+
+def test_the_folder_changes_with_the_sources(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = jit.cache_directory()
+    assert jit.cache_directory() == before
+    for source in Path(jit.__file__).parent.glob("*.py"):
+        (tmp_path / source.name).write_bytes(source.read_bytes())
+    monkeypatch.setattr(jit, "__file__", str(tmp_path / "jit.py"))
+    assert jit.cache_directory().name == before.name
+    (tmp_path / "crossing.py").write_text("# edited")
+    assert jit.cache_directory().name != before.name
