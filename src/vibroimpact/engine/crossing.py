@@ -31,6 +31,19 @@ _SMALLEST = 2.0**-50
 
 
 @kernel
+def series(plan: Vector, y: float) -> tuple[float, float, float]:
+    """Value and first two derivatives of the series in the scratch at y."""
+    p = 0.0
+    p1 = 0.0
+    p2 = 0.0
+    for n in range(ORDER - 1, -1, -1):
+        p2 = p2 * y + p1
+        p1 = p1 * y + p
+        p = p * y + plan[SCRATCH + n]
+    return p, p1, 2.0 * p2
+
+
+@kernel
 def value(
     plan: Vector,
     offset: float,
@@ -42,15 +55,7 @@ def value(
     y: float,
 ) -> tuple[float, float, float]:
     """f, f′ and f″ at y."""
-    p = 0.0
-    p1 = 0.0
-    p2 = 0.0
-    for n in range(ORDER - 1, 1, -1):
-        p2 = p2 * y + n * (n - 1) * plan[SCRATCH + n]
-    for n in range(ORDER - 1, 0, -1):
-        p1 = p1 * y + n * plan[SCRATCH + n]
-        p = p * y + plan[SCRATCH + n]
-    p = p * y + plan[SCRATCH]
+    p, p1, p2 = series(plan, y)
     f = offset + sign * p
     f1 = sign * p1
     f2 = sign * p2

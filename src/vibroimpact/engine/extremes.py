@@ -7,6 +7,7 @@ extreme is found and polished (docs/theory.md, section 4).
 
 from __future__ import annotations
 
+from vibroimpact.engine.crossing import series
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import absolute_acceleration, expand, moved, node
 from vibroimpact.engine.phase import (
@@ -31,19 +32,6 @@ _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
 
 
 @kernel
-def _series(plan: Vector, y: float) -> tuple[float, float, float]:
-    """Value and first two derivatives of the series in the scratch."""
-    p = 0.0
-    p1 = 0.0
-    p2 = 0.0
-    for n in range(ORDER - 1, -1, -1):
-        p2 = p2 * y + p1
-        p1 = p1 * y + p
-        p = p * y + plan[SCRATCH + n]
-    return p, p1, 2.0 * p2
-
-
-@kernel
 def series_extremes(
     plan: Vector, low: float, high: float, least: float, most: float
 ) -> tuple[float, float]:
@@ -55,7 +43,7 @@ def series_extremes(
         power *= 0.5
     p = low
     width = high - low
-    f, f1, f2 = _series(plan, p)
+    f, f1, f2 = series(plan, p)
     least, most = min(least, f), max(most, f)
     while p < high:
         width = min(width, high - p)
@@ -63,13 +51,13 @@ def series_extremes(
         if not (steep or abs(f2) > third * width or width < _SMALLEST):
             width *= 0.5
             continue
-        g, g1, g2 = _series(plan, p + width)
+        g, g1, g2 = series(plan, p + width)
         if not steep and f1 * g1 < 0.0:
             # One critical point: regula falsi kept in its bracket by Newton's slope.
             a, b = p, p + width
             y = a - f1 * width / (g1 - f1)
             for _ in range(60):
-                e, e1, e2 = _series(plan, y)
+                e, e1, e2 = series(plan, y)
                 least, most = min(least, e), max(most, e)
                 if e1 * f1 > 0.0:
                     a = y

@@ -466,10 +466,12 @@ def flight(
                 expand(plan, table + TAYLOR, mu, mv, ms, mc)
                 low_r = max(0.0, clear_r - i)
                 low_l = max(0.0, clear_l - i)
+                # A side is left out where both ends of the interval clear it.
+                near = before if i == j - 1 else row(plan, table + NODE + i * WIDTH, u, v, s, c)
                 y, side = search_flight(
                     plan,
-                    gap_r,
-                    gap_l,
+                    gap_r if max(x, near) > top else math.inf,
+                    gap_l if min(x, near) < bottom else math.inf,
                     relaxed(memory_r, rate_r, low_r * h),
                     relaxed(memory_l, rate_l, low_l * h),
                     rate_r * h,
