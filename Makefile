@@ -1,0 +1,120 @@
+# make demo     installs into .venv, then sweeps the rig B2-G1-A3 into out/
+# make test     installs what the tests need as well, then runs them
+# make          lists the rest
+#
+# Nothing is installed twice, and a set-up that was cut short is begun again.
+
+PYTHON ?= python3
+VENV   := .venv
+ARGS   :=
+
+BIN        := $(VENV)/bin
+UNFINISHED := $(VENV)/.unfinished
+
+# Relative, for pip splits these at spaces. The first binds what runs (and, in older versions of
+# pip, what builds), the second what builds.
+export PIP_CONSTRAINT       := constraints.txt
+export PIP_BUILD_CONSTRAINT := constraints.txt
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+# One installation at a time, also under make -j.
+.NOTPARALLEL:
+.DEFAULT_GOAL := help
+.PHONY: help demo test lint format bench pins clean
+.SECONDARY:
+
+help:
+	@echo 'make demo     sweep the rig B2-G1-A3; figure, data and summary in out/'
+	@echo 'make test     run the tests; ARGS="tests/cli -x" passes words on to pytest'
+	@echo 'make lint     check style, types and layers'
+	@echo 'make format   put the code into the style that make lint checks'
+	@echo 'make bench    compare speed and accuracy with other solvers (benchmarks/README.md)'
+	@echo 'make pins     renew constraints.txt (CONTRIBUTING.md)'
+	@echo 'make clean    remove .venv and all caches, but not out/'
+	@echo 'PYTHON=...    which python makes the environment, 3.11 or newer; python3'
+
+demo: $(VENV)/.installed-run
+	@$(BIN)/vibroimpact sweep B2-G1-A3
+
+# The engine is compiled once before the workers start, or they would all wait for one of them.
+test: $(VENV)/.installed-test
+	@$(BIN)/python -c 'from vibroimpact.engine import batch; \
+	    batch.sweep.prepare(); batch.trajectory.prepare()'
+	$(BIN)/python -m pytest -n auto --maxprocesses 8 $(ARGS)
+
+lint: $(VENV)/.installed-lint
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports --no-logo
+
+format: $(VENV)/.installed-lint
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(VENV)/.installed-bench
+	$(BIN)/python -m benchmarks $(ARGS)
+
+# What pip builds the package with is pinned too: hatchling, and editables, which hatchling asks
+# for when pip installs with -e. The oldest Python needs the most packages.
+pins:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || { \
+	    echo 'make: pins are made with the oldest Python that is supported;' \
+	        'name one: make pins PYTHON=python3.11' >&2; exit 1; }
+	rm -rf $(VENV)-pins
+	$(PYTHON) -m venv $(VENV)-pins
+	PIP_CONSTRAINT= PIP_BUILD_CONSTRAINT= \
+	    $(VENV)-pins/bin/python -m pip install -q hatchling editables '.[test,lint,bench]'
+	$(VENV)-pins/bin/python -m pip freeze --exclude vibroimpact > $(VENV)-pins/constraints.txt
+	@! grep -vE '^[A-Za-z0-9._-]+==[A-Za-z0-9.!+_-]+$$' $(VENV)-pins/constraints.txt || { \
+	    echo 'make: these are not plain name==version lines' >&2; exit 1; }
+	mv $(VENV)-pins/constraints.txt constraints.txt
+	rm -rf $(VENV)-pins
+
+clean:
+	rm -rf $(VENV) $(VENV)-pins dist .pytest_cache .hypothesis .mypy_cache .ruff_cache \
+	    .import_linter_cache .benchmarks
+	find src tests benchmarks examples -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The extra that each installation takes; none to run.
+EXTRA_run   :=
+EXTRA_test  := [test]
+EXTRA_lint  := [lint]
+EXTRA_bench := [bench]
+
+$(VENV)/.installed-%: $(VENV)/.made pyproject.toml constraints.txt src/vibroimpact/_version.py
+	@touch $(UNFINISHED)
+	@echo 'make: installing vibroimpact$(EXTRA_$*) into $(VENV)' \
+	    '(the first time this loads about 130 MB) ...'
+	@$(BIN)/python -m pip install --progress-bar off -e '.$(EXTRA_$*)' \
+	    > $(VENV)/install.log 2>&1 || { tail -n 40 $(VENV)/install.log >&2; \
+	    echo 'make: the installation failed; the reason stands above, and all that was said in' \
+	        '$(VENV)/install.log. It needs network access.' >&2; exit 1; }
+	@rm -f $(UNFINISHED)
+	@touch $@
+
+# The mark of an installation that did not end is newer than .made, so all is made again. So it is
+# when the Python that made it has gone.
+ifneq ($(shell test -x $(BIN)/python && echo there),there)
+.PHONY: $(VENV)/.made
+endif
+
+$(VENV)/.made: $(wildcard $(UNFINISHED))
+	@command -v $(PYTHON) > /dev/null || { \
+	    echo 'make: there is no $(PYTHON); vibroimpact needs Python 3.11 or newer. Install it,' \
+	        'or name one: make PYTHON=python3.12 ...' >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	    echo "make: vibroimpact needs Python 3.11 or newer; $(PYTHON) is" \
+	        "$$($(PYTHON) -V 2>&1). Name another: make PYTHON=python3.12 ..." >&2; exit 1; }
+	@$(PYTHON) -c 'import venv, ensurepip' 2> /dev/null || { \
+	    echo 'make: $(PYTHON) cannot make virtual environments; install its venv module' \
+	        '(on Debian and Ubuntu the package python3-venv)' >&2; exit 1; }
+	@if test ! -e $(UNFINISHED) && $(BIN)/python -c \
+	    'import pip, sys; sys.exit(sys.version_info < (3, 11))' 2> /dev/null; \
+	then \
+	    echo 'make: using the environment that is in $(VENV)'; \
+	else \
+	    rm -rf $(VENV) && mkdir -p $(VENV) && touch $(UNFINISHED) && \
+	        $(PYTHON) -m venv $(VENV) && rm -f $(UNFINISHED); \
+	fi
+	@touch $@

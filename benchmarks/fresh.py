@@ -1,0 +1,53 @@
+"""Running something in a new process."""
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """How a process went."""
+
+    seconds: float
+    output: str
+    errors: str
+
+
+def execute(command: Sequence[str], environment: Mapping[str, str] | None = None) -> Ended:
+    """Run a command to its end; it may import `benchmarks`.
+
+    Raises
+    ------
+    RuntimeError
+        With what it said, if it failed.
+    """
+    begin = time.perf_counter()
+    done = subprocess.run(
+        command,
+        cwd=ROOT,
+        env={**os.environ, **(environment or {})},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    seconds = time.perf_counter() - begin
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(command)} failed:\n{done.stderr}")
+    return Ended(seconds, done.stdout, done.stderr)
+
+
+def python(code: str, environment: Mapping[str, str] | None = None) -> Ended:
+    """Run Python code."""
+    return execute([sys.executable, "-c", code], environment)
+
+
+def vibroimpact(*words: str, environment: Mapping[str, str] | None = None) -> Ended:
+    """Run the command line."""
+    return execute([str(Path(sys.executable).with_name("vibroimpact")), *words], environment)

@@ -1,0 +1,61 @@
+"""What the benchmark ran on."""
+
+import os
+import platform
+import sys
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from benchmarks.report import Table
+
+_PACKAGES = ("vibroimpact", "numpy", "numba", "llvmlite", "xarray", "heyoka", "scipy")
+
+
+def machine() -> Table:
+    """Return processor, system, versions, and how busy the machine is."""
+    table = Table("Machine and versions", ("What", "Value"))
+    table.add("date", f"{datetime.now(UTC):%Y-%m-%d}")
+    table.add("processor", _processor())
+    table.add("processors that may be used", str(processors()))
+    table.add("system", f"{platform.system()} {platform.release()}, {platform.machine()}")
+    table.add("Python", f"{platform.python_implementation()} {platform.python_version()}")
+    table.add("packages", ", ".join(f"{name} {installed(name)}" for name in _PACKAGES))
+    table.add("load when it began", load())
+    return table
+
+
+def installed(package: str) -> str:
+    """Version of a package, or that it is not there."""
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "(not installed)"
+
+
+def processors() -> int:
+    """How many processors this process may use."""
+    if sys.platform == "linux":
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def load() -> str:
+    """Average number of running processes over the last minute."""
+    try:
+        return f"{os.getloadavg()[0]:.1f}"
+    except OSError:
+        return "unknown"
+
+
+def _processor() -> str:
+    try:
+        text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    except OSError:
+        return platform.processor() or "unknown"
+    fields = dict(
+        (part.strip() for part in line.split(":", 1)) for line in text.splitlines() if ":" in line
+    )
+    name = fields.get("model name", platform.processor())
+    family, model = fields.get("cpu family"), fields.get("model")
+    return f"{name} (family {family}, model {model})" if family else name

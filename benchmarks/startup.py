@@ -1,0 +1,124 @@
+"""Time to the first result: importing, compiling, loading what was compiled."""
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from benchmarks import fresh
+from benchmarks.report import Table, met, targets
+from benchmarks.rounds import Spread
+
+_PROCESSES = 7
+_CACHE = "VIBROIMPACT_CACHE_DIR"
+
+_IMPORT = "import time; t = time.perf_counter(); import vibroimpact as vi"
+_PRINT = "print(time.perf_counter() - t)"
+_NAMES = "[getattr(vi, name) for name in vi.__all__]"
+_SWEEP = """
+import vibroimpact as vi
+case = vi.laboratory.case("B2-G1-A3")
+vi.sweep(case.oscillator, case.amplitude, case.frequencies)
+"""
+_PREPARE = """
+import time
+from vibroimpact.engine import batch
+t = time.perf_counter()
+batch.{entry}.prepare()
+print(time.perf_counter() - t)
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Compiling:
+    """Seconds that the engine's two entries take before their first call."""
+
+    cold: dict[str, float]
+    cached: dict[str, float]
+
+    def text(self) -> str:
+        """Return that of the entry behind `vi.simulate`, in words."""
+        cold, cached = self.cold["trajectory"], self.cached["trajectory"]
+        return f"{cold:.1f} s once, then {1e3 * cached:.0f} ms"
+
+
+def compiling() -> Compiling:
+    """Compile the engine into an empty cache, then load it."""
+    cold, cached = {}, {}
+    with _empty_cache() as environment:
+        for entry in ("sweep", "trajectory"):
+            for times in (cold, cached):
+                code = _PREPARE.format(entry=entry)
+                times[entry] = float(fresh.python(code, environment).output)
+    return Compiling(cold, cached)
+
+
+def startup(compiled: Compiling) -> Table:
+    """Measure in new processes."""
+    table = targets("Start")
+    for what, code in (
+        ("import vibroimpact, s", f"{_IMPORT}; {_PRINT}"),
+        ("import, and first use of every public name, s", f"{_IMPORT}; {_NAMES}; {_PRINT}"),
+    ):
+        spread = _repeat(code)
+        table.add(what, spread.text(), "under 0.5 s", met(spread.median < 0.5))
+
+    with _empty_cache() as environment, tempfile.TemporaryDirectory() as out:
+        first = fresh.python(_SWEEP, environment)
+        table.add(
+            "first vi.sweep after installing, whole process, s",
+            f"{first.seconds:.1f}",
+            "under 15 s",
+            met(first.seconds < 15.0),
+        )
+        said = "compiling" in first.errors
+        table.add("it says that it compiles", "yes" if said else "no", "yes", met(said))
+        again = [fresh.python(_SWEEP, environment) for _ in range(_PROCESSES)]
+        spread = Spread.of([process.seconds for process in again])
+        table.add(
+            "vi.sweep from the second process on, whole process, s",
+            spread.text(),
+            "under 2 s",
+            met(spread.median < 2.0),
+        )
+        quiet = not any(process.errors for process in again)
+        table.add("it says nothing any more", "yes" if quiet else "no", "yes", met(quiet))
+        words = ("sweep", "B2-G1-A3", "--output", out)
+        commands = [
+            fresh.vibroimpact(*words, environment=environment).seconds for _ in range(_PROCESSES)
+        ]
+        spread = Spread.of(commands)
+        table.add(
+            "vibroimpact sweep B2-G1-A3, cached, whole process, s",
+            spread.text(),
+            "under 2 s",
+            met(spread.median < 2.0),
+        )
+    with _empty_cache() as environment, tempfile.TemporaryDirectory() as out:
+        words = ("sweep", "B2-G1-A3", "--output", out)
+        seconds = fresh.vibroimpact(*words, environment=environment).seconds
+        table.add(
+            "the same as the first after installing, s",
+            f"{seconds:.1f}",
+            "under 15 s",
+            met(seconds < 15.0),
+        )
+    for entry, public in (("sweep", "vi.sweep"), ("trajectory", "vi.simulate")):
+        value = f"{compiled.cold[entry]:.1f}, then {compiled.cached[entry]:.2f}"
+        table.add(f"compiling for {public}, then loading, s", value, "", "")
+    table.notes.append(
+        "The vi.sweep is of B2-G1-A3 at the 46 published frequencies, forward and backward; the "
+        "command steps by 0.01 Hz and writes a figure, a NetCDF file and a summary too."
+    )
+    return table
+
+
+def _repeat(code: str) -> Spread:
+    fresh.python(code)  # the disk's cache
+    return Spread.of([float(fresh.python(code).output) for _ in range(_PROCESSES)])
+
+
+@contextmanager
+def _empty_cache() -> Iterator[dict[str, str]]:
+    with tempfile.TemporaryDirectory() as folder:
+        yield {_CACHE: folder}

@@ -1,0 +1,118 @@
+"""The fenced blocks of a Markdown page, run as a reader would run them.
+
+- ``python`` blocks of a page are one script. What a block prints stands in a ``text`` block
+  right behind it.
+- ``console`` blocks hold ``$ vibroimpact ...`` commands and what they print.
+- A ``toml`` block that begins with a comment such as ``# wall.toml`` is that file.
+- ``sh`` and other blocks are only read.
+
+In what a page shows, a line of three dots stands for any lines.
+
+After a change that changes what is printed: ``python tests/docs/snippets.py`` writes it into all
+pages, except where a block has such dots.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+import shlex
+import sys
+import tempfile
+from collections.abc import Iterator
+from doctest import ELLIPSIS, OutputChecker
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from vibroimpact.cli import main
+
+ROOT = Path(__file__).parents[2]
+PAGES = sorted(
+    [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")],
+)
+
+_FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_FILE = re.compile(r"# ([\w.-]+\.toml)\n")
+
+
+class Shown(NamedTuple):
+    """What a page says that a block prints, and what it does print."""
+
+    start: int
+    """Where in the page the shown text begins."""
+    end: int
+    expected: str
+    printed: str
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the two are the same, up to spaces at the ends of lines."""
+        return OutputChecker().check_output(
+            _trimmed(self.expected), _trimmed(self.printed), ELLIPSIS
+        )
+
+
+def run_page(text: str, name: str = "page") -> Iterator[Shown]:
+    """Run a page's blocks in the present folder, one after the other."""
+    blocks: list[re.Match[str] | None] = [*_FENCE.finditer(text), None]
+    script: dict[str, Any] = {"__name__": "__main__"}
+    for block, following in pairwise(blocks):
+        assert block
+        kind, code = block.groups()
+        if kind == "python":
+            line = text.count("\n", 0, block.start(2))
+            compiled = compile("\n" * line + code, name, "exec")
+            with contextlib.redirect_stdout(io.StringIO()) as out:
+                exec(compiled, script)
+            at, expected = block.end(), ""
+            if following and following[1] == "text" and not _between(text, block, following):
+                at, expected = following.start(2), following[2]
+            yield Shown(at, at + len(expected), expected, out.getvalue())
+        elif kind == "console":
+            yield from _console(code, block.start(2))
+        elif kind == "toml" and (file := _FILE.match(code)):
+            Path(file[1]).write_text(code, encoding="utf-8")
+
+
+def _console(code: str, start: int) -> Iterator[Shown]:
+    for piece in re.finditer(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", code, re.MULTILINE):
+        words = shlex.split(piece[1], comments=True)
+        if words[:1] != ["vibroimpact"]:
+            raise AssertionError(f"a console block shows vibroimpact only, not {piece[1]!r}")
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            ended = main(words[1:])
+        said = "".join(line for line in err.getvalue().splitlines(True) if "compiling" not in line)
+        if piece[2] and ended != (2 if "error:" in piece[2] else 0):
+            raise AssertionError(f"{piece[1]!r} ended with {ended}: {said}")
+        yield Shown(start + piece.start(2), start + piece.end(2), piece[2], said + out.getvalue())
+
+
+def _between(text: str, block: re.Match[str], following: re.Match[str]) -> str:
+    return text[block.end() : following.start()].strip()
+
+
+def _trimmed(text: str) -> str:
+    return "".join(f"{line.rstrip()}\n" for line in text.rstrip().splitlines())
+
+
+def _renew(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        for shown in reversed(list(run_page(text, str(page)))):
+            if shown.agrees:
+                continue
+            line = text.count("\n", 0, shown.start) + 1
+            if "\n..." in f"\n{shown.expected}":
+                print(f"{page}:{line} must be changed by hand to fit\n{shown.printed}")
+            else:
+                text = text[: shown.start] + _trimmed(shown.printed) + text[shown.end :]
+                print(f"{page}:{line} renewed")
+    page.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    for path in [Path(word) for word in sys.argv[1:]] or PAGES:
+        _renew(path)

@@ -1,0 +1,59 @@
+"""What README and docs show is what happens."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from docs.snippets import PAGES, ROOT, run_page
+
+LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
+
+
+def name(page: Path) -> str:
+    return str(page.relative_to(ROOT))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_blocks_run_and_print_what_is_shown(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = page.read_text(encoding="utf-8")
+    for shown in run_page(text, name(page)):
+        line = text.count("\n", 0, shown.start) + 1
+        assert shown.agrees, (
+            f"{name(page)}:{line} shows\n{shown.expected}\nbut this is printed\n{shown.printed}"
+        )
+
+
+@pytest.mark.parametrize(
+    "page", [*PAGES, ROOT / "CHANGELOG.md", ROOT / "benchmarks/README.md"], ids=name
+)
+def test_links_lead_somewhere(page):
+    for target in LINK.findall(page.read_text(encoding="utf-8")):
+        path, _, heading = target.partition("#")
+        there = (page.parent / path).resolve() if path else page
+        assert "://" in target or there.exists(), f"{name(page)} links to {target}"
+        if heading and there.suffix == ".md":
+            assert heading in anchors(there), f"{name(page)} links to {target}"
+
+
+def anchors(page: Path) -> set[str]:
+    headings = re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_a_wrong_page_is_noticed(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    page = "```python\nprint(1)\nprint(2)\n```\n\n```text\n{}\n```\n"
+    assert [shown.agrees for shown in run_page(page.format("1\n2"))] == [True]
+    assert [shown.agrees for shown in run_page(page.format("..."))] == [True]
+    assert [shown.agrees for shown in run_page(page.format("1\n3"))] == [False]
+    assert [shown.agrees for shown in run_page("```python\nprint(1)\n```\n")] == [False]
+    wrong = "```console\n$ vibroimpact sweep B9-G1-A3\n{}```\n"
+    assert [shown.agrees for shown in run_page(wrong.format(""))] == [False]
+    with pytest.raises(AssertionError, match="ended with 2"):
+        list(run_page(wrong.format("...\n")))
+    with pytest.raises(AssertionError, match="vibroimpact only"):
+        list(run_page("```console\n$ rm -r x\n```\n"))

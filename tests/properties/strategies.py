@@ -1,0 +1,129 @@
+"""Random rigs for the property tests: everything between soft and stiff, free and heavily damped.
+
+The rigs are drawn in dimensionless form and given a random mass, natural frequency and
+amplitude, so that no test can rely on numbers near one.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from hypothesis import Phase, assume, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+import vibroimpact as vi
+
+SAMPLES = 8
+"""A cycle, of `tame` motions."""
+
+
+def examples(count: int) -> settings:
+    """Always the same `count` examples, however slow the machine."""
+    return settings(
+        max_examples=count,
+        derandomize=True,
+        deadline=None,
+        database=None,
+        phases=(Phase.explicit, Phase.generate, Phase.shrink),  # explaining takes minutes
+    )
+
+
+class Motion(NamedTuple):
+    """A rig, what shakes it, and where it starts."""
+
+    oscillator: vi.Oscillator
+    excitation: vi.Harmonic
+    start: vi.State
+
+
+def decades(low: float, high: float) -> st.SearchStrategy[float]:
+    """Numbers spread evenly over powers of ten."""
+    return st.floats(low, high).map(lambda x: 10.0**x)
+
+
+def ratios(low: float, high: float) -> st.SearchStrategy[float]:
+    """Damping ratios: exactly zero, or spread over decades."""
+    return decades(low, high) | decades(low, high) | st.just(0.0)
+
+
+@st.composite
+def motions(draw: st.DrawFn, least_damping: float = 0.0, most_damping: float = math.inf) -> Motion:
+    """A random motion; the limits are of the isolator's damping ratio."""
+    mass, omega = draw(decades(-2, 4)), draw(decades(-1, 2))
+    ratio = draw(decades(-0.7, 0.7))
+    damping = min(max(draw(ratios(-3, 0.5)), least_damping), most_damping)
+    acceleration = draw(decades(-2, 2))
+    stiffness = mass * omega**2
+    swing = acceleration / omega**2 / math.hypot(1 - ratio**2, 2 * max(damping, 0.05) * ratio)
+
+    def bumper() -> vi.Bumper:
+        contact_stiffness = draw(decades(-2, 4))
+        critical = 2.0 * math.sqrt(1.0 + contact_stiffness) * mass * omega
+        gap = draw(st.floats(0.01, 1.2) | st.floats(0.01, 1.2) | st.just(0.0)) * swing
+        return vi.Bumper(contact_stiffness * stiffness, draw(ratios(-3, 1)) * critical, gap)
+
+    sides = draw(st.sampled_from(["both", "both", "both", "right", "left"]))
+    right = bumper() if sides != "left" else None
+    left = bumper() if sides != "right" else None
+    oscillator = vi.Oscillator(
+        mass, vi.Isolator(stiffness, 2.0 * damping * mass * omega), right, left
+    )
+    # Within the gaps, or pressing a bumper.
+    reach = draw(st.floats(-1.1, 1.1))
+    side = right if reach > 0 else left
+    u = reach * (side.gap if side else swing)
+    v = draw(st.floats(-1.0, 1.0)) * swing * omega * ratio
+    phase = draw(st.floats(0.0, math.tau))
+    excitation = vi.Harmonic(acceleration, ratio * omega / math.tau, phase)
+    return Motion(oscillator, excitation, vi.State(u, v))
+
+
+def simulated(motion: Motion, cycles: float, samples: int = 1) -> xr.Dataset:
+    """The simulation, of those motions only that are not given up for chattering."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        data = vi.simulate(*motion[:2], cycles, motion.start, samples, max_events=1000)
+    assume(data.attrs["status"] == "done")
+    return data
+
+
+def states(data: xr.Dataset) -> NDArray[np.float64]:
+    """Samples of displacement, velocity, right and left deformation, as rows."""
+    names = ("displacement", "velocity", "right_bumper", "left_bumper")
+    return np.stack([data[name].values for name in names])
+
+
+def distance(data: xr.Dataset, other: NDArray[np.float64]) -> float:
+    """Largest difference of states, as a share of the largest displacement or velocity.
+
+    `other` has as many samples as the simulation, or is one state: then it is its end.
+    """
+    rows = states(data)
+    size, speed = np.abs(rows[:2]).max(axis=1)
+    rows = rows if other.ndim == 2 else rows[:, -1]
+    scale = np.array([size, speed, size, size])
+    return float(np.max(np.abs(rows - other).T / scale))
+
+
+def tame(motion: Motion, cycles: float) -> xr.Dataset:
+    """The simulation, of those motions only that do not blow up small disturbances.
+
+    Another start, amplitude or phase by a share of 1e-9 may change the motion by no more than
+    1e-6: no grazing, no chaos. Rounding is then below 1e-12.
+    """
+    data = simulated(motion, cycles, SAMPLES)
+    speed = float(np.abs(data["velocity"]).max())
+    shaken, start = motion.excitation, motion.start
+    for sign in (1e-9, -1e-9):
+        other = Motion(
+            motion.oscillator,
+            vi.Harmonic(shaken.amplitude * (1 + sign), shaken.frequency, shaken.phase + sign),
+            start.replace(velocity=start.velocity - sign * speed),
+        )
+        assume(distance(data, states(simulated(other, cycles, SAMPLES))) < 1e-6)
+    return data

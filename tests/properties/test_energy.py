@@ -1,0 +1,61 @@
+"""What the base works is dissipated or stored, over random rigs.
+
+In the frame of the base, its work is that of the inertia force -M A_t. It goes into the isolator's
+dashpot, into the dashpot of a pressed bumper, into that of a relaxing one - which from a
+deformation r burns K_j r²/2 (1 - exp(-2 K_j t / C_j)) in the time t - and into motion and springs.
+The integrals are Gauss-Legendre sums, exact to rounding, over each phase by itself.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from hypothesis import given
+
+import vibroimpact as vi
+from properties.strategies import Motion, examples, motions, simulated
+from reference.linear_phases import Mechanics, Phase, phases
+
+CYCLES = 4
+
+
+def stored(rig: vi.Oscillator, state: Mechanics) -> float:
+    energy = rig.mass * state.v**2 + rig.isolator.stiffness * state.u**2
+    for bumper, deformation in ((rig.right, state.right), (rig.left, state.left)):
+        energy += bumper.stiffness * deformation**2 if bumper else 0.0
+    return float(energy) / 2
+
+
+def dissipated(rig: vi.Oscillator, phase: Phase) -> float:
+    squares = float(phase.weights @ phase.motion.v**2)
+    lost = rig.isolator.damping * squares
+    sides = ((1, rig.right, phase.begin.right), (-1, rig.left, phase.begin.left))
+    for side, bumper, deformation in sides:
+        if bumper and side == phase.contact:
+            lost += bumper.damping * squares
+        elif bumper and bumper.damping:
+            decay = -2.0 * bumper.stiffness * phase.length / bumper.damping
+            lost -= bumper.stiffness * float(deformation) ** 2 / 2 * math.expm1(decay)
+    return lost
+
+
+def imbalance(motion: Motion) -> float:
+    """Of the energy, as a share of all that the base gave and took."""
+    rig = motion.oscillator
+    data = simulated(motion, CYCLES)
+    work = turnover = lost = 0.0
+    walk = list(phases(rig, motion.excitation, data))
+    for phase in walk:
+        power = -rig.mass * phase.base * phase.motion.v
+        work += float(phase.weights @ power)
+        turnover += float(phase.weights @ np.abs(power))
+        lost += dissipated(rig, phase)
+    gained = stored(rig, walk[-1].end) - stored(rig, walk[0].begin)
+    return abs(work - lost - gained) / turnover
+
+
+@examples(100)
+@given(motions())
+def test_work_is_dissipated_or_stored(motion: Motion) -> None:
+    assert imbalance(motion) < 1e-12
