@@ -17,7 +17,7 @@ from benchmarks import ours
 from benchmarks.peers.problem import P
 from vibroimpact.engine.jit import OPTIONS
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import node, travel
+from vibroimpact.engine.evaluate import node, travel
 from vibroimpact.engine.parameters import SIZE as RIG
 from vibroimpact.engine.phase import FLIGHT, LEFT, NODES, PLAN, RIGHT, SIZE, TABLES, H, build
 

@@ -21,13 +21,15 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine.evaluate import moved, short_series, turn
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.phase import ORDER, SCRATCH
+from vibroimpact.engine.phase import FINE, FINE_NODE, ORDER, RATE, SCALED_W, SCRATCH, WIDTH
 
 NONE = 9.0
 """Returned for "no root on the interval"; a root lies in [−1/2, 1/2]."""
 
 _SMALLEST = 2.0**-50
+_RADIUS = 1.0 / 40.0  # steps; how far a short series reaches
 
 
 @kernel
@@ -179,3 +181,93 @@ def first_root(
         p += width
         width *= 2.0
     return NONE
+
+
+@kernel
+def crossing_guess(earlier: float, before: float, now: float, level: float, j: int) -> float:
+    """Where between nodes j − 1 and j the parabola through the last three meets the level."""
+    rise = now - before
+    y = (level - before) / rise
+    if j > 1:
+        y += 0.5 * (rise - (before - earlier)) * y * (1.0 - y) / rise
+    return y
+
+
+@kernel
+def quick_root(
+    plan: Vector,
+    table: int,
+    weight_x: float,
+    weight_v: float,
+    level: float,
+    y: float,
+    second: float,
+    x: float,
+    v: float,
+    s: float,
+    c: float,
+) -> tuple[float, float, float, float, float]:
+    """The first time at which weight_x·x + weight_v·x′ rises through `level`, if beyond doubt.
+
+    Parameters
+    ----------
+    weight_x, weight_v : float
+        The latter per step.
+    y : float
+        A guess, in steps after the node whose state (x, v, s, c) is given; at the node the
+        function is known to be below the level.
+    second : float
+        Bound on the second derivative, per step squared.
+
+    Returns
+    -------
+    y, x, v, s, c
+        The root and the state there; y = NONE where the root that is found is not certainly
+        the first one. At a root with slope m the function stays below the level for
+        2 m / second before it.
+    """
+    for _ in range(4):
+        k = min(max(int(y * FINE + 0.5), 0), FINE - 1)
+        fx, fv, fs, fc = moved(plan, table + FINE_NODE + k * WIDTH, x, v, s, c)
+        a0, a1, a2, a3, a4, a5, a6 = short_series(plan, table, fx, fv, fs, fc)
+        f0 = weight_x * a0 + weight_v * a1
+        f1 = weight_x * a1 + weight_v * 2 * a2
+        f2 = weight_x * a2 + weight_v * 3 * a3
+        f3 = weight_x * a3 + weight_v * 4 * a4
+        f4 = weight_x * a4 + weight_v * 5 * a5
+        f5 = weight_x * a5 + weight_v * 6 * a6
+        f6 = weight_x * a6
+        inverse = 1.0 / f1
+        e = (level - f0) * inverse
+        b = f2 * inverse
+        d = e * (1.0 - e * (b - e * (2.0 * b * b - f3 * inverse)))
+        if not (f1 > 0.0 and abs(d) <= _RADIUS):
+            # The guess was too far: go to the fine point nearest to the better one.
+            new = min(max(k / FINE + d, 0.0), 1.0)
+            if not (f1 > 0.0 and abs(d) < 1.0) or new == y:
+                break
+            y = new
+            continue
+        # Polynomials in pairs of terms: they wait for one another less than nested ones.
+        dd = d * d
+        dddd = dd * dd
+        f = ((f0 + d * f1) + dd * (f2 + d * f3)) + dddd * ((f4 + d * f5) + dd * f6)
+        slope = ((f1 + d * (2 * f2)) + dd * (3 * f3 + d * (4 * f4))) + dddd * (
+            5 * f5 + d * (6 * f6)
+        )
+        fx = ((a0 + d * a1) + dd * (a2 + d * a3)) + dddd * ((a4 + d * a5) + dd * a6)
+        fv = ((a1 + d * (2 * a2)) + dd * (3 * a3 + d * (4 * a4))) + dddd * (5 * a5 + d * (6 * a6))
+        fs, fc = turn(fs, fc, plan[table + SCALED_W] * d)
+        # What is left is below 1e-8 steps. Not to wait for another division: 1 / slope to
+        # second order, where that is as good.
+        q = d * (2.0 * b + 3.0 * d * (f3 * inverse))
+        e = (level - f) * inverse * (1.0 - q * (1.0 - q)) if abs(q) < 0.01 else (level - f) / slope
+        y = k * (1.0 / FINE) + d + e
+        if not abs(e) < 1e-8 or y < 0.0 or y > 1.0 or not 2.0 * slope > second * y:
+            break
+        fx += e * fv
+        fv += e * (2 * a2 + d * (6 * a3 + d * 12 * a4))
+        e *= plan[table + SCALED_W]
+        fs, fc = fs + e * fc, fc - e * fs
+        return y, fx, fv * plan[table + RATE], fs, fc
+    return NONE, x, v, s, c

@@ -8,8 +8,8 @@ extreme is found and polished (docs/theory.md, section 4).
 from __future__ import annotations
 
 from vibroimpact.engine.crossing import series
+from vibroimpact.engine.evaluate import absolute_acceleration, expand, moved, node
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import absolute_acceleration, expand, moved, node
 from vibroimpact.engine.phase import (
     MIDDLE,
     NODE,
@@ -83,7 +83,7 @@ def stretch_extremes(
     """Extremes of x and of the absolute acceleration over `length` seconds of one phase.
 
     In contact x, v, s, c and the result are measured towards the bumper, as in
-    `motion.contact`. One-sided values at both ends count.
+    `contact.contact`. One-sided values at both ends count.
 
     Returns
     -------

@@ -15,8 +15,7 @@ import numpy as np
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.extremes import stretch_extremes
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import DETACHED, LIMIT
-from vibroimpact.engine.phase import FLIGHT, RIGHT, build
+from vibroimpact.engine.phase import DETACHED, FLIGHT, LIMIT, RIGHT, build
 from vibroimpact.engine.status import Status
 from vibroimpact.engine.trajectory import advance, cycle, too_much_work
 

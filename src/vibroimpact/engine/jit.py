@@ -44,7 +44,6 @@ announce: Callable[[str], None] = lambda text: print(text, file=sys.stderr, flus
 """Called with one line before a compilation that takes seconds."""
 
 _compiling = threading.Lock()
-_announced = False
 
 
 def kernel(function: F) -> F:
@@ -58,8 +57,9 @@ def cache_directory() -> Path:
     numba looks at the file of an entry only, not at the kernels that it calls, and would run
     stale code after an edit elsewhere; a folder named after everything cannot be stale.
     """
-    digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.glob("*.py")):
+    here = Path(__file__).parent
+    digest = hashlib.sha256(str(here).encode())  # numba's index names the folder, too
+    for path in sorted(here.glob("*.py")):
         digest.update(path.read_bytes())
     host = numba.core.registry.cpu_target.target_context.codegen().magic_tuple()
     for part in (numba.__version__, llvmlite.__version__, sys.version, host, OPTIONS):
@@ -104,14 +104,14 @@ class Entry:
                 lock = FileLock(directory / "lock")
                 lock.acquire()
             except OSError:  # nowhere to write: compile for this process only
-                _say()
+                self._say()
                 dispatcher = numba.njit(**OPTIONS)(self.function)
                 dispatcher.compile(self.signature)
                 self._compiled = dispatcher
                 return
             try:
                 if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
-                    _say()
+                    self._say()
                 before = config.CACHE_DIR  # type: ignore[attr-defined]
                 # Read when the decorator runs.
                 config.CACHE_DIR = str(directory)  # type: ignore[attr-defined]
@@ -124,12 +124,11 @@ class Entry:
             finally:
                 lock.release()
 
-
-def _say() -> None:
-    global _announced
-    if not _announced:
-        _announced = True
-        announce("vibroimpact: compiling the engine, once per installation (about 15 s) ...")
+    def _say(self) -> None:
+        announce(
+            f"vibroimpact: compiling the engine ({self.__name__}), once per installation, "
+            "about 10 s ..."
+        )
 
 
 def entry(signature: str) -> Callable[[Callable[..., Any]], Entry]:

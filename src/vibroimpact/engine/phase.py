@@ -71,6 +71,10 @@ TAYLOR_F = TAYLOR + 5 * ORDER  # long series of the contact force
 SIZE = TAYLOR_F + 5 * ORDER
 
 FLIGHT, RIGHT, LEFT = 0, 1, 2
+"""The phase, also called mode: in contact with which side, if any."""
+
+LIMIT, DETACHED = 0, 3
+"""What ends a phase: the time limit, a contact (RIGHT or LEFT), or the detachment."""
 TABLES = par.SIZE
 """Where the tables begin in a plan. Two a mode: `mode` from the start of a phase, `mode + 3`
 once its fast part is gone."""

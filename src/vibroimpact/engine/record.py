@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.evaluate import absolute_acceleration, moved, node, relaxed, travel
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import LIMIT, absolute_acceleration, moved, node, relaxed, travel
 from vibroimpact.engine.phase import (
     FLIGHT,
     LEFT,
+    LIMIT,
     NODE,
     NODES,
     RATE,

@@ -9,9 +9,11 @@ deformation is the primary quantity, u follows from it.
 from __future__ import annotations
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.contact import contact
+from vibroimpact.engine.evaluate import relaxed
+from vibroimpact.engine.flight import flight
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import DETACHED, LIMIT, contact, flight, relaxed
-from vibroimpact.engine.phase import FLIGHT, RIGHT, SIZE, TABLES, VALID_FROM, H
+from vibroimpact.engine.phase import DETACHED, FLIGHT, LIMIT, RIGHT, SIZE, TABLES, VALID_FROM, H
 
 WORK_LIMIT = 3e7
 """Table steps that one forcing cycle may take, about a second of computing."""
@@ -36,7 +38,7 @@ def advance(
     Returns
     -------
     event, t, mode, fresh, u, v, s, c, right, left, age
-        What ended the segment (see `motion`), its length (s), and the state behind it.
+        What ended the segment (see `phase`), its length (s), and the state behind it.
     """
     if mode == FLIGHT:
         event, t, u, v, s, c, right, left = flight(plan, u, v, s, c, right, left, fresh, limit, age)

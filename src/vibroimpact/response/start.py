@@ -16,7 +16,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator, State
 
 TOUCHING = 1e-12
-"""A mass this close to a bumper, as a share of the displacement, touches it."""
+"""A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
 
 
 def engine_rig(oscillator: Oscillator) -> NDArray[np.float64]:
@@ -84,7 +84,7 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
                 )
             continue
         reach = sign * u - bumper.gap
-        slack = TOUCHING * max(bumper.gap, abs(u))
+        slack = TOUCHING * max(bumper.gap, abs(u), abs(v) / oscillator.angular_frequency)
         deformation = max(reach, 0.0) if given is None else sign * given
         if reach > deformation + slack:
             raise InputError(

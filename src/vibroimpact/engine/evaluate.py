@@ -1,0 +1,171 @@
+"""The motion of one phase at any time, from its table."""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.phase import (
+    COSINE,
+    FINE,
+    FINE_NODE,
+    FORGOTTEN,
+    LATE,
+    NODE,
+    ORDER,
+    RATE,
+    ROW_V,
+    SCALED_A,
+    SCALED_C,
+    SCALED_D,
+    SCALED_K,
+    SCALED_W,
+    SCRATCH,
+    SINE,
+    SIZE,
+    TABLES,
+    TAYLOR,
+    WIDTH,
+    H,
+)
+
+_RADIUS = 1.0 / 40.0  # steps; how far a short series reaches
+
+
+@kernel
+def relaxed(deformation: float, rate: float, t: float) -> float:
+    """A free bumper's deformation after the time t."""
+    if deformation > 0.0:
+        x = rate * t
+        return deformation * math.exp(-x) if x < FORGOTTEN else 0.0
+    return 0.0
+
+
+@kernel
+def turn(s: float, c: float, angle: float) -> tuple[float, float]:
+    """The phasor (sin θ, cos θ) turned by a small angle (at most half a step)."""
+    q = angle * angle
+    sine = angle * (
+        1 - q * (1 / 6 - q * (1 / 120 - q * (1 / 5040 - q * (1 / 362880 - q / 39916800))))
+    )
+    cosine = 1 - q * (
+        1 / 2 - q * (1 / 24 - q * (1 / 720 - q * (1 / 40320 - q * (1 / 3628800 - q / 479001600))))
+    )
+    return s * cosine + c * sine, c * cosine - s * sine
+
+
+@kernel
+def row(plan: Vector, at: int, x: float, v: float, s: float, c: float) -> float:
+    """One linear function of the state row."""
+    pairs: float = (plan[at] * x + plan[at + 1] * v) + (plan[at + 2] * s + plan[at + 3] * c)
+    total: float = pairs + plan[at + 4]
+    return total
+
+
+@kernel
+def moved(
+    plan: Vector, at: int, x: float, v: float, s: float, c: float
+) -> tuple[float, float, float, float]:
+    """The state at a node or fine point from the state at its origin."""
+    cosine = plan[at + COSINE]
+    sine = plan[at + SINE]
+    return (
+        row(plan, at, x, v, s, c),
+        row(plan, at + ROW_V, x, v, s, c),
+        s * cosine + c * sine,
+        c * cosine - s * sine,
+    )
+
+
+@kernel
+def node(
+    plan: Vector, table: int, i: int, x: float, v: float, s: float, c: float
+) -> tuple[float, float, float, float]:
+    """The state at node i of the window."""
+    if i == 0:
+        return x, v, s, c
+    return moved(plan, table + NODE + (i - 1) * WIDTH, x, v, s, c)
+
+
+@kernel
+def expand(plan: Vector, at: int, x: float, v: float, s: float, c: float) -> None:
+    """Write the long series about a state to the scratch.
+
+    `at` is where TAYLOR (for x) or TAYLOR_F (for the contact force) of a table begins.
+    """
+    for n in range(ORDER):
+        plan[SCRATCH + n] = (
+            (plan[at + n] * x + plan[at + ORDER + n] * v)
+            + (plan[at + 2 * ORDER + n] * s + plan[at + 3 * ORDER + n] * c)
+        ) + plan[at + 4 * ORDER + n]
+
+
+@kernel
+def horner(plan: Vector, y: float) -> tuple[float, float]:
+    """Value and slope of the long series in the scratch at y."""
+    p = plan[SCRATCH + ORDER - 1]
+    p1 = 0.0
+    for n in range(ORDER - 2, -1, -1):
+        p1 = p1 * y + p
+        p = p * y + plan[SCRATCH + n]
+    return p, p1
+
+
+@kernel
+def short_series(
+    plan: Vector, table: int, x: float, v: float, s: float, c: float
+) -> tuple[float, float, float, float, float, float, float]:
+    """Taylor coefficients a₀…a₆ of x in steps, from the equation of motion (early tables).
+
+    Written so that each coefficient waits for one product only.
+    """
+    sc = plan[table + SCALED_C]
+    sk = plan[table + SCALED_K]
+    wh = plan[table + SCALED_W]
+    ww = wh * wh
+    force = plan[table + SCALED_A] * s
+    force1 = plan[table + SCALED_A] * wh * c
+    a1 = v * plan[table + H]
+    a2 = ((plan[table + SCALED_D] - force) * (1 / 2) - (sk * (1 / 2)) * x) - (sc * (1 / 2)) * a1
+    a3 = (-force1 * (1 / 6) - (sk * (1 / 6)) * a1) - (sc * (1 / 3)) * a2
+    a4 = (force * (ww * (1 / 24)) - (sk * (1 / 12)) * a2) - (sc * (1 / 4)) * a3
+    a5 = (force1 * (ww * (1 / 120)) - (sk * (1 / 20)) * a3) - (sc * (1 / 5)) * a4
+    a6 = (-force * (ww * ww * (1 / 720)) - (sk * (1 / 30)) * a4) - (sc * (1 / 6)) * a5
+    return x, a1, a2, a3, a4, a5, a6
+
+
+@kernel
+def absolute_acceleration(plan: Vector, mode: int, x: float, v: float) -> float:
+    """ü + A_t from the state (mirrored for a left contact, as in `contact`)."""
+    table = TABLES + SIZE * mode
+    rate = plan[table + RATE]
+    scaled: float = (plan[table + SCALED_D] - plan[table + SCALED_K] * x) - plan[
+        table + SCALED_C
+    ] * (v * plan[table + H])
+    acceleration: float = scaled * (rate * rate)
+    return acceleration
+
+
+@kernel
+def travel(
+    plan: Vector, table: int, y: float, x: float, v: float, s: float, c: float
+) -> tuple[float, float, float, float]:
+    """The state y steps after a node, 0 ≤ y ≤ 1."""
+    if plan[table + LATE] == 0.0:
+        k = min(int(y * FINE + 0.5), FINE - 1)
+        x, v, s, c = moved(plan, table + FINE_NODE + k * WIDTH, x, v, s, c)
+        d = y - k * (1.0 / FINE)
+        # The last fine point serves up to the end of the interval: d is 1/FINE at most.
+        if d > _RADIUS:
+            x, v, s, c = moved(plan, table + FINE_NODE + WIDTH, x, v, s, c)
+            d -= 1.0 / FINE
+        a0, a1, a2, a3, a4, a5, a6 = short_series(plan, table, x, v, s, c)
+        x = a0 + d * (a1 + d * (a2 + d * (a3 + d * (a4 + d * (a5 + d * a6)))))
+        v = a1 + d * (2 * a2 + d * (3 * a3 + d * (4 * a4 + d * (5 * a5 + d * (6 * a6)))))
+        s, c = turn(s, c, plan[table + SCALED_W] * d)
+    else:
+        x, v, s, c = moved(plan, table + FINE_NODE + FINE // 2 * WIDTH, x, v, s, c)
+        expand(plan, table + TAYLOR, x, v, s, c)
+        x, v = horner(plan, y - 0.5)
+        s, c = turn(s, c, plan[table + SCALED_W] * (y - 0.5))
+    return x, v * plan[table + RATE], s, c
