@@ -25,7 +25,7 @@ def test_parameter_sets():
     what = subject("B2-G1-A3", RigOptions(parameters="identified"))
     assert what.oscillator == vi.laboratory.case("B2-G1-A3", "identified").oscillator
     assert what.name == "B2-G1-A3, identified parameters"
-    assert what.slug == "B2-G1-A3"
+    assert what.slug == "B2-G1-A3-identified"
 
 
 def test_name():

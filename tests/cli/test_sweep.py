@@ -38,14 +38,14 @@ def test_summary_and_files(run, tmp_path):
     assert any(line.startswith("η_a forward secondary 0.57") for line in lines)
     assert "1.68 to 2.65 Hz: right (forward above backward)" in lines
     files = {p.name for p in (tmp_path / "out").iterdir()}
-    assert files == {f"B2-G1-A3-sweep.{ending}" for ending in ("nc", "png", "txt")}
+    assert files == {f"B2-G1-A3-identified-sweep.{ending}" for ending in ("nc", "png", "txt")}
     for name in files:
         assert f"out/{name}" in told
-    written = (tmp_path / "out/B2-G1-A3-sweep.txt").read_text(encoding="utf-8")
+    written = (tmp_path / "out/B2-G1-A3-identified-sweep.txt").read_text(encoding="utf-8")
     assert [line.rstrip() for line in told.splitlines()][: len(written.splitlines())] == (
         written.splitlines()
     )
-    data = vi.load(tmp_path / "out/B2-G1-A3-sweep.nc")
+    data = vi.load(tmp_path / "out/B2-G1-A3-identified-sweep.nc")
     case = vi.laboratory.case("B2-G1-A3", "identified")
     direct = vi.sweep(case.oscillator, case.amplitude, data["frequency"].values)
     np.testing.assert_array_equal(data["eta_a"], direct["eta_a"])

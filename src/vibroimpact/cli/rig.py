@@ -51,7 +51,9 @@ def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
             raise InputError(f"study {text!r}: {error}" if study else str(error)) from None
         oscillator = case.oscillator
         amplitude = case.amplitude if amplitude is None else amplitude
-        slug = _slug(title) if title else case.slug
+        # Two parameter sets of one test are two rigs: neither may overwrite the other's files.
+        set_name = "-identified" if parameters == "identified" else ""
+        slug = _slug(title) if title else case.slug + set_name
         title = title or case.code + (
             ", identified parameters" if parameters == "identified" else ""
         )

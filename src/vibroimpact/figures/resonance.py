@@ -14,7 +14,8 @@ from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, curve_style, panels
-from vibroimpact.response.resonance import Curve, Features, Jump, features
+from vibroimpact.response.peaks import Curve
+from vibroimpact.response.resonance import Features, Jump, features
 
 _PANELS: tuple[tuple[Curve, str, str], ...] = (
     (
