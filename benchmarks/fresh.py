@@ -28,11 +28,13 @@ def execute(command: Sequence[str], environment: Mapping[str, str] | None = None
     RuntimeError
         With what it said, if it failed.
     """
+    # Python's own cache of compiled modules is used as everywhere.
+    inherited = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     begin = time.perf_counter()
     done = subprocess.run(
         command,
         cwd=ROOT,
-        env={**os.environ, **(environment or {})},
+        env={**inherited, **(environment or {})},
         capture_output=True,
         text=True,
         check=False,

@@ -23,9 +23,11 @@ LONGEST = 16
 """Longest period, in forcing cycles, that is recognised."""
 
 _BLOCK = 8
-_STALLED_BLOCKS = 12
+_STALLED_CYCLES = 96
 _ROUNDING = 4e-15
 _STALLED = 1e-11
+_PATIENCE = 50  # times max_cycles, for a motion that keeps closing in
+_RECENT = 0.2  # share of the cycles so far in which it must have come twice as close
 
 # What a hold writes.
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME = range(9)
@@ -140,7 +142,7 @@ def settle(
     k = 0
     n = 0
     outcome = NOT_SETTLED
-    while k < max_cycles:
+    while k < max_cycles or (k < _PATIENCE * max_cycles and stalled * _BLOCK < _RECENT * k):
         at = k % LONGEST
         past[at, 0], past[at, 1], past[at, 2], past[at, 3] = u, v, right, left
         events, mode, fresh, u, v, right, left, age, _, _ = cycle(
@@ -193,7 +195,8 @@ def settle(
             stalled = 0
         else:
             stalled += 1
-        if stalled >= _STALLED_BLOCKS and best <= _STALLED * scale:
+        still = stalled * _BLOCK
+        if still >= max(_STALLED_CYCLES, _RECENT * k) and best <= _STALLED * scale:
             for i in range(1, close + 1):
                 if block[i] <= 4.0 * least:
                     n = i

@@ -116,7 +116,8 @@ def sweeps(
         A motion is steady when its stroboscopic state is estimated to lie within this share
         of its size from an orbit of at most 16 forcing cycles.
     max_cycles
-        Forcing cycles to wait for that.
+        Forcing cycles to wait for that; up to 50 times as many while the motion keeps closing
+        in on an orbit, as a lightly damped one does.
     window
         Forcing cycles over which a motion that did not settle is measured.
     max_events

@@ -1,0 +1,131 @@
+"""Datasets to files and back: whole or not at all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+from vibroimpact.response.files import write_whole
+
+CASE = vi.laboratory.case("B2-G1-A3")
+
+
+def made(kind: str) -> xr.Dataset:
+    shaken = vi.Harmonic(CASE.amplitude, 1.1)
+    match kind:
+        case "sweep":
+            return vi.sweep(CASE.oscillator, CASE.amplitude, [0.6, 1.0, 2.5])
+        case "sweeps":
+            return vi.sweeps([CASE, vi.laboratory.case("B1-G1-A1")], [0.6, 1.0])
+        case "simulation":
+            return vi.simulate(CASE.oscillator, shaken, 3)
+        case "one-sided":
+            return vi.simulate(CASE.oscillator.replace(left=None), shaken, 3)
+        case "no event":
+            return vi.simulate(CASE.oscillator.without_bumpers(), shaken, 1)
+        case _:
+            return vi.simulate(CASE.oscillator, shaken, 3, samples=0)
+
+
+@pytest.mark.parametrize(
+    "kind", ["sweep", "sweeps", "simulation", "one-sided", "no event", "final state"]
+)
+def test_there_and_back(kind: str, tmp_path: Path) -> None:
+    data = made(kind)
+    path = vi.save(data, tmp_path / "data.nc")
+    assert path == tmp_path / "data.nc"
+    back = vi.load(path)
+    xr.testing.assert_equal(back, data)
+    for name in data.variables:
+        for attribute in ("units", "long_name"):
+            assert back[name].attrs[attribute] == data[name].attrs[attribute]
+    assert back.attrs == data.attrs
+    assert [p.name for p in tmp_path.iterdir()] == ["data.nc"]
+
+
+def test_a_loaded_simulation_goes_on(tmp_path: Path) -> None:
+    data = made("simulation")
+    shaken = vi.Harmonic(CASE.amplitude, 1.1)
+    ends = [
+        vi.simulate(CASE.oscillator, shaken, 2, start)["final_state"]
+        for start in (data, vi.load(vi.save(data, tmp_path / "data.nc")))
+    ]
+    np.testing.assert_array_equal(*ends)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.001, 0.1, 0.5, 0.9, 0.999])
+def test_a_truncated_file_is_refused(share: float, tmp_path: Path) -> None:
+    whole = vi.save(made("sweep"), tmp_path / "data.nc").read_bytes()
+    path = tmp_path / "short.nc"
+    path.write_bytes(whole[: int(share * len(whole))])
+    refused(path, "damaged or not a NetCDF file")
+
+
+def test_what_is_not_ours_is_refused(tmp_path: Path) -> None:
+    refused(tmp_path / "none.nc", "does not exist")
+    refused(tmp_path, "does not exist")
+    text = tmp_path / "text.nc"
+    text.write_text("frequency,eta\n1,2\n")
+    refused(text, "damaged or not a NetCDF file")
+    foreign = tmp_path / "foreign.nc"
+    xr.Dataset({"x": ("t", [1.0, 2.0])}).to_netcdf(foreign, engine="h5netcdf")
+    refused(foreign, "was not written by vibroimpact")
+
+
+def refused(path: Path, why: str) -> None:
+    with pytest.raises(vi.InputError) as caught:
+        vi.load(path)
+    told = str(caught.value)
+    assert told.startswith(f"file: {str(path)!r}")
+    assert why in told
+    assert told.endswith("accepted")
+    assert "\n" not in told
+
+
+def test_a_file_that_is_there_is_replaced(tmp_path: Path) -> None:
+    path = tmp_path / "data.nc"
+    path.write_text("old")
+    vi.save(made("sweep"), path)
+    xr.testing.assert_equal(vi.load(path), made("sweep"))
+    vi.save(made("simulation"), path)
+    xr.testing.assert_equal(vi.load(path), made("simulation"))
+
+
+@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_a_write_that_fails_leaves_what_was_there(error: BaseException, tmp_path: Path) -> None:
+    path = tmp_path / "data.nc"
+    path.write_text("old")
+
+    def write(beside: Path) -> None:
+        assert beside.parent == tmp_path
+        assert path.read_text() == "old"
+        beside.write_text("half")
+        raise error
+
+    expected = vi.InputError if isinstance(error, OSError) else type(error)
+    with pytest.raises(expected) as caught:
+        write_whole(path, write)
+    if isinstance(error, OSError):
+        assert str(caught.value).startswith(f"output: {str(path)!r} cannot be written (No space")
+    assert path.read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["data.nc"]
+
+
+def test_a_folder_that_cannot_be_written_to(tmp_path: Path) -> None:
+    blocked = tmp_path / "file"
+    blocked.write_text("not a folder")
+    for path in (tmp_path / "missing" / "data.nc", blocked / "data.nc", Path("/proc/data.nc")):
+        with pytest.raises(vi.InputError, match=r"^output: .* cannot be written .* accepted$"):
+            vi.save(made("final state"), path)
+    assert [p.name for p in tmp_path.iterdir()] == ["file"]
+
+
+def test_a_folder_of_that_name_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "data.nc").mkdir()
+    with pytest.raises(vi.InputError, match=r"^output: .* cannot be written"):
+        vi.save(made("final state"), tmp_path / "data.nc")
+    assert [p.name for p in tmp_path.iterdir()] == ["data.nc"]

@@ -1,0 +1,312 @@
+"""``sweep``: what the dataset holds, exact extremes, published landmarks, and wrong input."""
+
+from __future__ import annotations
+
+import json
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+
+VARIABLES = {
+    "displacement_excursion": "m",
+    "acceleration_excursion": "m s-2",
+    "eta_d": "1",
+    "eta_a": "1",
+    "eccentricity": "m",
+    "impacts_right": "1",
+    "impacts_left": "1",
+    "motion": "1",
+    "period": "1",
+    "cycles": "1",
+    "status": "1",
+}
+
+
+def grid(start: float, stop: float, step: float) -> list[float]:
+    return [round(start + k * step, 9) for k in range(round((stop - start) / step) + 1)]
+
+
+@cache
+def swept(code: str, parameters: str, start: float, stop: float, step: float) -> xr.Dataset:
+    case = vi.laboratory.case(code, parameters)
+    return vi.sweep(case.oscillator, case.amplitude, grid(start, stop, step))
+
+
+def identified() -> xr.Dataset:
+    return swept("B2-G1-A3", "identified", 0.5, 3.0, 0.01)
+
+
+class TestDataset:
+    def test_variables_dims_and_units(self) -> None:
+        data = identified()
+        assert list(data["direction"].values) == ["forward", "backward"]
+        assert data["frequency"].values.tolist() == grid(0.5, 3.0, 0.01)
+        assert data["frequency"].attrs["units"] == "Hz"
+        for name, units in VARIABLES.items():
+            assert data[name].dims == ("direction", "frequency")
+            assert data[name].attrs["units"] == units
+        for name in data.variables:
+            assert data[name].attrs["long_name"]
+            assert not data[name].isnull().any()
+        assert data["section"].dims == ("direction", "frequency", "component")
+
+    def test_it_says_how_it_was_made(self) -> None:
+        attrs = identified().attrs
+        assert attrs["created_by"] == "vibroimpact.sweep"
+        assert attrs["vibroimpact_version"] == vi.__version__
+        (rig,) = json.loads(attrs["parameters"])["rigs"]
+        case = vi.laboratory.case("B2-G1-A3", "identified")
+        assert vi.Oscillator(**rig["oscillator"]) == case.oscillator
+        assert rig["amplitude"] == case.amplitude
+
+    def test_values_belong_together(self) -> None:
+        data = identified()
+        high, low = data["displacement_max"], data["displacement_min"]
+        xr.testing.assert_equal(data["displacement_excursion"], high - low)
+        xr.testing.assert_equal(data["eccentricity"], (high + low) / 2)
+        above, below = data["acceleration_max"], data["acceleration_min"]
+        xr.testing.assert_equal(data["acceleration_excursion"], above - below)
+        for kind, eta in (("displacement", "eta_d"), ("acceleration", "eta_a")):
+            free = data[f"free_{kind}_excursion"]
+            assert free.dims == ("frequency",)
+            np.testing.assert_allclose(
+                data[eta], data[f"{kind}_excursion"] / free.max(), rtol=1e-15
+            )
+        assert (data["motion"] == "periodic").all()
+        assert (data["status"] == 0).all()
+        assert data["status"].attrs["flag_meanings"].split()[0] == "done"
+        assert (data["period"] >= 1).all()
+        assert (data["cycles"] > 0).all()
+        for side in ("impacts_right", "impacts_left"):
+            per_period = data[side] * data["period"]
+            np.testing.assert_array_equal(per_period, per_period.round())
+
+    def test_many_rigs_share_one_dataset(self) -> None:
+        pair = (vi.laboratory.case("B1-G1-A1"), vi.laboratory.case("B2-G1-A3"))
+        data = vi.sweeps(pair, [1.0, 2.0])
+        assert data["eta_a"].dims == ("rig", "direction", "frequency")
+        assert data["rig"].values.tolist() == ["B1-G1-A1", "B2-G1-A3"]
+        named = vi.sweeps({"left": pair[0], "right": pair[1]}, [1.0, 2.0])
+        assert named["rig"].values.tolist() == ["left", "right"]
+        np.testing.assert_array_equal(named["eta_a"], data["eta_a"])
+
+    @pytest.mark.parametrize("directions", [("backward",), "backward", ("backward", "forward")])
+    def test_directions_are_as_asked(self, directions: str | tuple[str, ...]) -> None:
+        case = vi.laboratory.case("B2-G1-A3")
+        data = vi.sweep(case.oscillator, case.amplitude, [1.0, 2.0, 3.0], directions)
+        both = vi.sweep(case.oscillator, case.amplitude, [1.0, 2.0, 3.0])
+        asked = [directions] if isinstance(directions, str) else list(directions)
+        assert data["direction"].values.tolist() == asked
+        xr.testing.assert_equal(data, both.sel(direction=asked))
+
+    def test_text_and_progress(self) -> None:
+        case = vi.laboratory.case("B2-G1-A3")
+        told: list[tuple[int, int]] = []
+        data = vi.sweep(
+            *(case.oscillator, "0.05 g", ["500 mHz", "2.5 Hz"]),
+            progress=lambda done, total: told.append((done, total)),
+        )
+        plain = vi.sweep(case.oscillator, 0.05 * 9.80665, [0.5, 2.5])
+        xr.testing.assert_equal(data, plain)
+        assert told[-1] == (4, 4)
+        assert sorted(told) == told
+
+
+class TestStepping:
+    @pytest.mark.parametrize("direction", ["forward", "backward"])
+    def test_each_hold_goes_on_from_the_last(self, direction: str) -> None:
+        case = vi.laboratory.case("B2-G1-A3")
+        data = vi.sweep(case.oscillator, case.amplitude, [1.2, 1.7, 2.4], direction, phase=0.7)
+        data = data.isel(direction=0)
+        if direction == "backward":
+            data = data.isel(frequency=slice(None, None, -1))
+        start = vi.State()
+        for i in range(3):
+            held = data.isel(frequency=i)
+            shaken = vi.Harmonic(case.amplitude, float(held["frequency"]), 0.7)
+            cycles = int(held["cycles"])
+            end = vi.simulate(case.oscillator, shaken, cycles, start, samples=0)["final_state"]
+            np.testing.assert_allclose(held["section"], end, rtol=1e-9, atol=1e-14)
+            start = held["section"]
+
+    def test_a_start_chooses_the_branch(self) -> None:
+        case = vi.laboratory.case("B2-G1-A3", "identified")
+        low, high = (
+            identified()["section"].sel(frequency=2.2, direction=direction)
+            for direction in ("backward", "forward")
+        )
+        for start, direction in ((low, "backward"), (high, "forward")):
+            again = vi.sweep(case.oscillator, case.amplitude, [2.2], "forward", start=start)
+            expected = identified()["eta_a"].sel(frequency=2.2, direction=direction)
+            assert again["eta_a"].item() == pytest.approx(expected.item(), rel=1e-10)
+
+
+class TestExtremes:
+    @pytest.mark.parametrize("frequency", [0.55, 0.8, 1.3, 2.0, 2.6])
+    def test_no_sample_exceeds_them_and_dense_samples_reach_them(self, frequency: float) -> None:
+        data = identified().sel(frequency=frequency, direction="forward")
+        case = vi.laboratory.case("B2-G1-A3", "identified")
+        shaken = vi.Harmonic(case.amplitude, frequency)
+        period = int(data["period"])
+        again = vi.simulate(case.oscillator, shaken, period, data["section"], 20_000)
+        a = [
+            again[name].values
+            for name in ("acceleration", "event_acceleration_before", "event_acceleration_behind")
+        ]
+        for kind, seen in (
+            ("displacement", again["displacement"].values),
+            ("acceleration", np.concatenate(a)),
+        ):
+            excursion = float(data[f"{kind}_excursion"])
+            # The samples repeat the cycle to the tolerance of the sweep.
+            over = seen.max() - data[f"{kind}_max"], data[f"{kind}_min"] - seen.min()
+            assert max(over) <= 1e-11 * excursion
+            assert min(over) >= -1e-6 * excursion
+
+    def test_a_measured_window_is_that_of_its_states(self) -> None:
+        case = vi.laboratory.case("B3-10mm-A3")
+        data = vi.sweep(
+            case.oscillator, case.amplitude, [1.06], "forward", max_cycles=200, window=50
+        ).isel(direction=0, frequency=0)
+        assert data["motion"] == "undecided"
+        assert data["status"] == 1
+        assert data["period"] == 0
+        assert data["cycles"] == 250
+        before = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 1.06), 200, samples=0)
+        window = vi.simulate(
+            case.oscillator, vi.Harmonic(case.amplitude, 1.06), 50, before, samples=2000
+        )
+        np.testing.assert_allclose(window["final_state"][:4], data["section"][:4], rtol=1e-6)
+        seen = np.ptp(window["displacement"].values)
+        assert seen == pytest.approx(float(data["displacement_excursion"]), rel=1e-4)
+        hits = (window["event_contact"] == 1) & (window["event_side"] == 1)
+        assert int(hits.sum()) == float(data["impacts_right"]) * 50
+
+
+class TestPublishedLandmarks:
+    def test_b2_g1_a3_identified(self) -> None:
+        """Secondary resonance near 0.6 Hz; jumps down near 2.66 Hz and up near 1.67 Hz."""
+        data = identified()
+        f = data["frequency"].values
+        up = data["eta_a"].sel(direction="forward").values
+        down = data["eta_a"].sel(direction="backward").values
+        falls = -np.diff(up)
+        assert f[np.argmax(falls)] == pytest.approx(2.65)
+        rises = -np.diff(down)  # towards lower frequencies
+        assert f[np.argmax(rises)] == pytest.approx(1.67)
+        for steps in (falls, rises):
+            second, first = np.sort(steps)[-2:]
+            assert first > 1.3
+            assert second < 0.15
+        # Apart between the jumps only.
+        apart = f[up - down > 0.15]
+        np.testing.assert_array_equal(apart, f[(f > 1.675) & (f < 2.655)])
+        low = f < 0.75
+        assert 0.55 <= f[low][np.argmax(up[low])] <= 0.6
+
+    def test_b3_10mm_a3_does_not_settle_from_1_02_to_1_10(self) -> None:
+        data = swept("B3-10mm-A3", "table", 0.95, 1.2, 0.01)
+        unsettled = data["motion"] == "undecided"
+        assert unsettled.sel(frequency=slice(1.015, 1.105)).all()
+        # A little outside, where motions settle slowly, the cycle limit may be reached.
+        assert not unsettled.sel(frequency=slice(0.985)).any()
+        assert not unsettled.sel(frequency=slice(1.125, None)).any()
+        np.testing.assert_array_equal(unsettled, data["period"] == 0)
+        np.testing.assert_array_equal(unsettled, data["status"] == 1)
+        assert (data["cycles"].values[unsettled.values] == 2500).all()
+        assert not data["eta_a"].isnull().any()
+
+
+class TestWrongInput:
+    @pytest.mark.parametrize(
+        ("frequencies", "message"),
+        [
+            ([], "frequencies: the list is empty"),
+            ("1 Hz", "frequencies: '1 Hz' is one text"),
+            (2.0, "frequencies: 2.0 is not a list"),
+            ([1.0, 3.0, 2.0], "frequencies[2]: 2 Hz follows 3 Hz"),
+            ([1.0, 1.0], "frequencies[1]: 1 Hz follows 1 Hz"),
+            ([0.0, 1.0], "frequencies[0]: 0"),
+            ([-1.0], "frequencies[0]: -1"),
+            ([1.0, math.nan], "frequencies[1]: nan"),
+            ([1.0, math.inf], "frequencies[1]: inf"),
+            ([1.0, "2 kg"], "frequencies[1]: "),
+            ([1.0, "quick"], "frequencies[1]: "),
+            ([1.0, None], "frequencies[1]: "),
+            ([[1.0, 2.0]], "frequencies[0]: "),
+        ],
+    )
+    def test_frequencies(self, frequencies: object, message: str) -> None:
+        self.refused(message, frequencies=frequencies)
+
+    @pytest.mark.parametrize("directions", ["up", ("forward", "up"), ("forward", "forward"), ()])
+    def test_directions(self, directions: object) -> None:
+        self.refused("directions: ", directions=directions)
+
+    @pytest.mark.parametrize(
+        ("field", "value"),
+        [
+            ("amplitude", 0.0),
+            ("amplitude", -1.0),
+            ("amplitude", math.nan),
+            ("amplitude", "0.05 gram"),
+            ("phase", math.inf),
+            ("phase", "1 m"),
+            ("tolerance", 0.0),
+            ("tolerance", 1.0),
+            ("tolerance", math.nan),
+            ("max_cycles", 0),
+            ("max_cycles", 10.5),
+            ("window", -1),
+            ("max_events", 0),
+            ("threads", 0),
+            ("threads", 1.5),
+        ],
+    )
+    def test_numbers(self, field: str, value: object) -> None:
+        self.refused(f"{field}: ", **{field: value})
+
+    def test_starts(self) -> None:
+        self.refused("start.right_bumper: ", start=vi.State(0.02, right_bumper=0.0))
+        self.refused("start: ", start=3.0)
+
+    def test_rigs(self) -> None:
+        with pytest.raises(vi.InputError, match=r"^rigs: the list is empty; .* accepted$"):
+            vi.sweeps([], [1.0])
+        case = vi.laboratory.case("B2-G1-A3")
+        with pytest.raises(vi.InputError, match=r"^rigs\[1\].amplitude: "):
+            vi.sweeps([case, (case.oscillator, -1.0)], [1.0])
+
+    @staticmethod
+    def refused(message: str, **arguments: object) -> None:
+        case = vi.laboratory.case("B2-G1-A3")
+        given = {"amplitude": case.amplitude, "frequencies": [1.0, 2.0], **arguments}
+        with pytest.raises(vi.InputError) as caught:
+            vi.sweep(case.oscillator, **given)
+        told = str(caught.value)
+        assert told.startswith(message)
+        assert "accepted" in told
+        assert "\n" not in told
+
+
+class TestGivenUp:
+    def test_too_many_events(self) -> None:
+        case = vi.laboratory.case("B2-G1-A3")
+        data = vi.sweep(case.oscillator, case.amplitude, [0.3, 2.0], "forward", max_events=8).isel(
+            direction=0
+        )
+        assert data["status"].values.tolist() == [2, 0]
+        assert data["motion"].values.tolist() == ["undecided", "periodic"]
+        assert np.isnan(data["eta_a"].values).tolist() == [True, False]
+        assert data["status"].attrs["flag_meanings"].split()[2] == "too_many_events"
+
+    def test_too_much_work(self) -> None:
+        rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.Bumper(1e30, 0.0, 0.5))
+        data = vi.sweep(rig, 1.0, [0.1])
+        assert (data["status"] == 3).all()
+        assert data["eta_d"].isnull().all()
