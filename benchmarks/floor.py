@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 import vibroimpact as vi
 from benchmarks import ours
 from benchmarks.peers.problem import P
+from vibroimpact.engine.evaluate import node, travel
 from vibroimpact.engine.jit import OPTIONS
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.evaluate import node, travel
 from vibroimpact.engine.parameters import SIZE as RIG
 from vibroimpact.engine.phase import FLIGHT, LEFT, NODES, PLAN, RIGHT, SIZE, TABLES, H, build
 

@@ -16,6 +16,9 @@ class Ended:
     """How a process went."""
 
     seconds: float
+    """Time on the wall."""
+    work: float
+    """Processor time, its own children included; 0 where the system does not tell."""
     output: str
     errors: str
 
@@ -30,6 +33,7 @@ def execute(command: Sequence[str], environment: Mapping[str, str] | None = None
     """
     # Python's own cache of compiled modules is used as everywhere.
     inherited = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    before = os.times()
     begin = time.perf_counter()
     done = subprocess.run(
         command,
@@ -40,9 +44,12 @@ def execute(command: Sequence[str], environment: Mapping[str, str] | None = None
         check=False,
     )
     seconds = time.perf_counter() - begin
+    after = os.times()
+    work = after.children_user + after.children_system
+    work -= before.children_user + before.children_system
     if done.returncode:
         raise RuntimeError(f"{' '.join(command)} failed:\n{done.stderr}")
-    return Ended(seconds, done.stdout, done.stderr)
+    return Ended(seconds, work, done.stdout, done.stderr)
 
 
 def python(code: str, environment: Mapping[str, str] | None = None) -> Ended:

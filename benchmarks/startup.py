@@ -6,8 +6,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from benchmarks import fresh
+from benchmarks.fresh import Ended
 from benchmarks.report import Table, met, targets
-from benchmarks.rounds import Spread
+from benchmarks.rounds import Spread, digits
 
 _PROCESSES = 7
 _CACHE = "VIBROIMPACT_CACHE_DIR"
@@ -67,50 +68,60 @@ def startup(compiled: Compiling) -> Table:
         first = fresh.python(_SWEEP, environment)
         table.add(
             "first vi.sweep after installing, whole process, s",
-            f"{first.seconds:.1f}",
+            _once(first),
             "under 15 s",
             met(first.seconds < 15.0),
         )
         said = "compiling" in first.errors
         table.add("it says that it compiles", "yes" if said else "no", "yes", met(said))
         again = [fresh.python(_SWEEP, environment) for _ in range(_PROCESSES)]
-        spread = Spread.of([process.seconds for process in again])
+        spread, value = _often(again)
         table.add(
             "vi.sweep from the second process on, whole process, s",
-            spread.text(),
+            value,
             "under 2 s",
             met(spread.median < 2.0),
         )
         quiet = not any(process.errors for process in again)
         table.add("it says nothing any more", "yes" if quiet else "no", "yes", met(quiet))
         words = ("sweep", "B2-G1-A3", "--output", out)
-        commands = [
-            fresh.vibroimpact(*words, environment=environment).seconds for _ in range(_PROCESSES)
-        ]
-        spread = Spread.of(commands)
+        spread, value = _often(
+            [fresh.vibroimpact(*words, environment=environment) for _ in range(_PROCESSES)]
+        )
         table.add(
             "vibroimpact sweep B2-G1-A3, cached, whole process, s",
-            spread.text(),
+            value,
             "under 2 s",
             met(spread.median < 2.0),
         )
     with _empty_cache() as environment, tempfile.TemporaryDirectory() as out:
         words = ("sweep", "B2-G1-A3", "--output", out)
-        seconds = fresh.vibroimpact(*words, environment=environment).seconds
+        first = fresh.vibroimpact(*words, environment=environment)
         table.add(
             "the same as the first after installing, s",
-            f"{seconds:.1f}",
+            _once(first),
             "under 15 s",
-            met(seconds < 15.0),
+            met(first.seconds < 15.0),
         )
     for entry, public in (("sweep", "vi.sweep"), ("trajectory", "vi.simulate")):
         value = f"{compiled.cold[entry]:.1f}, then {compiled.cached[entry]:.2f}"
         table.add(f"compiling for {public}, then loading, s", value, "", "")
     table.notes.append(
         "The vi.sweep is of B2-G1-A3 at the 46 published frequencies, forward and backward; the "
-        "command steps by 0.01 Hz and writes a figure, a NetCDF file and a summary too."
+        "command steps by 0.01 Hz and writes a figure, a NetCDF file and a summary too. Targets are "
+        "for the time on the wall; processor time is what it would be near on a quiet machine."
     )
     return table
+
+
+def _once(process: Ended) -> str:
+    return f"{process.seconds:.1f}; processor {process.work:.1f}"
+
+
+def _often(processes: list[Ended]) -> tuple[Spread, str]:
+    spread = Spread.of([process.seconds for process in processes])
+    work = Spread.of([process.work for process in processes])
+    return spread, f"{spread.text()}; processor {digits(work.median)}"
 
 
 def _repeat(code: str) -> Spread:

@@ -86,7 +86,6 @@ def test_the_default_tolerance_is_good_enough_for_a_damped_rig() -> None:
         np.testing.assert_allclose(swept, curve, rtol=1e-12)
 
 
-@pytest.mark.xfail(reason="a slow transient is taken for one that rounding has stalled")
 @pytest.mark.parametrize(("damping_ratio", "ratio"), [(0.005, 5.0), (0.02, 20.0)])
 def test_a_slow_transient_is_waited_for(damping_ratio: float, ratio: float) -> None:
     oscillator = rig(damping_ratio)

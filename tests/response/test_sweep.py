@@ -142,8 +142,9 @@ class TestStepping:
         )
         for start, direction in ((low, "backward"), (high, "forward")):
             again = vi.sweep(case.oscillator, case.amplitude, [2.2], "forward", start=start)
-            expected = identified()["eta_a"].sel(frequency=2.2, direction=direction)
-            assert again["eta_a"].item() == pytest.approx(expected.item(), rel=1e-10)
+            excursion = again["acceleration_excursion"].item()
+            expected = identified()["acceleration_excursion"].sel(frequency=2.2)
+            assert excursion == pytest.approx(expected.sel(direction=direction).item(), rel=1e-10)
 
 
 class TestExtremes:
@@ -218,7 +219,7 @@ class TestPublishedLandmarks:
         assert not unsettled.sel(frequency=slice(1.125, None)).any()
         np.testing.assert_array_equal(unsettled, data["period"] == 0)
         np.testing.assert_array_equal(unsettled, data["status"] == 1)
-        assert (data["cycles"].values[unsettled.values] == 2500).all()
+        assert (data["cycles"].values[unsettled.values] >= 2500).all()
         assert not data["eta_a"].isnull().any()
 
 
