@@ -108,8 +108,8 @@ def startup(compiled: Compiling) -> Table:
         table.add(f"compiling for {public}, then loading, s", value, "", "")
     table.notes.append(
         "The vi.sweep is of B2-G1-A3 at the 46 published frequencies, forward and backward; the "
-        "command steps by 0.01 Hz and writes a figure, a NetCDF file and a summary too. Targets are "
-        "for the time on the wall; processor time is what it would be near on a quiet machine."
+        "command steps by 0.01 Hz and writes a figure, a NetCDF file and a summary too. Targets "
+        "are for the time on the wall, which on a quiet machine is near the processor time."
     )
     return table
 

@@ -47,14 +47,26 @@ def advance(
         return event, t, event, 1, u, v, s, c, right, left, 0.0
     at = par.BUMPER + par.WIDTH * (mode - 1)
     gap = plan[at + par.GAP]
+    # A left contact is the mirror image of a right one.
+    sign = 1.0 if mode == RIGHT else -1.0
+    event, t, x, v, s, c = contact(
+        plan,
+        mode,
+        right if mode == RIGHT else left,
+        sign * v,
+        sign * s,
+        sign * c,
+        fresh == 1,
+        limit,
+        age,
+    )
     if mode == RIGHT:
-        event, t, right, v, s, c = contact(plan, mode, right, v, s, c, fresh == 1, limit, age)
+        right = x
         left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
-        u = gap + right
     else:
-        event, t, left, v, s, c = contact(plan, mode, left, -v, -s, -c, fresh == 1, limit, age)
+        left = x
         right = relaxed(right, plan[par.BUMPER + par.RATE], t)
-        u, v, s, c = -(gap + left), -v, -s, -c
+    u, v, s, c = sign * (gap + x), sign * v, sign * s, sign * c
     if event == DETACHED:
         return event, t, FLIGHT, mode, u, v, s, c, right, left, 0.0
     return event, t, mode, 0, u, v, s, c, right, left, age + t
