@@ -117,7 +117,8 @@ def floor(periods: int) -> Floor:
     rests = lengths - nodes
 
     def call() -> tuple[float, float, float, float]:
-        return _replay(memory, P.gap, modes, nodes, rests, known.start, periods)
+        u, v, s, c = _replay(memory, P.gap, modes, nodes, rests, known.start, periods)
+        return u, v, s, c
 
     difference = np.abs(np.subtract(call(), known.start)).max()
     if not difference < 1e-9:

@@ -45,7 +45,8 @@ class Compiling:
 
 def compiling() -> Compiling:
     """Compile the engine into an empty cache, then load it."""
-    cold, cached = {}, {}
+    cold: dict[str, float] = {}
+    cached: dict[str, float] = {}
     with _empty_cache() as environment:
         for entry in ("sweep", "trajectory"):
             for times in (cold, cached):

@@ -46,7 +46,8 @@ class Peers:
 
 def peers() -> Peers:
     """Build the other solvers."""
-    solvers, missing = {}, []
+    solvers: dict[str, Peer] = {}
+    missing: list[str] = []
     for name, module in ((GENERAL, "heyoka_general"), (SPECIALISED, "heyoka_peer")):
         peer = _optional(module, missing)
         if peer is not None:
@@ -242,5 +243,5 @@ def _optional(module: str, missing: list[str]) -> ModuleType | None:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.startswith("benchmarks"):
             raise
-        missing.append(error.name)
+        missing.append(error.name.partition(".")[0])
         return None

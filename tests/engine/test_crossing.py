@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -47,7 +48,7 @@ def test_a_rising_zero_is_not_a_crossing() -> None:
 @settings(max_examples=300, deadline=None)
 def test_first_of_many(roots: list[float]) -> None:
     ordered = sorted(roots)
-    if any(b - a < 1e-3 for a, b in zip(ordered, ordered[1:], strict=False)):
+    if any(b - a < 1e-3 for a, b in pairwise(ordered)):
         return
     assert len(roots) + 1 <= ORDER
     # The coefficients' rounding moves a root by eps over the slope there.
