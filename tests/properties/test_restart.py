@@ -59,7 +59,6 @@ def test_a_run_may_be_cut_at_an_event(motion: Motion, which: int, towards: float
     assert distance(data, end_of_cut_run(motion, cut)) < ROUNDING
 
 
-@pytest.mark.xfail(reason="a deformation just below zero is refused", strict=False)
 def test_an_elastic_contact_may_be_cut_at_its_end() -> None:
     """Where rounding may put the face of the bumper a little too far."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2.0), vi.Bumper(4.8, 0.0, 0.0))

@@ -115,12 +115,14 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
 def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
     """Engine states (last axis) as the components of a dataset's state."""
     mode = vector[..., hold.MODE]
+    # At the end of a contact without a dashpot, rounding may leave a deformation below zero.
+    deformations = np.maximum(vector[..., hold.RIGHT_BUMPER : hold.LEFT_BUMPER + 1], 0.0)
     stacked = np.stack(
         [
             vector[..., hold.U],
             vector[..., hold.V],
-            vector[..., hold.RIGHT_BUMPER],
-            -vector[..., hold.LEFT_BUMPER],
+            deformations[..., 0],
+            -deformations[..., 1],
             np.broadcast_to(phase % (2.0 * math.pi), mode.shape),
             np.where(mode == RIGHT, 1.0, np.where(mode == LEFT, -1.0, 0.0)),
         ],
