@@ -42,7 +42,7 @@ def main() -> None:
         add(campaign())
     with console.status("starting and memory ..."):
         add(startup(compiled), memory())
-    about.add("load when it ended", load())
+    about.add("load when it ended", f"{load():.1f}")
     missed = [row[0] for table in tables for row in table.rows if "NOT MET" in row]
     console.print(f"Not met: {'; '.join(missed)}." if missed else "All targets are met.")
     if arguments.write:

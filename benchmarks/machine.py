@@ -1,5 +1,6 @@
 """What the benchmark ran on."""
 
+import math
 import os
 import platform
 import sys
@@ -21,7 +22,13 @@ def machine() -> Table:
     table.add("system", f"{platform.system()} {platform.release()}, {platform.machine()}")
     table.add("Python", f"{platform.python_implementation()} {platform.python_version()}")
     table.add("packages", ", ".join(f"{name} {installed(name)}" for name in _PACKAGES))
-    table.add("load when it began", load())
+    busy = load()
+    table.add("load when it began", f"{busy:.1f}")
+    if busy > 0.5:
+        table.notes.append(
+            "The machine was not idle: times on the wall are too long, and a second thread finds "
+            "its processor taken."
+        )
     return table
 
 
@@ -40,12 +47,12 @@ def processors() -> int:
     return os.cpu_count() or 1
 
 
-def load() -> str:
-    """Average number of running processes over the last minute."""
+def load() -> float:
+    """Average number of running processes over the last minute; NaN where it is unknown."""
     try:
-        return f"{os.getloadavg()[0]:.1f}"
-    except OSError:
-        return "unknown"
+        return os.getloadavg()[0]
+    except (AttributeError, OSError):
+        return math.nan
 
 
 def _processor() -> str:

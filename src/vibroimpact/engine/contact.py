@@ -23,6 +23,7 @@ from vibroimpact.engine.phase import (
     SCALED_C,
     SCALED_D,
     SCALED_K,
+    SCRATCH,
     SIZE,
     TABLES,
     TAYLOR_F,
@@ -90,6 +91,17 @@ def contact(
             )
             slope = stiffness * (v * h) + damping * plan[table + RATE] * pull
             clear = 2.0 * slope / second
+            if not clear >= 1.0:
+                # Slow landing: search about the contact point itself, where the force is not
+                # negative by construction and the series has no rounding noise.
+                high = min(0.5, span)
+                expand(plan, table + TAYLOR_F, x, v, s, c)
+                plan[SCRATCH] = max(plan[SCRATCH], 0.0)
+                y = first_root(plan, 0.0, 1.0, 0.0, 0.0, False, 0.0, high)
+                if y != NONE:
+                    x, v, s, c = travel(plan, table, y, x, v, s, c)
+                    return DETACHED, h * y, 0.0 if damping == 0.0 else x, v, s, c
+                clear = max(clear, high)
         fresh = False
         before = f
         earlier = f

@@ -29,6 +29,7 @@ NONE = 9.0
 """Returned for "no root on the interval"; a root lies in [−1/2, 1/2]."""
 
 _SMALLEST = 2.0**-50
+_MOST = 20_000
 _RADIUS = 1.0 / 40.0  # steps; how far a short series reaches
 
 
@@ -112,6 +113,8 @@ def polish(
     y = 0.5 * (low + high)
     for _ in range(100):
         f, f1, _ = value(plan, offset, sign, memory, rate, start, double, y)
+        if f == 0.0:
+            return y
         if f > 0.0:
             low = y
         else:
@@ -145,7 +148,9 @@ def first_root(
     start = low
     p = low
     width = high - low
-    while p < high:
+    for _ in range(_MOST):  # far more than any motion above the range of denormals needs
+        if p >= high:
+            break
         width = min(width, high - p)
         f, f1, f2 = value(plan, offset, sign, memory, rate, start, double, p)
         if double and p == start:

@@ -128,6 +128,23 @@ def flight(
         band = plan[table + BAND_X] * abs(u) + plan[table + BAND_V] * abs(v) + plan[table + BAND_0]
         second = 8.0 * band  # per step squared
         span = (limit - t) * plan[table + RATE]
+        top = gap_r - band
+        bottom = band - gap_l
+        if not launched and t == 0.0 and (u > top or u < bottom):
+            # The mass may touch a bumper: about the start itself the series is exact there,
+            # and the signs of its coefficients tell a contact from a parting.
+            high = min(0.5, span)
+            expand(plan, table + TAYLOR, u, v, s, c)
+            y, side = search_flight(
+                plan, gap_r, gap_l, right, left, rate_r * h, rate_l * h, 0.0, 0.0, high
+            )
+            if y != NONE:
+                u, v, s, c = travel(plan, table, y, u, v, s, c)
+                t = h * y
+                right, left = relaxed(right, rate_r, t), relaxed(left, rate_l, t)
+                u = gap_r + right if side == RIGHT else -(gap_l + left)
+                return side, t, u, v, s, c, right, left
+            clear_r = clear_l = high
         if launched:
             # A lower bound of the clearance just after detachment (theory, section 3.3).
             memory = right if launched == RIGHT else left
@@ -138,7 +155,7 @@ def flight(
                 if q <= _WEAK_PULL:
                     clear = 2.0 * rate * memory * (1.0 - q) / second
             else:
-                clear = 2.0 * abs(v) * h / second
+                clear = 2.0 * max(-v if launched == RIGHT else v, 0.0) * h / second
             if clear < 1.0:
                 high = min(0.5, span)
                 expand(plan, table + TAYLOR, u, v, s, c)
@@ -168,8 +185,6 @@ def flight(
             else:
                 clear_l = min(clear, NODES)
             launched = 0
-        top = gap_r - band
-        bottom = band - gap_l
         x = u
         before = u
         earlier = u  # at the node before that, for the guess
@@ -264,6 +279,5 @@ def flight(
             )
         u, v, s, c = moved(plan, table + NODE + (NODES - 1) * WIDTH, u, v, s, c)
         right, left = relaxed(right, rate_r, NODES * h), relaxed(left, rate_l, NODES * h)
-        clear_r -= NODES
-        clear_l -= NODES
+        clear_r = clear_l = 0.0
         t += NODES * h

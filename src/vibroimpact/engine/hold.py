@@ -26,7 +26,10 @@ _BLOCK = 8
 _STALLED_CYCLES = 96
 _ROUNDING = 4e-15
 _STALLED = 1e-11
+_SAME = 1e-8  # states closer than this are one point of the section when counting a period
+_SAFETY = 4.0  # on the estimated distance
 _PATIENCE = 50  # times max_cycles, for a motion that keeps closing in
+_CLOSING = 1e-3  # closer than this share of its size, a motion may be closing in
 _RECENT = 0.2  # share of the cycles so far in which it must have come twice as close
 
 # What a hold writes.
@@ -136,13 +139,21 @@ def settle(
     past = np.zeros((LONGEST, 4))
     block = np.zeros(LONGEST + 1)
     former = np.full(LONGEST + 1, math.inf)
+    recent = np.full(LONGEST + 1, math.inf)  # ratios of successive blocks
+    earlier = np.full(LONGEST + 1, math.inf)
     best = math.inf
     stalled = 0
     scale = 0.0
+    size = 0.0  # of the state, in this block and in the one before
+    former_size = 0.0
     k = 0
     n = 0
     outcome = NOT_SETTLED
-    while k < max_cycles or (k < _PATIENCE * max_cycles and stalled * _BLOCK < _RECENT * k):
+    while k < max_cycles or (
+        _STALLED_CYCLES <= k < _PATIENCE * max_cycles
+        and stalled * _BLOCK < _RECENT * k
+        and best <= _CLOSING * scale
+    ):
         at = k % LONGEST
         past[at, 0], past[at, 1], past[at, 2], past[at, 3] = u, v, right, left
         events, mode, fresh, u, v, right, left, age, _, _ = cycle(
@@ -155,7 +166,8 @@ def settle(
         if not (abs(u) < 1e200 and abs(v) < 1e200):
             outcome = NOT_FINITE
             break
-        scale = max(scale, weight * abs(u), abs(v))
+        size = max(size, weight * abs(u), abs(v))
+        scale = max(size, former_size)
         # Longer periods are looked for only where the simplest has not come soon.
         longest = 1 if k <= 4 * _BLOCK else LONGEST
         for i in range(1, longest + 1):
@@ -168,17 +180,24 @@ def settle(
         if k % _BLOCK:
             continue
         for i in range(1, longest + 1):
-            share = 1.0  # ρ to the power of i
-            if former[i] < math.inf and block[i] < former[i]:
-                share = (block[i] / former[i]) ** (i / _BLOCK)
+            # ρ to the power of i, from the slowest of three successive blocks: on a rotating
+            # approach a single ratio may be small by luck.
+            slowest = max(block[i] / former[i], recent[i], earlier[i])
+            if not former[i] < math.inf:
+                slowest = math.inf
+            share = slowest ** (i / _BLOCK) if slowest < 1.0 else 1.0
             small = block[i] <= _ROUNDING * scale
-            if small or (share < 1.0 and block[i] * share <= tolerance * scale * (1.0 - share)):
+            if small or (
+                share < 1.0 and _SAFETY * block[i] * share <= tolerance * scale * (1.0 - share)
+            ):
                 n = i
                 break
         if n:
-            # A slowly alternating approach closes on 2 before 1: take the least that fits.
+            # A slowly alternating approach closes on 2 before 1: take the least that fits now.
             for i in range(1, n):
-                if n % i == 0 and block[i] <= max(100.0 * tolerance, _ROUNDING) * scale:
+                q = (k - i) % LONGEST
+                d = max(weight * abs(u - past[q, 0]), abs(v - past[q, 1]))
+                if n % i == 0 and d <= _SAME * scale:
                     n = i
                     break
             outcome = DONE
@@ -196,15 +215,20 @@ def settle(
         else:
             stalled += 1
         still = stalled * _BLOCK
-        if still >= max(_STALLED_CYCLES, _RECENT * k) and best <= _STALLED * scale:
+        if still >= max(_STALLED_CYCLES, _RECENT * k) and least <= min(
+            _STALLED * scale, 4.0 * best
+        ):
             for i in range(1, close + 1):
                 if block[i] <= 4.0 * least:
                     n = i
                     break
             outcome = DONE
             break
-        scale *= 0.9  # forget the transient's size
+        former_size = size
+        size = 0.0
         for i in range(1, LONGEST + 1):
+            earlier[i] = recent[i]
+            recent[i] = block[i] / former[i] if former[i] < math.inf else math.inf
             former[i] = block[i] if i <= longest else math.inf
             block[i] = 0.0
     state[MODE], state[FRESH], state[U], state[V] = mode, fresh, u, v
@@ -247,10 +271,14 @@ def hold(
     if too_much_work(plan, period):
         result[OUTCOME] = TOO_MUCH_WORK
         return
+    state[AGE] = 0.0  # the forcing has changed: what had died out is a transient again
     outcome, n, k = settle(plan, state, s, c, period, tolerance, max_cycles, max_events)
     if outcome in (DONE, NOT_SETTLED):
         over = measure(plan, state, s, c, period, n if n else window, max_events, result)
         k += n if n else window
         if over != DONE:
             outcome = over
+            n = 0
+            for i in range(RESULTS):
+                result[i] = math.nan
     result[PERIOD], result[CYCLES], result[OUTCOME] = n, k, outcome

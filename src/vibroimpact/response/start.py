@@ -100,6 +100,17 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
         force = bumper.stiffness * deformation + bumper.damping * sign * v
         if bumper.damping == 0.0 and not touches:
             deformation = 0.0  # without a dashpot a free bumper is at rest at once
+        rounding = TOUCHING * (bumper.stiffness * deformation + bumper.damping * abs(v))
+        if state.contact == sign and force < -rounding:
+            raise InputError(
+                f"start.contact: {sign}, but the bumper would pull with {-force:g} N; "
+                "0 is accepted, or a velocity at which it presses"
+            )
+        if state.contact == 0 and touches and bumper.damping == 0.0 and deformation > slack:
+            raise InputError(
+                f"start.contact: 0, but the mass presses the {name} by {deformation:g} m, which "
+                f"has no dashpot to lag behind; {sign} is accepted"
+            )
         presses = force > 0.0 or (deformation == 0.0 and bumper.damping == 0.0 and sign * v > 0.0)
         if state.contact == sign or (state.contact is None and touches and presses):
             contact = RIGHT if sign == 1 else LEFT

@@ -286,7 +286,8 @@ def _run(
     """Run the tasks on threads; tell the progress; stop them all on Ctrl-C."""
     batch.sweep.prepare()  # once, before the threads would queue for it
     tasks = range(len(counter))
-    workers = min(threads or len(os.sched_getaffinity(0)), len(counter))
+    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    workers = min(threads or available or 1, len(counter))
     total = holds * len(counter)
     with ThreadPoolExecutor(workers) as pool:
         futures = [pool.submit(one, task) for task in tasks]
