@@ -42,6 +42,11 @@ def test_processes_share_the_cache_safely(tmp_path: Path) -> None:
     assert sorted(NOTICE in error for error in errors) == [False, True]
     assert NOTICE not in run(PREPARE, tmp_path)
     assert len(list(tmp_path.glob("engine-*"))) == 1
+    # A damaged file is no reason to fail, now or ever after.
+    for path in tmp_path.rglob("*.nb[ic]"):
+        path.write_bytes(path.read_bytes()[:40])
+    assert NOTICE in run(PREPARE, tmp_path)
+    assert not list(tmp_path.rglob("*.nb[ic]"))
 
 
 def test_where_the_cache_cannot_be_written_the_process_compiles_for_itself(tmp_path: Path) -> None:

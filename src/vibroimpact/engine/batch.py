@@ -187,6 +187,8 @@ def _trajectory(
     count = 0
     outcome = 0
     while number < cycles and outcome == 0 and count + max_events < len(events):
+        # A cycle that is given up leaves the state of its section.
+        section = (mode, fresh, u, v, right, left, age)
         share = min(1.0, cycles - number)
         length = share * period
         if samples == 0 and share == 1.0 and len(events) == max_events + 1:
@@ -220,6 +222,7 @@ def _trajectory(
             )
         if not complete:
             outcome = TOO_MANY_EVENTS
+            mode, fresh, u, v, right, left, age = section
         elif not (abs(u) < 1e200 and abs(v) < 1e200):
             outcome = NOT_FINITE
         number += 1

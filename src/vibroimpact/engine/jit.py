@@ -103,26 +103,36 @@ class Entry:
                 directory.mkdir(parents=True, exist_ok=True)
                 lock = FileLock(directory / "lock")
                 lock.acquire()
-            except OSError:  # nowhere to write: compile for this process only
-                self._say()
-                dispatcher = numba.njit(**OPTIONS)(self.function)
-                dispatcher.compile(self.signature)
-                self._compiled = dispatcher
+            except OSError:  # nowhere to write
+                self._compile_for_this_process()
                 return
             try:
-                if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
-                    self._say()
-                before = config.CACHE_DIR  # type: ignore[attr-defined]
-                # Read when the decorator runs.
-                config.CACHE_DIR = str(directory)  # type: ignore[attr-defined]
-                try:
-                    dispatcher = numba.njit(cache=True, **OPTIONS)(self.function)
-                finally:
-                    config.CACHE_DIR = before  # type: ignore[attr-defined]
-                dispatcher.compile(self.signature)
-                self._compiled = dispatcher
+                self._compiled = self._from_cache(directory)
+            except Exception:  # a damaged file, a full disk: numba raises whatever it meets
+                for path in directory.rglob("*.nb[ic]"):
+                    path.unlink(missing_ok=True)
+                self._compile_for_this_process()
             finally:
                 lock.release()
+
+    def _from_cache(self, directory: Path) -> Callable[..., Any]:
+        if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
+            self._say()
+        before = config.CACHE_DIR  # type: ignore[attr-defined]
+        # Read when the decorator runs.
+        config.CACHE_DIR = str(directory)  # type: ignore[attr-defined]
+        try:
+            dispatcher = numba.njit(cache=True, **OPTIONS)(self.function)
+        finally:
+            config.CACHE_DIR = before  # type: ignore[attr-defined]
+        dispatcher.compile(self.signature)
+        return dispatcher  # type: ignore[no-any-return]
+
+    def _compile_for_this_process(self) -> None:
+        self._say()
+        dispatcher = numba.njit(**OPTIONS)(self.function)
+        dispatcher.compile(self.signature)
+        self._compiled = dispatcher
 
     def _say(self) -> None:
         announce(
