@@ -169,6 +169,21 @@ class TestExtremes:
             assert max(over) <= 1e-11 * excursion
             assert min(over) >= -1e-6 * excursion
 
+    def test_the_jump_where_a_contact_begins_counts(self) -> None:
+        """In a heavily damped contact the force is largest at once, and falls from there."""
+        oscillator, amplitude = vi.from_dimensionless(20.0, 0.5, 0.5, 0.15)
+        frequency = 1.2 * oscillator.natural_frequency
+        data = vi.sweep(oscillator, amplitude, [frequency], "forward").isel(
+            direction=0, frequency=0
+        )
+        assert data["period"] == 1
+        shaken = vi.Harmonic(amplitude, frequency)
+        again = vi.simulate(oscillator, shaken, 1, data["section"], 20_000)
+        jumps = again["event_acceleration_behind"].values[again["event_contact"].values == 1]
+        assert data["acceleration_max"].item() == pytest.approx(jumps.max(), rel=1e-11)
+        assert data["acceleration_min"].item() == pytest.approx(jumps.min(), rel=1e-11)
+        assert again["acceleration"].max() < (1.0 - 1e-7) * jumps.max()
+
     def test_a_measured_window_is_that_of_its_states(self) -> None:
         case = vi.laboratory.case("B3-10mm-A3")
         data = vi.sweep(
