@@ -26,11 +26,18 @@ _HOME = {
     "Oscillator": "model",
     "Rig": "model",
     "State": "model",
+    "coexisting": "stability.coexisting",
+    "contacts": "response.contacts",
     "from_dimensionless": "model",
+    "impact_section": "response.section",
     "laboratory": "model",
     "load": "response.files",
+    "lyapunov_exponents": "stability.exponents",
     "save": "response.files",
     "simulate": "response.simulate",
+    "spectrum": "response.spectrum",
+    "steady": "stability.steady",
+    "stroboscopic_section": "response.section",
     "sweep": "response.sweep",
     "sweeps": "response.sweep",
     "to_dimensionless": "model",
@@ -46,11 +53,18 @@ __all__ = [
     "Rig",
     "State",
     "__version__",
+    "coexisting",
+    "contacts",
     "from_dimensionless",
+    "impact_section",
     "laboratory",
     "load",
+    "lyapunov_exponents",
     "save",
     "simulate",
+    "spectrum",
+    "steady",
+    "stroboscopic_section",
     "sweep",
     "sweeps",
     "to_dimensionless",
@@ -70,9 +84,15 @@ if TYPE_CHECKING:
         laboratory,
         to_dimensionless,
     )
+    from vibroimpact.response.contacts import contacts
     from vibroimpact.response.files import load, save
+    from vibroimpact.response.section import impact_section, stroboscopic_section
     from vibroimpact.response.simulate import simulate
+    from vibroimpact.response.spectrum import spectrum
     from vibroimpact.response.sweep import sweep, sweeps
+    from vibroimpact.stability.coexisting import coexisting
+    from vibroimpact.stability.exponents import lyapunov_exponents
+    from vibroimpact.stability.steady import steady
 
 
 def __getattr__(name: str) -> Any:

@@ -34,8 +34,16 @@ _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
 @kernel
 def series_extremes(
     plan: Vector, low: float, high: float, least: float, most: float
-) -> tuple[float, float]:
-    """Extend [least, most] by the values of the series in the scratch over [low, high]."""
+) -> tuple[float, float, float, float]:
+    """Extend [least, most] by the values of the series in the scratch over [low, high].
+
+    Returns
+    -------
+    least, most, at_least, at_most
+        The range, and where on the interval its ends lie (`low` where it was as wide before).
+    """
+    at_least = low
+    at_most = low
     third = 0.0
     power = 1.0
     for n in range(3, ORDER):
@@ -58,7 +66,10 @@ def series_extremes(
             y = a - f1 * width / (g1 - f1)
             for _ in range(60):
                 e, e1, e2 = series(plan, y)
-                least, most = min(least, e), max(most, e)
+                if e < least:
+                    least, at_least = e, y
+                if e > most:
+                    most, at_most = e, y
                 if e1 * f1 > 0.0:
                     a = y
                 else:
@@ -69,11 +80,25 @@ def series_extremes(
                 if abs(new - y) < 1e-10:  # the value is then right to 1e-20
                     break
                 y = new
-        least, most = min(least, g), max(most, g)
         p += width
+        if g < least:
+            least, at_least = g, p
+        if g > most:
+            most, at_most = g, p
         f1, f2 = g1, g2
         width *= 4.0
-    return least, most
+    return least, most, at_least, at_most
+
+
+@kernel
+def acceleration_series(plan: Vector, table: int) -> None:
+    """Turn the series of x in the scratch into that of ü + A sin θ = d − k x − c x′, times h²."""
+    for n in range(ORDER):
+        after = plan[SCRATCH + n + 1] * (n + 1) if n + 1 < ORDER else 0.0
+        plan[SCRATCH + n] = (
+            -plan[table + SCALED_K] * plan[SCRATCH + n] - plan[table + SCALED_C] * after
+        )
+    plan[SCRATCH] += plan[table + SCALED_D]
 
 
 @kernel
@@ -106,15 +131,9 @@ def stretch_extremes(
             mx, mv, ms, mc = moved(plan, now + MIDDLE, nx, nv, ns, nc)
             expand(plan, now + TAYLOR, mx, mv, ms, mc)
             high = min(0.5, span - i - 0.5)
-            x_least, x_most = series_extremes(plan, -0.5, high, x_least, x_most)
-            # Absolute acceleration: ü + A sin θ = d − k x − c x′.
-            for n in range(ORDER):
-                after = plan[SCRATCH + n + 1] * (n + 1) if n + 1 < ORDER else 0.0
-                plan[SCRATCH + n] = (
-                    -plan[now + SCALED_K] * plan[SCRATCH + n] - plan[now + SCALED_C] * after
-                )
-            plan[SCRATCH] += plan[now + SCALED_D]
-            least, most = series_extremes(plan, -0.5, high, a_least / square, a_most / square)
+            x_least, x_most, _, _ = series_extremes(plan, -0.5, high, x_least, x_most)
+            acceleration_series(plan, now)
+            least, most, _, _ = series_extremes(plan, -0.5, high, a_least / square, a_most / square)
             a_least, a_most = least * square, most * square
         x, v, s, c = moved(plan, now + NODE + (NODES - 1) * WIDTH, x, v, s, c)
         t += NODES * plan[now + H]

@@ -5,8 +5,22 @@ without given axes a figure is made on a `matplotlib.figure.Figure` of its own, 
 returned axes carry as ``.figure``.
 """
 
+from vibroimpact.figures.clearance import clearances
+from vibroimpact.figures.cycle import hysteresis_cycle
 from vibroimpact.figures.history import time_history
+from vibroimpact.figures.lines import spectrum_lines
+from vibroimpact.figures.page import motion_page
+from vibroimpact.figures.portrait import phase_portrait
 from vibroimpact.figures.resonance import resonance_curves
 from vibroimpact.figures.style import save_figure
 
-__all__ = ["resonance_curves", "save_figure", "time_history"]
+__all__ = [
+    "clearances",
+    "hysteresis_cycle",
+    "motion_page",
+    "phase_portrait",
+    "resonance_curves",
+    "save_figure",
+    "spectrum_lines",
+    "time_history",
+]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,67 +11,52 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.motions import SIDES, Shown, gap_lines, named, shown
 from vibroimpact.figures.style import EDGE, LEGEND, panels
-
-_Array = NDArray[np.float64]
 
 
 class _Panel(NamedTuple):
-    """What one panel shows: the samples, the values at events, and a factor to its unit."""
+    """What one panel shows, and a factor to its unit."""
 
-    samples: str
-    before: str
-    behind: str
+    variable: str
     factor: float
     label: str
 
 
-_PANELS = (
-    _Panel(
-        "displacement",
-        "event_displacement",
-        "event_displacement",
-        1e3,
-        "relative\ndisplacement $u$ (mm)",
-    ),
-    _Panel(
-        "acceleration",
-        "event_acceleration_before",
-        "event_acceleration_behind",
-        1.0,
-        "absolute acceleration\n$\\ddot u + A_t$ (m/s²)",
-    ),
-    _Panel(
-        "velocity",
-        "event_velocity",
-        "event_velocity",
-        1.0,
-        "relative\nvelocity $\\dot u$ (m/s)",
-    ),
+PANELS = (
+    _Panel("displacement", 1e3, "relative\ndisplacement $u$ (mm)"),
+    _Panel("acceleration", 1.0, "absolute acceleration\n$\\ddot u + A_t$ (m/s²)"),
+    _Panel("velocity", 1.0, "relative\nvelocity $\\dot u$ (m/s)"),
 )
-_BANDS = {1: ("right", "#f7dc8b", ""), -1: ("left", "#b9dcec", r"\\")}
+_BANDS = {"right": ("#f7dc8b", ""), "left": ("#b9dcec", r"\\")}
 
 
 def time_history(
-    data: xr.Dataset, axes: Any = None, *, cycles: float = 3.0, title: str | None = None
+    motions: xr.Dataset | Mapping[str, xr.Dataset],
+    axes: Any = None,
+    *,
+    cycles: float = 3.0,
+    title: str | None = None,
 ) -> tuple[Axes, Axes, Axes]:
     """Draw displacement, absolute acceleration and relative velocity against t/T.
 
-    Contacts are bands between their exact times (the left bumper's hatched), the gaps are
-    dashed lines. The curves pass through the exact values at each event, on both sides of it
-    where the acceleration jumps.
+    Contacts are bands between their exact times (the left bumper's hatched), with a dot at each
+    beginning (full) and end (open) and a star at the acceleration's peak; the gaps are dashed
+    lines. The curves pass through the exact values at each event, on both sides of it where the
+    acceleration jumps. Of several motions each has its bands on a strip of its own.
 
     Parameters
     ----------
-    data
-        Dataset of `vibroimpact.simulate`, with samples.
+    motions
+        Dataset of `steady`, or of `simulate` with samples; or several of them by name. One
+        whose name holds "forward" is red, "backward" blue.
     axes
         Three Axes. None makes a new figure.
     cycles
-        How many forcing cycles are shown, the last ones.
+        How many forcing cycles are shown: the last ones of a simulation; a periodic motion is
+        repeated.
     title
         Title of a new figure.
 
@@ -83,30 +68,31 @@ def time_history(
     Raises
     ------
     InputError
-        If the dataset is not that of a simulation with samples, or there are not three axes.
+        If a dataset is not that of a motion with samples, or there are not three axes.
     """
-    if "cycle" not in data.coords or "event_cycle" not in data or not data.sizes["time"]:
-        raise InputError(
-            f"data: a dataset with the dims {dict(data.sizes)} has no time history; "
-            "a dataset of simulate with samples is accepted"
-        )
+    given_motions = named(motions)
     if not cycles > 0.0:
         raise InputError(f"cycles: {cycles!r}; a number greater than 0 is accepted")
-    parameters = json.loads(data.attrs["parameters"])
-    at = data["cycle"].values
-    events = data["event_cycle"].values + data["event_cycle_time"].values * parameters["frequency"]
-    last = float(at[-1])
-    first = max(float(at[0]), last - cycles)
-    bands = _contacts(data, events)
-
+    curves = shown(given_motions, cycles)
     given = panels(axes, 3, "displacement, acceleration and velocity", (7.2, 7.6), title)
-    for ax, panel in zip(given, _PANELS, strict=True):
-        ax.set_xlim(first, last)
-        for side, (name, colour, hatch) in _BANDS.items():
-            shown = [(a, b - a) for s, a, b in bands if s == side and b >= first]
+    for ax, panel in zip(given, PANELS, strict=True):
+        history_panel(ax, curves, panel)
+    given[2].set_xlabel("time in forcing cycles $t/T$ (–)")
+    given[0].legend(handles=history_legend(curves), ncols=4, **LEGEND)
+    return given[0], given[1], given[2]
+
+
+def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
+    """Draw one quantity of some motions against t/T."""
+    ax.set_xlim(min(c.at[0] for c in curves), max(c.at[-1] for c in curves))
+    ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
+    for i, curve in enumerate(curves):
+        strip = 1.0 / len(curves)
+        for side, name in SIDES.items():
+            colour, hatch = _band(curve, name, len(curves))
             ax.broken_barh(
-                shown,
-                (0.0, 1.0),
+                [(a, b - a) for s, a, b in curve.touching if s == side],
+                (1.0 - (i + 1) * strip, strip),
                 transform=ax.get_xaxis_transform(),
                 facecolor=colour,
                 edgecolor=EDGE,
@@ -115,59 +101,84 @@ def time_history(
                 label=f"{name} contact",
                 zorder=0,
             )
-        x, y = _with_events(
-            at,
-            data[panel.samples].values,
-            events,
-            data[panel.before].values,
-            data[panel.behind].values,
+        values = panel.factor * curve.values[panel.variable]
+        ax.plot(
+            curve.at,
+            values,
+            color=curve.look.colour,
+            linestyle=curve.look.dashes,
+            linewidth=1.1,
+            zorder=3,
         )
-        inside = x >= first
-        ax.plot(x[inside], panel.factor * y[inside], color="black", linewidth=1.1, zorder=3)
-        ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
-        ax.set_ylabel(panel.label)
-    for sign, (name, _, _) in _BANDS.items():
-        bumper = parameters["oscillator"][name]
-        if bumper is not None:
-            given[0].axhline(
-                1e3 * sign * bumper["gap"], color="black", linestyle="--", linewidth=0.8, zorder=2
+        for ends, filled in ((1, True), (2, False)):
+            at = np.array([contact[ends] for contact in curve.touching])
+            inside = (at > curve.at[0]) & (at < curve.at[-1])
+            ax.scatter(
+                at[inside],
+                _at_event(curve, values, at[inside], behind=filled),
+                s=12,
+                facecolor=curve.look.colour if filled else "white",
+                edgecolor=curve.look.colour,
+                linewidth=0.8,
+                zorder=4,
             )
-    given[2].set_xlabel("time in forcing cycles $t/T$ (–)")
-    given[0].legend(handles=_legend(parameters["oscillator"]), ncols=4, **LEGEND)
-    return given[0], given[1], given[2]
+        if panel.variable == "acceleration":
+            ax.scatter(
+                curve.peaks[0],
+                panel.factor * curve.peaks[1],
+                s=42,
+                marker="*",
+                color=curve.look.colour,
+                zorder=5,
+            )
+    if panel.variable == "displacement":
+        gap_lines(ax, curves, horizontal=True)
+    ax.set_ylabel(panel.label)
 
 
-def _contacts(data: xr.Dataset, events: _Array) -> list[tuple[int, float, float]]:
-    """Side, begin and end of each contact, in forcing cycles."""
-    at = data["cycle"].values
-    begins: dict[int, float] = {}
-    if side := int(data["contact"].values[0]):
-        begins[side] = float(at[0])
-    found = []
-    kinds, sides = data["event_contact"].values, data["event_side"].values
-    for time, begin, side in zip(events, kinds, sides, strict=True):
-        if begin:
-            begins[int(side)] = float(time)
-        elif side in begins:
-            found.append((int(side), begins.pop(int(side)), float(time)))
-    return found + [(side, begin, float(at[-1])) for side, begin in begins.items()]
-
-
-def _with_events(
-    at: _Array, samples: _Array, events: _Array, before: _Array, behind: _Array
-) -> tuple[_Array, _Array]:
-    """Merge the values on both sides of each event into the samples, in the order of time."""
-    x = np.concatenate([at, events, events])
-    order = np.argsort(x, kind="stable")
-    return x[order], np.concatenate([samples, before, behind])[order]
-
-
-def _legend(oscillator: dict[str, Any]) -> list[Artist]:
-    entries: list[Artist] = [Line2D([], [], color="black", linewidth=1.1, label="motion")]
-    present = [(n, c, h) for n, c, h in _BANDS.values() if oscillator[n] is not None]
+def history_legend(curves: list[Shown]) -> list[Artist]:
+    """Handles for the curves, gaps, bands and marks."""
+    entries: list[Artist] = [
+        Line2D([], [], color=c.look.colour, linestyle=c.look.dashes, lw=1.1, label=c.look.label)
+        for c in curves
+    ]
+    present = [name for name in SIDES.values() if any(name in c.gaps for c in curves)]
     if present:
         entries.append(Line2D([], [], color="black", linestyle="--", linewidth=0.8, label="gaps"))
-    return entries + [
-        Patch(facecolor=c, edgecolor=EDGE, lw=0.3, hatch=h, label=f"{n} contact")
-        for n, c, h in present
-    ]
+    for name in present:
+        colour, hatch = _band(curves[0], name, len(curves))
+        entries.append(
+            Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=f"{name} contact")
+        )
+    if any(c.touching for c in curves):
+        colour = curves[0].look.colour
+        for label, marker, face in (
+            ("contact begins", "o", colour),
+            ("contact ends", "o", "white"),
+            ("peak in contact", "*", colour),
+        ):
+            entries.append(
+                Line2D(
+                    [],
+                    [],
+                    linestyle="",
+                    marker=marker,
+                    markersize=6 if marker == "*" else 3.5,
+                    markeredgecolor=colour,
+                    markerfacecolor=face,
+                    label=label,
+                )
+            )
+    return entries
+
+
+def _band(curve: Shown, side: str, motions: int) -> tuple[Any, str]:
+    colour, hatch = _BANDS[side]
+    return ((curve.look.colour, 0.15) if motions > 1 else colour), hatch
+
+
+def _at_event(curve: Shown, values: Any, at: Any, *, behind: bool) -> Any:
+    """Value at an event: where it jumps, that within the contact."""
+    index = np.searchsorted(curve.at, at, side="left")
+    # Two points share the time of an event: before it and behind it.
+    return values[np.minimum(index + (1 if behind else 0), len(values) - 1)]

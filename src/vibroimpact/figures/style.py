@@ -33,6 +33,14 @@ SWEEPS = {
 }
 """As in the paper: forward red, backward blue. An open square shows a dot that it falls on."""
 
+MOTIONS = (
+    Look("motion", "black", "-", 1.2, "o", 3.6, True),
+    Look("motion", "#c05a00", "--", 1.2, "^", 4.4, False),
+    Look("motion", "#00795c", "-.", 1.2, "D", 3.8, True),
+    Look("motion", "#7a3e9d", "--", 1.2, "v", 4.4, True),
+)
+"""In turn, for motions that are not named after a sweep."""
+
 FREE = Look("free flight", "black", "-.", 0.9, "", 0.0, False)
 
 SHADE = "0.9"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -102,16 +103,18 @@ def simulate(
         )
         out = out[: whole * samples]
         length = float(whole)
-    data = xr.Dataset(
-        {"final_state": ("component", components(vector, phase + 2.0 * math.pi * (length % 1.0)))},
-        coords={"component": COMPONENTS},
-    )
+    variables: dict[str, Any] = {
+        "final_state": ("component", components(vector, phase + 2.0 * math.pi * (length % 1.0)))
+    }
+    coordinates: dict[str, Any] = {"component": COMPONENTS}
     if samples:
         complete = status is Status.DONE
-        _add_samples(
-            data, oscillator, excitation, phase, out, samples, length if complete else None
-        )
-        _add_events(data, np.concatenate(found), 1.0 / excitation.frequency)
+        cycle = _cycles(len(out), samples, length if complete else None)
+        coordinates["time"] = cycle / excitation.frequency
+        coordinates["cycle"] = ("time", cycle)
+        variables |= _samples(oscillator, excitation, phase, out, cycle)
+        variables |= _events(np.concatenate(found), 1.0 / excitation.frequency)
+    data = xr.Dataset(variables, coordinates)
     data.attrs["status"] = status.advice
     return describe(
         data,
@@ -126,23 +129,21 @@ def simulate(
     )
 
 
-def _add_samples(
-    data: xr.Dataset,
+def _cycles(count: int, samples: int, length: float | None) -> NDArray[np.float64]:
+    """Times of the samples in forcing cycles; `length` is the end where it was reached."""
+    cycle: NDArray[np.float64] = np.arange(count) / samples
+    if length is not None:  # the last value is the end itself, which need not lie on the grid
+        cycle[-1] = length
+    return cycle
+
+
+def _samples(
     oscillator: Oscillator,
     excitation: Harmonic,
     phase: float,
     out: NDArray[np.float64],
-    samples: int,
-    length: float | None,
-) -> None:
-    whole, part = np.divmod(np.arange(len(out)), samples)
-    share = part / samples
-    if length is not None:  # the last value is the end itself, which need not lie on the grid
-        whole[-1], share[-1] = math.floor(length), length % 1.0
-    cycle = whole + share
-    time = cycle / excitation.frequency
-    data.coords["time"] = time
-    data.coords["cycle"] = ("time", cycle)
+    cycle: NDArray[np.float64],
+) -> dict[str, Any]:
     u = out[:, record.DISPLACEMENT]
     right, left = out[:, record.RIGHT_FACE], out[:, record.LEFT_FACE]
     touching = out[:, record.CONTACT]
@@ -160,18 +161,25 @@ def _add_samples(
         "displacement": u,
         "velocity": out[:, record.VELOCITY],
         "acceleration": out[:, record.ACCELERATION],
-        "base_acceleration": excitation.amplitude * np.sin(2.0 * np.pi * share + phase),
+        "base_acceleration": excitation.amplitude * np.sin(2.0 * np.pi * (cycle % 1.0) + phase),
         "right_bumper": right,
         "left_bumper": left,
         "right_clearance": clearance(right_gap, right - u, 1),
         "left_clearance": clearance(left_gap, u - left, -1),
         "contact": touching,
     }
-    for name, value in values.items():
-        data[name] = ("time", value.astype(np.int64) if name == "contact" else value + 0.0)
+    return {
+        name: ("time", value.astype(np.int64) if name == "contact" else value + 0.0)
+        for name, value in values.items()
+    }
 
 
-def _add_events(data: xr.Dataset, events: NDArray[np.float64], period: float) -> None:
+def _events(events: NDArray[np.float64], period: float) -> dict[str, Any]:
+    whole = {
+        "event_cycle": record.E_CYCLE,
+        "event_contact": record.E_KIND,
+        "event_side": record.E_SIDE,
+    }
     columns = {
         "event_cycle_time": record.E_TIME,
         "event_displacement": record.E_U,
@@ -181,15 +189,9 @@ def _add_events(data: xr.Dataset, events: NDArray[np.float64], period: float) ->
         "event_acceleration_before": record.E_BEFORE,
         "event_acceleration_behind": record.E_BEHIND,
     }
-    data["event_time"] = (
-        "event",
-        events[:, record.E_CYCLE] * period + events[:, record.E_TIME],
-    )
-    for name, column in (
-        ("event_cycle", record.E_CYCLE),
-        ("event_contact", record.E_KIND),
-        ("event_side", record.E_SIDE),
-    ):
-        data[name] = ("event", events[:, column].astype(np.int64))
-    for name, column in columns.items():
-        data[name] = ("event", events[:, column] + 0.0)  # no negative zeros
+    time = events[:, record.E_CYCLE] * period + events[:, record.E_TIME]
+    return {
+        "event_time": ("event", time),
+        **{name: ("event", events[:, at].astype(np.int64)) for name, at in whole.items()},
+        **{name: ("event", events[:, at] + 0.0) for name, at in columns.items()},  # no -0.0
+    }

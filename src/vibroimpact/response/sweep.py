@@ -6,9 +6,7 @@ then the next one begins from the state and the phase that were reached.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -22,12 +20,10 @@ from vibroimpact.model import Oscillator, State, to_si
 from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY
 from vibroimpact.response.free_flight import check_bounded, free_flight_excursions
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
+from vibroimpact.response.threads import Progress, check_threads, run
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 
 DIRECTIONS = ("forward", "backward")
-
-Progress = Callable[[int, int], None]
-"""Called now and then with the number of holds done and the number of all."""
 
 
 class SweptRig(Protocol):
@@ -137,7 +133,7 @@ def sweeps(
     InputError
         If a value cannot be used.
     """
-    names, pairs = _rigs(rigs)
+    names, pairs = named_rigs(rigs)
     grid = check_frequencies(frequencies)
     directions = _directions(directions)
     angle = to_si(phase, ANGLE, "phase")
@@ -153,8 +149,7 @@ def sweeps(
     ):
         if not (isinstance(value, int) and value > 0):
             raise InputError(f"{field}: {value!r}; a whole number greater than 0 is accepted")
-    if threads is not None and not (isinstance(threads, int) and threads > 0):
-        raise InputError(f"threads: {threads!r}; a whole number greater than 0 is accepted")
+    check_threads(threads)
 
     free = np.empty((2, len(pairs), len(grid)))
     prepared = []
@@ -192,7 +187,8 @@ def sweeps(
         results[r, d] = found[order]
         states[r, d] = reached[order]
 
-    _run(one, counter, len(grid), threads, progress)
+    batch.sweep.prepare()  # once, before the threads would queue for it
+    run(one, counter, len(grid) * len(counter), threads, progress)
     data = _dataset(results, states, free, angle)
     data = data.assign_coords(
         rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
@@ -245,7 +241,14 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     return grid
 
 
-def _rigs(rigs: Any) -> tuple[list[str], list[tuple[Oscillator, float]]]:
+def named_rigs(rigs: Any) -> tuple[list[str], list[tuple[Oscillator, float]]]:
+    """Names of the rigs, and each one's oscillator and amplitude (m/s²).
+
+    Raises
+    ------
+    InputError
+        If there is none, or an amplitude is not positive.
+    """
     if isinstance(rigs, Mapping):
         names = [str(name) for name in rigs]
         items = list(rigs.values())
@@ -274,34 +277,6 @@ def _directions(directions: Sequence[str]) -> tuple[str, ...]:
             f"directions: {list(given)!r}; 'forward', 'backward' or both, once each, are accepted"
         )
     return given
-
-
-def _run(
-    one: Callable[[int], None],
-    counter: NDArray[np.int64],
-    holds: int,
-    threads: int | None,
-    progress: Progress | None,
-) -> None:
-    """Run the tasks on threads; tell the progress; stop them all on Ctrl-C."""
-    batch.sweep.prepare()  # once, before the threads would queue for it
-    tasks = range(len(counter))
-    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    workers = min(threads or available or 1, len(counter))
-    total = holds * len(counter)
-    with ThreadPoolExecutor(workers) as pool:
-        futures = [pool.submit(one, task) for task in tasks]
-        try:
-            pending = set(futures)
-            while pending:
-                pending = wait(pending, timeout=0.05 if progress else None).not_done
-                if progress:
-                    progress(int(counter[:, 0].sum()), total)
-        except BaseException:
-            counter[:, 1] = 1
-            raise
-        for future in futures:
-            future.result()
 
 
 def _dataset(

@@ -97,6 +97,71 @@ VARIABLES: dict[str, Variable] = {
     "event_left_bumper": Variable("m", "deformation of the left bumper at the event"),
     "event_acceleration_before": Variable("m s-2", "absolute acceleration just before the event"),
     "event_acceleration_behind": Variable("m s-2", "absolute acceleration just after the event"),
+    # contacts
+    "contact_side": Variable("1", "bumper of the contact: -1 left, 1 right"),
+    "contact_start": Variable("s", "time at which the contact begins"),
+    "contact_end": Variable("s", "time at which the contact ends"),
+    "contact_start_phase": Variable("rad", "phase of the excitation as the contact begins"),
+    "contact_end_phase": Variable("rad", "phase of the excitation as the contact ends"),
+    "contact_duration": Variable("s", "duration of the contact"),
+    "contact_duration_share": Variable("1", "duration of the contact over the forcing period"),
+    "contact_start_velocity": Variable("m s-1", "relative velocity as the contact begins"),
+    "contact_end_velocity": Variable("m s-1", "relative velocity as the contact ends"),
+    "contact_peak_force": Variable("N", "largest contact force"),
+    "contact_impulse": Variable("N s", "impulse of the contact force"),
+    "contact_penetration": Variable("m", "largest deformation of the bumper during the contact"),
+    "contact_dissipated": Variable("J", "energy lost in the bumper's dashpot during the contact"),
+    "contact_dissipated_relaxing": Variable(
+        "J",
+        "energy lost in the bumper's dashpot after the contact",
+        "while it relaxes, until it is pressed again or the record ends",
+    ),
+    "contact_peak_acceleration": Variable(
+        "m s-2",
+        "largest absolute acceleration during the contact, without sign",
+        "one-sided values at contact and detachment included",
+    ),
+    "contact_peak_time": Variable("s", "time of the largest absolute acceleration"),
+    "contact_restitution": Variable(
+        "1", "effective restitution coefficient", "parting over closing velocity of the mass"
+    ),
+    "contact_grazing": Variable("1", "whether the contact only grazes"),
+    # sections
+    "section_displacement": Variable("m", "relative displacement at the section"),
+    "section_velocity": Variable("m s-1", "relative velocity at the section"),
+    "section_right_bumper": Variable("m", "deformation of the right bumper at the section"),
+    "section_left_bumper": Variable("m", "deformation of the left bumper at the section"),
+    # spectrum
+    "order": Variable("1", "frequency over the excitation frequency"),
+    "line_frequency": Variable("Hz", "frequency of the line"),
+    "displacement_amplitude": Variable("m", "amplitude of relative displacement"),
+    "velocity_amplitude": Variable("m s-1", "amplitude of relative velocity"),
+    "acceleration_amplitude": Variable("m s-2", "amplitude of absolute acceleration"),
+    "displacement_phase": Variable("rad", "phase of relative displacement (of a cosine)"),
+    "velocity_phase": Variable("rad", "phase of relative velocity (of a cosine)"),
+    "acceleration_phase": Variable("rad", "phase of absolute acceleration (of a cosine)"),
+    # steady motion
+    "antisymmetric": Variable("1", "whether u(t + T/2) = -u(t), T the period of the motion"),
+    "mirror_distance": Variable(
+        "1",
+        "distance of the motion from its mirror image half a period later",
+        "largest difference of states over the motion's size; NaN where none can exist",
+    ),
+    "exponents": Variable("s-1", "largest two Lyapunov exponents"),
+    "exponents_uncertainty": Variable("s-1", "standard uncertainty of the Lyapunov exponents"),
+    "exponents_cycles": Variable("1", "forcing cycles over which the exponents were found"),
+    "effective_damping": Variable(
+        "s-1",
+        "mean damping per unit mass, a bumper's included while it is pressed",
+        "minus the sum of the two exponents wherever the bumpers' memory has decayed",
+    ),
+    "stable": Variable(
+        "1", "whether no small disturbance grows", "1 yes, 0 no, -1 not known (no orbit)"
+    ),
+    "mirror_pair": Variable("1", "whether the mirror image of the motion is another motion"),
+    "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),
+    "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
+    "energy_bumpers": Variable("J", "energy lost in the bumpers per forcing cycle"),
 }
 
 COMPONENTS = ["displacement", "velocity", "right_bumper", "left_bumper", "phase", "contact"]
@@ -127,6 +192,12 @@ def describe(dataset: xr.Dataset, created_by: str, parameters: dict[str, Any]) -
         **dataset.attrs,
     }
     return dataset
+
+
+def motion_parameters(motion: xr.Dataset) -> dict[str, Any]:
+    """The parameters of the motion that something was made from."""
+    parameters: dict[str, Any] = json.loads(motion.attrs["parameters"])
+    return parameters
 
 
 def oscillator_parameters(oscillator: Oscillator) -> dict[str, Any]:

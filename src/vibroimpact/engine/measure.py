@@ -1,0 +1,138 @@
+"""One phase measured: extremes, force, impulse and work, exact to rounding.
+
+On a table's interval the motion is a series of 12 terms; Gauss–Legendre quadrature with 12
+points integrates a product of two such series without error.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.evaluate import absolute_acceleration, expand, horner, moved, node
+from vibroimpact.engine.extremes import acceleration_series, series_extremes
+from vibroimpact.engine.jit import Vector, entry, kernel
+from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.phase import (
+    FLIGHT,
+    LEFT,
+    MIDDLE,
+    NODE,
+    NODES,
+    PLAN,
+    RATE,
+    SCALED_W,
+    SIZE,
+    TABLES,
+    TAYLOR,
+    TAYLOR_F,
+    VALID_FROM,
+    WIDTH,
+    H,
+    build,
+)
+
+_X, _W = np.polynomial.legendre.leggauss(12)
+_ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
+_WEIGHTS = tuple(float(w) for w in 0.5 * _W)
+
+# Columns of a phase to be measured: mode, x, x′, the forcing's phase (rad), the length (s).
+# In contact x is the bumper's deformation and x′ its rate, both towards the bumper.
+P_MODE, P_X, P_V, P_ANGLE, P_LENGTH = range(5)
+PHASE = 5
+
+# Columns of what is found; forces and energies per unit mass. A left contact's are mirrored
+# back: all but x, force and impulse are as seen in the direction of u.
+X_LEAST, X_MOST, A_LEAST, A_MOST, A_TIME, FORCE, IMPULSE, SQUARES, WORK = range(9)
+MEASURES = 9
+
+
+@kernel
+def measure_phase(
+    plan: Vector, mode: int, x: float, v: float, s: float, c: float, length: float, out: Vector
+) -> None:
+    """Measure one phase from its start; x, v, s, c are mirrored for a left contact."""
+    table = TABLES + SIZE * mode
+    x_least, x_most = x, x
+    a = absolute_acceleration(plan, mode, x, v)
+    a_least, a_most, a_time = a, a, 0.0
+    force = 0.0
+    impulse = 0.0
+    squares = 0.0
+    work = 0.0
+    t = 0.0
+    while t < length:
+        late = table + 3 * SIZE
+        now = late if t >= plan[late + VALID_FROM] else table
+        span = (length - t) * plan[now + RATE]
+        square = plan[now + RATE] * plan[now + RATE]
+        h = plan[now + H]
+        for i in range(NODES):
+            if i >= span:
+                break
+            nx, nv, ns, nc = node(plan, now, i, x, v, s, c)
+            mx, mv, ms, mc = moved(plan, now + MIDDLE, nx, nv, ns, nc)
+            high = min(0.5, span - i - 0.5)
+            width = high + 0.5
+            expand(plan, now + TAYLOR, mx, mv, ms, mc)
+            for n in range(len(_WEIGHTS)):
+                y = width * _ABSCISSAE[n] - 0.5
+                _, slope = horner(plan, y)
+                rate = slope * plan[now + RATE]
+                angle = plan[now + SCALED_W] * y
+                base = ms * math.cos(angle) + mc * math.sin(angle)
+                squares += _WEIGHTS[n] * width * h * rate * rate
+                work += _WEIGHTS[n] * width * h * rate * base
+            x_least, x_most, _, _ = series_extremes(plan, -0.5, high, x_least, x_most)
+            acceleration_series(plan, now)
+            was_least, was_most = a_least / square, a_most / square
+            least, most, at_least, at_most = series_extremes(plan, -0.5, high, was_least, was_most)
+            a_least, a_most = least * square, most * square
+            if least < was_least and -least > most:
+                a_time = t + (i + 0.5 + at_least) * h
+            if most > was_most and most >= -least:
+                a_time = t + (i + 0.5 + at_most) * h
+            if mode != FLIGHT:
+                expand(plan, now + TAYLOR_F, mx, mv, ms, mc)
+                for n in range(len(_WEIGHTS)):
+                    value, _ = horner(plan, width * _ABSCISSAE[n] - 0.5)
+                    impulse += _WEIGHTS[n] * width * h * value
+                _, force, _, _ = series_extremes(plan, -0.5, high, 0.0, force)
+        x, v, s, c = moved(plan, now + NODE + (NODES - 1) * WIDTH, x, v, s, c)
+        t += NODES * h
+    if mode == LEFT:
+        a_least, a_most = -a_most, -a_least
+    out[X_LEAST], out[X_MOST] = x_least, x_most
+    out[A_LEAST], out[A_MOST], out[A_TIME] = a_least, a_most, a_time
+    out[FORCE], out[IMPULSE], out[SQUARES] = force, impulse, squares
+    out[WORK] = work  # ∫ v sin θ dt keeps its sign where both are mirrored
+
+
+@entry("void(f8[::1], f8, f8, f8[:, ::1], f8[:, ::1])")
+def measure_phases(
+    rig: Vector, amplitude: float, frequency: float, phases: Vector, out: Vector
+) -> None:
+    """Measure phases of a motion.
+
+    Parameters
+    ----------
+    rig, amplitude, frequency
+        As in `batch.trajectory`.
+    phases : ndarray, shape (phase, PHASE)
+        The phases, the forcing's phase as the mass sees it (not mirrored).
+    out : ndarray, shape (phase, MEASURES)
+        Written.
+    """
+    memory = np.zeros(PLAN)
+    memory[: par.SIZE] = rig
+    plan = pointer(memory)
+    build(plan, amplitude, 2.0 * math.pi * frequency)
+    for i in range(len(phases)):
+        given = phases[i]
+        mode = int(given[P_MODE])
+        sign = -1.0 if mode == LEFT else 1.0
+        s, c = sign * math.sin(given[P_ANGLE]), sign * math.cos(given[P_ANGLE])
+        measure_phase(plan, mode, given[P_X], given[P_V], s, c, given[P_LENGTH], out[i])
+    memory[0] = 0.0  # keeps the memory alive until here

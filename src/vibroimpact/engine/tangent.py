@@ -1,0 +1,135 @@
+"""What becomes of a small disturbance of a motion: the exact tangent flow.
+
+A disturbance is (δu, δu̇, δu_R, δu_L) at a fixed forcing phase. Within a phase it obeys the
+homogeneous equation of motion. At a contact with side j the saltation matrix
+I + (f⁺ − f⁻) nᵀ / (nᵀ f⁻) of the clearance reduces to
+
+    δu̇⁺ = δu̇ − (C_j/M) (δu − δu_j),    δu_j⁺ = δu:
+
+the closing speed cancels, so that grazing is no special case. At a detachment the contact force
+is zero and the bumper's own rate is that of the mass: both vector fields agree and nothing
+happens, but that without a dashpot δu_j becomes 0. In contact δu_j = δu, so that every contact
+loses the bumper's own direction (docs/theory.md, section 6).
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.phase import FLIGHT, LIMIT
+from vibroimpact.engine.trajectory import advance
+
+DISTURBANCE = 4
+"""Components: displacement, velocity, right and left bumper, signed as in the paper (eq. 3)."""
+
+
+@kernel
+def transition(c: float, k: float, t: float) -> tuple[float, float, float, float]:
+    """The solution of x″ + c x′ + k x = 0 after the time t, as the matrix of (x, x′), row by row.
+
+    Critical damping is no special case: the sine over the frequency is taken in its limit.
+    """
+    beta = 0.5 * c
+    square = beta * beta - k
+    w = math.sqrt(abs(square))
+    if square < 0.0:
+        decay = math.exp(-beta * t)
+        cosine = decay * math.cos(w * t)
+        sine = decay * math.sin(w * t)
+    else:
+        slow, fast = math.exp(-k / (beta + w) * t), math.exp(-(beta + w) * t)
+        cosine = 0.5 * (slow + fast)
+        sine = 0.5 * (slow - fast)
+    ratio = sine / w if w * t > 1e-8 else math.exp(-beta * t) * t
+    return cosine + beta * ratio, ratio, -k * ratio, cosine - beta * ratio
+
+
+@kernel
+def disturb(plan: Vector, mode: int, event: int, behind: int, t: float, q: Vector) -> None:
+    """Carry disturbances (rows of q) through one phase and the event that ends it.
+
+    Parameters
+    ----------
+    mode : int
+        The phase.
+    event : int
+        What ended it, as in `trajectory.advance`.
+    behind : int
+        The phase that follows.
+    t : float
+        How long it lasted (s).
+    """
+    c, k = plan[par.DAMPING], plan[par.STIFFNESS]
+    if mode != FLIGHT:
+        at = par.BUMPER + par.WIDTH * (mode - 1)
+        c += plan[at + par.BUMPER_DAMPING]
+        k += plan[at + par.BUMPER_STIFFNESS]
+    uu, uv, vu, vv = transition(c, k, t)
+    for side in range(1, 3):
+        rate = plan[par.BUMPER + par.WIDTH * (side - 1) + par.RATE]
+        fading = math.exp(-rate * t) if rate < math.inf else 0.0
+        for i in range(len(q)):
+            q[i, 1 + side] *= fading
+    for i in range(len(q)):
+        u, v = q[i, 0], q[i, 1]
+        q[i, 0] = uu * u + uv * v
+        q[i, 1] = vu * u + vv * v
+        if mode != FLIGHT:
+            q[i, 1 + mode] = q[i, 0]
+    if event == LIMIT:
+        return
+    if behind != FLIGHT:
+        damping = plan[par.BUMPER + par.WIDTH * (behind - 1) + par.BUMPER_DAMPING]
+        for i in range(len(q)):
+            q[i, 1] -= damping * (q[i, 0] - q[i, 1 + behind])
+            q[i, 1 + behind] = q[i, 0]
+    elif plan[par.BUMPER + par.WIDTH * (mode - 1) + par.BUMPER_DAMPING] == 0.0:
+        for i in range(len(q)):
+            q[i, 1 + mode] = 0.0
+
+
+@kernel
+def disturbed_cycle(
+    plan: Vector,
+    mode: int,
+    fresh: int,
+    u: float,
+    v: float,
+    right: float,
+    left: float,
+    age: float,
+    s: float,
+    c: float,
+    period: float,
+    max_events: int,
+    q: Vector,
+) -> tuple[int, int, int, float, float, float, float, float, float]:
+    """One forcing cycle, as `trajectory.cycle`, with disturbances carried along.
+
+    Returns
+    -------
+    events, mode, fresh, u, v, right, left, age, damping
+        As `trajectory.cycle`; `damping` is the integral over the cycle of the damping per unit
+        mass, that of a pressed bumper included.
+    """
+    t = 0.0
+    events = 0
+    damping = 0.0
+    while True:
+        was = mode
+        event, step, mode, fresh, u, v, s, c, right, left, age = advance(
+            plan, mode, fresh, u, v, s, c, right, left, period - t, age
+        )
+        disturb(plan, was, event, mode, step, q)
+        damping += plan[par.DAMPING] * step
+        if was != FLIGHT:
+            damping += plan[par.BUMPER + par.WIDTH * (was - 1) + par.BUMPER_DAMPING] * step
+        if event == LIMIT:
+            break
+        t += step
+        events += 1
+        if events > max_events or t >= period:
+            break
+    return events, mode, fresh, u, v, right, left, age, damping

@@ -1,0 +1,92 @@
+"""Fourier spectra as stems, as in the paper's Figs. 8, 16 and 18."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.motions import axes_or_new, looks, parameters
+
+_LABELS = {
+    "displacement": (1e3, "amplitude of $u$ (mm)"),
+    "velocity": (1.0, "amplitude of $\\dot u$ (m/s)"),
+    "acceleration": (1.0, "amplitude of $\\ddot u + A_t$ (m/s²)"),
+}
+
+
+def spectrum_lines(
+    spectra: xr.Dataset | Mapping[str, xr.Dataset],
+    ax: Axes | None = None,
+    *,
+    quantity: Literal["displacement", "velocity", "acceleration"] = "acceleration",
+    highest: float = 12.0,
+    title: str | None = None,
+) -> Axes:
+    """Draw the lines of a Fourier spectrum as stems, against order and frequency.
+
+    Parameters
+    ----------
+    spectra
+        Dataset of `spectrum`; or several of them by name.
+    ax
+        Axes to draw on. None makes a new figure.
+    quantity
+        Of relative displacement, relative velocity or absolute acceleration.
+    highest
+        Highest order shown.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If a dataset is not that of a spectrum, or the quantity is another one.
+    """
+    if quantity not in _LABELS:
+        raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
+    given = {"motion": spectra} if isinstance(spectra, xr.Dataset) else dict(spectra)
+    for data in given.values():
+        if "order" not in data.coords:
+            raise InputError("spectra: this is no spectrum; a dataset of spectrum is accepted")
+    factor, label = _LABELS[quantity]
+    ax = axes_or_new(ax, (5.6, 3.6), title)
+    frequency = None
+    for i, ((name, data), look) in enumerate(zip(given.items(), looks(list(given)), strict=True)):
+        kept = data["order"].values <= highest
+        order = data["order"].values[kept]
+        height = factor * data[f"{quantity}_amplitude"].values[kept]
+        # Side by side, so that the lines of one do not hide those of the other.
+        shift = (i - 0.5 * (len(given) - 1)) * 0.12
+        frequency = parameters(data)["frequency"]
+        if len(order) > 30 * highest:  # nearly continuous
+            ax.plot(order, height, color=look.colour, linewidth=0.8, label=name)
+            continue
+        ax.vlines(order + shift, 0.0, height, color=look.colour, linewidth=1.4)
+        ax.plot(
+            order + shift,
+            height,
+            linestyle="",
+            marker=look.marker or "o",
+            markersize=4.0,
+            color=look.colour,
+            markerfacecolor=look.colour if look.filled else "white",
+            label=name,
+        )
+    ax.set_xlim(-0.4, highest + 0.4)
+    ax.set_xticks(np.arange(0, int(highest) + 1, max(1, int(highest) // 6)))
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel("order $f/f_{exc}$ (–)")
+    ax.set_ylabel(label)
+    if frequency is not None and len({parameters(d)["frequency"] for d in given.values()}) == 1:
+        above = ax.secondary_xaxis(
+            "top", functions=(lambda x: x * frequency, lambda x: x / frequency)
+        )
+        above.set_xlabel("frequency (Hz)")
+    if len(given) > 1:
+        ax.legend(loc="upper right", frameon=False, fontsize="small")
+    return ax

@@ -1,0 +1,200 @@
+"""What the figures of motions share: names and looks, and curves that pass through the events."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
+from vibroimpact.response.contacts import contacts
+from vibroimpact.response.phases import recorded
+
+_Array = NDArray[np.float64]
+
+SIDES = {1: "right", -1: "left"}
+
+
+class Shown(NamedTuple):
+    """One motion as it is drawn: values with both sides of each event, against t/T."""
+
+    look: Look
+    at: _Array
+    """Time in forcing cycles."""
+    values: dict[str, _Array]
+    """By variable: displacement, velocity, acceleration, clearances."""
+    touching: list[tuple[int, float, float]]
+    """Side, begin and end of each contact in forcing cycles."""
+    peaks: tuple[_Array, _Array]
+    """Times (forcing cycles) and values of the acceleration's peaks in contact."""
+    gaps: dict[str, float]
+    """Gap (m) on each side that has a bumper."""
+
+
+def named(motions: xr.Dataset | Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
+    """Motions by name; one alone is called "motion".
+
+    Raises
+    ------
+    InputError
+        If there is none, or one is not that of a motion with samples.
+    """
+    given = {"motion": motions} if isinstance(motions, xr.Dataset) else dict(motions)
+    if not given:
+        raise InputError("motions: there is none; at least one motion is accepted")
+    for motion in given.values():
+        recorded(motion)
+    return given
+
+
+def looks(names: list[str]) -> list[Look]:
+    """How each motion is drawn: those called after a sweep as that sweep, the others in turn."""
+    spare = iter([*MOTIONS, *MOTIONS] * (1 + len(names) // len(MOTIONS)))
+    found = []
+    for name in names:
+        known = [look for key, look in SWEEPS.items() if key in name]
+        look = known[0] if known else next(spare)
+        found.append(look._replace(label=name))
+    return found
+
+
+def shown(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[Shown]:
+    """Curves of motions: the last cycles of a simulation, the first ones of a steady motion.
+
+    A periodic motion is repeated as often as it takes, or shown once if `cycles` is infinite.
+    """
+    return [
+        _shown(motion, look, cycles)
+        for motion, look in zip(motions.values(), looks(list(motions)), strict=True)
+    ]
+
+
+def axes_or_new(ax: Axes | None, size: tuple[float, float], title: str | None) -> Axes:
+    """The given axes, or those of a new figure."""
+    if ax is not None:
+        return ax
+    made = Figure(figsize=size, layout="constrained").subplots()
+    if title:
+        made.set_title(title, fontsize="medium")
+    return made
+
+
+def name_lines(ax: Axes, curves: list[Shown]) -> None:
+    """Add a legend above the axes where there is more than one motion."""
+    if len(curves) > 1:
+        ax.legend(ncols=min(len(curves), 3), **LEGEND)
+
+
+def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
+    origin = recorded(motion)
+    frequency = origin.excitation.frequency
+    at = motion["cycle"].values
+    events = motion["event_cycle"].values + motion["event_cycle_time"].values * frequency
+    times = np.concatenate([at, events, events])
+    order = np.argsort(times, kind="stable")
+
+    def merged(name: str, before: str, behind: str) -> _Array:
+        parts = [motion[name].values, motion[before].values, motion[behind].values]
+        return np.asarray(np.concatenate(parts)[order], dtype=float)
+
+    values = {
+        "displacement": merged("displacement", "event_displacement", "event_displacement"),
+        "velocity": merged("velocity", "event_velocity", "event_velocity"),
+        "acceleration": merged(
+            "acceleration", "event_acceleration_before", "event_acceleration_behind"
+        ),
+    }
+    gaps = {}
+    for side, name in SIDES.items():
+        bumper = getattr(origin.oscillator, name)
+        if bumper is None:
+            continue
+        gaps[name] = bumper.gap
+        distance = motion[f"event_{name}_bumper"].values - motion["event_displacement"].values
+        mine = motion["event_side"].values == side
+        clearance = np.where(mine, 0.0, bumper.gap + side * distance)
+        parts = [motion[f"{name}_clearance"].values, clearance, clearance]
+        values[f"{name}_clearance"] = np.concatenate(parts)[order]
+    touching = _touching(motion, events)
+    log = contacts(motion)
+    peak_at = log["contact_peak_time"].values * frequency
+    height = np.interp(peak_at, times[order], values["acceleration"])
+    peak = log["contact_peak_acceleration"].values * np.sign(height)
+    curve = Shown(look, times[order], values, touching, (peak_at, peak), gaps)
+    if math.isinf(cycles):
+        return curve
+    if origin.periodic:
+        return _cut(_repeated(curve, origin.cycles, cycles), 0.0, cycles)
+    if "period" in motion:  # steady, but not periodic: its record begins anywhere
+        return _cut(curve, 0.0, cycles)
+    return _cut(curve, max(float(at[0]), float(at[-1]) - cycles), float(at[-1]))
+
+
+def _touching(motion: xr.Dataset, events: _Array) -> list[tuple[int, float, float]]:
+    """Side, begin and end of each contact, in forcing cycles; cut off by the record's ends."""
+    at = motion["cycle"].values
+    begins: dict[int, float] = {}
+    kinds, sides = motion["event_contact"].values, motion["event_side"].values
+    if len(kinds) and not kinds[0]:
+        begins[int(sides[0])] = float(at[0])
+    elif side := int(motion["contact"].values[0]):
+        begins[side] = float(at[0])
+    found = []
+    for time, begin, side in zip(events, kinds, sides, strict=True):
+        if begin:
+            begins[int(side)] = float(time)
+        elif side in begins:
+            found.append((int(side), begins.pop(int(side)), float(time)))
+    return found + [(side, begin, float(at[-1])) for side, begin in begins.items()]
+
+
+def _repeated(curve: Shown, period: float, cycles: float) -> Shown:
+    turns = np.arange(-1, math.ceil(cycles / period) + 1) * period
+    return curve._replace(
+        at=np.concatenate([curve.at + turn for turn in turns]),
+        values={name: np.tile(value, len(turns)) for name, value in curve.values.items()},
+        touching=[(s, a + turn, b + turn) for turn in turns for s, a, b in curve.touching],
+        peaks=(
+            np.concatenate([curve.peaks[0] + turn for turn in turns]),
+            np.tile(curve.peaks[1], len(turns)),
+        ),
+    )
+
+
+def _cut(curve: Shown, first: float, last: float) -> Shown:
+    inside = (curve.at >= first) & (curve.at <= last)
+    seen = (curve.peaks[0] >= first) & (curve.peaks[0] <= last)
+    return curve._replace(
+        at=curve.at[inside],
+        values={name: value[inside] for name, value in curve.values.items()},
+        touching=[
+            (s, max(a, first), min(b, last))
+            for s, a, b in curve.touching
+            if b >= first and a <= last
+        ],
+        peaks=(curve.peaks[0][seen], curve.peaks[1][seen]),
+    )
+
+
+def parameters(motion: xr.Dataset) -> dict[str, Any]:
+    """The parameters that a dataset was made with."""
+    found: dict[str, Any] = json.loads(motion.attrs["parameters"])
+    return found
+
+
+def gap_lines(ax: Axes, curves: list[Shown], *, horizontal: bool) -> None:
+    """Dashed lines where the bumpers are at rest (mm)."""
+    gaps = {
+        (1 if name == "right" else -1) * gap for curve in curves for name, gap in curve.gaps.items()
+    }
+    for gap in sorted(gaps):
+        draw = ax.axhline if horizontal else ax.axvline
+        draw(1e3 * gap, color="black", linestyle="--", linewidth=0.8, zorder=2)

@@ -1,0 +1,73 @@
+"""Phase portraits, as in the paper's Figs. 8, 12 and 16."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from vibroimpact.figures.motions import axes_or_new, gap_lines, name_lines, named, shown
+
+
+def phase_portrait(
+    motions: xr.Dataset | Mapping[str, xr.Dataset],
+    ax: Axes | None = None,
+    *,
+    title: str | None = None,
+) -> Axes:
+    """Draw relative velocity against relative displacement.
+
+    The gaps are dashed lines; the points of the stroboscopic section, at the record's first
+    phase, are diamonds (dots where there are many).
+
+    Parameters
+    ----------
+    motions
+        Dataset of `steady`, or of `simulate` with samples; or several of them by name. One
+        whose name holds "forward" is red, "backward" blue.
+    ax
+        Axes to draw on. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If a dataset is not that of a motion with samples.
+    """
+    given = named(motions)
+    ax = axes_or_new(ax, (5.2, 4.4), title)
+    curves = shown(given)
+    for curve, motion in zip(curves, given.values(), strict=True):
+        u, v = 1e3 * curve.values["displacement"], curve.values["velocity"]
+        long = curve.at[-1] - curve.at[0] > 20.0
+        ax.plot(
+            u,
+            v,
+            color=curve.look.colour,
+            linestyle="-" if long else curve.look.dashes,
+            linewidth=0.25 if long else 1.2,
+            alpha=0.5 if long else 1.0,
+            label=curve.look.label,
+            zorder=3,
+        )
+        at = motion["cycle"].values
+        whole = np.flatnonzero(np.isclose(at, np.round(at), rtol=0.0, atol=1e-9))
+        whole = whole[:-1] if len(whole) > 1 else whole
+        ax.scatter(
+            1e3 * motion["displacement"].values[whole],
+            motion["velocity"].values[whole],
+            s=7 if long else 26,
+            marker="o" if long else "D",
+            facecolor=curve.look.colour if curve.look.filled else "white",
+            edgecolor="black",
+            linewidth=0.3 if long else 0.8,
+            zorder=5,
+        )
+    gap_lines(ax, curves, horizontal=False)
+    ax.set_xlabel("relative displacement $u$ (mm)")
+    ax.set_ylabel("relative velocity $\\dot u$ (m/s)")
+    name_lines(ax, curves)
+    return ax

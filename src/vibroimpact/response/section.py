@@ -1,0 +1,111 @@
+"""Sections of a motion: once a forcing cycle (stroboscopic), and at every contact (impact)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.engine import batch, lyapunov, record
+from vibroimpact.errors import InputError
+from vibroimpact.model import to_si
+from vibroimpact.model.units import ANGLE
+from vibroimpact.response.contacts import contacts
+from vibroimpact.response.phases import beginning, recorded
+from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.variables import describe, motion_parameters
+
+_MAX_EVENTS = 10_000
+_NAMES = ("displacement", "velocity", "right_bumper", "left_bumper")
+
+
+def stroboscopic_section(
+    motion: xr.Dataset, phase: float | str = 0.0, cycles: int | None = None
+) -> xr.Dataset:
+    """Look at a motion once a forcing cycle, always at the same phase.
+
+    Parameters
+    ----------
+    motion
+        Dataset of `steady`, or of `simulate` with samples; the motion is followed from its
+        beginning.
+    phase
+        The forcing's phase θ at which to look, rad: the base acceleration is then A sin θ.
+    cycles
+        How many points; None for as many as the record has whole cycles.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``section_point``: ``section_displacement``, ``section_velocity`` and the bumpers'
+        deformations. Fewer points than asked for if the motion met the event limit.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a motion with samples, or a value cannot be used.
+    """
+    origin = recorded(motion)
+    angle = to_si(phase, ANGLE, "phase")
+    count = max(1, math.floor(origin.cycles)) if cycles is None else cycles
+    if isinstance(count, bool) or not isinstance(count, int) or count < 1:
+        raise InputError(f"cycles: {cycles!r}; a whole number of at least 1 is accepted")
+    start = beginning(motion)
+    state = engine_state(origin.oscillator, start)
+    rig = engine_rig(origin.oscillator)
+    shaken = origin.excitation
+    ahead = ((angle - shaken.phase) / (2.0 * math.pi)) % 1.0
+    rows = np.empty((count, lyapunov.GROWTH))
+    first = np.array(
+        [start.displacement, start.velocity, start.right_bumper, start.left_bumper], dtype=float
+    )
+    if ahead > 0.0:
+        batch.trajectory(
+            rig,
+            shaken.amplitude,
+            shaken.frequency,
+            shaken.phase,
+            state,
+            0.0,
+            ahead,
+            0,
+            _MAX_EVENTS,
+            np.empty((0, record.SAMPLE)),
+            np.empty((_MAX_EVENTS + 2, record.EVENT)),
+        )
+        first = np.array([*state[2:5], -state[5]])
+    _, done = lyapunov.growth(
+        rig, shaken.amplitude, shaken.frequency, angle, state, 0, 0, _MAX_EVENTS, rows
+    )
+    points = np.vstack([first, rows[:done, lyapunov.SECTION :]])[:count]
+    data = xr.Dataset(
+        {f"section_{name}": ("section_point", points[:, i]) for i, name in enumerate(_NAMES)}
+    )
+    return describe(
+        data, "vibroimpact.stroboscopic_section", {**motion_parameters(motion), "section": angle}
+    )
+
+
+def impact_section(motion: xr.Dataset) -> xr.Dataset:
+    """Look at a motion at every contact: the forcing's phase and the closing velocity.
+
+    Parameters
+    ----------
+    motion
+        Dataset of `steady`, or of `simulate` with samples (one a cycle is enough).
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``contact_number``: side, start, phase and velocity at the start of each contact.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a motion with samples.
+    """
+    log = contacts(motion)
+    chosen = log[["contact_side", "contact_start", "contact_start_phase", "contact_start_velocity"]]
+    chosen.attrs["created_by"] = "vibroimpact.impact_section"
+    return chosen

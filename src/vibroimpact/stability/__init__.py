@@ -1,0 +1,1 @@
+"""What is behind a response: growth of disturbances, kinds of motion, coexisting motions."""

@@ -1,0 +1,241 @@
+"""Motions that coexist at one frequency, found from several starts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import lyapunov
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.response.start import as_state, components, engine_rig
+from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
+from vibroimpact.response.variables import COMPONENTS, describe, motion_parameters
+from vibroimpact.stability.settled import Settled, apart, follow, mirrored, reach, settle
+from vibroimpact.stability.steady import describe_motion, steady
+
+SAME = 1e-6
+"""Two orbits are one if their points agree to this share of their size."""
+ALIKE = 0.1
+"""Two motions that did not settle are one if the distributions of their displacements at the
+section differ nowhere by more than this (the Kolmogorov–Smirnov distance)."""
+
+_RANDOM_SIZE = 1.5
+_SEEN = 5000  # cycles over which motions that did not settle are compared
+
+
+class _Kept(NamedTuple):
+    """A motion, and the starts that led to it or to its mirror image."""
+
+    found: Settled
+    motion: xr.Dataset
+    starts: list[str]
+    mirrored_starts: list[str]
+
+
+def coexisting(
+    oscillator: Oscillator,
+    excitation: Harmonic,
+    *,
+    frequencies: Iterable[float | str] | None = None,
+    starts: Mapping[str, State] | None = None,
+    random: int = 12,
+    seed: int = 0,
+    samples: int = 256,
+    window: int = 200,
+    max_cycles: int = 2000,
+    exponent_cycles: int = 20_000,
+    max_events: int = 10_000,
+) -> list[xr.Dataset]:
+    """Find the steady motions at one frequency from several starts.
+
+    The starts are rest, where a forward sweep arrives from below and a backward sweep from
+    above, the given ones, random ones, and, if the rig is symmetric, the mirror image of what
+    these lead to. Motions that differ only by whole forcing cycles are one, and so are a motion
+    and its mirror image.
+
+    Parameters
+    ----------
+    oscillator, excitation
+        What vibrates, and what shakes it.
+    frequencies
+        Frequencies of the sweeps in Hz, rising; those below the excitation's are held going up,
+        those above going down. None for steps of a hundredth of the natural frequency from 0.3
+        to 6 times it.
+    starts
+        Further starts by name.
+    random
+        How many random starts: displacements and velocities up to 1.5 times the largest that
+        the other starts lead to.
+    seed
+        Of the random starts; the same one gives the same starts.
+    samples, window, max_cycles, exponent_cycles, max_events
+        As in `steady`.
+
+    Returns
+    -------
+    list of xarray.Dataset
+        A dataset of `steady` for each motion, the one with the largest excursion first. The
+        attribute ``starts`` names the starts that led to it, ``mirrored_starts`` those that led
+        to its mirror image; ``mirror_pair`` tells whether that is another motion.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    if isinstance(random, bool) or not isinstance(random, int) or random < 0:
+        raise InputError(f"random: {random!r}; a whole number of at least 0 is accepted")
+    kept: list[_Kept] = []
+    options = (samples, window, exponent_cycles, max_events)
+
+    def go(name: str, start: State) -> None:
+        found = settle(oscillator, excitation, start, max_cycles=max_cycles, max_events=max_events)
+        if found.status not in (Status.DONE, Status.NOT_SETTLED):
+            # Told by `steady`, with a warning, as a motion of its own.
+            given_up = steady(
+                oscillator,
+                excitation,
+                start,
+                samples,
+                window=window,
+                max_cycles=max_cycles,
+                max_events=max_events,
+            )
+            kept.append(_Kept(found, given_up, [name], []))
+            return
+        _keep(kept, found, name, options)
+
+    go("rest", State(phase=excitation.phase))
+    for name, start in _swept(oscillator, excitation, frequencies, max_cycles, max_events).items():
+        go(name, start)
+    for name, state in (starts or {}).items():
+        go(name, as_state(state))
+    size = max(reach(one.found, one.found.state) for one in kept)
+    generator = np.random.default_rng(seed)
+    for number in range(random):
+        u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
+        state = State(u, v * excitation.angular_frequency, phase=excitation.phase)
+        go(f"random {number + 1}", state)
+    if symmetric(oscillator):
+        for one in kept:
+            if one.found.status is Status.DONE and not bool(one.motion["antisymmetric"]):
+                # The mirror image is a motion where the forcing has turned by half a cycle.
+                image = mirrored(follow(one.found, one.found.state, 0.5, max_events))
+                values = dict(
+                    zip(COMPONENTS, components(image, one.found.excitation.phase), strict=True)
+                )
+                go("mirror image", State(**{**values, "contact": int(values["contact"])}))
+    kept.sort(key=lambda one: -float(one.motion["displacement_excursion"]))
+    return [_labelled(one, max_events) for one in kept]
+
+
+def symmetric(oscillator: Oscillator) -> bool:
+    """Whether the mirror image of each motion is a motion, half a cycle later."""
+    return oscillator.right == oscillator.left
+
+
+def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
+    pair = (
+        one.found.status in (Status.DONE, Status.NOT_SETTLED)
+        and symmetric(one.found.oscillator)
+        and not bool(one.motion["antisymmetric"])
+        and not _same(one.found, _image(one.found), max_events)
+    )
+    data = one.motion.assign(mirror_pair=pair)
+    data.attrs["starts"] = ", ".join(one.starts)
+    data.attrs["mirrored_starts"] = ", ".join(one.mirrored_starts)
+    data.attrs["created_by"] = "vibroimpact.coexisting"
+    return describe(data, "vibroimpact.coexisting", motion_parameters(data))
+
+
+def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int, int, int]) -> None:
+    """Add a motion to those that are known, or its start to the one that it is."""
+    for one in kept:
+        if one.found.period != found.period or one.found.status is not found.status:
+            continue
+        if _same(one.found, found, options[3]):
+            one.starts.append(name)
+            return
+        if symmetric(found.oscillator) and _same(one.found, _image(found), options[3]):
+            one.mirrored_starts.append(name)
+            return
+    kept.append(_Kept(found, describe_motion(found, *options), [name], []))
+
+
+def _image(found: Settled) -> Settled:
+    return found._replace(state=mirrored(follow(found, found.state, 0.5)))
+
+
+def _same(one: Settled, other: Settled, max_events: int) -> bool:
+    """Whether two motions are one, up to whole cycles."""
+    if one.period:
+        size = reach(one, one.state)
+        state = other.state
+        for _ in range(one.period):
+            if apart(one, one.state, state, size) <= SAME:
+                return True
+            state = follow(one, state, 1.0, max_events)
+        return False
+    mine, others = _displacements(one, max_events), _displacements(other, max_events)
+    if not (len(mine) and len(others)):
+        return False
+    at = np.concatenate([mine, others])
+    shares = [np.searchsorted(values, at, side="right") / len(values) for values in (mine, others)]
+    return bool(np.abs(shares[0] - shares[1]).max() <= ALIKE)
+
+
+def _displacements(found: Settled, max_events: int) -> NDArray[np.float64]:
+    """Displacements at the section over many cycles, sorted."""
+    rows = np.empty((_SEEN, lyapunov.GROWTH))
+    _, done = lyapunov.growth(
+        engine_rig(found.oscillator),
+        found.excitation.amplitude,
+        found.excitation.frequency,
+        found.excitation.phase,
+        found.state.copy(),
+        0,
+        0,
+        max_events,
+        rows,
+    )
+    return np.sort(rows[:done, lyapunov.SECTION])
+
+
+def _swept(
+    oscillator: Oscillator,
+    excitation: Harmonic,
+    frequencies: Iterable[float | str] | None,
+    max_cycles: int,
+    max_events: int,
+) -> dict[str, State]:
+    """Where the sweeps arrive, by direction; none where they have no frequency to begin with."""
+    if frequencies is None:
+        # Never the natural frequency itself, which an undamped isolator forbids.
+        grid = oscillator.natural_frequency * (np.arange(0.3, 6.0, 0.01) + 0.005)
+    else:
+        grid = check_frequencies(frequencies)
+    aim = excitation.frequency
+    arrived = {}
+    for direction in DIRECTIONS:
+        forward = direction == "forward"
+        path = grid[grid < aim * (1 - 1e-12)] if forward else grid[grid > aim * (1 + 1e-12)]
+        if not len(path):
+            continue
+        data = sweep(
+            oscillator,
+            excitation.amplitude,
+            path,
+            direction,
+            phase=excitation.phase,
+            max_cycles=max_cycles,
+            max_events=max_events,
+        )
+        last = data["section"].isel(direction=0, frequency=-1 if forward else 0, drop=True)
+        arrived[f"{direction} branch"] = as_state(last)
+    return arrived

@@ -1,0 +1,92 @@
+"""What the growth of disturbances says of a motion that was followed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import lyapunov
+from vibroimpact.response.start import engine_rig
+from vibroimpact.stability.exponents import DISCARD
+from vibroimpact.stability.kind import Judgement, judge
+from vibroimpact.stability.settled import Settled
+
+_Array = NDArray[np.float64]
+
+_TINY = 1e-10
+"""A multiplier smaller than this times the largest one is lost in its rounding."""
+
+
+def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int]:
+    """Exponents of a periodic motion from its monodromy matrix, damping, and cycles used."""
+    columns = np.empty((4, 4))
+    damping = np.empty(1)
+    state = found.state.copy()
+    rates = []
+    for _ in range(2):  # the second time tells how far rounding and the rest of a transient go
+        lyapunov.monodromy(
+            engine_rig(found.oscillator),
+            found.excitation.amplitude,
+            found.excitation.frequency,
+            found.excitation.phase,
+            state,
+            found.period,
+            max_events,
+            columns,
+            damping,
+        )
+        rates.append(_rates(columns, damping[0]) / found.period)
+    first, second = rates
+    finite = np.isfinite(first) & np.isfinite(second)
+    spread = np.abs(np.subtract(first, second, where=finite, out=np.zeros(2)))
+    largest = math.exp(min(first[0] * found.period, 700.0))
+    kind = Judgement(
+        "periodic",
+        found.period,
+        first,
+        spread,
+        f"the section repeats after {found.period}; largest multiplier {largest:.6g} in modulus",
+    )
+    return kind, float(damping[0]) / found.period, 2 * found.period
+
+
+def _rates(columns: _Array, damping: float) -> _Array:
+    """Logarithms of the two largest multipliers of an orbit.
+
+    A bumper that is never touched only relaxes; it is left out. A second multiplier that is
+    lost in rounding follows from the damping over the orbit, which is that of a motion whose
+    bumpers forget.
+    """
+    touched = [j for j in (2, 3) if columns[:2, j].any() or columns[j, :2].any()]
+    kept = [0, 1, *touched]
+    moduli = np.sort(np.abs(np.linalg.eigvals(columns[np.ix_(kept, kept)])))[::-1]
+    with np.errstate(divide="ignore"):
+        logarithms: _Array = np.log(moduli[:2])
+    if moduli[1] <= _TINY * moduli[0]:
+        logarithms[1] = min(logarithms[0], -damping - logarithms[0])
+    return logarithms
+
+
+def judge_wandering(
+    found: Settled, state: _Array, cycles: int, max_events: int
+) -> tuple[Judgement, float, int]:
+    """Judge a motion that did not settle; the state is carried on."""
+    rows = np.empty((cycles, lyapunov.GROWTH))
+    _, done = lyapunov.growth(
+        engine_rig(found.oscillator),
+        found.excitation.amplitude,
+        found.excitation.frequency,
+        found.excitation.phase,
+        state,
+        0,
+        DISCARD,
+        max_events,
+        rows,
+    )
+    rows = rows[:done]
+    size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0])
+    kind = judge(rows[:, : lyapunov.DISSIPATION], rows[:, lyapunov.SECTION :] / size)
+    damping = float(rows[:, lyapunov.DISSIPATION].mean()) if done else math.nan
+    return kind, damping, done

@@ -1,0 +1,115 @@
+"""The kind of a motion that did not settle, from the growth of its disturbances.
+
+The logarithm L of the growth of a disturbance over N cycles tells the kinds apart by how it goes
+with N, not by its size alone: in proportion to N and upwards if the motion is chaotic, downwards
+if it still approaches a periodic one; on a torus it stays bounded, or grows like log N where
+neighbouring tori shear (no dissipation).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Array = NDArray[np.float64]
+
+BLOCKS = 32
+"""Blocks of cycles whose means tell how sure an average is."""
+SIGNIFICANT = 5.0
+"""Standard uncertainties by which an exponent must differ from zero."""
+CLEAR = 20.0
+"""Logarithm of a growth that no bounded wandering explains: 1e-16 has become 1e-7."""
+BOUNDED = 5.0
+"""A logarithm below this and 2 log N is as on a torus."""
+SAME = 1e-8
+"""Share of the motion's size within which two points of the section are one."""
+
+
+class Judgement(NamedTuple):
+    """The kind of a motion, and why."""
+
+    motion: str
+    """"periodic", "quasi-periodic", "chaotic" or "undecided"."""
+    period: int
+    """In forcing cycles; 0 unless periodic."""
+    exponents: _Array
+    """Both Lyapunov exponents, per cycle."""
+    uncertainty: _Array
+    """Their standard uncertainties, per cycle."""
+    evidence: str
+
+
+def averages(logarithms: _Array) -> tuple[_Array, _Array]:
+    """Mean growth per cycle and its standard uncertainty, from the means of blocks of cycles.
+
+    Parameters
+    ----------
+    logarithms : ndarray, shape (cycles, 2)
+
+    Returns
+    -------
+    mean, uncertainty : ndarray, shape (2,)
+        The uncertainty is infinite with fewer cycles than `BLOCKS`.
+    """
+    cycles = len(logarithms)
+    size = cycles // BLOCKS
+    if not size:
+        mean = logarithms.mean(axis=0) if cycles else np.full(2, np.nan)
+        return mean, np.full(2, np.inf)
+    blocks = logarithms[cycles - size * BLOCKS :].reshape(BLOCKS, size, 2).mean(axis=1)
+    return logarithms.mean(axis=0), blocks.std(axis=0, ddof=1) / math.sqrt(BLOCKS)
+
+
+def judge(logarithms: _Array, section: _Array) -> Judgement:
+    """Tell the kind of a motion.
+
+    Parameters
+    ----------
+    logarithms : ndarray, shape (cycles, 2)
+        Growth of two orthogonal disturbances in each cycle.
+    section : ndarray, shape (cycles, component)
+        Points of the stroboscopic section, in comparable units.
+    """
+    cycles = len(logarithms)
+    mean, uncertainty = averages(logarithms)
+    if cycles < BLOCKS:
+        return Judgement(
+            "undecided", 0, mean, uncertainty, f"only {cycles} cycles could be followed"
+        )
+    total = np.cumsum(logarithms[:, 0])
+    whole, half = float(total[-1]), float(total[cycles // 2 - 1])
+    margin = BOUNDED + 2.0 * math.log(cycles)
+    apart = abs(mean[0]) > SIGNIFICANT * uncertainty[0]
+    grown = f"disturbances grow by a factor e^{whole:.4g} over {cycles} cycles"
+    if whole > CLEAR + margin and whole - half > CLEAR and apart:
+        return Judgement("chaotic", 0, mean, uncertainty, grown)
+    if max(abs(whole), abs(half)) <= margin:
+        return Judgement(
+            "quasi-periodic", 0, mean, uncertainty, f"{grown}, no faster than on a torus"
+        )
+    if whole < 0.0 and (n := recurrence(section)):
+        return Judgement(
+            "periodic", n, mean, uncertainty, f"{grown}, and the section repeats after {n}"
+        )
+    return Judgement("undecided", 0, mean, uncertainty, f"{grown}: no clear trend")
+
+
+def recurrence(section: _Array) -> int:
+    """Period after which the last points of a section repeat, or 0.
+
+    A period counts where the points of at least two of them agree.
+    """
+    cycles = len(section)
+    scale = np.abs(section).max() or 1.0
+    last = section[-1]
+    near = np.abs(section[:-1] - last).max(axis=1) <= SAME * scale
+    for i in np.flatnonzero(near)[::-1]:
+        n = cycles - 1 - int(i)
+        if 2 * n > cycles:
+            return 0
+        if np.abs(section[-n:] - section[-2 * n : -n]).max() <= SAME * scale:
+            return n
+    return 0

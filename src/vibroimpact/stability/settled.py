@@ -1,0 +1,128 @@
+"""Where a motion goes: it is followed until it repeats itself, and compared with others."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import batch, hold, record
+from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.start import engine_rig, engine_state
+
+_Array = NDArray[np.float64]
+
+
+class Settled(NamedTuple):
+    """Where a motion went."""
+
+    oscillator: Oscillator
+    excitation: Harmonic
+    """Its phase is that of the section."""
+    state: _Array
+    """At the section behind the last cycle, as the engine's vector."""
+    period: int
+    """In forcing cycles; 0 if it did not settle."""
+    cycles: int
+    """Forcing cycles used."""
+    status: Status
+
+
+def settle(
+    oscillator: Oscillator,
+    excitation: Harmonic,
+    start: State,
+    tolerance: float = 1e-12,
+    max_cycles: int = 2000,
+    max_events: int = 10_000,
+) -> Settled:
+    """Follow a motion until its stroboscopic state repeats, or for `max_cycles`.
+
+    Raises
+    ------
+    InputError
+        If the start cannot be, or an undamped mass that no bumper stops is at resonance.
+    """
+    if not 0.0 < tolerance < 1.0:
+        raise InputError(f"tolerance: {tolerance!r}; a number between 0 and 1 is accepted")
+    check_bounded(oscillator, excitation.frequency, "frequency")
+    if start.phase is not None:
+        excitation = excitation.replace(phase=start.phase)
+    result = np.empty((1, hold.RESULTS))
+    state = engine_state(oscillator, start)
+    batch.sweep(
+        engine_rig(oscillator),
+        excitation.amplitude,
+        np.array([excitation.frequency]),
+        excitation.phase,
+        state,
+        tolerance,
+        max_cycles,
+        1,
+        max_events,
+        result,
+        reached := np.zeros((1, hold.STATE)),
+        np.zeros(2, dtype=np.int64),
+    )
+    outcome = Status(int(result[0, hold.OUTCOME]))
+    return Settled(
+        oscillator,
+        excitation,
+        reached[0],
+        int(result[0, hold.PERIOD]),
+        int(result[0, hold.CYCLES]),
+        outcome,
+    )
+
+
+def mirrored(state: _Array) -> _Array:
+    """The mirror image of a state of the engine: what moves right moves left."""
+    image = state.copy()
+    other = {float(FLIGHT): FLIGHT, float(RIGHT): LEFT, float(LEFT): RIGHT}
+    image[hold.MODE] = other[float(state[hold.MODE])]
+    if state[hold.MODE] == FLIGHT:  # then it is the side that was just left
+        image[hold.FRESH] = other[float(state[hold.FRESH])]
+    image[hold.U], image[hold.V] = -state[hold.U], -state[hold.V]
+    image[hold.RIGHT_BUMPER], image[hold.LEFT_BUMPER] = (
+        state[hold.LEFT_BUMPER],
+        state[hold.RIGHT_BUMPER],
+    )
+    return image
+
+
+def follow(found: Settled, state: _Array, cycles: float, max_events: int = 10_000) -> _Array:
+    """The state some forcing cycles later."""
+    later = state.copy()
+    batch.trajectory(
+        engine_rig(found.oscillator),
+        found.excitation.amplitude,
+        found.excitation.frequency,
+        found.excitation.phase,
+        later,
+        0.0,
+        cycles,
+        0,
+        max_events,
+        np.empty((0, record.SAMPLE)),
+        np.empty((max_events + 1, record.EVENT)),
+    )
+    return later
+
+
+def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:
+    """Largest difference of two states of the engine, as a displacement over `size`."""
+    difference = np.abs(one - other)
+    difference[hold.V] /= found.excitation.angular_frequency
+    return float(difference[[hold.U, hold.V, hold.RIGHT_BUMPER, hold.LEFT_BUMPER]].max() / size)
+
+
+def reach(found: Settled, state: _Array) -> float:
+    """Size of a motion near a state, as a displacement (m); never zero."""
+    gaps = [b.gap for b in (found.oscillator.right, found.oscillator.left) if b and b.gap]
+    speed = abs(state[hold.V]) / found.excitation.angular_frequency
+    return max(abs(float(state[hold.U])), float(speed), *gaps[:1], 1e-300)
