@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
+from vibroimpact.cli.motion import motion
 from vibroimpact.cli.simulate import simulate
 from vibroimpact.cli.sweep import sweep
 from vibroimpact.errors import InputError
@@ -29,6 +30,7 @@ For example:
     vibroimpact sweep B2-G1-A3
     vibroimpact sweep B3-10mm-A3 --from 0.3Hz --to 4Hz --step 0.01Hz
     vibroimpact sweep study.toml --gap 12mm --output results
+    vibroimpact motion B2-G1-A3 --frequency 2.6Hz
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
 
 More about a command: vibroimpact COMMAND --help
@@ -81,6 +83,6 @@ def _app() -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
-    for command in (sweep, simulate):
+    for command in (sweep, motion, simulate):
         app.command(command)
     return app

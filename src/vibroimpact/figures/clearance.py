@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import SIDES, Shown, named, shown
-from vibroimpact.figures.style import EDGE, LEGEND, panels
+from vibroimpact.figures.motions import Shown, named, shown
+from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
 
 _LINES: dict[str, Any] = {
     "right": {"linestyle": "-", "linewidth": 1.3},
@@ -37,8 +40,8 @@ def clearances(
     cycles
         How many forcing cycles are shown.
     zoom
-        Height of the magnified panel in m. None for a tenth of the largest clearance, or 1.3
-        times the largest one in which the mass flies, if that is less.
+        Length of the magnified part in forcing cycles, about the shortest flight. None for five
+        times as long as that.
     title
         Title of a new figure.
 
@@ -51,8 +54,12 @@ def clearances(
     if not any(curve.gaps for curve in curves):
         raise InputError("motions: there is no bumper; a motion of a rig with one is accepted")
     if zoom is not None and not zoom > 0.0:
-        raise InputError(f"zoom: {zoom!r}; a height greater than 0 m is accepted")
-    whole, near = panels(axes, 2, "the whole and the magnified part", (7.2, 5.4), title)
+        raise InputError(f"zoom: {zoom!r}; a number of cycles greater than 0 is accepted")
+    if axes is None:
+        axes = Figure(figsize=(7.2, 5.4), layout="constrained").subplots(2, 1)
+        if title:
+            axes[0].figure.suptitle(title)
+    whole, near = panels(axes, 2, "the whole and the magnified part", (0.0, 0.0), None)
     for ax in (whole, near):
         for curve in curves:
             for side in curve.gaps:
@@ -68,10 +75,13 @@ def clearances(
         ax.axhline(0.0, color=EDGE, linewidth=0.6)
         ax.set_xlim(min(c.at[0] for c in curves), max(c.at[-1] for c in curves))
         ax.set_ylabel("clearance (mm)")
-    height = 1e3 * (zoom if zoom is not None else _flight_height(curves))
+    begin, end, height = _shortest_flight(curves)
+    half = 0.5 * (zoom if zoom is not None else 5.0 * (end - begin))
+    near.set_xlim(0.5 * (begin + end) - half, 0.5 * (begin + end) + half)
     near.set_ylim(-0.08 * height, height)
     near.set_ylabel("clearance (mm),\nmagnified")
     near.set_xlabel("time in forcing cycles $t/T$ (–)")
+    whole.axvspan(*near.get_xlim(), color=SHADE, zorder=0)
     whole.legend(ncols=4, **LEGEND)
     return whole, near
 
@@ -81,12 +91,19 @@ def _label(curve: Shown, side: str, motions: int) -> str:
     return f"{name}, {curve.look.label}" if motions > 1 else f"{name}, {side}"
 
 
-def _flight_height(curves: list[Shown]) -> float:
-    """A height in which a short flight is seen: both clearances are positive only in flight."""
-    largest = max(float(c.values[f"{s}_clearance"].max()) for c in curves for s in c.gaps)
-    flying = 0.0
+def _shortest_flight(curves: list[Shown]) -> tuple[float, float, float]:
+    """Begin and end (forcing cycles) of the shortest flight, and twice its height (mm)."""
+    best = None
     for curve in curves:
-        sides = [curve.values[f"{side}_clearance"] for side in SIDES.values() if side in curve.gaps]
-        both = sides[0] if len(sides) == 1 else sides[0].clip(max=sides[1])
-        flying = max(flying, float(both.max()))
-    return min(0.1 * largest, 1.3 * flying) or largest or 1.0
+        contacts = sorted(curve.touching, key=lambda contact: contact[1])
+        for (_, _, begin), (_, end, _) in itertools.pairwise(contacts):
+            if end > begin and (best is None or end - begin < best[1] - best[0]):
+                inside = (curve.at >= begin) & (curve.at <= end)
+                sides = [curve.values[f"{side}_clearance"][inside] for side in curve.gaps]
+                highest = max(float(side.max()) for side in sides)
+                best = (begin, end, 2e3 * highest)
+    if best is None:  # no flight between two contacts: all there is
+        at = np.concatenate([curve.at for curve in curves])
+        highest = max(float(c.values[f"{s}_clearance"].max()) for c in curves for s in c.gaps)
+        best = (float(at.min()), float(at.max()), 1e3 * highest)
+    return best

@@ -79,6 +79,7 @@ def spectrum_lines(
         )
     ax.set_xlim(-0.4, highest + 0.4)
     ax.set_xticks(np.arange(0, int(highest) + 1, max(1, int(highest) // 6)))
+    ax.autoscale(axis="y")  # together with the axes that share this one's scale
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel("order $f/f_{exc}$ (–)")
     ax.set_ylabel(label)

@@ -161,12 +161,23 @@ def _repeated(curve: Shown, period: float, cycles: float) -> Shown:
     return curve._replace(
         at=np.concatenate([curve.at + turn for turn in turns]),
         values={name: np.tile(value, len(turns)) for name, value in curve.values.items()},
-        touching=[(s, a + turn, b + turn) for turn in turns for s, a, b in curve.touching],
+        touching=_joined([(s, a + turn, b + turn) for turn in turns for s, a, b in curve.touching]),
         peaks=(
             np.concatenate([curve.peaks[0] + turn for turn in turns]),
             np.tile(curve.peaks[1], len(turns)),
         ),
     )
+
+
+def _joined(touching: list[tuple[int, float, float]]) -> list[tuple[int, float, float]]:
+    """Join the two parts of a contact that goes on across the end of the period."""
+    joined: list[tuple[int, float, float]] = []
+    for side, begin, end in sorted(touching, key=lambda contact: contact[1]):
+        if joined and joined[-1][0] == side and begin - joined[-1][2] < 1e-9:
+            joined[-1] = (side, joined[-1][1], end)
+        else:
+            joined.append((side, begin, end))
+    return joined
 
 
 def _cut(curve: Shown, first: float, last: float) -> Shown:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import xarray as xr
 
+from vibroimpact._version import __version__
 from vibroimpact.errors import InputError
 
 
@@ -43,35 +44,58 @@ def write_whole(path: Path | str, write: Callable[[Path], None]) -> Path:
     return target
 
 
-def save(dataset: xr.Dataset, path: Path | str) -> Path:
-    """Write a dataset to a NetCDF file.
+def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Path:
+    """Write a dataset, or several by name, to a NetCDF file.
+
+    Several become the groups of the file. A blank or a slash in a name becomes an underscore.
 
     Raises
     ------
     InputError
         If the file cannot be written; a file that was there is then as it was.
     """
-    return write_whole(path, lambda beside: dataset.to_netcdf(beside, engine="h5netcdf"))
+    if isinstance(dataset, xr.Dataset):
+        return write_whole(path, lambda beside: dataset.to_netcdf(beside, engine="h5netcdf"))
+    names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
+    tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
+    tree.attrs["vibroimpact_version"] = __version__
+    return write_whole(path, lambda beside: tree.to_netcdf(beside, engine="h5netcdf"))
 
 
-def load(path: Path | str) -> xr.Dataset:
+def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     """Read a dataset that `save` wrote.
+
+    Parameters
+    ----------
+    path
+        The file.
+    group
+        Which of several datasets.
 
     Raises
     ------
     InputError
-        If the file is missing, truncated, or not one of this package's.
+        If the file is missing, truncated, or not one of this package's; or if it holds several
+        datasets, and `group` names none of them.
     """
     if not Path(path).is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")
     try:
-        data: xr.Dataset = xr.load_dataset(path, engine="h5netcdf")
+        groups = [part.strip("/") for part in xr.open_groups(path, engine="h5netcdf")]
+        groups = [part for part in groups if part]
+        if group in groups or not groups:
+            data: xr.Dataset = xr.load_dataset(path, engine="h5netcdf", group=group)
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         reason = str(error).splitlines()[0]
         raise InputError(
             f"file: {str(path)!r} is damaged or not a NetCDF file ({reason}); "
             "a file written by vibroimpact is accepted"
         ) from None
+    if groups and group not in groups:
+        given = "it holds several datasets" if group is None else f"it has no group {group!r}"
+        raise InputError(
+            f"group: {group!r} of {str(path)!r}: {given}; {', '.join(groups)} are accepted"
+        )
     if "vibroimpact_version" not in data.attrs:
         raise InputError(
             f"file: {str(path)!r} was not written by vibroimpact; a file that it wrote is accepted"

@@ -112,7 +112,9 @@ def coexisting(
         _keep(kept, found, name, options)
 
     go("rest", State(phase=excitation.phase))
-    for name, start in _swept(oscillator, excitation, frequencies, max_cycles, max_events).items():
+    for name, start in arrivals(
+        oscillator, excitation, frequencies, max_cycles, max_events
+    ).items():
         go(name, start)
     for name, state in (starts or {}).items():
         go(name, as_state(state))
@@ -207,14 +209,17 @@ def _displacements(found: Settled, max_events: int) -> NDArray[np.float64]:
     return np.sort(rows[:done, lyapunov.SECTION])
 
 
-def _swept(
+def arrivals(
     oscillator: Oscillator,
     excitation: Harmonic,
-    frequencies: Iterable[float | str] | None,
-    max_cycles: int,
-    max_events: int,
+    frequencies: Iterable[float | str] | None = None,
+    max_cycles: int = 2000,
+    max_events: int = 10_000,
 ) -> dict[str, State]:
-    """Where the sweeps arrive, by direction; none where they have no frequency to begin with."""
+    """Where a forward and a backward sweep arrive: states by "forward branch", "backward branch".
+
+    Parameters are those of `coexisting`. A sweep that has no frequency to begin with is left out.
+    """
     if frequencies is None:
         # Never the natural frequency itself, which an undamped isolator forbids.
         grid = oscillator.natural_frequency * (np.arange(0.3, 6.0, 0.01) + 0.005)

@@ -83,16 +83,19 @@ def judge(logarithms: _Array, section: _Array) -> Judgement:
     whole, half = float(total[-1]), float(total[cycles // 2 - 1])
     margin = BOUNDED + 2.0 * math.log(cycles)
     apart = abs(mean[0]) > SIGNIFICANT * uncertainty[0]
-    grown = f"disturbances grow by a factor e^{whole:.4g} over {cycles} cycles"
+    grown = (
+        f"the logarithm of a disturbance changes by {whole:+.4g} over {cycles} cycles, "
+        f"{mean[0]:+.3g} ± {uncertainty[0]:.1g} a cycle"
+    )
     if whole > CLEAR + margin and whole - half > CLEAR and apart:
         return Judgement("chaotic", 0, mean, uncertainty, grown)
     if max(abs(whole), abs(half)) <= margin:
         return Judgement(
-            "quasi-periodic", 0, mean, uncertainty, f"{grown}, no faster than on a torus"
+            "quasi-periodic", 0, mean, uncertainty, f"{grown}: no more than on a torus"
         )
     if whole < 0.0 and (n := recurrence(section)):
         return Judgement(
-            "periodic", n, mean, uncertainty, f"{grown}, and the section repeats after {n}"
+            "periodic", n, mean, uncertainty, f"{grown}; the section repeats after {n}"
         )
     return Judgement("undecided", 0, mean, uncertainty, f"{grown}: no clear trend")
 
