@@ -61,7 +61,7 @@ def looks(names: list[str]) -> list[Look]:
     found = []
     for name in names:
         known = [look for key, look in SWEEPS.items() if key in name]
-        look = known[0] if known else next(spare)
+        look = known[0] if len(known) == 1 else next(spare)
         found.append(look._replace(label=name))
     return found
 
