@@ -107,12 +107,15 @@ def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[
         return np.stack([x, rise + 1j * nu * x, constant])
 
     nu = order * omega
-    found = integrals(nu)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = integrals(nu)
     # Where a line meets an undamped resonance of the phase, numerator and denominator vanish;
     # the integral is an entire function of ν, and so the mean of its values on a circle.
     close = np.abs(k - nu * nu + 1j * c * nu) < _NEAR * (k + nu * nu)
     if close.any():
-        found = np.where(close, _circle_mean(integrals, nu, 0.5 * np.sqrt(k)), found)
+        # No larger than where exp(−iνt) begins to grow over the phase.
+        radius = np.minimum(0.5 * np.sqrt(k), 1.0 / np.maximum(length, 1e-300))
+        found = np.where(close, _circle_mean(integrals, nu, radius), found)
     x, v, constant = found
     u = face * constant + x
     a = load * constant - k * x - c * v

@@ -1,0 +1,147 @@
+"""The contact log against integrals over the phases by a second way, and closed forms."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+import vibroimpact as vi
+from properties.strategies import Motion, examples, motions, simulated
+from reference.linear_phases import phases
+
+LOG = "contact_"
+
+
+def force(rig, phase):
+    bumper = rig.right if phase.contact == 1 else rig.left
+    deformation = phase.motion.right if phase.contact == 1 else phase.motion.left
+    return phase.contact * (bumper.stiffness * deformation + bumper.damping * phase.motion.v)
+
+
+@examples(80)
+@given(motions())
+def test_contacts_against_the_phases_by_matrix_exponentials(motion: Motion) -> None:
+    """Impulse, energy, impulse and momentum: Gauss-Legendre on states that the engine knows not."""
+    rig, shaken = motion.oscillator, motion.excitation
+    data = simulated(motion, 3.0)
+    log = vi.contacts(data)
+    walk = list(phases(rig, shaken, data))
+    inner = [p for p in walk[1:-1] if p.contact]
+    assert log.sizes["contact_number"] == len(inner)
+    for i, phase in enumerate(inner):
+        row = {str(name).removeprefix(LOG): float(log[name][i]) for name in log}
+        bumper = rig.right if phase.contact == 1 else rig.left
+        pressing = force(rig, phase)
+        impulse = float(phase.weights @ pressing)
+        scale = float(phase.weights @ np.abs(pressing)) + 1e-300
+        assert row["side"] == phase.contact
+        assert row["duration"] == pytest.approx(phase.length, rel=1e-9)
+        assert abs(row["impulse"] - impulse) < 1e-10 * scale
+        lost = bumper.damping * float(phase.weights @ phase.motion.v**2)
+        assert row["dissipated"] == pytest.approx(lost, rel=1e-10, abs=1e-300)
+        # Momentum: M Δu̇ + C Δu + K ∫u + M ∫A_t = −(contact impulse towards the mass).
+        other = (
+            rig.mass * (phase.end.v - phase.begin.v)
+            + rig.isolator.damping * (phase.end.u - phase.begin.u)
+            + rig.isolator.stiffness * float(phase.weights @ phase.motion.u)
+            + rig.mass * float(phase.weights @ phase.base)
+        )
+        turnover = rig.mass * (abs(phase.end.v) + abs(phase.begin.v)) + scale
+        assert abs(other + phase.contact * row["impulse"]) < 1e-10 * turnover
+        # Peaks are at least what is seen at the nodes, and hardly more.
+        deepest = float(np.abs(phase.motion.u).max()) - bumper.gap
+        assert row["penetration"] >= deepest - 1e-12 * (bumper.gap + abs(deepest))
+        assert row["peak_force"] >= float(pressing.max()) * (1 - 1e-12)
+        assert row["peak_force"] <= 1.05 * max(
+            float(pressing.max()), phase.contact * bumper.damping * phase.begin.v
+        ) + 1e-9 * scale / max(phase.length, 1e-300)
+
+
+def test_rebound_of_an_elastic_stop():
+    """Against a stiff elastic stop the contact is half a sine: π/ω, F = √(k m) v, e = 1."""
+    stiff = 1e10
+    rig = vi.Oscillator(2.0, vi.Isolator(1.0, 0.0), vi.Bumper(stiff, 0.0, 0.0), None)
+    data = vi.simulate(rig, vi.Harmonic(1e-12, 0.5), 1.0, vi.State(-1e-6, 3.0))
+    (row,) = vi.contacts(data).to_dataframe().itertuples()
+    omega = math.sqrt(stiff / 2.0)
+    assert row.contact_duration == pytest.approx(math.pi / omega, rel=1e-9)
+    assert row.contact_peak_force == pytest.approx(math.sqrt(stiff * 2.0) * 3.0, rel=1e-9)
+    assert row.contact_impulse == pytest.approx(2.0 * 2.0 * 3.0, rel=1e-9)
+    assert row.contact_penetration == pytest.approx(3.0 / omega, rel=1e-9)
+    assert row.contact_restitution == pytest.approx(1.0, rel=1e-12)
+    assert row.contact_peak_time == pytest.approx(
+        row.contact_start + 0.5 * math.pi / omega, rel=1e-9
+    )
+    assert row.contact_dissipated == row.contact_dissipated_relaxing == 0.0
+
+
+def test_rebound_of_a_damped_stop():
+    """Release by force: e = exp(−ζ α / √(1 − ζ²)) with tan(α…) from F = 0 (theory.md)."""
+    stiff, zeta = 1e10, 0.2
+    damping = 2.0 * zeta * math.sqrt(stiff)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), vi.Bumper(stiff, damping, 0.0), None)
+    data = vi.simulate(rig, vi.Harmonic(1e-12, 0.5), 1.0, vi.State(-1e-6, 1.0))
+    (row,) = vi.contacts(data).to_dataframe().itertuples()
+    # x = e^(−ζτ) sin(wτ)/w, F ∝ x + 2ζ x′ = 0 first at wτ = π − atan2(2ζw, 1 − 2ζ²) + …
+    w = math.sqrt(1.0 - zeta**2)
+    tau = (math.pi - math.atan2(2.0 * zeta * w, 1.0 - 2.0 * zeta**2)) / w
+    assert row.contact_duration == pytest.approx(tau / math.sqrt(stiff), rel=1e-6)
+    end = math.exp(-zeta * tau) * (math.cos(w * tau) - zeta / w * math.sin(w * tau))
+    assert row.contact_restitution == pytest.approx(-end, rel=1e-6)
+    # Peak force: of a Kelvin-Voigt bumper at once C v where 2ζ > …, else within.
+    times = np.linspace(0.0, tau, 200_001)
+    x = np.exp(-zeta * times) * np.sin(w * times) / w
+    v = np.exp(-zeta * times) * (np.cos(w * times) - zeta / w * np.sin(w * times))
+    assert row.contact_peak_force == pytest.approx(
+        math.sqrt(stiff) * (x + 2 * zeta * v).max(), rel=1e-6
+    )
+    # What is not given back is lost: in contact, and afterwards in the bumper's relaxation.
+    lost = row.contact_dissipated + row.contact_dissipated_relaxing
+    assert lost == pytest.approx(0.5 * (1.0 - row.contact_restitution**2), rel=1e-6)
+    assert row.contact_dissipated_relaxing > 0.0
+
+
+def test_contacts_at_the_ends_of_the_record_are_left_out():
+    case = vi.laboratory.case("B2-G1-A3")
+    shaken = vi.Harmonic(case.amplitude, 2.0)
+    data = vi.simulate(case.oscillator, shaken, 4, vi.State(9e-3, 0.0))
+    assert int(data["contact"][0]) == 1
+    log = vi.contacts(data)
+    begins = data["event_time"].values[data["event_contact"].values == 1]
+    assert float(log["contact_start"][0]) == begins[0]
+    assert (log["contact_end"].values <= data["time"].values[-1]).all()
+
+
+def test_grazing_is_flagged():
+    case = vi.laboratory.case("B2-G1-A3")
+    data = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 2.0), 20)
+    log = vi.contacts(data)
+    fastest = max(np.abs(data["velocity"]).max(), np.abs(data["event_velocity"]).max())
+    speeds = np.abs(log["contact_start_velocity"].values)
+    for share in (1e-3, 0.5, 1.0):
+        flags = vi.contacts(data, grazing=share)["contact_grazing"].values
+        np.testing.assert_array_equal(flags, speeds < share * float(fastest))
+    assert vi.contacts(data, grazing=1.0)["contact_grazing"].any()
+
+
+def test_samples_change_nothing():
+    case = vi.laboratory.case("B3-10mm-A3")
+    shaken = vi.Harmonic(case.amplitude, 1.06)
+    few, many = (vi.contacts(vi.simulate(case.oscillator, shaken, 30, samples=n)) for n in (1, 99))
+    for name in few:
+        if name != "contact_grazing":
+            np.testing.assert_allclose(few[name], many[name], rtol=1e-9, atol=1e-15)
+
+
+@pytest.mark.parametrize("wrong", [None, 3, "motion"])
+def test_no_motion(wrong):
+    case = vi.laboratory.case("B2-G1-A3")
+    if wrong == 3:
+        wrong = vi.simulate(case.oscillator, vi.Harmonic(1.0, 2.0), 3, samples=0)
+    with pytest.raises(vi.InputError, match=r"motion: .* steady, or of simulate"):
+        vi.contacts(wrong)
+    with pytest.raises(vi.InputError, match="grazing"):
+        vi.contacts(vi.simulate(case.oscillator, vi.Harmonic(1.0, 2.0), 3), grazing=-1.0)

@@ -1,0 +1,88 @@
+"""Motions that coexist: all of them, each once."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+
+@cache
+def motions(code: str, frequency: float, random: int = 12):
+    case = vi.laboratory.case(code)
+    return vi.coexisting(
+        case.oscillator, vi.Harmonic(case.amplitude, frequency), random=random, samples=32
+    )
+
+
+def test_with_and_without_impact():
+    large, small = motions("B2-G1-A3", 2.6)
+    assert "forward branch" in large.attrs["starts"]
+    assert "backward branch" in small.attrs["starts"]
+    assert "rest" in small.attrs["starts"]
+    assert float(large["impacts_right"]) == 1.0
+    assert small.sizes["contact_number"] == 0
+    assert [bool(m["mirror_pair"]) for m in (large, small)] == [False, False]
+
+
+def test_every_start_is_accounted_for():
+    found = motions("B2-G1-A3", 2.6)
+    names = ", ".join(m.attrs["starts"] for m in found).split(", ")
+    assert sorted(names) == sorted(
+        ["rest", "forward branch", "backward branch", *(f"random {i}" for i in range(1, 13))]
+    )
+
+
+@pytest.mark.parametrize(("frequency", "kind"), [(1.12, "periodic"), (1.06, "chaotic")])
+def test_a_mirrored_pair_is_one(frequency, kind):
+    (one,) = motions("B3-10mm-A3", frequency)
+    assert one["motion"].item() == kind
+    assert bool(one["mirror_pair"])
+    ways = [one.attrs["starts"], one.attrs["mirrored_starts"]]
+    assert all("random" in way for way in ways)
+    if kind == "periodic":
+        assert "mirror image" in one.attrs["mirrored_starts"]
+
+
+def test_motions_that_differ_by_whole_cycles_are_one():
+    """Period 5, from many starts: five sections of the same orbit."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), vi.Bumper(29.0, 0.0, 1.26), None)
+    omega = 0.81
+    shaken = vi.Harmonic(0.7 * omega**2, omega / (2 * np.pi), np.pi)
+    starts = {f"given {i}": vi.State(0.2 * i, 0.1, phase=np.pi) for i in range(5)}
+    found = vi.coexisting(rig, shaken, starts=starts, random=0, samples=8)
+    five = [m for m in found if int(m["period"]) == 5]
+    assert len(five) == 1
+    assert five[0].attrs["starts"].count("given") >= 2
+    assert not any(bool(m["mirror_pair"]) for m in found)  # one bumper: no mirror image
+
+
+def test_the_same_seed_finds_the_same():
+    case = vi.laboratory.case("B3-10mm-A3")
+    shaken = vi.Harmonic(case.amplitude, 0.7)
+    names = [
+        [m.attrs["starts"] for m in vi.coexisting(case.oscillator, shaken, seed=seed, samples=8)]
+        for seed in (3, 3, 4)
+    ]
+    assert names[0] == names[1]
+    assert names[0] != names[2]
+
+
+def test_frequencies_of_the_sweeps():
+    """A forward sweep that begins above the jump does not arrive on the large motion."""
+    case = vi.laboratory.case("B2-G1-A3")
+    shaken = vi.Harmonic(case.amplitude, 2.6)
+    found = vi.coexisting(
+        case.oscillator, shaken, frequencies=[2.59, 2.61, 3.0], random=0, samples=8
+    )
+    assert [m.attrs["starts"] for m in found] == ["rest, forward branch, backward branch"]
+
+
+@pytest.mark.parametrize("wrong", [{"random": -1}, {"random": 1.5}, {"frequencies": []}])
+def test_refused(wrong):
+    case = vi.laboratory.case("B2-G1-A3")
+    with pytest.raises(vi.InputError, match=next(iter(wrong))):
+        vi.coexisting(case.oscillator, vi.Harmonic(0.5, 2.0), **wrong)

@@ -1,0 +1,114 @@
+"""Lyapunov exponents: their sum, closed forms, multipliers, and many at once."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+
+import vibroimpact as vi
+from properties.strategies import Motion, examples, motions, simulated
+from vibroimpact.engine import lyapunov
+from vibroimpact.response.start import engine_rig, engine_state
+
+CASES = ["B2-G1-A3", "B3-10mm-A3", "B4-G2-A1", "B3-0mm-A3", "B1-G4-A2"]
+FREQUENCIES = [0.58, 0.9, 1.02, 1.06, 1.1, 1.2, 2.0, 3.1]
+
+
+def test_they_sum_to_minus_the_effective_damping():
+    """⟨C_eff⟩/M, a bumper's damping included while it is pressed, for periodic and chaotic."""
+    data = vi.lyapunov_exponents([vi.laboratory.case(c) for c in CASES], FREQUENCIES, 2000)
+    total = data["exponents"].sum("exponent") + data["effective_damping"]
+    assert float(np.abs(total).max()) < 1e-8
+    assert float((data["effective_damping"]).max()) > 1.2 * float(data["effective_damping"].min())
+    assert int((data["exponents"][..., 0] > 0.1).sum()) >= 3  # chaotic ones are among them
+
+
+@examples(60)
+@given(motions(most_damping=0.5))
+def test_each_cycle_contracts_by_the_damping_where_memory_has_decayed(motion: Motion) -> None:
+    shaken = motion.excitation
+
+    def forgetful(bumper: vi.Bumper | None) -> vi.Bumper | None:
+        """The bumper, with so little damping that after T/200 nothing is left."""
+        if bumper is None:
+            return None
+        most = 1e-4 * bumper.stiffness / shaken.frequency
+        return bumper.replace(damping=min(bumper.damping, most))
+
+    rig = motion.oscillator
+    rig = rig.replace(right=forgetful(rig.right), left=forgetful(rig.left))
+    data = simulated(motion._replace(oscillator=rig), 6.0)
+    at = data["event_time"].values * shaken.frequency
+    # No contact within that time of another event or of a section.
+    assume(len(at) == 0 or np.diff(at, append=6.0).min() > 5e-3)
+    assume(len(at) == 0 or np.abs(at - np.round(at)).min() > 5e-3)
+    rows = np.empty((5, lyapunov.GROWTH))
+    state = engine_state(rig, motion.start)
+    lyapunov.growth(
+        engine_rig(rig), shaken.amplitude, shaken.frequency, shaken.phase, state, 0, 1, 1000, rows
+    )
+    sums = rows[:, : lyapunov.SECTION].sum(axis=1)
+    scale = np.abs(rows[:, : lyapunov.SECTION]).max()
+    assert np.abs(sums).max() < 1e-10 * max(scale, 1.0)
+
+
+def test_those_of_a_periodic_motion_are_its_multipliers():
+    """Averages over many cycles against the eigenvalues of one: real and complex pairs."""
+    case = vi.laboratory.case("B3-10mm-A3")
+    for frequency, tolerance in ((1.2, 1e-10), (2.0, 2e-3)):
+        averaged = vi.lyapunov_exponents([case], [frequency], 4000).isel(rig=0, frequency=0)
+        exact = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, frequency))
+        np.testing.assert_allclose(averaged["exponents"], exact["exponents"], atol=tolerance)
+
+
+def test_free_flight():
+    case = vi.laboratory.case("B2-Ginf-A3")
+    rig = case.oscillator
+    data = vi.lyapunov_exponents([case], [0.7, 3.0], 3200)
+    np.testing.assert_allclose(
+        data["exponents"], -rig.damping_ratio * rig.angular_frequency, rtol=1e-3
+    )
+    np.testing.assert_allclose(
+        data["exponents"].sum("exponent"), -rig.isolator.damping / rig.mass, rtol=1e-12
+    )
+
+
+def test_threads_change_nothing():
+    rigs = [vi.laboratory.case(c) for c in CASES[:3]]
+    seen = []
+    one, two = (
+        vi.lyapunov_exponents(
+            rigs, FREQUENCIES[:4], 200, threads=n, progress=lambda *p: seen.append(p)
+        )
+        for n in (1, 2)
+    )
+    for name in one:
+        np.testing.assert_array_equal(one[name], two[name])
+    assert seen[-1] == (12, 12)
+
+
+def test_a_motion_that_is_given_up():
+    case = vi.laboratory.case("B3-10mm-A3")
+    data = vi.lyapunov_exponents([case], [0.5], 50, max_events=6).isel(rig=0, frequency=0)
+    assert int(data["status"]) == 2
+    assert int(data["exponents_cycles"]) == 0
+    assert np.isnan(data["exponents"]).all()
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"cycles": 0},
+        {"cycles": 1.5},
+        {"transient": -1},
+        {"max_events": 0},
+        {"threads": 0},
+        {"frequencies": [-1.0]},
+        {"rigs": []},
+    ],
+)
+def test_refused(wrong):
+    given = {"rigs": [vi.laboratory.case("B2-G1-A3")], "frequencies": [2.0], "cycles": 10}
+    with pytest.raises(vi.InputError, match=next(iter(wrong))):
+        vi.lyapunov_exponents(**{**given, **wrong})
