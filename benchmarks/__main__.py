@@ -7,6 +7,7 @@ from rich.console import Console
 from benchmarks.campaign import campaign
 from benchmarks.machine import load, machine
 from benchmarks.memory import memory
+from benchmarks.motions import motions
 from benchmarks.report import Table, show, write
 from benchmarks.startup import compiling, startup
 from benchmarks.trajectory import many, peers, short_runs, trajectory
@@ -40,6 +41,8 @@ def main() -> None:
         add(short_runs(others), many())
     with console.status("the campaign ..."):
         add(campaign())
+    with console.status("motions ..."):
+        add(motions())
     with console.status("starting and memory ..."):
         add(startup(compiled), memory())
     about.add("load when it ended", f"{load():.1f}")

@@ -55,6 +55,19 @@ def test_contacts_against_the_phases_by_matrix_exponentials(motion: Motion) -> N
         deepest = float(np.abs(phase.motion.u).max()) - bumper.gap
         assert row["penetration"] >= deepest - 1e-12 * (bumper.gap + abs(deepest))
         assert row["peak_force"] >= float(pressing.max()) * (1 - 1e-12)
+        accelerations = -(
+            rig.isolator.stiffness * phase.motion.u
+            + rig.isolator.damping * phase.motion.v
+            + phase.contact * pressing
+        )
+        sizes = np.abs(accelerations) / rig.mass
+        assert row["peak_acceleration"] >= float(sizes.max()) * (1 - 1e-12)
+        pieces = len(phase.weights) // 16
+        nodes = (
+            np.arange(pieces)[:, None] + (np.polynomial.legendre.leggauss(16)[0] + 1) / 2
+        ).ravel()
+        near = np.abs(row["start"] + phase.length / pieces * nodes - row["peak_time"]).argmin()
+        assert sizes[near] >= row["peak_acceleration"] - 0.2 * np.ptp(accelerations / rig.mass)
         assert row["peak_force"] <= 1.05 * max(
             float(pressing.max()), phase.contact * bumper.damping * phase.begin.v
         ) + 1e-9 * scale / max(phase.length, 1e-300)

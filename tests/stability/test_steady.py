@@ -173,3 +173,11 @@ def test_undamped_resonance_is_refused():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), None, None)
     with pytest.raises(vi.InputError, match="frequency"):
         vi.steady(rig, vi.Harmonic(1.0, rig.natural_frequency))
+
+
+def test_a_bumper_that_is_never_touched_has_no_say():
+    """It relaxes more slowly than the mass comes to rest, but is not of the motion."""
+    bumper = vi.Bumper(1e5, 1e7, 1.0)
+    rig = vi.Oscillator(550.0, vi.Isolator(26e3, 1.1e3), bumper, bumper)
+    data = vi.steady(rig, vi.Harmonic(0.5, 1.3))
+    np.testing.assert_allclose(data["exponents"], -1.0, rtol=1e-12)

@@ -8,8 +8,8 @@ I + (f⁺ − f⁻) nᵀ / (nᵀ f⁻) of the clearance reduces to
 
 the closing speed cancels, so that grazing is no special case. At a detachment the contact force
 is zero and the bumper's own rate is that of the mass: both vector fields agree and nothing
-happens, but that without a dashpot δu_j becomes 0. In contact δu_j = δu, so that every contact
-loses the bumper's own direction (docs/theory.md, section 6).
+happens. A free bumper's δu_j fades as the bumper relaxes, at once without a dashpot. In contact
+δu_j = δu, so that every contact loses the bumper's own direction (docs/theory.md, section 6).
 """
 
 from __future__ import annotations
@@ -78,16 +78,11 @@ def disturb(plan: Vector, mode: int, event: int, behind: int, t: float, q: Vecto
         q[i, 1] = vu * u + vv * v
         if mode != FLIGHT:
             q[i, 1 + mode] = q[i, 0]
-    if event == LIMIT:
-        return
-    if behind != FLIGHT:
+    if event != LIMIT and behind != FLIGHT:
         damping = plan[par.BUMPER + par.WIDTH * (behind - 1) + par.BUMPER_DAMPING]
         for i in range(len(q)):
             q[i, 1] -= damping * (q[i, 0] - q[i, 1 + behind])
             q[i, 1 + behind] = q[i, 0]
-    elif plan[par.BUMPER + par.WIDTH * (mode - 1) + par.BUMPER_DAMPING] == 0.0:
-        for i in range(len(q)):
-            q[i, 1 + mode] = 0.0
 
 
 @kernel
