@@ -23,6 +23,17 @@ def test_first_sweep(tmp_path):
     assert (tmp_path / "out/B2-G1-A3-sweep.nc").is_file()
 
 
+def test_kinds_of_motion(tmp_path):
+    script = EXAMPLES / "kinds_of_motion.py"
+    done = subprocess.run(
+        [sys.executable, "-W", "error", script, tmp_path], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert "B2-G1-A3 at 2.6 Hz, motion 2: periodic" in done.stdout
+    assert "B3-10mm-A3 at 1.06 Hz, motion 1: chaotic" in done.stdout
+    assert (tmp_path / "kinds-of-motion.png").is_file()
+
+
 def test_study(tmp_path, capsys):
     for command in ("sweep", "simulate"):
         assert main([command, str(EXAMPLES / "study.toml"), "-o", str(tmp_path)]) == 0

@@ -63,6 +63,14 @@ def test_too_few_cycles():
     assert judge(growth(0.5, 0.1, 0), WANDERING[:0]).motion == "undecided"
 
 
+def test_a_bounded_growth_over_few_cycles_says_nothing():
+    assert judge(growth(0.0, 0.01, 900), WANDERING[:900]).motion == "undecided"
+    assert judge(growth(0.0, 0.01, 1100), WANDERING[:1100]).motion == "quasi-periodic"
+    case = vi.laboratory.case("B3-10mm-A3")
+    data = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, 1.1), exponent_cycles=60)
+    assert data["motion"].item() == "undecided"
+
+
 def test_uncertainty_is_that_of_the_mean():
     """Of independent cycles it is σ/√N; of slow drifts it is larger."""
     found = [averages(growth(0.3, 1.0, 3200, seed)) for seed in range(300)]

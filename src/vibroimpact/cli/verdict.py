@@ -152,7 +152,7 @@ def _contacts(data: xr.Dataset) -> list[RenderableType]:
         ("u̇ in (mm/s)", "start_velocity", 1e3, ".2f"),
         ("u̇ out (mm/s)", "end_velocity", 1e3, ".2f"),
         ("force (kN)", "peak_force", 1e-3, ".3g"),
-        ("impulse (N s)", "impulse", 1.0, ".3g"),
+        ("J (N s)", "impulse", 1.0, ".3g"),
         ("depth (mm)", "penetration", 1e3, ".3g"),
         ("lost (J)", "dissipated", 1.0, ".3g"),
         ("e (–)", "restitution", 1.0, ".3f"),

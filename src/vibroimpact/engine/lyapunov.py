@@ -93,7 +93,7 @@ def _growth(
     orthonormalise(q, weight, mode)
     done = -discard
     while outcome == DONE and done < len(out):
-        events, mode, fresh, u, v, right, left, age, damping = disturbed_cycle(
+        events, mode, fresh, u, v, right, left, age, damping, _, _ = disturbed_cycle(
             plan, mode, fresh, u, v, right, left, age, s, c, period, max_events, q[1:]
         )
         if events > max_events:
@@ -204,7 +204,7 @@ def monodromy(
     damping[0] = 0.0
     done = 0
     while outcome == DONE and done < cycles:
-        events, mode, fresh, u, v, right, left, age, more = disturbed_cycle(
+        events, mode, fresh, u, v, right, left, age, more, _, _ = disturbed_cycle(
             plan, mode, fresh, u, v, right, left, age, s, c, period, max_events, columns
         )
         damping[0] += more

@@ -18,7 +18,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.phase import FLIGHT, LIMIT
+from vibroimpact.engine.phase import FLIGHT, LEFT, LIMIT, RIGHT
 from vibroimpact.engine.trajectory import advance
 
 DISTURBANCE = 4
@@ -100,17 +100,19 @@ def disturbed_cycle(
     period: float,
     max_events: int,
     q: Vector,
-) -> tuple[int, int, int, float, float, float, float, float, float]:
+) -> tuple[int, int, int, float, float, float, float, float, float, int, int]:
     """One forcing cycle, as `trajectory.cycle`, with disturbances carried along.
 
     Returns
     -------
-    events, mode, fresh, u, v, right, left, age, damping
+    events, mode, fresh, u, v, right, left, age, damping, hits_right, hits_left
         As `trajectory.cycle`; `damping` is the integral over the cycle of the damping per unit
         mass, that of a pressed bumper included.
     """
     t = 0.0
     events = 0
+    hits_r = 0
+    hits_l = 0
     damping = 0.0
     while True:
         was = mode
@@ -125,6 +127,10 @@ def disturbed_cycle(
             break
         t += step
         events += 1
+        if mode == RIGHT:
+            hits_r += 1
+        elif mode == LEFT:
+            hits_l += 1
         if events > max_events or t >= period:
             break
-    return events, mode, fresh, u, v, right, left, age, damping
+    return events, mode, fresh, u, v, right, left, age, damping, hits_r, hits_l

@@ -82,7 +82,7 @@ def motion_page(
     figure.legend(
         handles=list(handles.values()),
         loc="outside lower center",
-        ncols=min(len(handles), 4 if count == 1 else 8),
+        ncols=min(len(handles), 2 + 2 * count),
         frameon=False,
         fontsize="small",
     )

@@ -27,8 +27,8 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     Of a periodic motion the harmonics are exact: within each phase the integral of the motion
     times exp(−iνt) follows from the states at its two ends (docs/theory.md, section 7), so that
     there is neither leakage nor a sampling error. Any other motion is transformed with a Hann
-    window over the whole forcing cycles of its record; a line's height is then right to some
-    percent, and lines closer than two cycles in the record's length run together.
+    window over the whole forcing cycles of its record; a line between two points of the transform
+    is then up to 15 % too low, and lines closer than two such points run together.
 
     Parameters
     ----------

@@ -147,7 +147,7 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
         one.found.status in (Status.DONE, Status.NOT_SETTLED)
         and symmetric(one.found.oscillator)
         and not bool(one.motion["antisymmetric"])
-        and not _same(one.found, _image(one.found), max_events)
+        and not _same(one.found, _image(one.found, max_events), max_events)
     )
     data = one.motion.assign(mirror_pair=pair)
     data.attrs["starts"] = ", ".join(one.starts)
@@ -164,14 +164,15 @@ def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int,
         if _same(one.found, found, options[3]):
             one.starts.append(name)
             return
-        if symmetric(found.oscillator) and _same(one.found, _image(found), options[3]):
+        if symmetric(found.oscillator) and _same(one.found, _image(found, options[3]), options[3]):
             one.mirrored_starts.append(name)
             return
     kept.append(_Kept(found, describe_motion(found, *options), [name], []))
 
 
-def _image(found: Settled) -> Settled:
-    return found._replace(state=mirrored(follow(found, found.state, 0.5)))
+def _image(found: Settled, max_events: int) -> Settled:
+    """The mirror image, half a cycle later."""
+    return found._replace(state=mirrored(follow(found, found.state, 0.5, max_events)))
 
 
 def _same(one: Settled, other: Settled, max_events: int) -> bool:

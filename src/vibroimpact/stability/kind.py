@@ -24,6 +24,8 @@ CLEAR = 20.0
 """Logarithm of a growth that no bounded wandering explains: 1e-16 has become 1e-7."""
 BOUNDED = 5.0
 """A logarithm below this and 2 log N is as on a torus."""
+ENOUGH = 1000
+"""Cycles below which a bounded growth says nothing: a chaotic one may not have shown yet."""
 SAME = 1e-8
 """Share of the motion's size within which two points of the section are one."""
 
@@ -89,7 +91,7 @@ def judge(logarithms: _Array, section: _Array) -> Judgement:
     )
     if whole > CLEAR + margin and whole - half > CLEAR and apart:
         return Judgement("chaotic", 0, mean, uncertainty, grown)
-    if max(abs(whole), abs(half)) <= margin:
+    if max(abs(whole), abs(half)) <= margin and cycles >= ENOUGH:
         return Judgement(
             "quasi-periodic", 0, mean, uncertainty, f"{grown}: no more than on a torus"
         )

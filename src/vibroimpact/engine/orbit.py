@@ -1,0 +1,364 @@
+"""Periodic orbits as solutions of P(z; p) = z, by Newton's method with the exact derivative."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from vibroimpact.engine.hold import DONE, NOT_FINITE, NOT_SETTLED, RESULTS, STATE, measure
+from vibroimpact.engine.jit import Vector, entry, kernel
+from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.phase import FLIGHT, PLAN
+from vibroimpact.engine.section_map import (
+    AMPLITUDE,
+    FACTS,
+    FREQUENCY,
+    MODE,
+    PARAMETER,
+    POINT,
+    RESIDUAL,
+    STEPS,
+    SYSTEM,
+    placed,
+    section_map,
+    system_plan,
+)
+from vibroimpact.engine.tangent import DISTURBANCE
+
+_NEWTON_STEPS = 16
+_GOOD = 1e-14  # residual over the scale at which nothing is left to gain
+_DIFFERENCE = 1e-7  # of the parameter's scale
+_FARTHEST = 0.5  # scaled length of a Newton step
+
+
+@kernel
+def solve(a: Vector, b: Vector, n: int) -> bool:
+    """Solve a x = b by elimination with pivoting; x replaces b. False if a is singular."""
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(a[i, k]) > abs(a[best, k]):
+                best = i
+        if not abs(a[best, k]) > 1e-300:
+            return False
+        if best != k:
+            for j in range(n):
+                a[k, j], a[best, j] = a[best, j], a[k, j]
+            b[k], b[best] = b[best], b[k]
+        for i in range(k + 1, n):
+            factor = a[i, k] / a[k, k]
+            if factor != 0.0:
+                for j in range(k, n):
+                    a[i, j] -= factor * a[k, j]
+                b[i] -= factor * b[k]
+    for k in range(n - 1, -1, -1):
+        for j in range(k + 1, n):
+            b[k] -= a[k, j] * b[j]
+        b[k] /= a[k, k]
+    return True
+
+
+@kernel
+def _newton(
+    plan: Vector,
+    base: Vector,
+    direction: Vector,
+    phase: float,
+    count: int,
+    mirror: bool,
+    max_events: int,
+    scale: Vector,
+    tangent: Vector,
+    point: Vector,
+    facts: Vector,
+    columns: Vector,
+    slope: Vector,
+) -> int:
+    system = np.empty(SYSTEM)
+    image = np.empty(DISTURBANCE)
+    other = np.empty(DISTURBANCE)
+    ignored = np.empty((DISTURBANCE, DISTURBANCE))
+    trial = np.empty(POINT)
+    seen = np.empty(FACTS)
+    aim = point.copy()
+    best = math.inf
+    found = np.empty(POINT)
+    matrix = np.empty((POINT, POINT))
+    right = np.empty(POINT)
+    facts[STEPS] = 0.0
+    last = False
+    while True:
+        system_plan(base, direction, point[PARAMETER], plan, system)
+        if not (system[FREQUENCY] > 0.0 and system[AMPLITUDE] > 0.0):
+            return NOT_FINITE
+        outcome = section_map(
+            plan, system, phase, count, mirror, max_events, point, facts, image, columns
+        )
+        if outcome != DONE:
+            return outcome
+        residual = 0.0
+        for i in range(DISTURBANCE):
+            residual = max(residual, abs(image[i] - point[i]) / scale[i])
+        if residual < best:
+            best = residual
+            found[:] = point
+        elif last:
+            # Rounding lets it come no closer.
+            point[:] = found
+        if last or residual <= _GOOD or facts[STEPS] >= _NEWTON_STEPS:
+            break
+        if facts[STEPS] >= 4 and residual > 0.25 * best and best < 1e-12:
+            last = True
+            point[:] = found
+            continue
+        # The derivative with respect to the parameter, by a difference: it only steers.
+        _slope(
+            plan,
+            system,
+            base,
+            direction,
+            phase,
+            count,
+            mirror,
+            max_events,
+            scale,
+            point,
+            facts,
+            image,
+            trial,
+            seen,
+            other,
+            ignored,
+            slope,
+        )
+        for i in range(DISTURBANCE):
+            for j in range(DISTURBANCE):
+                matrix[i, j] = columns[j, i] * scale[j] / scale[i]
+            matrix[i, i] -= 1.0
+            matrix[i, PARAMETER] = slope[i] * scale[PARAMETER] / scale[i]
+            right[i] = -(image[i] - point[i]) / scale[i]
+        right[PARAMETER] = 0.0
+        for j in range(POINT):
+            matrix[PARAMETER, j] = tangent[j]
+            right[PARAMETER] -= tangent[j] * (point[j] - aim[j]) / scale[j]
+        if not solve(matrix, right, POINT):
+            return NOT_SETTLED
+        longest = 0.0
+        for j in range(POINT):
+            longest = max(longest, abs(right[j]))
+        if not longest < math.inf:
+            return NOT_FINITE
+        share = min(1.0, _FARTHEST / longest) if longest > 0.0 else 1.0
+        for j in range(POINT):
+            point[j] += share * right[j] * scale[j]
+        facts[STEPS] += 1.0
+    facts[RESIDUAL] = min(best, residual)
+    _slope(
+        plan,
+        system,
+        base,
+        direction,
+        phase,
+        count,
+        mirror,
+        max_events,
+        scale,
+        point,
+        facts,
+        image,
+        trial,
+        seen,
+        other,
+        ignored,
+        slope,
+    )
+    return DONE if facts[RESIDUAL] <= 1e-12 else NOT_SETTLED
+
+
+@kernel
+def _slope(
+    plan: Vector,
+    system: Vector,
+    base: Vector,
+    direction: Vector,
+    phase: float,
+    count: int,
+    mirror: bool,
+    max_events: int,
+    scale: Vector,
+    point: Vector,
+    facts: Vector,
+    image: Vector,
+    trial: Vector,
+    seen: Vector,
+    other: Vector,
+    ignored: Vector,
+    slope: Vector,
+) -> None:
+    """∂P/∂p by a forward difference."""
+    trial[:] = point
+    seen[:] = facts
+    step = _DIFFERENCE * scale[PARAMETER]
+    system_plan(base, direction, point[PARAMETER] + step, plan, system)
+    outcome = section_map(
+        plan, system, phase, count, mirror, max_events, trial, seen, other, ignored
+    )
+    for i in range(DISTURBANCE):
+        slope[i] = (other[i] - image[i]) / step if outcome == DONE else 0.0
+
+
+@entry(
+    "i8(f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[::1], f8[:, ::1],"
+    " f8[::1])"
+)
+def correct(
+    base: Vector,
+    direction: Vector,
+    phase: float,
+    count: int,
+    mirror: bool,
+    max_events: int,
+    scale: Vector,
+    tangent: Vector,
+    point: Vector,
+    facts: Vector,
+    columns: Vector,
+    slope: Vector,
+) -> int:
+    """Newton's method for P(z; p) = z on the plane through `point` normal to `tangent`.
+
+    Parameters
+    ----------
+    base, direction : ndarray, shape (SYSTEM,)
+        The system at p = 0, and how it moves with p.
+    phase : float
+        Forcing phase of the section, rad.
+    count, mirror : int, bool
+        Cycles that P goes over; or half cycles, each followed by the mirror.
+    max_events : int
+        Contacts and detachments in one of them at which it gives up.
+    scale : ndarray, shape (POINT,)
+        Sizes by which the components are compared.
+    tangent : ndarray, shape (POINT,)
+        Normal of the plane, in scaled components; (0, 0, 0, 0, 1) holds the parameter.
+    point : ndarray, shape (POINT,)
+        Where to begin; the solution.
+    facts : ndarray, shape (FACTS,)
+        The mode at the section, on entry; written.
+    columns : ndarray, shape (DISTURBANCE, DISTURBANCE)
+        Written: row i is what becomes of a unit disturbance of component i.
+    slope : ndarray, shape (DISTURBANCE,)
+        Written: ∂P/∂p.
+
+    Returns
+    -------
+    outcome
+        DONE, NOT_SETTLED (the residual stays above 1e-12 of the scale), or what went wrong.
+    """
+    memory = np.zeros(PLAN)
+    outcome = _newton(
+        pointer(memory),
+        base,
+        direction,
+        phase,
+        count,
+        mirror,
+        max_events,
+        scale,
+        tangent,
+        point,
+        facts,
+        columns,
+        slope,
+    )
+    memory[0] = 0.0  # keeps it alive until here
+    return outcome
+
+
+@entry("i8(f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[:, ::1], f8[::1])")
+def evaluate(
+    base: Vector,
+    direction: Vector,
+    phase: float,
+    count: int,
+    mirror: bool,
+    max_events: int,
+    scale: Vector,
+    point: Vector,
+    facts: Vector,
+    columns: Vector,
+    slope: Vector,
+) -> int:
+    """P and its derivative at a point that need not be an orbit; see `correct`.
+
+    The state is moved to where it can be.
+    """
+    memory = np.zeros(PLAN)
+    plan = pointer(memory)
+    system = np.empty(SYSTEM)
+    image = np.empty(DISTURBANCE)
+    system_plan(base, direction, point[PARAMETER], plan, system)
+    outcome = section_map(
+        plan, system, phase, count, mirror, max_events, point, facts, image, columns
+    )
+    for i in range(DISTURBANCE):
+        facts[RESIDUAL] = max(facts[RESIDUAL], abs(image[i] - point[i]) / scale[i])
+    if outcome == DONE:
+        _slope(
+            plan,
+            system,
+            base,
+            direction,
+            phase,
+            count,
+            mirror,
+            max_events,
+            scale,
+            point,
+            facts,
+            image,
+            np.empty(POINT),
+            np.empty(FACTS),
+            np.empty(DISTURBANCE),
+            np.empty((DISTURBANCE, DISTURBANCE)),
+            slope,
+        )
+    memory[0] = 0.0  # keeps it alive until here
+    return outcome
+
+
+@entry("i8(f8[::1], f8, f8[::1], f8[::1], i8, i8, f8[::1])")
+def measure_orbit(
+    system: Vector,
+    phase: float,
+    point: Vector,
+    facts: Vector,
+    cycles: int,
+    max_events: int,
+    result: Vector,
+) -> int:
+    """Exact extremes and contact counts of an orbit, as `hold.measure` writes them."""
+    memory = np.zeros(PLAN)
+    plan = pointer(memory)
+    still = np.zeros(SYSTEM)
+    used = np.empty(SYSTEM)
+    system_plan(system, still, 0.0, plan, used)
+    mode, u, v, right, left = placed(
+        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3]
+    )
+    state = np.zeros(STATE)
+    state[0], state[1] = mode, 1.0 if mode != FLIGHT else 0.0
+    state[2], state[3], state[4], state[5] = u, v, right, left
+    outcome = measure(
+        plan,
+        state,
+        math.sin(phase),
+        math.cos(phase),
+        1.0 / used[FREQUENCY],
+        cycles,
+        max_events,
+        result[:RESULTS],
+    )
+    memory[0] = 0.0  # keeps the memory alive until here
+    return outcome

@@ -1,0 +1,143 @@
+"""The map from one stroboscopic section to the next, along a parameter, with its derivative.
+
+P goes over whole forcing cycles, or, for motions that are their own mirror image, over half
+cycles, each followed by the mirror. A rig with its forcing is one *system vector*, and a parameter
+p moves it along a straight line, system = base + p · direction.
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.hold import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT, build
+from vibroimpact.engine.tangent import DISTURBANCE, disturbed_cycle
+from vibroimpact.engine.trajectory import too_much_work
+
+# The system vector: the rig (`parameters`), then the forcing.
+AMPLITUDE = par.SIZE
+FREQUENCY = par.SIZE + 1
+SYSTEM = par.SIZE + 2
+
+# A point: the state u, u̇, u_R, u_L (signed as in the paper), then the parameter.
+PARAMETER = DISTURBANCE
+POINT = DISTURBANCE + 1
+
+# What an orbit shows besides: its mode at the section, contacts begun on each side, the largest
+# residual over the scale, the Newton steps taken, and the integral of the damping.
+MODE, CONTACTS_RIGHT, CONTACTS_LEFT, RESIDUAL, STEPS, DAMPING = range(6)
+FACTS = 6
+
+
+@kernel
+def system_plan(base: Vector, direction: Vector, p: float, plan: Vector, system: Vector) -> None:
+    """Put the system at a parameter into `system`, and its tables into the plan."""
+    for i in range(SYSTEM):
+        # 0 · ∞ must not make a NaN of an absent bumper.
+        system[i] = base[i] + p * direction[i] if direction[i] != 0.0 else base[i]
+    for side in range(2):
+        at = par.BUMPER + par.WIDTH * side
+        if system[at + par.PRESENT] != 0.0 and system[at + par.BUMPER_DAMPING] > 0.0:
+            system[at + par.RATE] = (
+                system[at + par.BUMPER_STIFFNESS] / system[at + par.BUMPER_DAMPING]
+            )
+    for i in range(par.SIZE):
+        plan[i] = system[i]
+    build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
+
+
+@kernel
+def placed(
+    plan: Vector, mode: int, u: float, v: float, right: float, left: float
+) -> tuple[int, float, float, float, float]:
+    """The nearest state that can be: no mass inside a bumper, no bumper that pulls.
+
+    Deformations are measured away from the mass, as in `trajectory`. Returns the mode, and the
+    state.
+    """
+    right, left = max(right, 0.0), max(left, 0.0)
+    found = FLIGHT
+    for side in range(1, 3):
+        at = par.BUMPER + par.WIDTH * (side - 1)
+        if plan[at + par.PRESENT] == 0.0:
+            continue
+        sign = 1.0 if side == RIGHT else -1.0
+        deformation = right if side == RIGHT else left
+        reach = sign * u - plan[at + par.GAP]
+        if mode == side or reach > deformation:
+            force = plan[at + par.BUMPER_STIFFNESS] * reach
+            force += plan[at + par.BUMPER_DAMPING] * sign * v
+            deformation = max(reach, 0.0)
+            if reach >= 0.0 and force >= 0.0:
+                found = side
+        if plan[at + par.BUMPER_DAMPING] == 0.0 and found != side:
+            deformation = 0.0
+        if side == RIGHT:
+            right = deformation
+        else:
+            left = deformation
+    return found, u, v, right, left
+
+
+@kernel
+def section_map(
+    plan: Vector,
+    system: Vector,
+    phase: float,
+    count: int,
+    mirror: bool,
+    max_events: int,
+    point: Vector,
+    facts: Vector,
+    image: Vector,
+    q: Vector,
+) -> int:
+    """Evaluate P and its derivative at a point, whose state is put where it can be.
+
+    `q` receives what becomes of unit disturbances, a row each; the result is a `Status`.
+    """
+    for i in range(DISTURBANCE):
+        if not abs(point[i]) < 1e200:
+            return NOT_FINITE
+    mode, u, v, right, left = placed(
+        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3]
+    )
+    point[2], point[3] = right, -left
+    facts[MODE] = mode
+    period = (0.5 if mirror else 1.0) / system[FREQUENCY]
+    if too_much_work(plan, period):
+        return TOO_MUCH_WORK
+    q[:] = 0.0
+    for i in range(DISTURBANCE):
+        q[i, i] = 1.0
+    if mode != FLIGHT:
+        q[0, 1 + mode] = 1.0
+        q[1 + mode] = 0.0
+    s, c = math.sin(phase), math.cos(phase)
+    fresh = 1 if mode != FLIGHT else 0
+    age = 0.0
+    facts[CONTACTS_RIGHT], facts[CONTACTS_LEFT], facts[DAMPING] = 0.0, 0.0, 0.0
+    for _ in range(count):
+        events, mode, fresh, u, v, right, left, age, damping, hits_r, hits_l = disturbed_cycle(
+            plan, mode, fresh, u, v, right, left, age, s, c, period, max_events, q
+        )
+        if events > max_events:
+            return TOO_MANY_EVENTS
+        facts[DAMPING] += damping
+        facts[CONTACTS_RIGHT] += hits_r
+        facts[CONTACTS_LEFT] += hits_l
+        if mirror:
+            u, v = -u, -v
+            right, left = left, right
+            mode = LEFT if mode == RIGHT else (RIGHT if mode == LEFT else FLIGHT)
+            if mode == FLIGHT:
+                fresh = LEFT if fresh == RIGHT else (RIGHT if fresh == LEFT else 0)
+            for i in range(DISTURBANCE):
+                q[i, 0], q[i, 1] = -q[i, 0], -q[i, 1]
+                q[i, 2], q[i, 3] = -q[i, 3], -q[i, 2]
+    image[0], image[1], image[2], image[3] = u, v, right, -left
+    if mode != FLIGHT:
+        facts[MODE] = mode
+    return DONE

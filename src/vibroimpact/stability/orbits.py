@@ -1,0 +1,196 @@
+"""Points of a family: periodic orbits with their derivative, corrected by Newton's method."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import orbit, section_map
+from vibroimpact.engine.status import Status
+from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.stability.family import Family
+
+_Array = NDArray[np.float64]
+
+MAX_EVENTS = 1000
+
+HELD = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
+"""Normal of the plane on which the parameter does not change."""
+
+SEEN = np.array([1.0, 1.0, 0.0, 0.0, 1.0])
+"""Components by which lengths and angles along a branch are measured. A bumper's deformation is
+left out: at a section that passes from flight into contact it begins to move with the mass, and a
+smooth branch would have a corner.
+"""
+
+
+@dataclass(frozen=True)
+class Section:
+    """The map whose fixed points are sought: how far it goes, and whether it mirrors."""
+
+    family: Family
+    count: int
+    """Forcing cycles; or half cycles, each followed by the mirror."""
+    mirror: bool
+    scale: _Array
+    """Sizes of u, u̇, u_R, u_L and the parameter."""
+
+    @property
+    def period(self) -> int:
+        """Of its fixed points, in forcing cycles."""
+        return self.count
+
+    def full(self) -> Section:
+        """The same without the mirror: its fixed points include those of the other."""
+        return Section(self.family, self.count, False, self.scale)
+
+    def times(self, factor: int) -> Section:
+        """The map repeated."""
+        return Section(self.family, self.count * factor, self.mirror, self.scale)
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """A fixed point of a section's map."""
+
+    section: Section
+    point: _Array
+    """u, u̇, u_R, u_L and the parameter."""
+    facts: _Array
+    """See `engine.orbit`."""
+    columns: _Array
+    """Row i is what becomes of a unit disturbance of component i."""
+    slope: _Array
+    """Derivative of the map with respect to the parameter."""
+
+    @property
+    def value(self) -> float:
+        """The parameter."""
+        return float(self.point[section_map.PARAMETER])
+
+    @property
+    def contacts(self) -> tuple[int, int]:
+        """Contacts with the right and the left bumper in a period."""
+        right = int(self.facts[section_map.CONTACTS_RIGHT])
+        left = int(self.facts[section_map.CONTACTS_LEFT])
+        # The other half of a motion that is its own mirror image.
+        return (right + left, right + left) if self.section.mirror else (right, left)
+
+    @cached_property
+    def map_multipliers(self) -> NDArray[np.complex128]:
+        """Eigenvalues of the map's derivative, the largest first."""
+        found = np.linalg.eigvals(self.columns.T).astype(complex)
+        return found[np.argsort(-np.abs(found), kind="stable")]
+
+    @property
+    def multipliers(self) -> NDArray[np.complex128]:
+        """Floquet multipliers over the period."""
+        if not self.section.mirror:
+            return self.map_multipliers
+        # An odd number of half cycles, twice.
+        return self.map_multipliers**2
+
+    @property
+    def monodromy(self) -> _Array:
+        """Derivative of the state after one period."""
+        matrix = self.columns.T
+        return matrix @ matrix if self.section.mirror else matrix
+
+    @property
+    def stable(self) -> bool:
+        """Whether all multipliers lie within the unit circle."""
+        return bool(np.abs(self.map_multipliers[0]) < 1.0)
+
+    @cached_property
+    def jacobian(self) -> _Array:
+        """Derivative of P(z; p) − z in scaled components, shape (4, 5)."""
+        scale = self.section.scale
+        matrix = np.empty((4, section_map.POINT))
+        matrix[:, :4] = self.columns.T * scale[:4] / scale[:4, np.newaxis] - np.eye(4)
+        matrix[:, 4] = self.slope * scale[4] / scale[:4]
+        return matrix
+
+    def tangent(self, along: _Array) -> _Array:
+        """Unit tangent (by `SEEN`) of the branch in scaled components, in the sense of `along`."""
+        bordered = np.vstack([self.jacobian, along * SEEN])
+        try:
+            found: _Array = np.linalg.solve(bordered, HELD)
+        except np.linalg.LinAlgError:
+            found = np.linalg.svd(self.jacobian)[2][-1]
+            found = found if found @ (along * SEEN) >= 0.0 else -found
+        return found / np.linalg.norm(found * SEEN)
+
+    @property
+    def setting(self) -> tuple[Oscillator, Harmonic]:
+        """The rig and its forcing."""
+        return self.section.family.at(self.value)
+
+
+def corrected(
+    section: Section, point: _Array, mode: float, normal: _Array = HELD
+) -> tuple[Status, Orbit]:
+    """Newton's method on the plane through a point; the orbit is of use only if `Status.DONE`.
+
+    Parameters
+    ----------
+    section
+        Whose fixed point is sought.
+    point
+        Where to begin.
+    mode
+        Phase at the section, as the engine counts.
+    normal
+        Normal of the plane, scaled; of its components only those in `SEEN` count.
+    """
+    found = Orbit(
+        section,
+        np.array(point, dtype=np.float64),
+        np.zeros(section_map.FACTS),
+        np.zeros((4, 4)),
+        np.zeros(4),
+    )
+    found.facts[section_map.MODE] = mode
+    outcome = orbit.correct(
+        section.family.base,
+        section.family.direction,
+        section.family.phase,
+        section.count,
+        section.mirror,
+        MAX_EVENTS,
+        section.scale,
+        normal * SEEN,
+        found.point,
+        found.facts,
+        found.columns,
+        found.slope,
+    )
+    return Status(outcome), found
+
+
+def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orbit]:
+    """The map and its derivative at a point that need not be fixed."""
+    found = Orbit(
+        section,
+        np.array(point, dtype=np.float64),
+        np.zeros(section_map.FACTS),
+        np.zeros((4, 4)),
+        np.zeros(4),
+    )
+    found.facts[section_map.MODE] = mode
+    outcome = orbit.evaluate(
+        section.family.base,
+        section.family.direction,
+        section.family.phase,
+        section.count,
+        section.mirror,
+        MAX_EVENTS,
+        section.scale,
+        found.point,
+        found.facts,
+        found.columns,
+        found.slope,
+    )
+    return Status(outcome), found
