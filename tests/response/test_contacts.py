@@ -158,3 +158,28 @@ def test_no_motion(wrong):
         vi.contacts(wrong)
     with pytest.raises(vi.InputError, match="grazing"):
         vi.contacts(vi.simulate(case.oscillator, vi.Harmonic(1.0, 2.0), 3), grazing=-1.0)
+
+
+def test_relaxation_ends_at_a_contact_that_the_record_cuts():
+    """What the spring holds after a contact less what it holds when it is pressed again."""
+    bumper = vi.Bumper(1.0, 20.0, 0.1)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), bumper, None)
+    data = vi.simulate(rig, vi.Harmonic(1.0, 0.15), 20.75)
+    assert int(data["contact"][-1]) == 1
+    log = vi.contacts(data)
+    begins = data["event_contact"].values == 1
+    ends = data["event_right_bumper"].values[~begins][-1]
+    again = data["event_right_bumper"].values[begins][-1]
+    expected = 0.5 * (ends**2 - again**2)
+    assert float(log["contact_dissipated_relaxing"][-1]) == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_bumper_that_catches_up_with_a_receding_mass():
+    bumper = vi.Bumper(1.0695, 8.9267, 0.3)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.01335), bumper, None)
+    log = vi.contacts(vi.simulate(rig, vi.Harmonic(1.0, 0.0911), 200))
+    receding = log["contact_start_velocity"].values < 0.0
+    assert receding.any()
+    assert (log["contact_closing_speed"].values > 0.0).all()
+    assert np.isnan(log["contact_restitution"].values[receding]).all()
+    assert np.isfinite(log["contact_restitution"].values[~receding]).all()

@@ -129,3 +129,89 @@ def test_a_folder_of_that_name_is_refused(tmp_path: Path) -> None:
     with pytest.raises(vi.InputError, match=r"^output: .* cannot be written"):
         vi.save(made("final state"), tmp_path / "data.nc")
     assert [p.name for p in tmp_path.iterdir()] == ["data.nc"]
+
+
+# Several datasets in one file
+
+
+def several() -> dict[str, xr.Dataset]:
+    return {"forward branch": made("simulation"), "2.6Hz/free": made("no event")}
+
+
+def test_several_there_and_back(tmp_path: Path) -> None:
+    path = vi.save(several(), tmp_path / "data.nc")
+    assert path == tmp_path / "data.nc"
+    for group, data in zip(("forward_branch", "2.6Hz_free"), several().values(), strict=True):
+        back = vi.load(path, group=group)
+        xr.testing.assert_identical(back, data)  # with all attributes
+        assert list(back.variables) == list(data.variables)
+    assert [p.name for p in tmp_path.iterdir()] == ["data.nc"]
+
+
+def test_several_of_different_sizes_and_one_alone(tmp_path: Path) -> None:
+    """Groups share no dimension: each keeps its own length."""
+    motions = {kind: made(kind) for kind in ("one-sided", "sweep", "final state")}
+    path = vi.save(motions, tmp_path / "data.nc")
+    for kind, data in motions.items():
+        xr.testing.assert_equal(vi.load(path, group=kind.replace(" ", "_")), data)
+    alone = vi.save({"only": made("final state")}, tmp_path / "alone.nc")
+    xr.testing.assert_equal(vi.load(alone, group="only"), made("final state"))
+    with pytest.raises(vi.InputError, match="only"):
+        vi.load(alone)
+
+
+def test_a_motion_from_a_group_goes_on(tmp_path: Path) -> None:
+    path = vi.save(several(), tmp_path / "data.nc")
+    shaken = vi.Harmonic(CASE.amplitude, 1.1)
+    ends = [
+        vi.simulate(CASE.oscillator, shaken, 2, start)["final_state"]
+        for start in (made("simulation"), vi.load(path, group="forward_branch"))
+    ]
+    np.testing.assert_array_equal(*ends)
+
+
+def test_a_group_has_to_be_one_of_those_in_the_file(tmp_path: Path) -> None:
+    path = vi.save(several(), tmp_path / "data.nc")
+    for group in (None, "none", "forward branch", "forward", ""):
+        with pytest.raises(vi.InputError) as caught:
+            vi.load(path, group=group)
+        told = str(caught.value)
+        assert told.startswith(f"group: {group!r} of {str(path)!r}: ")
+        assert told.endswith("forward_branch, 2.6Hz_free are accepted")
+        assert ("several datasets" in told) is (group is None)
+        assert "\n" not in told
+
+
+def test_a_group_of_a_file_that_holds_one_dataset_is_refused(tmp_path: Path) -> None:
+    path = vi.save(made("simulation"), tmp_path / "data.nc")
+    with pytest.raises(vi.InputError) as caught:
+        vi.load(path, group="forward_branch")
+    told = str(caught.value)
+    assert "forward_branch" in told
+    assert repr(str(path)) in told
+    assert "\n" not in told
+
+
+def test_groups_that_are_damaged_or_not_ours_are_refused(tmp_path: Path) -> None:
+    whole = vi.save(several(), tmp_path / "data.nc").read_bytes()
+    short = tmp_path / "short.nc"
+    for share in (0.1, 0.9, 0.999):
+        short.write_bytes(whole[: int(share * len(whole))])
+        with pytest.raises(vi.InputError, match="damaged or not a NetCDF file"):
+            vi.load(short, group="forward_branch")
+    foreign = tmp_path / "foreign.nc"
+    tree = xr.DataTree.from_dict({"forward_branch": xr.Dataset({"x": ("t", [1.0, 2.0])})})
+    tree.to_netcdf(foreign, engine="h5netcdf")
+    with pytest.raises(vi.InputError, match="was not written by vibroimpact"):
+        vi.load(foreign, group="forward_branch")
+
+
+def test_several_replace_one_and_one_several(tmp_path: Path) -> None:
+    path = vi.save(made("simulation"), tmp_path / "data.nc")
+    vi.save(several(), path)
+    xr.testing.assert_equal(vi.load(path, group="2.6Hz_free"), made("no event"))
+    vi.save(made("no event"), path)
+    xr.testing.assert_equal(vi.load(path), made("no event"))
+    with pytest.raises(vi.InputError, match=r"^output: .* cannot be written"):
+        vi.save(several(), tmp_path / "missing" / "data.nc")
+    assert [p.name for p in tmp_path.iterdir()] == ["data.nc"]

@@ -140,3 +140,12 @@ def test_windowed_lines():
 def test_refused(highest):
     with pytest.raises(vi.InputError, match="highest"):
         vi.spectrum(steady("B2-G1-A3", 2.0), highest)
+
+
+def test_too_short_a_record():
+    case = vi.laboratory.case("B2-G1-A3")
+    short = vi.simulate(case.oscillator, vi.Harmonic(0.5, 2.0), 0.3)
+    with pytest.raises(vi.InputError, match="at least one cycle"):
+        vi.spectrum(short)
+    with pytest.raises(vi.InputError, match="highest"):
+        vi.spectrum(steady("B2-G1-A3", 2.0), 1e9)

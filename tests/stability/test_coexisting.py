@@ -86,3 +86,32 @@ def test_refused(wrong):
     case = vi.laboratory.case("B2-G1-A3")
     with pytest.raises(vi.InputError, match=next(iter(wrong))):
         vi.coexisting(case.oscillator, vi.Harmonic(0.5, 2.0), **wrong)
+
+
+def test_starts_with_a_phase_of_their_own():
+    """The same orbit from rest at another phase, and from a dataset that ends in mid cycle."""
+    case = vi.laboratory.case("B2-G1-A3")
+    shaken = vi.Harmonic(case.amplitude, 1.5)
+    part = vi.simulate(case.oscillator, shaken, 30.25, samples=0)
+    found = vi.coexisting(
+        case.oscillator,
+        shaken,
+        random=0,
+        frequencies=[1.45],
+        starts={"x": vi.State(0.0, 0.0, phase=1.0), "y": part},
+        samples=8,
+    )
+    assert len(found) == 1
+    assert found[0].attrs["starts"] == "rest, forward branch, x, y"
+
+
+def test_the_event_limit():
+    case = vi.laboratory.case("B3-10mm-A3")
+    with pytest.warns(RuntimeWarning, match="max_events"):
+        found = vi.coexisting(
+            case.oscillator, vi.Harmonic(case.amplitude, 1.06), max_events=6, samples=8
+        )
+    given_up = [m for m in found if "max_events" in m.attrs["status"]]
+    assert len(given_up) == 1
+    names = ", ".join(m.attrs["starts"] + ", " + m.attrs["mirrored_starts"] for m in found)
+    assert all(f"random {i}" in names for i in range(1, 13))

@@ -112,3 +112,22 @@ def test_refused(wrong):
     given = {"rigs": [vi.laboratory.case("B2-G1-A3")], "frequencies": [2.0], "cycles": 10}
     with pytest.raises(vi.InputError, match=next(iter(wrong))):
         vi.lyapunov_exponents(**{**given, **wrong})
+
+
+@pytest.mark.parametrize("damping", [0.1, 2.0, 6.0, 10.0])
+def test_strong_contraction(damping):
+    """λ = (−c ± √(c² − 4k))/2, also where one direction dies out e^−300 faster than the other."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, damping), None, None)
+    data = vi.lyapunov_exponents([(rig, 1.0)], [0.01], 64, transient=10)
+    roots = np.roots([1.0, damping, 1.0]).real
+    np.testing.assert_allclose(data["exponents"][0, 0], np.sort(roots)[::-1], rtol=2e-2)
+    if damping > 2.0:
+        np.testing.assert_allclose(data["exponents"][0, 0], np.sort(roots)[::-1], rtol=1e-10)
+    assert float(data["exponents"].sum()) == pytest.approx(-damping, rel=1e-12)
+
+
+def test_the_sum_rule_where_contraction_is_strong():
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 6.0), vi.Bumper(50.0, 1.0, 1e-3), None)
+    data = vi.lyapunov_exponents([(rig, 1.0)], [0.2 / 6.2832], 64, transient=50)
+    total = float(data["exponents"].sum()) + float(data["effective_damping"][0, 0])
+    assert abs(total) < 1e-8

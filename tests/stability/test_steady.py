@@ -181,3 +181,70 @@ def test_a_bumper_that_is_never_touched_has_no_say():
     rig = vi.Oscillator(550.0, vi.Isolator(26e3, 1.1e3), bumper, bumper)
     data = vi.steady(rig, vi.Harmonic(0.5, 1.3))
     np.testing.assert_allclose(data["exponents"], -1.0, rtol=1e-12)
+
+
+def rig(damping: float, right=None, left=None) -> vi.Oscillator:
+    sides = [None if side is None else vi.Bumper(*side) for side in (right, left)]
+    return vi.Oscillator(1.0, vi.Isolator(1.0, damping), *sides)
+
+
+@pytest.mark.parametrize("damping", [2e-2, 2e-4, 2e-6])
+def test_a_slow_decay_is_not_quasi_periodic(damping):
+    """A linear mass, whose transient outlasts the cycles that are looked at."""
+    data = vi.steady(rig(damping), vi.Harmonic(1.0, 0.1), max_cycles=200)
+    assert data["motion"].item() in ("periodic", "undecided")
+    if data["motion"].item() == "undecided":
+        assert "decays" in data.attrs["evidence"]
+
+
+def test_transient_chaos_that_has_ended():
+    """Period 1 since some cycle in the thousands: judged by its orbit, not by its past."""
+    bumper = (28.6, 0.0, 0.2)
+    data = vi.steady(rig(0.02, bumper, bumper), vi.Harmonic(1.0, 0.2105))
+    assert (data["motion"].item(), int(data["period"])) == ("periodic", 1)
+    np.testing.assert_allclose(data["exponents"], -0.01, rtol=1e-9)
+    assert int(data["stable"]) == 1
+
+
+@pytest.mark.parametrize("limits", [(100, 2000), (1, 3)])
+def test_the_event_limit_while_exponents_are_followed(limits):
+    case = vi.laboratory.case("B3-10mm-A3")
+    with pytest.warns(RuntimeWarning, match="max_events"):
+        data = vi.steady(
+            case.oscillator,
+            vi.Harmonic(case.amplitude, 1.06),
+            max_events=6,
+            max_cycles=limits[0],
+            exponent_cycles=limits[1],
+        )
+    assert "max_events" in data.attrs["status"]
+    assert data["motion"].item() == "undecided"
+    # The record begins at the section, at the phase that it claims.
+    assert float(data["base_acceleration"][0]) == 0.0
+    assert data.sizes["event"] >= 5
+    assert np.isfinite(float(data["energy_bumpers"]))
+
+
+@pytest.mark.parametrize(("which", "shift"), [("end", 0.0), ("start", -1e-15), ("start", 0.0)])
+def test_a_section_exactly_at_an_event(which, shift):
+    first = steady("B2-G1-A3", 1.5, "forward")
+    phase = float(first[f"contact_{which}_phase"][1]) + shift
+    data = steady("B2-G1-A3", 1.5, "forward", phase)
+    assert (float(data["impacts_right"]), float(data["impacts_left"])) == (1.0, 1.0)
+    lost = float(data["energy_isolator"]) + float(data["energy_bumpers"])
+    assert lost == pytest.approx(float(data["energy_supplied"]), rel=1e-9)
+
+
+def test_without_dissipation_an_orbit_is_neither_stable_nor_unstable():
+    for frequency in (0.1, 0.2, 0.3, 0.37):
+        omega = 2 * np.pi * frequency
+        start = vi.State(0.0, -omega / (1.0 - omega**2))
+        data = vi.steady(rig(0.0), vi.Harmonic(1.0, frequency), start)
+        assert int(data["period"]) == 1
+        assert int(data["stable"]) == -1
+
+
+def test_records_that_would_not_fit_are_refused():
+    for field in ("window", "exponent_cycles"):
+        with pytest.raises(vi.InputError, match=field):
+            vi.steady(rig(0.1), vi.Harmonic(1.0, 0.1), **{field: 10**9})

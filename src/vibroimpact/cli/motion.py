@@ -136,10 +136,13 @@ def _excitations(what: Subject, frequency: str | None) -> list[Harmonic]:
         hertz = [what.study.simulate.frequency]
     else:
         raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 0.58Hz")
-    if len(set(hertz)) < len(hertz) or len(hertz) > MOST_COLUMNS:
+    if len({f"{value:.6g}" for value in hertz}) < len(hertz):
         raise InputError(
-            f"--frequency: {frequency!r}; at most {MOST_COLUMNS} different ones are accepted"
+            f"--frequency: {frequency!r} names one twice; frequencies that differ in their first "
+            "six digits are accepted"
         )
+    if len(hertz) > MOST_COLUMNS:
+        raise InputError(f"--frequency: {len(hertz)} given; at most {MOST_COLUMNS} are accepted")
     phase = what.study.excitation.phase if what.study else 0.0
     return [Harmonic(what.amplitude, value, phase) for value in hertz]
 

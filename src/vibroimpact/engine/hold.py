@@ -73,6 +73,7 @@ def measure(
         t = 0.0
         events = 0
         sine, cosine = s, c
+        section = (mode, fresh, u, v, right, left, age)
         while True:
             was, before, old = mode, (u, v, sine, cosine, right, left), age
             event, step, mode, fresh, u, v, sine, cosine, right, left, age = advance(
@@ -105,6 +106,8 @@ def measure(
                 break
             if t >= period:
                 break
+        if outcome != DONE:  # a cycle that is given up leaves the state of its section
+            mode, fresh, u, v, right, left, age = section
         done += 1
     state[MODE], state[FRESH], state[U], state[V] = mode, fresh, u, v
     state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE] = right, left, age
@@ -156,12 +159,14 @@ def settle(
     ):
         at = k % LONGEST
         past[at, 0], past[at, 1], past[at, 2], past[at, 3] = u, v, right, left
+        section = (mode, fresh, u, v, right, left, age)
         events, mode, fresh, u, v, right, left, age, _, _ = cycle(
             plan, mode, fresh, u, v, right, left, age, s, c, period, max_events
         )
         k += 1
         if events > max_events:
             outcome = TOO_MANY_EVENTS
+            mode, fresh, u, v, right, left, age = section
             break
         if not (abs(u) < 1e200 and abs(v) < 1e200):
             outcome = NOT_FINITE

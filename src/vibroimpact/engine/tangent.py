@@ -86,6 +86,50 @@ def disturb(plan: Vector, mode: int, event: int, behind: int, t: float, q: Vecto
 
 
 @kernel
+def disturb_area(plan: Vector, mode: int, event: int, behind: int, t: float, w: Vector) -> None:
+    """Carry the area that two disturbances span, as `disturb` carries each.
+
+    The components are the 2 × 2 minors u∧v, u∧R, u∧L, v∧R, v∧L, R∧L of the two. Where one
+    disturbance dies out much faster than the other, the area keeps the digits that their
+    difference loses: in flight u∧v only shrinks by exp(−c t).
+    """
+    c, k = plan[par.DAMPING], plan[par.STIFFNESS]
+    if mode != FLIGHT:
+        at = par.BUMPER + par.WIDTH * (mode - 1)
+        c += plan[at + par.BUMPER_DAMPING]
+        k += plan[at + par.BUMPER_STIFFNESS]
+    uu, uv, vu, vv = transition(c, k, t)
+    rate_r = plan[par.BUMPER + par.RATE]
+    rate_l = plan[par.BUMPER + par.WIDTH + par.RATE]
+    right = math.exp(-rate_r * t) if rate_r < math.inf else 0.0
+    left = math.exp(-rate_l * t) if rate_l < math.inf else 0.0
+    w[0] *= math.exp(-c * t)
+    w[1], w[3] = right * (uu * w[1] + uv * w[3]), right * (vu * w[1] + vv * w[3])
+    w[2], w[4] = left * (uu * w[2] + uv * w[4]), left * (vu * w[2] + vv * w[4])
+    w[5] *= right * left
+    pressed = mode
+    if event != LIMIT and behind != FLIGHT:
+        damping = plan[par.BUMPER + par.WIDTH * (behind - 1) + par.BUMPER_DAMPING]
+        if behind == RIGHT:
+            w[0] += damping * w[1]
+            w[4] += damping * (w[5] - w[2])
+        else:
+            w[0] += damping * w[2]
+            w[3] -= damping * (w[5] + w[1])
+        pressed = behind
+    press_area(pressed, w)
+
+
+@kernel
+def press_area(mode: int, w: Vector) -> None:
+    """A pressed bumper's disturbance is that of the displacement."""
+    if mode == RIGHT:
+        w[1], w[3], w[5] = 0.0, -w[0], w[2]
+    elif mode == LEFT:
+        w[2], w[4], w[5] = 0.0, -w[0], -w[1]
+
+
+@kernel
 def disturbed_cycle(
     plan: Vector,
     mode: int,

@@ -10,7 +10,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import axes_or_new, looks, parameters
+from vibroimpact.figures.motions import axes_or_new, looks
+from vibroimpact.response.variables import motion_parameters
 
 _LABELS = {
     "displacement": (1e3, "amplitude of $u$ (mm)"),
@@ -62,7 +63,7 @@ def spectrum_lines(
         height = factor * data[f"{quantity}_amplitude"].values[kept]
         # Side by side, so that the lines of one do not hide those of the other.
         shift = (i - 0.5 * (len(given) - 1)) * 0.12
-        frequency = parameters(data)["frequency"]
+        frequency = motion_parameters(data)["frequency"]
         if len(order) > 30 * highest:  # nearly continuous
             ax.plot(order, height, color=look.colour, linewidth=0.8, label=name)
             continue
@@ -83,7 +84,10 @@ def spectrum_lines(
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel("order $f/f_{exc}$ (–)")
     ax.set_ylabel(label)
-    if frequency is not None and len({parameters(d)["frequency"] for d in given.values()}) == 1:
+    if (
+        frequency is not None
+        and len({motion_parameters(d)["frequency"] for d in given.values()}) == 1
+    ):
         above = ax.secondary_xaxis(
             "top", functions=(lambda x: x * frequency, lambda x: x / frequency)
         )

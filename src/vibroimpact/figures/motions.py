@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -193,12 +192,6 @@ def _cut(curve: Shown, first: float, last: float) -> Shown:
         ],
         peaks=(curve.peaks[0][seen], curve.peaks[1][seen]),
     )
-
-
-def parameters(motion: xr.Dataset) -> dict[str, Any]:
-    """The parameters that a dataset was made with."""
-    found: dict[str, Any] = json.loads(motion.attrs["parameters"])
-    return found
 
 
 def gap_lines(ax: Axes, curves: list[Shown], *, horizontal: bool) -> None:

@@ -44,15 +44,22 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
     origin = recorded(motion)
     every = phases(motion)
-    chosen = _whole_contacts(every, origin)
+    chosen, first = _whole_contacts(every, origin)
     found = measured(origin, chosen)
     mass, period = origin.oscillator.mass, origin.excitation.period
     side, begin = chosen.contact, chosen.begin
+    damping = _of_side(origin, side, "damping")
     closing, parting = chosen.first[:, 1], chosen.last[:, 1]
+    # The bumper may still be relaxing towards the mass: u̇_j = −u_j K_j / C_j.
+    deformation = np.where(side == 1, chosen.first[:, 2], -chosen.first[:, 3])
+    damped = damping > 0.0
+    rate = np.divide(
+        _of_side(origin, side, "stiffness"), damping, out=np.zeros(len(side)), where=damped
+    )
+    approach = side * closing + rate * deformation
     fastest = np.abs(
         np.concatenate([motion["velocity"].values, motion["event_velocity"].values])
     ).max()
-    damping = _of_side(origin, side, "damping")
     values = {
         "side": side,
         "start": begin,
@@ -67,15 +74,17 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
         "impulse": mass * found[:, measure.IMPULSE],
         "penetration": found[:, measure.X_MOST],
         "dissipated": damping * found[:, measure.SQUARES],
-        "dissipated_relaxing": _relaxing(chosen, origin),
+        "dissipated_relaxing": _relaxing(every, first, origin),
         "peak_acceleration": np.maximum(
             np.abs(found[:, measure.A_LEAST]), np.abs(found[:, measure.A_MOST])
         ),
         "peak_time": begin + found[:, measure.A_TIME],
+        "closing_speed": approach,
+        # Of a mass that recedes as the bumper catches up with it there is none.
         "restitution": np.divide(
-            -parting, closing, out=np.full(len(closing), np.nan), where=closing != 0.0
+            -parting, closing, out=np.full(len(closing), np.nan), where=side * closing > 0.0
         ),
-        "grazing": np.abs(closing) < share * fastest,
+        "grazing": approach < share * fastest,
     }
     data = xr.Dataset(
         {f"contact_{name}": ("contact_number", value) for name, value in values.items()}
@@ -83,21 +92,23 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     return describe(data, "vibroimpact.contacts", motion_parameters(motion))
 
 
-def _whole_contacts(every: Phases, origin: Recorded) -> Phases:
-    """The contacts that the record holds from beginning to end."""
+def _whole_contacts(every: Phases, origin: Recorded) -> tuple[Phases, NDArray[np.int64]]:
+    """The contacts that the record holds from beginning to end, and the phase each begins in."""
     inner = np.flatnonzero(every.contact)
     last = len(every.contact) - 1
     cut = [i for i in (0, last) if i in inner]
-    if not cut:
-        return every.take(inner)
-    kept = every.take(np.array([i for i in inner if i not in cut], dtype=np.int64))
-    if not (origin.periodic and len(cut) == 2 and every.contact[0] == every.contact[last]):
-        return kept
+    if origin.periodic and len(cut) < 2:
+        # Between a contact and a flight the section lies exactly at the event.
+        return every.take(inner), inner
+    kept = np.array([i for i in inner if i not in cut], dtype=np.int64)
+    if not origin.periodic or last == 0 or every.contact[0] != every.contact[last]:
+        return every.take(kept), kept
     # One contact, cut in two by the section: the end of the record is its beginning.
-    whole = every.take(np.array([last]))
-    whole.length[0] += every.length[0]
-    whole.last[0] = every.last[0]
-    return Phases(*(np.concatenate(pair) for pair in zip(kept, whole, strict=True)))
+    first = np.append(kept, last)
+    chosen = every.take(first)
+    chosen.length[-1] += every.length[0]
+    chosen.last[-1] = every.last[0]
+    return chosen, first
 
 
 def _of_side(origin: Recorded, side: NDArray[np.int64], name: str) -> NDArray[np.float64]:
@@ -109,20 +120,31 @@ def _of_side(origin: Recorded, side: NDArray[np.int64], name: str) -> NDArray[np
     return np.where(side == 1, right, left)
 
 
-def _relaxing(chosen: Phases, origin: Recorded) -> NDArray[np.float64]:
-    """Energy that the free bumper loses until it is pressed again, or until the record ends."""
-    lost = np.zeros(len(chosen.contact))
-    length = origin.cycles * origin.excitation.period
+def _relaxing(every: Phases, first: NDArray[np.int64], origin: Recorded) -> NDArray[np.float64]:
+    """Energy that each free bumper loses between its contacts: what its spring no longer holds.
+
+    It is counted to the contact before, which is given by the phase in which it begins.
+    """
+    lost = np.zeros(len(every.contact))
+    last = len(every.contact) - 1
     for side, component, bumper in (
         (1, 2, origin.oscillator.right),
         (-1, 3, origin.oscillator.left),
     ):
-        mine = np.flatnonzero(chosen.contact == side)
-        if bumper is None or bumper.damping == 0.0 or not len(mine):
+        pressed = np.flatnonzero(every.contact == side)
+        if bumper is None or not len(pressed):
             continue
-        begun = chosen.begin[mine]
-        until = np.append(begun[1:], begun[0] + length if origin.periodic else length)
-        rest = until - (begun + chosen.length[mine])
-        stored = 0.5 * bumper.stiffness * chosen.last[mine, component] ** 2
-        lost[mine] = -stored * np.expm1(-2.0 * bumper.stiffness / bumper.damping * rest)
-    return lost
+        held = 0.5 * bumper.stiffness * every.first[:, component] ** 2
+        left = 0.5 * bumper.stiffness * every.last[:, component] ** 2
+        for i in np.flatnonzero(every.contact != side):
+            earlier = pressed[pressed < i]
+            if len(earlier):
+                owner = earlier[-1]
+            elif origin.periodic:
+                owner = pressed[-1]
+            else:
+                continue  # of a contact before the record
+            if owner == 0 and last in pressed and origin.periodic:
+                owner = last  # the contact that the end of the period cuts begins there
+            lost[owner] += held[i] - left[i]
+    return lost[first]

@@ -101,6 +101,9 @@ def phases(motion: xr.Dataset) -> Phases:
     """
     origin = recorded(motion)
     period = origin.excitation.period
+    # A motion that was given up has events behind its last sample.
+    at = motion["event_cycle"].values + motion["event_cycle_time"].values / period
+    motion = motion.isel(event=at <= origin.cycles * (1.0 + 1e-12))
     at_events = np.stack([motion[f"event_{name}"].values for name in _COMPONENTS], axis=-1)
     ends = [np.array([motion[name].values[i] for name in _COMPONENTS]) for i in (0, -1)]
     states = np.vstack([ends[0], at_events, ends[1]])

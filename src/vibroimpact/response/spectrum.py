@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
 from vibroimpact.model.units import DIMENSIONLESS
 from vibroimpact.response.phases import Phases, Recorded, phases, recorded
@@ -17,6 +18,9 @@ from vibroimpact.response.variables import describe, motion_parameters
 _Complex = NDArray[np.complex128]
 
 _QUANTITIES = ("displacement", "velocity", "acceleration")
+MOST_LINES = 20_000
+"""Lines of a periodic motion."""
+
 _NEAR = 1e-3
 _POINTS = 32
 
@@ -53,6 +57,8 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     origin = recorded(motion)
     if origin.periodic:
         n = int(motion["period"])
+        if limit * n > MOST_LINES:
+            raise InputError(f"highest: {limit:g}; at most {MOST_LINES / n:g} is accepted")
         order = np.arange(int(limit * n + 1e-9) + 1) / n
         lines = _exact(origin, phases(motion), order)
         method = f"exact Fourier coefficients over one period of {n} forcing cycles"
@@ -142,18 +148,23 @@ def _circle_mean(
 def _windowed(
     motion: xr.Dataset, origin: Recorded, highest: float
 ) -> tuple[NDArray[np.float64], list[_Complex], int]:
-    """Orders, complex amplitudes, and the number of cycles used: the last whole ones."""
+    """Orders, complex amplitudes, and the number of cycles used: the first whole ones."""
     samples = int(np.searchsorted(motion["cycle"].values, 1.0 - 1e-9))
     cycles = int(origin.cycles + 1e-9)
     count = cycles * samples
-    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(count) / max(count, 1))
-    order = np.arange(count // 2 + 1) / max(cycles, 1)
+    if cycles < 1 or count < 4:
+        raise InputError(
+            f"motion: a record of {origin.cycles:g} cycles and {count} samples has no spectrum; "
+            "at least one cycle and four samples are accepted"
+        )
+    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(count) / count)
+    order = np.arange(count // 2 + 1) / cycles
     kept = order <= highest
     lines = []
     for name in _QUANTITIES:
         values = motion[name].values[:count]
-        mean = values.mean() if count else np.nan
-        line = 2.0 * np.fft.rfft(window * (values - mean)) / max(window.sum(), 1.0)
+        mean = values.mean()
+        line = 2.0 * np.fft.rfft(window * (values - mean)) / window.sum()
         line[0] = mean
         lines.append(line[kept])
     return order[kept], lines, cycles

@@ -125,6 +125,9 @@ VARIABLES: dict[str, Variable] = {
     "contact_restitution": Variable(
         "1", "effective restitution coefficient", "parting over closing velocity of the mass"
     ),
+    "contact_closing_speed": Variable(
+        "m s-1", "speed at which the clearance closes", "that of a relaxing bumper included"
+    ),
     "contact_grazing": Variable("1", "whether the contact only grazes"),
     # sections
     "section_displacement": Variable("m", "relative displacement at the section"),
@@ -157,6 +160,36 @@ VARIABLES: dict[str, Variable] = {
     ),
     "stable": Variable(
         "1", "whether no small disturbance grows", "1 yes, 0 no, -1 not known (no orbit)"
+    ),
+    # branches
+    "amplitude": Variable("m s-2", "peak base acceleration"),
+    "gap": Variable("m", "gap of each side"),
+    "right_gap": Variable("m", "gap of the right side"),
+    "left_gap": Variable("m", "gap of the left side"),
+    "bumper_stiffness": Variable("N m-1", "stiffness of both bumpers"),
+    "bumper_damping": Variable("N s m-1", "damping of both bumpers"),
+    "stiffness": Variable("N m-1", "stiffness of the isolator"),
+    "damping": Variable("N s m-1", "damping of the isolator"),
+    "stiffness_ratio": Variable("1", "stiffness ratio of the bumpers, K_j / K"),
+    "gap_ratio": Variable("1", "gap ratio of each side, G / u_max"),
+    "arclength": Variable("1", "arclength along the branch, in scaled components"),
+    "branch": Variable("1", "number of the branch"),
+    "piece": Variable("1", "number of the smooth piece", "it changes where the contacts do"),
+    "multiplier_real": Variable("1", "real part of the Floquet multipliers"),
+    "multiplier_imag": Variable("1", "imaginary part of the Floquet multipliers"),
+    "bifurcation_kind": Variable("1", "kind of bifurcation"),
+    "bifurcation_value": Variable("1", "parameter at the bifurcation", "in the parameter's units"),
+    "bifurcation_arclength": Variable("1", "arclength at the bifurcation"),
+    "bifurcation_turns": Variable("1", "whether the branch turns back at the bifurcation"),
+    "bifurcation_branch": Variable("1", "number of the branch of the bifurcation"),
+    "bifurcation_eta_d": Variable("1", "normalised excursion of relative displacement"),
+    "bifurcation_eta_a": Variable("1", "normalised excursion of absolute acceleration"),
+    "bifurcation_eccentricity": Variable("m", "eccentricity at the bifurcation"),
+    "bifurcation_period": Variable("1", "period of the orbit in forcing cycles"),
+    "bifurcation_multiplier_real": Variable("1", "real part of the Floquet multipliers"),
+    "bifurcation_multiplier_imag": Variable("1", "imaginary part of the Floquet multipliers"),
+    "bifurcation_section": Variable(
+        "1", "state at the stroboscopic section", "components in m, m/s, m, m, rad and 1"
     ),
     "mirror_pair": Variable("1", "whether the mirror image of the motion is another motion"),
     "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
@@ -16,7 +17,15 @@ from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.response.start import as_state, components, engine_rig
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
 from vibroimpact.response.variables import COMPONENTS, describe, motion_parameters
-from vibroimpact.stability.settled import Settled, apart, follow, mirrored, reach, settle
+from vibroimpact.stability.settled import (
+    Settled,
+    apart,
+    follow,
+    mirrored,
+    reach,
+    reach_at_rest,
+    settle,
+)
 from vibroimpact.stability.steady import describe_motion, steady
 
 SAME = 1e-6
@@ -92,24 +101,15 @@ def coexisting(
     if isinstance(random, bool) or not isinstance(random, int) or random < 0:
         raise InputError(f"random: {random!r}; a whole number of at least 0 is accepted")
     kept: list[_Kept] = []
+    given_up: dict[Status, tuple[State, list[str]]] = {}
     options = (samples, window, exponent_cycles, max_events)
 
     def go(name: str, start: State) -> None:
         found = settle(oscillator, excitation, start, max_cycles=max_cycles, max_events=max_events)
         if found.status not in (Status.DONE, Status.NOT_SETTLED):
-            # Told by `steady`, with a warning, as a motion of its own.
-            given_up = steady(
-                oscillator,
-                excitation,
-                start,
-                samples,
-                window=window,
-                max_cycles=max_cycles,
-                max_events=max_events,
-            )
-            kept.append(_Kept(found, given_up, [name], []))
+            given_up.setdefault(found.status, (start, []))[1].append(name)
             return
-        _keep(kept, found, name, options)
+        _keep(kept, _at_phase(found, excitation, max_events), name, options)
 
     go("rest", State(phase=excitation.phase))
     for name, start in arrivals(
@@ -118,7 +118,8 @@ def coexisting(
         go(name, start)
     for name, state in (starts or {}).items():
         go(name, as_state(state))
-    size = max(reach(one.found, one.found.state) for one in kept)
+    size = max((reach(one.found, one.found.state) for one in kept), default=0.0)
+    size = size or reach_at_rest(oscillator, excitation)
     generator = np.random.default_rng(seed)
     for number in range(random):
         u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
@@ -126,7 +127,7 @@ def coexisting(
         go(f"random {number + 1}", state)
     if symmetric(oscillator):
         for one in kept:
-            if one.found.status is Status.DONE and not bool(one.motion["antisymmetric"]):
+            if not bool(one.motion["antisymmetric"]):
                 # The mirror image is a motion where the forcing has turned by half a cycle.
                 image = mirrored(follow(one.found, one.found.state, 0.5, max_events))
                 values = dict(
@@ -134,7 +135,21 @@ def coexisting(
                 )
                 go("mirror image", State(**{**values, "contact": int(values["contact"])}))
     kept.sort(key=lambda one: -float(one.motion["displacement_excursion"]))
-    return [_labelled(one, max_events) for one in kept]
+    motions = [_labelled(one, max_events) for one in kept]
+    for start, names in given_up.values():
+        # Told with a warning, and once.
+        motion = steady(
+            oscillator,
+            excitation,
+            start,
+            samples,
+            window=window,
+            max_cycles=max_cycles,
+            max_events=max_events,
+        ).assign(mirror_pair=False)
+        motion.attrs |= {"starts": ", ".join(names), "mirrored_starts": ""}
+        motions.append(describe(motion, "vibroimpact.coexisting", motion_parameters(motion)))
+    return motions
 
 
 def symmetric(oscillator: Oscillator) -> bool:
@@ -144,8 +159,7 @@ def symmetric(oscillator: Oscillator) -> bool:
 
 def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     pair = (
-        one.found.status in (Status.DONE, Status.NOT_SETTLED)
-        and symmetric(one.found.oscillator)
+        symmetric(one.found.oscillator)
         and not bool(one.motion["antisymmetric"])
         and not _same(one.found, _image(one.found, max_events), max_events)
     )
@@ -154,6 +168,16 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     data.attrs["mirrored_starts"] = ", ".join(one.mirrored_starts)
     data.attrs["created_by"] = "vibroimpact.coexisting"
     return describe(data, "vibroimpact.coexisting", motion_parameters(data))
+
+
+def _at_phase(found: Settled, excitation: Harmonic, max_events: int) -> Settled:
+    """The motion at the section of the given excitation, wherever its start had its own."""
+    ahead = ((excitation.phase - found.excitation.phase) / (2.0 * math.pi)) % 1.0
+    if ahead == 0.0:
+        return found._replace(excitation=excitation)
+    return found._replace(
+        state=follow(found, found.state, ahead, max_events), excitation=excitation
+    )
 
 
 def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int, int, int]) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
+from vibroimpact.engine.status import Status
 from vibroimpact.response.start import engine_rig
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.kind import Judgement, judge
@@ -71,10 +72,16 @@ def _rates(columns: _Array, damping: float) -> _Array:
 
 def judge_wandering(
     found: Settled, state: _Array, cycles: int, max_events: int
-) -> tuple[Judgement, float, int]:
-    """Judge a motion that did not settle; the state is carried on."""
+) -> tuple[Judgement, float, int, Status]:
+    """Judge a motion that did not settle; the state is carried on.
+
+    Returns
+    -------
+    judgement, damping, cycles, status
+        The damping per unit mass is the integral over a cycle, on average.
+    """
     rows = np.empty((cycles, lyapunov.GROWTH))
-    _, done = lyapunov.growth(
+    outcome, done = lyapunov.growth(
         engine_rig(found.oscillator),
         found.excitation.amplitude,
         found.excitation.frequency,
@@ -89,4 +96,4 @@ def judge_wandering(
     size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0])
     kind = judge(rows[:, : lyapunov.DISSIPATION], rows[:, lyapunov.SECTION :] / size)
     damping = float(rows[:, lyapunov.DISSIPATION].mean()) if done else math.nan
-    return kind, damping, done
+    return kind, damping, done, Status(outcome)

@@ -84,20 +84,23 @@ def judge(logarithms: _Array, section: _Array) -> Judgement:
     total = np.cumsum(logarithms[:, 0])
     whole, half = float(total[-1]), float(total[cycles // 2 - 1])
     margin = BOUNDED + 2.0 * math.log(cycles)
-    apart = abs(mean[0]) > SIGNIFICANT * uncertainty[0]
+    # An average of pure rounding differs from zero by nothing.
+    apart = abs(mean[0]) > max(SIGNIFICANT * uncertainty[0], 1e-6 / cycles)
     grown = (
         f"the logarithm of a disturbance changes by {whole:+.4g} over {cycles} cycles, "
         f"{mean[0]:+.3g} ± {uncertainty[0]:.1g} a cycle"
     )
-    if whole > CLEAR + margin and whole - half > CLEAR and apart:
+    if n := recurrence(section):
+        return Judgement("periodic", n, mean, uncertainty, f"the section repeats after {n}")
+    quarters = np.diff(np.concatenate([[0.0], total[np.arange(1, 5) * cycles // 4 - 1]]))
+    if whole > CLEAR + margin and whole - half > CLEAR and quarters.min() > 0.0 and apart:
         return Judgement("chaotic", 0, mean, uncertainty, grown)
-    if max(abs(whole), abs(half)) <= margin and cycles >= ENOUGH:
+    bounded = max(abs(whole), abs(half)) <= margin
+    if bounded and apart and whole < 0.0:
+        return Judgement("undecided", 0, mean, uncertainty, f"{grown}: it still decays, slowly")
+    if bounded and cycles >= ENOUGH:
         return Judgement(
             "quasi-periodic", 0, mean, uncertainty, f"{grown}: no more than on a torus"
-        )
-    if whole < 0.0 and (n := recurrence(section)):
-        return Judgement(
-            "periodic", n, mean, uncertainty, f"{grown}; the section repeats after {n}"
         )
     return Judgement("undecided", 0, mean, uncertainty, f"{grown}: no clear trend")
 

@@ -123,6 +123,11 @@ def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:
 
 def reach(found: Settled, state: _Array) -> float:
     """Size of a motion near a state, as a displacement (m); never zero."""
-    gaps = [b.gap for b in (found.oscillator.right, found.oscillator.left) if b and b.gap]
-    speed = abs(state[hold.V]) / found.excitation.angular_frequency
-    return max(abs(float(state[hold.U])), float(speed), *gaps[:1], 1e-300)
+    speed = abs(float(state[hold.V])) / found.excitation.angular_frequency
+    size = max(abs(float(state[hold.U])), speed)
+    return max(size, 1e-3 * reach_at_rest(found.oscillator, found.excitation), 1e-300)
+
+
+def reach_at_rest(oscillator: Oscillator, excitation: Harmonic) -> float:
+    """Displacement (m) of a mass that an inertia force M A moves against the isolator alone."""
+    return excitation.amplitude / oscillator.angular_frequency**2

@@ -15,18 +15,25 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.response.contacts import contacts
-from vibroimpact.response.phases import measured, phases, recorded
+from vibroimpact.response.phases import Phases, Recorded, measured, phases, recorded
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, components
 from vibroimpact.response.variables import COMPONENTS, describe, motion_parameters
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.growth import judge_orbit, judge_wandering
+from vibroimpact.stability.kind import Judgement
 from vibroimpact.stability.settled import Settled, apart, follow, mirrored, reach, settle
 
 _Array = NDArray[np.float64]
 
 ANTISYMMETRIC = 1e-8
 """Distance from the own mirror image, over the motion's size, below which they are one."""
+NEUTRAL = 1e-9
+"""Logarithm of the largest multiplier below which an orbit is neither stable nor unstable."""
+MOST_SAMPLES = 20_000_000
+"""Samples of a record: about 3 GB."""
+MOST_CYCLES = 5_000_000
+"""Cycles over which exponents are averaged: about 0.3 GB."""
 
 
 def steady(
@@ -81,10 +88,16 @@ def steady(
         exponent_cycles=exponent_cycles,
         max_events=max_events,
     )
-    begin = as_state(start)
-    found = settle(oscillator, excitation, begin, tolerance, max_cycles, max_events)
+    for field, value, most in (
+        ("window", window * samples, MOST_SAMPLES),
+        ("exponent_cycles", exponent_cycles, MOST_CYCLES),
+    ):
+        if value > most:
+            told = f"{value} samples in all" if field == "window" else f"{value} cycles"
+            raise InputError(f"{field}: {told}; at most {most} are accepted")
+    found = settle(oscillator, excitation, as_state(start), tolerance, max_cycles, max_events)
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
-        return _given_up(found, begin, samples, window, max_events)
+        return _given_up(found, samples, max_events)
     return describe_motion(found, samples, window, exponent_cycles, max_events)
 
 
@@ -92,20 +105,22 @@ def describe_motion(
     found: Settled, samples: int, window: int, exponent_cycles: int, max_events: int
 ) -> xr.Dataset:
     """Name a motion, record it and measure it."""
-    state = found.state.copy()
     used = found.cycles
+    if not found.period:
+        state = found.state.copy()
+        kind, damping, cycles, status = judge_wandering(found, state, exponent_cycles, max_events)
+        used += cycles + DISCARD
+        found = found._replace(state=state, period=kind.period, cycles=used)
+        if status is not Status.DONE:
+            return _given_up(found._replace(status=status), samples, max_events)
     if found.period:
         kind, damping, cycles = judge_orbit(found, max_events)
-    else:
-        kind, damping, cycles = judge_wandering(found, state, exponent_cycles, max_events)
-        used += cycles + DISCARD
-    stable = {"chaotic": 0, "periodic": int(bool(kind.exponents[0] < 0.0))}.get(kind.motion, -1)
-    data = _record(found, state, samples, kind.period or window, max_events)
+    stable = {"chaotic": 0, "periodic": _stable(kind)}.get(kind.motion, -1)
+    data = _record(found, found.state, samples, kind.period or window, max_events)
     if data.attrs["status"] != Status.DONE.advice:
-        kind = kind._replace(motion="undecided", period=0)
-        stable = -1
+        return _given_up(found._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)
     frequency = found.excitation.frequency
-    distance = _mirror_distance(found, state, kind.period, max_events)
+    distance = _mirror_distance(found, found.state, kind.period, max_events)
     scalars: dict[str, Any] = {
         "motion": kind.motion,
         "period": kind.period,
@@ -126,6 +141,12 @@ def _check(**values: int) -> None:
     for field, value in values.items():
         if isinstance(value, bool) or not isinstance(value, int) or value < 1:
             raise InputError(f"{field}: {value!r}; a whole number of at least 1 is accepted")
+
+
+def _stable(kind: Judgement) -> int:
+    """1 or 0; -1 where the largest exponent is zero to rounding, as without dissipation."""
+    largest = float(kind.exponents[0]) * kind.period
+    return -1 if abs(largest) < NEUTRAL else int(largest < 0.0)
 
 
 def _start(found: Settled, state: _Array) -> State:
@@ -189,34 +210,33 @@ def _measured(data: xr.Dataset, scalars: dict[str, Any]) -> xr.Dataset:
         "impacts_left": int((log["contact_side"] == -1).sum()) / cycles,
         "energy_supplied": -rig.mass * shaken.amplitude * rows[:, measure.WORK].sum() / cycles,
         "energy_isolator": rig.isolator.damping * squares.sum() / cycles,
-        "energy_bumpers": (
-            float(pressed @ squares) + float(log["contact_dissipated_relaxing"].sum())
-        )
-        / cycles,
+        "energy_bumpers": (float(pressed @ squares) + _relaxed(origin, every)) / cycles,
     }
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
     return describe(data, "vibroimpact.steady", motion_parameters(data))
 
 
-def _given_up(
-    found: Settled, start: State, samples: int, window: int, max_events: int
-) -> xr.Dataset:
-    """What a motion did in the last cycles before it met a limit."""
+def _relaxed(origin: Recorded, every: Phases) -> float:
+    """Energy that the bumpers lose while they are free."""
+    total = 0.0
+    for side, component, bumper in (
+        (1, 2, origin.oscillator.right),
+        (-1, 3, origin.oscillator.left),
+    ):
+        if bumper is not None:
+            squares = every.first[:, component] ** 2 - every.last[:, component] ** 2
+            total += 0.5 * bumper.stiffness * float(squares[every.contact != side].sum())
+    return total
+
+
+def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
+    """What a motion did in the cycle in which it met a limit, from the section before it."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        before = max(found.cycles - 1 - window, 0)
-        if before:
-            ahead = simulate(found.oscillator, found.excitation, before, start, 0)
-            start = as_state(ahead)
-        data = simulate(
-            found.oscillator,
-            found.excitation,
-            found.cycles - before if found.cycles else 1,
-            start,
-            samples,
-            max_events=max_events,
-        )
+        data = _record(found, found.state, samples, 1, max_events)
+    if not data.sizes["time"]:
+        data = _until_the_last_event(data, found, samples)
     warnings.warn(
         f"steady stopped in cycle {found.cycles}: {found.status.advice}",
         RuntimeWarning,
@@ -236,4 +256,20 @@ def _given_up(
         "exponents_uncertainty": nothing,
     }
     data.attrs["evidence"] = data.attrs["status"] = found.status.advice
-    return _measured(data, scalars) if data.sizes["time"] else data.assign(scalars)
+    return _measured(data, scalars)
+
+
+def _until_the_last_event(data: xr.Dataset, found: Settled, samples: int) -> xr.Dataset:
+    """The part of a cycle that was followed: up to its last event, or nothing but its start."""
+    length = 0.0
+    if data.sizes["event"]:
+        length = float(data["event_cycle_time"][-1]) * found.excitation.frequency
+    length = max(length, 1e-12)
+    return simulate(
+        found.oscillator,
+        found.excitation,
+        length,
+        _start(found, found.state),
+        samples,
+        max_events=max(data.sizes["event"], 1),
+    )

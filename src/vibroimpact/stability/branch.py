@@ -1,0 +1,322 @@
+"""Branches of periodic orbits along a parameter, stable or not, with their bifurcations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import hold, orbit, section_map
+from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model.dimensionless import peak_displacement
+from vibroimpact.response.start import as_state
+from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
+from vibroimpact.stability import bifurcations
+from vibroimpact.stability.bifurcations import Bifurcation, own_mirror
+from vibroimpact.stability.family import Family, bounds, family
+from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, Section, corrected
+from vibroimpact.stability.settled import settle
+from vibroimpact.stability.trace import Station, follow_branch
+
+_Array = NDArray[np.float64]
+
+Progress = Callable[[float], None]
+"""Called now and then with the parameter."""
+
+
+class Followed(NamedTuple):
+    """A branch as it was followed."""
+
+    stations: list[Station]
+    bifurcations: list[Bifurcation]
+    ended: tuple[str, str]
+    """Why it was not followed further, at its beginning and at its end."""
+    closed: bool
+
+
+def branch(
+    oscillator: Oscillator,
+    excitation: Harmonic,
+    start: State | xr.DataArray | xr.Dataset | None = None,
+    *,
+    parameter: str = "frequency",
+    low: float | str,
+    high: float | str,
+    period: int = 1,
+    most_points: int = 5000,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Follow a branch of periodic orbits in both directions from one of its orbits.
+
+    Pseudo-arclength continuation with the exact derivative of the map from section to section;
+    it goes round folds and through changes of the contacts. A motion that is its own mirror image
+    is followed as such.
+
+    Parameters
+    ----------
+    oscillator, excitation
+        The rig and the forcing of the first orbit.
+    start
+        A state near that orbit, at the excitation's phase; None for where the motion from rest
+        settles.
+    parameter
+        What is varied: "frequency", "amplitude", "gap", "right_gap", "left_gap",
+        "bumper_stiffness", "bumper_damping", "stiffness", "damping", "stiffness_ratio" (λ, the
+        bumpers' relaxation time kept) or "gap_ratio" (δ0).
+    low, high
+        Range of the parameter, in SI units or as text.
+    period
+        Of the orbits, in forcing cycles.
+    most_points
+        Orbits in each direction after which it is given up.
+    progress
+        Called with the parameter as the branch is followed.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``point`` along the branch: the parameter by its name, ``arclength``, extremes,
+        excursions, ``eta_d`` and ``eta_a`` (over the largest free flight of the isolator at any
+        frequency), ``eccentricity``, impacts per cycle, ``multiplier_real`` and ``_imag`` (dim
+        ``multiplier``, the largest first), ``stable`` and ``section``. Dim ``bifurcation``: kind,
+        parameter, state and multipliers of each. The attributes ``ended_low`` and ``ended_high``
+        say why the branch ends at its beginning and at its end.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or Newton's method finds no orbit near the start.
+    """
+    fam = family(oscillator, excitation, parameter)
+    span = bounds(fam.parameter, low, high)
+    if not span[0] <= fam.value <= span[1]:
+        raise InputError(
+            f"low: {span[0]:g} to {span[1]:g} leaves out the first orbit's {parameter}, "
+            f"{fam.value:g}; a range that holds it is accepted"
+        )
+    for name, value in (("period", period), ("most_points", most_points)):
+        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+            raise InputError(f"{name}: {value!r}; a whole number of at least 1 is accepted")
+    first = first_orbit(fam, span, start, period)
+    return as_dataset([follow(first, span, most_points, progress)], fam, span)
+
+
+def first_orbit(
+    fam: Family,
+    span: tuple[float, float],
+    start: State | xr.DataArray | xr.Dataset | None,
+    period: int,
+) -> Orbit:
+    """The orbit near a state; its own mirror image if it is one.
+
+    Raises
+    ------
+    InputError
+        If Newton's method finds none.
+    """
+    if start is None:
+        found = settle(fam.oscillator, fam.excitation, State(phase=fam.phase))
+        vector = found.state
+        point = np.array([vector[2], vector[3], vector[4], -vector[5], fam.value])
+        mode = float(vector[hold.MODE])
+    else:
+        state = as_state(start)
+        point = np.array(
+            [
+                state.displacement,
+                state.velocity,
+                state.right_bumper or 0.0,
+                state.left_bumper or 0.0,
+                fam.value,
+            ]
+        )
+        mode = float({1: RIGHT, -1: LEFT}.get(state.contact or 0, FLIGHT))
+    section = Section(fam, period, False, scales(fam, span, point))
+    status, orbit_found = corrected(section, point, mode)
+    if status is not Status.DONE:
+        raise InputError(
+            f"start: Newton's method finds no orbit of period {period} near it "
+            f"({told(status)}); a state nearer to one is accepted"
+        )
+    return symmetric_if_so(orbit_found)
+
+
+def told(status: Status) -> str:
+    """Why a correction failed, in words."""
+    if status is Status.NOT_SETTLED:
+        return "it does not converge"
+    return status.advice
+
+
+def symmetric_if_so(found: Orbit) -> Orbit:
+    """The orbit as a fixed point of the mirrored map, if it is its own mirror image."""
+    section = found.section
+    if not own_mirror(found, 1e-9):
+        return found
+    half = Section(section.family, section.count, True, section.scale)
+    status, mirrored = corrected(half, found.point, found.facts[section_map.MODE])
+    return mirrored if status is Status.DONE else found
+
+
+def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
+    """Sizes of displacement, velocity, deformations and parameter."""
+    rig, shaken = fam.oscillator, fam.excitation
+    gaps = [b.gap for b in (rig.right, rig.left) if b is not None]
+    omega = shaken.angular_frequency
+    size = max(
+        *(gaps or [0.0]),
+        abs(float(point[0])),
+        abs(float(point[1])) / omega,
+        1e-3 * shaken.amplitude / rig.angular_frequency**2,
+    )
+    return np.array([size, size * omega, size, size, span[1] - span[0]])
+
+
+def follow(
+    first: Orbit, span: tuple[float, float], most_points: int, progress: Progress | None = None
+) -> Followed:
+    """Follow a branch both ways from an orbit, and find its bifurcations."""
+    traces = []
+    for sense in (-1.0, 1.0):
+        tangent = first.tangent(np.array([0.0, 0.0, 0.0, 0.0, sense]))
+        trace = follow_branch(Station(first, tangent, 0.0, 0), *span, most_points, progress)
+        traces.append(trace)
+        if trace.closed:
+            return Followed(
+                trace.stations,
+                list(bifurcations.find(trace.stations)),
+                (trace.ended, trace.ended),
+                True,
+            )
+    stations = bifurcations.joined(*traces)
+    return Followed(
+        stations,
+        list(bifurcations.find(stations)),
+        (traces[0].ended, traces[1].ended),
+        False,
+    )
+
+
+def as_dataset(
+    followed: list[Followed], fam: Family, span: tuple[float, float], created: str = "branch"
+) -> xr.Dataset:
+    """Branches as one labelled dataset."""
+    name = fam.parameter.name
+    stations = [(i, s) for i, one in enumerate(followed) for s in one.stations]
+    orbits = [s.orbit for _, s in stations]
+    measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
+    high, low = measured[:, hold.U_MOST], measured[:, hold.U_LEAST]
+    top, bottom = measured[:, hold.A_MOST], measured[:, hold.A_LEAST]
+    free = np.array([_free_peak(one) for one in orbits]).reshape(-1, 2)
+    multipliers = np.array([one.multipliers for one in orbits]).reshape(-1, 4)
+    values = {
+        "arclength": [s.arclength for _, s in stations],
+        "displacement_max": high,
+        "displacement_min": low,
+        "displacement_excursion": high - low,
+        "acceleration_max": top,
+        "acceleration_min": bottom,
+        "acceleration_excursion": top - bottom,
+        "eta_d": (high - low) / free[:, 0],
+        "eta_a": (top - bottom) / free[:, 1],
+        "eccentricity": 0.5 * (high + low),
+        "impacts_right": measured[:, hold.HITS_RIGHT],
+        "impacts_left": measured[:, hold.HITS_LEFT],
+        "period": [one.section.period for one in orbits],
+        "antisymmetric": [one.section.mirror for one in orbits],
+        "stable": np.array([int(one.stable) for one in orbits], dtype=np.int64),
+        "branch": np.array([i for i, _ in stations], dtype=np.int64),
+        "piece": np.array([s.piece for _, s in stations], dtype=np.int64),
+    }
+    data = xr.Dataset({key: ("point", np.asarray(value)) for key, value in values.items()})
+    data = data.assign_coords({name: ("point", [one.value for one in orbits])})
+    data["multiplier_real"] = (("point", "multiplier"), multipliers.real)
+    data["multiplier_imag"] = (("point", "multiplier"), multipliers.imag)
+    data["section"] = (("point", "component"), np.array([_state(one) for one in orbits]))
+    data = data.assign_coords(component=COMPONENTS)
+    data = _with_bifurcations(data, followed)
+    data.attrs["parameter"] = name
+    for i, one in enumerate(followed):
+        prefix = "" if len(followed) == 1 else f"branch_{i}_"
+        data.attrs[f"{prefix}ended_low"], data.attrs[f"{prefix}ended_high"] = one.ended
+        data.attrs[f"{prefix}closed"] = int(one.closed)
+    return describe(
+        data,
+        f"vibroimpact.{created}",
+        {
+            "oscillator": oscillator_parameters(fam.oscillator),
+            "amplitude": fam.excitation.amplitude,
+            "frequency": fam.excitation.frequency,
+            "phase": fam.phase,
+            "parameter": name,
+            "low": span[0],
+            "high": span[1],
+        },
+    )
+
+
+def _with_bifurcations(data: xr.Dataset, followed: list[Followed]) -> xr.Dataset:
+    found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
+    multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, 4)
+    measured = np.array([_measured(b.orbit) for _, b in found]).reshape(-1, hold.RESULTS)
+    free = np.array([_free_peak(b.orbit) for _, b in found]).reshape(-1, 2)
+    excursion = measured[:, hold.U_MOST] - measured[:, hold.U_LEAST]
+    peak = measured[:, hold.A_MOST] - measured[:, hold.A_LEAST]
+    values: dict[str, Any] = {
+        "kind": np.array([b.kind for _, b in found], dtype=str),
+        "value": [b.orbit.value for _, b in found],
+        "arclength": [b.arclength for _, b in found],
+        "turns": np.array([int(b.turns) for _, b in found], dtype=np.int64),
+        "branch": np.array([i for i, _ in found], dtype=np.int64),
+        "eta_d": excursion / free[:, 0],
+        "eta_a": peak / free[:, 1],
+        "eccentricity": 0.5 * (measured[:, hold.U_MOST] + measured[:, hold.U_LEAST]),
+        "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
+    }
+    for key, value in values.items():
+        data[f"bifurcation_{key}"] = ("bifurcation", np.asarray(value))
+    data["bifurcation_multiplier_real"] = (("bifurcation", "multiplier"), multipliers.real)
+    data["bifurcation_multiplier_imag"] = (("bifurcation", "multiplier"), multipliers.imag)
+    states = np.array([_state(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
+    data["bifurcation_section"] = (("bifurcation", "component"), states)
+    return data
+
+
+def _state(one: Orbit) -> list[float]:
+    mode = int(one.facts[section_map.MODE])
+    side = {RIGHT: 1.0, LEFT: -1.0}.get(mode, 0.0)
+    return [*one.point[:4], one.section.family.phase, side]
+
+
+def _measured(one: Orbit) -> _Array:
+    """Exact extremes and contacts per cycle."""
+    result = np.full(hold.RESULTS, np.nan)
+    orbit.measure_orbit(
+        one.section.family.system(one.value),
+        one.section.family.phase,
+        one.point,
+        one.facts,
+        one.section.period,
+        2 * MAX_EVENTS,
+        result,
+    )
+    return result
+
+
+def _free_peak(one: Orbit) -> tuple[float, float]:
+    """Largest excursions of displacement and absolute acceleration in free flight."""
+    rig, shaken = one.setting
+    if rig.isolator.damping == 0.0:
+        return np.nan, np.nan
+    xi = rig.damping_ratio
+    # |H| of the absolute acceleration is largest at r² = (√(1 + 8ξ²) − 1) / (4ξ²).
+    root = np.sqrt(1.0 + 8.0 * xi * xi)
+    r2 = (root - 1.0) / (4.0 * xi * xi)
+    gain = np.sqrt((1.0 + 4.0 * xi * xi * r2) / ((1.0 - r2) ** 2 + 4.0 * xi * xi * r2))
+    return 2.0 * peak_displacement(rig, shaken.amplitude), 2.0 * shaken.amplitude * float(gain)
