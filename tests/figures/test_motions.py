@@ -307,6 +307,29 @@ def test_a_contact_across_the_end_of_the_period_is_one_band():
     )
 
 
+def test_stars_at_the_peaks_of_every_turn():
+    """Those of a contact across the end of the record, too."""
+    motion = hitting()
+    peaks = motion["contact_peak_time"].values * 2.0
+    heights = -motion["contact_side"].values * motion["contact_peak_acceleration"].values
+    np.testing.assert_allclose(
+        np.sort(heights), [float(motion[f"acceleration_{end}"]) for end in ("min", "max")]
+    )
+    for drawn, later in ((hitting(), 0.0), (across(), 0.83)):
+        ax = time_history(drawn, cycles=3.0)[1]
+        marks = [collection for collection in ax.collections if collection.get_sizes().size]
+        largest = max(marks, key=lambda collection: collection.get_sizes()[0])
+        stars = np.asarray(largest.get_offsets())
+        expected = [
+            [(peak - later) % 1.0 + turn, height]
+            for turn in range(3)
+            for peak, height in zip(peaks, heights, strict=True)
+        ]
+        np.testing.assert_allclose(
+            stars[np.argsort(stars[:, 0])], sorted(expected), rtol=1e-6, atol=1e-7
+        )
+
+
 def bands(ax) -> dict[str, list[tuple[float, float]]]:
     return {
         c.get_label(): [(p.vertices[:, 0].min(), p.vertices[:, 0].max()) for p in c.get_paths()]
@@ -554,6 +577,8 @@ def test_a_page_is_the_same_file_every_time(kind, tmp_path):
     first, second = (path.read_bytes() for path in written)
     assert first == second
     assert len(first) > 10_000
+    for date in (b"CreationDate", b"dc:date"):  # two made in the same second would agree
+        assert date not in first
 
 
 def test_given_axes_are_drawn_on():

@@ -7,9 +7,14 @@ from functools import cache
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
 
 import vibroimpact as vi
 from vibroimpact.figures import save_figure, time_history
+from vibroimpact.figures.style import SWEEPS
+
+MARKS = ["contact begins", "contact ends", "peak in contact"]
 
 
 @cache
@@ -40,7 +45,7 @@ def test_labels_with_units():
     ]
     assert "t/T" in axes[2].get_xlabel()
     texts = [t.get_text() for t in axes[0].get_legend().get_texts()]
-    assert texts == ["motion", "gaps", "right contact", "left contact"]
+    assert texts == ["motion", "gaps", "right contact", "left contact", *MARKS]
 
 
 def test_last_cycles_are_shown():
@@ -94,7 +99,7 @@ def test_gaps_are_lines_at_their_place():
     dashed = [line.get_ydata()[0] for line in ax.lines if line.get_linestyle() == "--"]
     assert dashed == pytest.approx([4.0])
     texts = [t.get_text() for t in ax.get_legend().get_texts()]
-    assert texts == ["motion", "gaps", "right contact"]
+    assert texts == ["motion", "gaps", "right contact", *MARKS]
 
 
 def test_free_flight(tmp_path):
@@ -103,10 +108,109 @@ def test_free_flight(tmp_path):
     assert save_figure(axes[0], tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_dots_at_the_events_and_stars_at_the_peaks():
+    data = motion()
+    at = data["event_time"].values * 0.58
+    shown = at > 17.0
+    begins = data["event_contact"].values == 1
+    sides = data["event_side"].values
+    for ax, values in zip(
+        time_history(data),
+        (
+            1e3 * data["event_displacement"].values,
+            # Where the acceleration jumps, the value in contact.
+            np.where(begins, *(data[f"event_acceleration_{n}"] for n in ("behind", "before"))),
+            data["event_velocity"].values,
+        ),
+        strict=True,
+    ):
+        dots = marks(ax)
+        full, hollow = dots[:2]
+        for (where, colour), filled in ((full, True), (hollow, False)):
+            mine = shown & (begins == filled)
+            assert mine.sum() == 6
+            np.testing.assert_allclose(where, np.column_stack([at, values])[mine], rtol=1e-12)
+            assert (colour == "#ffffff") is not filled
+        assert len(dots) == (3 if "acceleration" in ax.get_ylabel() else 2)
+
+    # The peaks, from the same motion looked at so often that none lies between.
+    fine = motion(samples=8192)
+    a = fine["acceleration"].values
+    (where, _) = marks(time_history(data)[1])[2]
+    assert len(where) == 6
+    for (time, height), begin, stop, side in zip(
+        where, at[shown & begins], at[shown & ~begins], sides[shown & begins], strict=True
+    ):
+        inside = (fine["cycle"].values >= begin) & (fine["cycle"].values <= stop)
+        index = np.argmax(np.where(inside, np.abs(a), 0.0))
+        assert height == pytest.approx(a[index], rel=1e-5)
+        assert abs(time - fine["cycle"].values[index]) < 2 / 8192
+        assert np.sign(height) == -side
+
+
+def marks(ax) -> list[tuple[np.ndarray, str]]:
+    """Places and colours of the marks: beginnings, ends, and the peaks of the acceleration."""
+    found = [c for c in ax.collections if len(c.get_offsets()) and not c.get_label()[0].isalpha()]
+    return [(np.asarray(c.get_offsets()), to_hex(c.get_facecolor()[0])) for c in found]
+
+
+def test_several_motions_have_strips_of_their_own():
+    named = {
+        "forward sweep at 0.58 Hz": motion(),
+        "backward sweep at 0.6 Hz": motion(frequency=0.6),
+        "free": motion("B2-Ginf-A3"),
+    }
+    axes = time_history(named, cycles=2.0)
+    for ax in axes:
+        lines = [line for line in ax.lines if len(line.get_xdata()) > 2]
+        assert [line.get_color() for line in lines] == [
+            SWEEPS["forward"].colour,
+            SWEEPS["backward"].colour,
+            "black",
+        ]
+        assert [line.get_linestyle() for line in lines] == ["-", "--", "-"]
+        strips = [c for c in ax.collections if c.get_label().endswith("contact")]
+        assert [c.get_label() for c in strips] == ["right contact", "left contact"] * 3
+        for number, ((name, data), frequency) in enumerate(
+            zip(named.items(), (0.58, 0.6, 0.58), strict=True)
+        ):
+            for strip, side in zip(strips[2 * number : 2 * number + 2], (1, -1), strict=True):
+                at = data["event_time"].values[data["event_side"].values == side] * frequency
+                expected = [pair for pair in at.reshape(-1, 2) if pair[1] >= 18.0]
+                corners = [path.vertices for path in strip.get_paths()]
+                assert len(corners) == len(expected) == (0 if name == "free" else 2)
+                for corner, pair in zip(corners, expected, strict=True):
+                    assert corner[:, 0].min() == pytest.approx(max(pair[0], 18.0))
+                    assert corner[:, 0].max() == pytest.approx(pair[1])
+                    # In thirds of the panel's height, the first on top.
+                    assert corner[:, 1].max() == pytest.approx(1.0 - number / 3.0)
+                    assert corner[:, 1].min() == pytest.approx(1.0 - (number + 1) / 3.0)
+                # The left bumper's are hatched, whatever their colour.
+                assert bool(strip.get_hatch()) is (side == -1)
+    strips = [c for c in axes[0].collections if c.get_label() == "right contact"]
+    colours = [to_hex(c.get_facecolor()[0]) for c in strips[:2]]
+    assert colours == [SWEEPS["forward"].colour, SWEEPS["backward"].colour]
+    texts = [t.get_text() for t in axes[0].get_legend().get_texts()]
+    assert texts == [*named, "gaps", "right contact", "left contact", *MARKS]
+
+
+def test_of_several_motions_the_longest_range_is_shown():
+    short, long = motion(cycles=1.5), motion(cycles=2.5)
+    axes = time_history({"a": short, "b": long}, cycles=9.0)
+    assert {ax.get_xlim() for ax in axes} == {(0.0, 2.5)}
+
+
+def test_axes_that_are_given():
+    given = Figure().subplots(3, 1)
+    assert time_history(motion(), given) == tuple(given)
+    with pytest.raises(vi.InputError, match=r"^axes: 1 given; 3 are accepted"):
+        time_history(motion(), given[0])
+
+
 def test_what_is_no_time_history_is_refused():
-    with pytest.raises(vi.InputError, match="no time history"):
+    with pytest.raises(vi.InputError, match="no recorded motion"):
         time_history(motion(samples=0))
-    with pytest.raises(vi.InputError, match="no time history"):
+    with pytest.raises(vi.InputError, match="no recorded motion"):
         time_history(xr.Dataset())
     with pytest.raises(vi.InputError, match=r"cycles: -1"):
         time_history(motion(), cycles=-1)
