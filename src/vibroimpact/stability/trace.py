@@ -29,8 +29,11 @@ FIRST, LEAST, MOST = 0.01, 1e-9, 0.1
 """Length of the first step, of the least and of the largest one, in scaled components."""
 _TURN = 0.97  # cosine of the largest turn of the tangent in a step
 _GENTLE = 0.997  # below this turn the step may grow
-_BISECTIONS = 50
-_BEYOND = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)
+_BISECTIONS = 55
+_BEYOND = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
+"""Scaled distances behind a grazing at which the map must have the new contacts."""
+_RESTART = (1e-6, 1e-5, 1e-4, 1e-7)
+"""Scaled distances behind a grazing at which the branch is taken up again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,9 +198,7 @@ def _past_grazing(here: Station, length: float) -> tuple[Station, Station] | Non
         for sign in (1.0, -1.0):
             # Forwards first: a corner may turn the branch back, but need not.
             along = sign * other.tangent(tangent)
-            for reach in (10.0 * ahead, 100.0 * ahead, 1000.0 * ahead):
-                if reach > 0.02:
-                    continue
+            for reach in _RESTART:
                 guess = last.point + reach * along * scale
                 status, found = corrected(last.section, guess, other.facts[section_map.MODE], along)
                 if (
@@ -205,9 +206,10 @@ def _past_grazing(here: Station, length: float) -> tuple[Station, Station] | Non
                     and found.contacts != contacts
                     and _distance(last, found) <= 3.0 * reach
                 ):
-                    tangent_behind = found.tangent(along)
                     arclength = before.arclength + _distance(last, found)
-                    return before, Station(found, tangent_behind, arclength, here.piece + 1)
+                    behind = Station(found, found.tangent(along), arclength, here.piece + 1)
+                    return before, behind
+        return None
     return None
 
 
