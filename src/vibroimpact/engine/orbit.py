@@ -276,7 +276,10 @@ def correct(
     return outcome
 
 
-@entry("i8(f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[:, ::1], f8[::1])")
+@entry(
+    "i8(f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[:, ::1], f8[::1],"
+    " f8[::1])"
+)
 def evaluate(
     base: Vector,
     direction: Vector,
@@ -289,15 +292,15 @@ def evaluate(
     facts: Vector,
     columns: Vector,
     slope: Vector,
+    image: Vector,
 ) -> int:
     """P and its derivative at a point that need not be an orbit; see `correct`.
 
-    The state is moved to where it can be.
+    The state is moved to where it can be; `image`, shape (DISTURBANCE,), receives P.
     """
     memory = np.zeros(PLAN)
     plan = pointer(memory)
     system = np.empty(SYSTEM)
-    image = np.empty(DISTURBANCE)
     system_plan(base, direction, point[PARAMETER], plan, system)
     outcome = section_map(
         plan, system, phase, count, mirror, max_events, point, facts, image, columns

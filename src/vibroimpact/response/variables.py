@@ -177,6 +177,10 @@ VARIABLES: dict[str, Variable] = {
     "piece": Variable("1", "number of the smooth piece", "it changes where the contacts do"),
     "multiplier_real": Variable("1", "real part of the Floquet multipliers"),
     "multiplier_imag": Variable("1", "imaginary part of the Floquet multipliers"),
+    "monodromy": Variable(
+        "1", "derivative of the state after a period", "of u, u', u_R, u_L, in SI units"
+    ),
+    "residual": Variable("1", "residual of the periodicity, over the motion's size"),
     "bifurcation_kind": Variable("1", "kind of bifurcation"),
     "bifurcation_value": Variable("1", "parameter at the bifurcation", "in the parameter's units"),
     "bifurcation_arclength": Variable("1", "arclength at the bifurcation"),

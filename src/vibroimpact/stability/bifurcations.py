@@ -33,6 +33,8 @@ DOUBLING = "period doubling"
 NEIMARK = "Neimark-Sacker"
 GRAZING = "grazing"
 
+_NEAR = 1e-2
+"""Scaled distance from its own mirror image below which an orbit may be next to a breaking."""
 _OFF = (1e-3, 3e-4, 1e-4, 3e-3, 1e-2)
 """Scaled distances from a bifurcation at which the branch that is born there is sought."""
 
@@ -65,12 +67,14 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
     """Bifurcations on a branch, in its order; between stations of one smooth piece."""
     for here, there in itertools.pairwise(stations):
         if here.piece != there.piece:
+            # Followed backwards, the grazing orbit comes second.
+            exact, other = (here, there) if here.grazing else (there, here)
             yield Bifurcation(
                 GRAZING,
-                here.orbit,
-                here.arclength,
+                exact.orbit,
+                exact.arclength,
                 bool(here.tangent[4] * there.tangent[4] < 0.0),
-                there.orbit.contacts,
+                other.orbit.contacts,
             )
             continue
         for kind, function in _tests(here):
@@ -84,9 +88,11 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
             if located is None:
                 continue
             orbit, length = located
-            yield Bifurcation(
-                _named(kind, orbit), orbit, here.arclength + length, kind == FOLD, orbit.contacts
-            )
+            turns = kind == FOLD
+            if turns and (parent := _parent(orbit)) is not None:
+                # The branch turns where it meets that of the motions which it left.
+                kind, orbit = parent
+            yield Bifurcation(kind, orbit, here.arclength + length, turns, orbit.contacts)
 
 
 def _tests(here: Station) -> list[tuple[str, Callable[[Orbit], float]]]:
@@ -108,11 +114,56 @@ def _locate(
     return (orbit, length) if status is Status.DONE else None
 
 
-def _named(kind: str, orbit: Orbit) -> str:
-    """A branch of asymmetric motions turns where it meets the symmetric one that it left."""
-    if kind == FOLD and not orbit.section.mirror and own_mirror(orbit, 1e-5):
-        return BREAKING
-    return kind
+def _parent(orbit: Orbit) -> tuple[str, Orbit] | None:
+    """The symmetry breaking or period doubling that an orbit lies next to, if any.
+
+    There the orbit's own map is singular in a way that its fold function resolves poorly; the map
+    over half a cycle and the mirror, or over half the period, is not.
+    """
+    section = orbit.section
+    if section.mirror:
+        return None
+    candidates = []
+    if section.count % 2 == 0:
+        half_period = Section(section.family, section.count // 2, False, section.scale)
+        candidates.append((DOUBLING, half_period))
+    elif section.family.symmetric:
+        half_cycles = Section(section.family, section.count, True, section.scale)
+        candidates.append((BREAKING, half_cycles))
+    for kind, simpler in candidates:
+        if is_fixed(simpler, orbit, _NEAR) and (found := _zero(simpler, orbit)) is not None:
+            return kind, found
+    return None
+
+
+def _zero(section: Section, orbit: Orbit) -> Orbit | None:
+    """The orbit of a simpler map near another one at which an eigenvalue is −1: by secants."""
+    values = [orbit.value, orbit.value + 1e-6 * section.scale[4]]
+    tests: list[float] = []
+    point, mode = orbit.point.copy(), float(orbit.facts[section_map.MODE])
+    for _ in range(20):
+        point[section_map.PARAMETER] = values[len(tests)]
+        status, found = corrected(section, point, mode)
+        if status is not Status.DONE:
+            return None
+        point = found.point.copy()
+        tests.append(_half_plus(found))
+        if len(tests) < 2:
+            continue
+        rise = tests[-1] - tests[-2]
+        step = -tests[-1] * (values[-1] - values[-2]) / rise if rise else 0.0
+        if abs(step) <= 1e-15 * abs(values[-1]):
+            return found
+        if abs(values[-1] + step - orbit.value) > 0.01 * section.scale[4]:
+            return None
+        values.append(values[-1] + step)
+    return found
+
+
+def is_fixed(section: Section, orbit: Orbit, tolerance: float) -> bool:
+    """Whether an orbit is fixed under another map, to a scaled tolerance."""
+    status, image, _ = evaluated(section, orbit.point, orbit.facts[section_map.MODE])
+    return status is Status.DONE and bool(image.facts[section_map.RESIDUAL] <= tolerance)
 
 
 def own_mirror(orbit: Orbit, tolerance: float) -> bool:
@@ -120,9 +171,7 @@ def own_mirror(orbit: Orbit, tolerance: float) -> bool:
     section = orbit.section
     if not section.family.symmetric or section.count % 2 == 0:
         return False
-    half = Section(section.family, section.count, True, section.scale)
-    status, image = evaluated(half, orbit.point, orbit.facts[section_map.MODE])
-    return status is Status.DONE and bool(image.facts[section_map.RESIDUAL] <= tolerance)
+    return is_fixed(Section(section.family, section.count, True, section.scale), orbit, tolerance)
 
 
 def born(found: Bifurcation) -> Iterator[Station]:
@@ -156,6 +205,7 @@ def born(found: Bifurcation) -> Iterator[Station]:
 def joined(backward: Trace, forward: Trace) -> list[Station]:
     """Both directions of a branch from one orbit as one list, in the sense of the second."""
     turned = [
-        Station(s.orbit, -s.tangent, -s.arclength, -s.piece) for s in reversed(backward.stations)
+        Station(s.orbit, -s.tangent, -s.arclength, -s.piece, s.grazing)
+        for s in reversed(backward.stations)
     ]
     return turned[:-1] + forward.stations

@@ -18,7 +18,7 @@ from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.response.start import as_state
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability import bifurcations
-from vibroimpact.stability.bifurcations import Bifurcation, own_mirror
+from vibroimpact.stability.bifurcations import Bifurcation, is_fixed, own_mirror
 from vibroimpact.stability.family import Family, bounds, family
 from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, Section, corrected
 from vibroimpact.stability.settled import settle
@@ -112,8 +112,9 @@ def first_orbit(
     span: tuple[float, float],
     start: State | xr.DataArray | xr.Dataset | None,
     period: int,
+    symmetric: bool = True,
 ) -> Orbit:
-    """The orbit near a state; its own mirror image if it is one.
+    """The orbit near a state; if `symmetric`, as its own mirror image where it is one.
 
     Raises
     ------
@@ -144,7 +145,8 @@ def first_orbit(
             f"start: Newton's method finds no orbit of period {period} near it "
             f"({told(status)}); a state nearer to one is accepted"
         )
-    return symmetric_if_so(orbit_found)
+    orbit_found = reduced(orbit_found)
+    return symmetric_if_so(orbit_found) if symmetric else orbit_found
 
 
 def told(status: Status) -> str:
@@ -152,6 +154,17 @@ def told(status: Status) -> str:
     if status is Status.NOT_SETTLED:
         return "it does not converge"
     return status.advice
+
+
+def reduced(found: Orbit) -> Orbit:
+    """The orbit with its least period."""
+    section = found.section
+    for count in range(1, section.count):
+        simpler = Section(section.family, count, False, section.scale)
+        if section.count % count == 0 and is_fixed(simpler, found, 1e-9):
+            status, simple = corrected(simpler, found.point, found.facts[section_map.MODE])
+            return simple if status is Status.DONE else found
+    return found
 
 
 def symmetric_if_so(found: Orbit) -> Orbit:

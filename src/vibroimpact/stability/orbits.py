@@ -170,8 +170,8 @@ def corrected(
     return Status(outcome), found
 
 
-def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orbit]:
-    """The map and its derivative at a point that need not be fixed."""
+def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orbit, _Array]:
+    """The map and its derivative at a point that need not be fixed, and the point's image."""
     found = Orbit(
         section,
         np.array(point, dtype=np.float64),
@@ -180,6 +180,7 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
         np.zeros(4),
     )
     found.facts[section_map.MODE] = mode
+    image = found.point.copy()
     outcome = orbit.evaluate(
         section.family.base,
         section.family.direction,
@@ -192,5 +193,6 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
         found.facts,
         found.columns,
         found.slope,
+        image,
     )
-    return Status(outcome), found
+    return Status(outcome), found, image

@@ -14,7 +14,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,8 @@ class Station:
     arclength: float
     piece: int
     """Number of the smooth piece of the branch: it changes at every grazing."""
+    grazing: bool = False
+    """Whether it is the grazing orbit itself, at the end of its piece."""
 
 
 @dataclass
@@ -53,8 +55,6 @@ class Trace:
     """One direction of a branch."""
 
     stations: list[Station]
-    grazings: list[tuple[Station, Station]] = field(default_factory=list)
-    """The orbits just before and just behind each change of contacts."""
     ended: str = ""
     """Why the branch was not followed further."""
     closed: bool = False
@@ -126,7 +126,6 @@ def follow_branch(
                     _end_on(trace, here, low if before.orbit.value < low else high)
                     return trace
                 trace.stations.append(before)
-                trace.grazings.append((before, behind))
                 trace.stations.append(behind)
                 here = behind
                 length = min(1e-3, FIRST)
@@ -187,12 +186,12 @@ def _past_grazing(here: Station, length: float) -> tuple[Station, Station] | Non
         else:
             bad = middle
     tangent = last.tangent(here.tangent) if good > 0.0 else here.tangent
-    before = Station(last, tangent, here.arclength + good, here.piece)
+    before = Station(last, tangent, here.arclength + good, here.piece, True)
     # The map just beyond, where it has the new contacts: at a point that is no orbit yet.
     scale = last.section.scale
     for ahead in _BEYOND:
         point = last.point + ahead * tangent * scale
-        status, other = evaluated(last.section, point, last.facts[section_map.MODE])
+        status, other, _ = evaluated(last.section, point, last.facts[section_map.MODE])
         if status is not Status.DONE or other.contacts == contacts:
             continue
         for sign in (1.0, -1.0):

@@ -1,0 +1,205 @@
+"""The full resonance diagram: every branch of orbits that sweeps and bifurcations lead to."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import section_map
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator, to_si
+from vibroimpact.model.units import ACCELERATION
+from vibroimpact.response.sweep import DIRECTIONS, sweep
+from vibroimpact.response.threads import Progress
+from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
+from vibroimpact.stability.branch import (
+    Followed,
+    as_dataset,
+    first_orbit,
+    follow,
+)
+from vibroimpact.stability.family import Family, bounds, family
+from vibroimpact.stability.orbits import SEEN, Orbit, Section, corrected, evaluated
+
+_Array = NDArray[np.float64]
+
+_SAME = 1e-6
+_CLOSE = 0.1
+
+
+def resonance_diagram(
+    oscillator: Oscillator,
+    amplitude: float | str,
+    low: float | str,
+    high: float | str,
+    *,
+    phase: float = 0.0,
+    longest: int = 4,
+    most_branches: int = 30,
+    most_points: int = 5000,
+    starts: int = 40,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Follow all branches of periodic orbits over a range of frequencies.
+
+    Branches are begun from where a forward and a backward sweep settle, free flight among them,
+    and from every symmetry breaking and period doubling that is found on the way.
+
+    Parameters
+    ----------
+    oscillator
+        What vibrates.
+    amplitude
+        Peak base acceleration A in m/s².
+    low, high
+        Range of the frequency in Hz.
+    phase
+        Forcing phase of the sections, rad.
+    longest
+        Longest period, in forcing cycles, of a branch that is followed.
+    most_branches, most_points
+        Branches, and orbits in each direction of one, after which it is given up.
+    starts
+        Frequencies of the sweeps.
+    progress
+        Called with the branches done and those known.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `branch`, with the number of the ``branch`` of each point. Of a mirrored pair of
+        branches one is followed. The attribute ``complete`` is 0 if `most_branches` was reached.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    peak = to_si(amplitude, ACCELERATION, "amplitude", above=0.0)
+    fam = family(oscillator, Harmonic(peak, high, phase), "frequency")
+    span = bounds(fam.parameter, low, high)
+    for name, value in (
+        ("longest", longest),
+        ("most_branches", most_branches),
+        ("most_points", most_points),
+        ("starts", starts),
+    ):
+        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+            raise InputError(f"{name}: {value!r}; a whole number of at least 1 is accepted")
+    followed: list[Followed] = []
+    waiting: list[tuple[Orbit, Bifurcation | None]] = [
+        (first, None) for first in _settled(fam, span, starts, longest)
+    ]
+    complete = True
+    while waiting:
+        first, origin = waiting.pop(0)
+        if any(on_branch(first, one) for one in followed) or _used(origin, followed, span):
+            continue
+        if len(followed) >= most_branches:
+            complete = False
+            break
+        done = follow(first, span, most_points)
+        followed.append(done)
+        for found in done.bifurcations:
+            if found.turns or found.kind not in (BREAKING, DOUBLING):
+                continue
+            for station in born(found):
+                inside = span[0] <= station.orbit.value <= span[1]
+                if station.orbit.section.period <= longest and inside:
+                    waiting.append((station.orbit, found))
+        if progress:
+            progress(len(followed), len(followed) + len(waiting))
+    data = as_dataset(followed, fam, span, "resonance_diagram")
+    data.attrs["complete"] = int(complete)
+    return data
+
+
+def _settled(fam: Family, span: tuple[float, float], starts: int, longest: int) -> Iterator[Orbit]:
+    """Orbits on which forward and backward sweeps settle."""
+    grid = np.linspace(*span, starts)
+    grid[0], grid[-1] = span
+    for direction in DIRECTIONS:
+        data = sweep(
+            fam.oscillator, fam.excitation.amplitude, grid, direction, phase=fam.phase
+        ).isel(direction=0)
+        # From the far end of the sweep: there free flight and the large motions are simple.
+        for i in range(starts)[:: 1 if direction == "backward" else -1]:
+            period = int(data["period"][i])
+            if not 0 < period <= longest:
+                continue
+            setting = family(
+                fam.oscillator,
+                Harmonic(fam.excitation.amplitude, float(grid[i]), fam.phase),
+                "frequency",
+            )
+            here = fam._replace(value=float(grid[i]), excitation=setting.excitation)
+            try:
+                yield first_orbit(here, span, data["section"].isel(frequency=i, drop=True), period)
+            except InputError:
+                continue  # settled to within the sweep's tolerance, but on the edge of a basin
+
+
+def _used(origin: Bifurcation | None, followed: list[Followed], span: tuple[float, float]) -> bool:
+    """Whether a branch that was followed has already turned in a bifurcation."""
+    if origin is None:
+        return False
+    return any(
+        other.turns
+        and other.kind == origin.kind
+        and abs(other.orbit.value - origin.orbit.value) <= _SAME * (span[1] - span[0])
+        for one in followed
+        for other in one.bifurcations
+    )
+
+
+def on_branch(orbit: Orbit, one: Followed) -> bool:
+    """Whether an orbit lies on a branch, up to whole cycles and the mirror."""
+    section = one.stations[0].orbit.section
+    if section.period != orbit.section.period or section.mirror != orbit.section.mirror:
+        return False
+    images = list(_images(orbit))
+    scale = section.scale
+    for here, there in itertools.pairwise(one.stations):
+        if here.piece != there.piece:
+            continue
+        low, high = sorted([here.orbit.value, there.orbit.value])
+        if not low <= orbit.value <= high:
+            continue
+        share = (
+            0.5
+            if high == low
+            else (orbit.value - here.orbit.value) / (there.orbit.value - here.orbit.value)
+        )
+        guess = here.orbit.point + share * (there.orbit.point - here.orbit.point)
+        reach = _CLOSE + np.linalg.norm((there.orbit.point - here.orbit.point) / scale * SEEN)
+        near = [z for z in images if np.linalg.norm((z - guess) / scale * SEEN) <= reach]
+        if not near:
+            continue
+        status, found = corrected(section, guess, here.orbit.facts[section_map.MODE])
+        if status is Status.DONE and any(
+            np.linalg.norm((found.point - z) / scale * SEEN) <= _SAME for z in near
+        ):
+            return True
+    return False
+
+
+def _images(orbit: Orbit) -> Iterator[_Array]:
+    """The sections of an orbit, and of its mirror image."""
+    section = orbit.section
+    point, mode = orbit.point, float(orbit.facts[section_map.MODE])
+    yield point
+    if section.mirror:
+        return
+    half = section.family.symmetric
+    one = Section(section.family, 1, half, section.scale)
+    for _ in range((2 if half else 1) * section.count - 1):
+        status, evaluation, point = evaluated(one, point, mode)
+        if status is not Status.DONE:
+            return
+        mode = float(evaluation.facts[section_map.MODE])
+        yield point

@@ -1,0 +1,85 @@
+"""One periodic orbit, stable or not, by Newton's method."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.engine import hold, section_map
+from vibroimpact.engine.phase import FLIGHT
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.stability.branch import first_orbit
+from vibroimpact.stability.family import family
+from vibroimpact.stability.orbits import MAX_EVENTS, Orbit
+from vibroimpact.stability.settled import Settled
+from vibroimpact.stability.steady import describe_motion
+
+
+def orbit(
+    oscillator: Oscillator,
+    excitation: Harmonic,
+    guess: State | xr.DataArray | xr.Dataset | None = None,
+    period: int = 1,
+    *,
+    samples: int = 256,
+) -> xr.Dataset:
+    """Find the periodic orbit near a state, whether it is stable or not.
+
+    Newton's method on the stroboscopic map over the period, with its exact derivative.
+
+    Parameters
+    ----------
+    oscillator, excitation
+        What vibrates, and what shakes it.
+    guess
+        A state near the orbit's, at the excitation's phase; None for where the motion from rest
+        settles.
+    period
+        In forcing cycles.
+    samples
+        Samples per forcing cycle, at least 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        What `steady` gives of the orbit, and ``monodromy`` (the derivative of u, u̇, u_R, u_L
+        after a period), ``multiplier_real`` and ``_imag``, ``residual`` (of the map, over the
+        motion's size); the attribute ``contacts`` is the sequence of contacts, R or L.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or Newton's method finds no orbit near the guess.
+    """
+    for name, value in (("period", period), ("samples", samples)):
+        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+            raise InputError(f"{name}: {value!r}; a whole number of at least 1 is accepted")
+    fam = family(oscillator, excitation, "frequency")
+    found = first_orbit(fam, (0.0, 1.0), guess, period, symmetric=False)
+    data = describe_motion(settled_on(found), samples, 1, 1, MAX_EVENTS)
+    multipliers = found.multipliers
+    data = data.assign(
+        monodromy=(("component_after", "component_before"), found.monodromy),
+        multiplier_real=("multiplier", multipliers.real),
+        multiplier_imag=("multiplier", multipliers.imag),
+        residual=float(found.facts[section_map.RESIDUAL]),
+    )
+    sides = data["contact_side"].values
+    data.attrs["contacts"] = "".join("R" if side == 1 else "L" for side in sides)
+    data.attrs["created_by"] = "vibroimpact.orbit"
+    return describe(data, "vibroimpact.orbit", motion_parameters(data))
+
+
+def settled_on(found: Orbit) -> Settled:
+    """An orbit as a motion that has settled on it."""
+    mode = float(found.facts[section_map.MODE])
+    u, v, right, left = found.point[:4]
+    state = np.zeros(hold.STATE)
+    state[hold.MODE], state[hold.FRESH] = mode, float(mode != FLIGHT)
+    state[hold.U], state[hold.V] = u, v
+    state[hold.RIGHT_BUMPER], state[hold.LEFT_BUMPER] = right, -left
+    rig, shaken = found.setting
+    return Settled(rig, shaken, state, found.section.period, 0, Status.DONE)
