@@ -1,0 +1,399 @@
+"""``vibroimpact motion`` from the words typed to the files written."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import math
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli import main
+
+CASE = vi.laboratory.case("B2-G1-A3")
+AS_PDF = ("--figure", "pdf", "--json")
+STUDY = Path(__file__).parents[2] / "examples" / "study.toml"
+
+
+def told(folder: Path, *words: str) -> tuple[int, str, str]:
+    """Run the command in a folder; return exit code, stdout and stderr."""
+    out, errors = io.StringIO(), io.StringIO()
+    with (
+        contextlib.chdir(folder),
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(errors),
+    ):
+        code = main(("motion", *words))
+    # The first run ever says that it compiles the engine.
+    lines = errors.getvalue().splitlines(keepends=True)
+    return code, out.getvalue(), "".join(line for line in lines if "compiling" not in line)
+
+
+@pytest.fixture
+def run(tmp_path):
+    return lambda *words: told(tmp_path, *words)
+
+
+def groups(path: Path) -> set[str]:
+    with h5py.File(path) as file:
+        return set(file)
+
+
+@pytest.fixture(scope="module")
+def two(tmp_path_factory):
+    """Two motions that coexist: the facts, and the folder of the files."""
+    folder = tmp_path_factory.mktemp("two")
+    words = ("B2-G1-A3", "--frequency", "2Hz", "--random", "3", "--json")
+    code, out, errors = told(folder, *words)
+    assert (code, errors) == (0, "")
+    return json.loads(out), folder
+
+
+@pytest.fixture(scope="module")
+def settled():
+    """The motion that rest leads to, from a plain simulation: its last cycle of 200."""
+    return vi.simulate(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), 200, samples=1024)
+
+
+def test_summary_and_files(run, tmp_path):
+    code, out, errors = run("B2-G1-A3", "--frequency", "2Hz", "--random", "1")
+    assert (code, errors) == (0, "")
+    lines = [line.rstrip() for line in out.splitlines()]
+    for line in (
+        "B2-G1-A3",
+        "2 Hz: 2 motions coexist",
+        "forward branch: periodic, period 1, stable, antisymmetric",
+        "backward branch: periodic, period 1, stable, antisymmetric",
+        "exponents       -1.0371 and -1.0371 1/s, from the multipliers of the orbit",
+        "displacement    -4.3332 to 4.3332 mm",
+        "impacts         1 right, 1 left per cycle",
+        "impacts         0 right, 0 left per cycle",
+        "found from      backward branch",
+        "no contact",
+        "Files",
+        "  out/B2-G1-A3-2Hz-motion.nc",
+        "  out/B2-G1-A3-2Hz-motion.png",
+    ):
+        assert lines.count(line) == 1
+    rows = [line.split() for line in lines if line.startswith(("right  ", "left  "))]
+    assert [row[0] for row in rows] == ["left", "right"]
+    assert "nan" not in out
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert names == {"B2-G1-A3-2Hz-motion.nc", "B2-G1-A3-2Hz-motion.png"}
+    assert (tmp_path / "out/B2-G1-A3-2Hz-motion.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_json_says_which_motions_there_are(two, settled):
+    facts, folder = two
+    forward, backward = facts["motions"]
+    for motion in (forward, backward):
+        assert motion["frequency"] == 2.0
+        assert (motion["motion"], motion["period"], motion["stable"]) == ("periodic", 1, 1)
+        assert motion["antisymmetric"] is True
+        assert motion["mirror_pair"] is False
+        assert motion["status"] == "done"
+    # The same as a sweep on its way up and down.
+    swept = vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(0.5, 4.0, 0.05))
+    there = swept.sel(frequency=2.0, method="nearest")
+    for motion, direction in ((forward, "forward"), (backward, "backward")):
+        assert motion["name"] == f"{direction} branch"
+        for name in ("displacement_excursion", "acceleration_excursion"):
+            exact = float(there[name].sel(direction=direction))
+            assert motion[name] == pytest.approx(exact, rel=1e-7)
+    # The same as a motion that was followed from rest.
+    last = settled.isel(time=slice(-1025, None))
+    assert forward["displacement_max"] == pytest.approx(float(last["displacement"].max()), 1e-5)
+    assert forward["acceleration_min"] == pytest.approx(float(last["acceleration"].min()), 1e-4)
+    for path in facts["files"].values():
+        assert (folder / path).is_file()
+
+
+def test_json_says_from_where(two):
+    facts, _ = two
+    forward, backward = (set(motion["starts"].split(", ")) for motion in facts["motions"])
+    assert {"rest", "forward branch"} <= forward
+    assert "backward branch" in backward
+    every = {"rest", "forward branch", "backward branch", "random 1", "random 2", "random 3"}
+    assert forward | backward == every
+    assert not forward & backward
+    assert [motion["mirrored_starts"] for motion in facts["motions"]] == ["", ""]
+
+
+def test_json_exponents(two):
+    """Liouville: together they are what phase space loses, the mean damping over the mass."""
+    forward, backward = two[0]["motions"]
+    isolator, right = CASE.oscillator.isolator, CASE.oscillator.right
+    decay = isolator.damping / (2.0 * CASE.oscillator.mass)
+    assert backward["exponents"] == pytest.approx([-decay, -decay], rel=1e-6)
+    assert backward["effective_damping"] == pytest.approx(2.0 * decay, rel=1e-6)
+    # In contact the bumper's dashpot adds to the isolator's.
+    pressed = sum(contact["duration_share"] for contact in forward["contacts"])
+    mean = (isolator.damping + right.damping * pressed) / CASE.oscillator.mass
+    assert forward["effective_damping"] == pytest.approx(mean, rel=1e-9)
+    assert -sum(forward["exponents"]) == pytest.approx(mean, rel=1e-9)
+
+
+def test_json_contacts(two, settled):
+    forward, backward = two[0]["motions"]
+    assert backward["contacts"] == []
+    assert (backward["impacts_right"], backward["impacts_left"]) == (0, 0)
+    assert (forward["impacts_right"], forward["impacts_left"]) == (1, 1)
+    # The last events of the plain simulation: begin and end on the left, on the right.
+    events = settled.isel(event=slice(-4, None))
+    assert list(events["event_contact"].values) == [1, 0, 1, 0]
+    mass, damping = CASE.oscillator.mass, CASE.oscillator.right.damping
+    for contact, i in zip(forward["contacts"], (0, 2), strict=True):
+        first, last = events.isel(event=i), events.isel(event=i + 1)
+        assert contact["side"] == int(first["event_side"])
+        length = float(last["event_time"] - first["event_time"])
+        assert contact["duration"] == pytest.approx(length, rel=1e-7)
+        assert contact["duration_share"] == pytest.approx(length * 2.0, rel=1e-7)
+        phase = 2.0 * math.pi * 2.0 * float(first["event_cycle_time"])
+        assert contact["start_phase"] == pytest.approx(phase, rel=1e-7)
+        speeds = [float(event["event_velocity"]) for event in (first, last)]
+        assert contact["start_velocity"] == pytest.approx(speeds[0], rel=1e-7)
+        assert contact["end_velocity"] == pytest.approx(speeds[1], rel=1e-7)
+        assert contact["restitution"] == pytest.approx(-speeds[1] / speeds[0], rel=1e-7)
+        assert contact["grazing"] is False
+        # Of the samples within: the deepest, and the trapezoidal sum of C u̇².
+        within = (settled["time"] >= first["event_time"]) & (settled["time"] <= last["event_time"])
+        inside = settled.isel(time=np.flatnonzero(within.values))
+        depth = float(np.abs(inside["displacement"]).max()) - 7.5e-3
+        assert contact["penetration"] == pytest.approx(depth, rel=1e-4)
+        peak = float(np.abs(inside["acceleration"]).max())
+        assert contact["peak_acceleration"] == pytest.approx(peak, rel=1e-4)
+        loss = damping * float((inside["velocity"] ** 2).mean()) * length
+        assert contact["dissipated"] == pytest.approx(loss, rel=0.03)
+        assert 0.0 < contact["peak_force"] < mass * peak
+
+
+def test_files_load_by_group(two):
+    facts, folder = two
+    path = folder / facts["files"]["data"]
+    assert path.name == "B2-G1-A3-2Hz-motion.nc"
+    assert groups(path) == {"forward_branch", "backward_branch"}
+    for motion in facts["motions"]:
+        data = vi.load(path, group=motion["name"].replace(" ", "_"))
+        assert data["motion"].item() == "periodic"
+        assert float(data["displacement_max"]) == motion["displacement_max"]
+        assert list(data["contact_duration"].values) == [
+            contact["duration"] for contact in motion["contacts"]
+        ]
+        assert data.attrs["starts"] == motion["starts"]
+        assert data.sizes["time"] == 257
+        # With its section and its spectrum.
+        assert data.sizes["section_point"] == 1
+        assert float(data["section_displacement"][0]) == float(data["displacement"][0])
+        lines = vi.spectrum(data)
+        np.testing.assert_array_equal(data["order"], lines["order"])
+        np.testing.assert_allclose(
+            data["acceleration_amplitude"], lines["acceleration_amplitude"], rtol=1e-12
+        )
+        for name in data.variables:
+            assert data[name].attrs.get("long_name"), name
+    with pytest.raises(vi.InputError, match=r"forward_branch, backward_branch are accepted"):
+        vi.load(path)
+    # It is a motion to go on from.
+    assert motion["name"] == "backward branch"
+    on = vi.simulate(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), 10, data)
+    assert on.sizes["event"] == 0
+
+
+def test_one_branch(run, tmp_path):
+    code, out, _ = run("B2-G1-A3", "--frequency", "2Hz", "--branch", "backward", "--json")
+    assert code == 0
+    (motion,) = json.loads(out)["motions"]
+    assert motion["name"] == "backward branch"
+    assert motion["displacement_max"] == pytest.approx(4.3332e-3, rel=1e-4)
+    assert "mirror_pair" not in motion  # of one motion nothing is known about others
+    path = tmp_path / "out/B2-G1-A3-2Hz-motion.nc"
+    assert groups(path) == {"backward_branch"}
+    assert vi.load(path, group="backward_branch")["motion"].item() == "periodic"
+
+
+def test_list_of_frequencies(run, tmp_path):
+    words = ("--frequency", "0.58Hz, 2.6Hz", "--random", "0", "--samples", "32")
+    code, out, _ = run("B2-G1-A3", *words, "--output", "figure8", "--name", "two", *AS_PDF)
+    assert code == 0
+    facts = json.loads(out)
+    found = [(motion["frequency"], motion["name"]) for motion in facts["motions"]]
+    assert found == [
+        (0.58, "forward and backward branch"),
+        (2.6, "forward branch"),
+        (2.6, "backward branch"),
+    ]
+    stem = tmp_path / "figure8/two-0.58Hz-2.6Hz-motion"
+    assert {path.name for path in stem.parent.iterdir()} == {
+        f"{stem.name}.nc",
+        f"{stem.name}.pdf",
+    }
+    path = stem.with_name(f"{stem.name}.nc")
+    names = ["0.58Hz_forward_and_backward_branch", "2.6Hz_forward_branch", "2.6Hz_backward_branch"]
+    assert groups(path) == set(names)
+    data = vi.load(path, group=names[1])
+    assert data.sizes["time"] == 33
+    assert json.loads(data.attrs["parameters"])["frequency"] == 2.6
+    largest = [1e3 * motion["displacement_max"] for motion in facts["motions"]]
+    assert largest[:2] == pytest.approx([9.5511, 12.126], rel=1e-4)
+    assert 1e3 * float(data["displacement_max"]) == largest[1]
+
+
+def test_chaotic_motion(run, tmp_path):
+    words = ("--frequency", "1.06Hz", "--branch", "forward", "--window", "7", "--samples", "16")
+    code, out, _ = run("B3-10mm-A3", *words, "--figure", "svg")
+    assert code == 0
+    data = vi.load(tmp_path / "out/B3-10mm-A3-1.06Hz-motion.nc", group="forward_branch")
+    assert (data["motion"].item(), int(data["period"]), int(data["stable"])) == ("chaotic", 0, 0)
+    assert "forward branch: chaotic, not antisymmetric" in out
+    first, second = data["exponents"].values
+    spread = float(data["exponents_uncertainty"][0])
+    assert 0.0 < 10.0 * spread < first
+    assert first + second == pytest.approx(-float(data["effective_damping"]), rel=1e-9)
+    assert f"{first:+.4g} ± {spread:.1g} and {second:+.4g} ± " in out
+    assert data.sizes["time"] == 7 * 16 + 1
+    assert data.sizes["section_point"] == 5000
+    np.testing.assert_array_equal(data["order"], vi.spectrum(data)["order"])
+    svg = (tmp_path / "out/B3-10mm-A3-1.06Hz-motion.svg").read_text()
+    assert svg.startswith("<?xml")
+    # Of many contacts some are printed; the file has them all.
+    rows = [line.split() for line in out.splitlines() if line.startswith(("right  ", "left  "))]
+    assert len(rows) == 12
+    assert f"Contacts, 12 of {data.sizes['contact_number']}" in out
+    phases = np.degrees(data["contact_start_phase"].values[:12])
+    assert [float(row[1]) for row in rows] == pytest.approx(phases, abs=0.05)
+
+
+def test_rig_without_bumpers(run, tmp_path):
+    words = ("B2-Ginf-A3", "--frequency", "2Hz", "--random", "1")
+    code, out, _ = run(*words, "--json")
+    assert code == 0
+    (motion,) = json.loads(out)["motions"]
+    assert motion["name"] == "forward and backward branch"
+    assert motion["starts"] == "rest, forward branch, backward branch, random 1"
+    assert motion["contacts"] == []
+    case = vi.laboratory.case("B2-Ginf-A3")
+    k, c = case.oscillator.isolator.stiffness, case.oscillator.isolator.damping
+    omega = 4.0 * math.pi
+    m = case.oscillator.mass
+    amplitude = m * case.amplitude / abs(k - m * omega**2 + 1j * c * omega)
+    assert motion["displacement_max"] == pytest.approx(amplitude, rel=1e-9)
+    # What an oscillation takes in a period.
+    assert motion["energy_supplied"] == pytest.approx(math.pi * c * omega * amplitude**2, rel=1e-9)
+    assert motion["energy_bumpers"] == 0.0
+    path = tmp_path / "out/B2-Ginf-A3-2Hz-motion.nc"
+    assert vi.load(path, group="forward_and_backward_branch").sizes["event"] == 0
+
+
+def test_rig_with_one_bumper(run):
+    words = ("--no-left", "--gap", "2mm", "--frequency", "2.8Hz", "--random", "0", "--json")
+    code, out, _ = run("B2-G1-A3", *words)
+    assert code == 0
+    rig = CASE.oscillator.replace(left=None, right=CASE.oscillator.right.replace(gap=2e-3))
+    long = vi.simulate(rig, vi.Harmonic(CASE.amplitude, 2.8), 400, samples=0)
+    on = vi.simulate(rig, vi.Harmonic(CASE.amplitude, 2.8), 20, long, samples=16)
+    hits = int((on["event_contact"] == 1).sum())
+    motions = json.loads(out)["motions"]
+    (motion,) = [motion for motion in motions if "rest" in motion["starts"]]
+    assert motion["impacts_left"] == 0
+    assert motion["impacts_right"] * 20 == hits
+    assert motion["antisymmetric"] is False
+    assert motion["mirror_pair"] is False  # its mirror image is no motion of this rig
+    assert all(contact["side"] == 1 for contact in motion["contacts"])
+
+
+def test_study(run, tmp_path):
+    words = ("--frequency", "2.2Hz", "--left-gap", "8mm", "--branch", "forward", "--json")
+    code, out, _ = run(str(STUDY), *words)
+    assert code == 0
+    facts = json.loads(out)
+    (motion,) = facts["motions"]
+    assert motion["frequency"] == 2.2  # not that of [simulate]: what is typed replaces it
+    assert facts["files"]["data"] == "out/moat-wall-2.2Hz-motion.nc"
+    data = vi.load(tmp_path / facts["files"]["data"], group="forward_branch")
+    rig = json.loads(data.attrs["parameters"])["oscillator"]
+    assert rig["left"]["stiffness"] == 100e3
+    assert rig["left"]["gap"] == pytest.approx(8e-3)
+    assert rig["right"]["gap"] == pytest.approx(7.5e-3)
+
+
+def test_phase_of_a_study(run, tmp_path):
+    """The record begins where the study's forcing does."""
+    (tmp_path / "late.toml").write_text(
+        'case = "B2-G1-A3"\n[excitation]\nphase = "90 deg"\n[simulate]\nfrequency = "2 Hz"\n'
+    )
+    assert run("late.toml", "--branch", "forward")[0] == 0
+    data = vi.load(tmp_path / "out/late-2Hz-motion.nc", group="forward_branch")
+    assert float(data["base_acceleration"][0]) == pytest.approx(CASE.amplitude)
+    assert float(data["section_displacement"][0]) == float(data["displacement"][0])
+    # A quarter of a cycle later than the record of a sine.
+    sine = vi.steady(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0))
+    np.testing.assert_allclose(data["displacement"][0], sine["displacement"][64], rtol=1e-7)
+    (tmp_path / "short.toml").write_text('case = "B2-G1-A3"\n')
+    code, _, errors = run("short.toml")
+    assert code == 2
+    assert "--frequency: missing" in errors
+
+
+def test_a_motion_that_is_given_up(run, tmp_path):
+    """Nothing takes the energy of a mass that bounces through half of a very slow cycle."""
+    words = ("--damping", "0", "--bumper-damping", "0", "--frequency", "0.0001Hz")
+    code, out, errors = run("B2-G1-A3", *words, "--branch", "backward")
+    assert code == 2
+    assert out == ""
+    *warnings, error = errors.splitlines()
+    assert all(line.startswith("vibroimpact: warning: ") for line in warnings)
+    assert error.startswith("vibroimpact: error: ")
+    assert error.endswith("accepted")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        ([], "--frequency: missing"),
+        (["--frequency", "0Hz"], "--frequency"),
+        (["--frequency", "-2Hz"], "--frequency"),
+        (["--frequency", "nanHz"], "--frequency"),
+        (["--frequency", "2kg"], "is a mass"),
+        (["--frequency", ""], "--frequency"),
+        (["--frequency", "2Hz,,3Hz"], "--frequency"),
+        (["--frequency", "2Hz,-3Hz"], "--frequency"),
+        (["--frequency", "2Hz,2.0Hz"], "names one twice"),
+        (["--frequency", "2Hz,2.0000001Hz"], "names one twice"),  # files and columns are one
+        (["--frequency", "1Hz,2Hz,3Hz,4Hz,5Hz,6Hz,7Hz"], "7 given; at most 6"),
+        (["--frequency", "2Hz", "--branch", "sideways"], "sideways"),
+        (["--frequency", "0.1Hz", "--branch", "forward"], "--branch: no forward sweep reaches 0.1"),
+        (["--frequency", "20Hz", "--branch", "backward"], "--branch: no backward sweep reaches 20"),
+        (["--frequency", "2Hz", "--window", "0"], "--window: 0"),
+        (["--frequency", "2Hz", "--window", "1.5"], "--window"),
+        (["--frequency", "2Hz", "--samples", "0"], "--samples: 0"),
+        (["--frequency", "2Hz", "--samples", "-1"], "--samples"),
+        (["--frequency", "2Hz", "--random", "-1"], "--random"),
+        (["--frequency", "2Hz", "--gap", "15 kg"], "--gap"),
+        (["--frequency", "2Hz", "--figure", "bmp"], "bmp"),
+        (["--frequency", "2Hz", "--output", "/proc/vibroimpact"], "--output"),
+        (["--frequncy", "2Hz"], "--frequncy"),
+    ],
+)
+def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):
+    code, out, errors = run("B2-G1-A3", *words)
+    assert code == 2
+    assert out == ""
+    assert errors.startswith("vibroimpact: error: ")
+    assert errors.count("\n") == 1
+    assert named in errors
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_output_that_is_a_file_is_refused_and_kept(run, tmp_path):
+    (tmp_path / "taken").write_text("kept")
+    code, out, errors = run("B2-G1-A3", "--frequency", "2Hz", "--output", "taken")
+    assert (code, out) == (2, "")
+    assert errors.startswith("vibroimpact: error: --output: 'taken' cannot be written to")
+    assert errors.count("\n") == 1
+    assert (tmp_path / "taken").read_text() == "kept"
