@@ -343,13 +343,11 @@ def test_a_motion_that_is_given_up(run, tmp_path):
     """Nothing takes the energy of a mass that bounces through half of a very slow cycle."""
     words = ("--damping", "0", "--bumper-damping", "0", "--frequency", "0.0001Hz")
     code, out, errors = run("B2-G1-A3", *words, "--branch", "backward")
-    assert code == 2
-    assert out == ""
-    *warnings, error = errors.splitlines()
-    assert all(line.startswith("vibroimpact: warning: ") for line in warnings)
-    assert error.startswith("vibroimpact: error: ")
-    assert error.endswith("accepted")
-    assert list(tmp_path.iterdir()) == []
+    assert code == 0
+    assert "undecided" in out
+    assert "max_events" in errors
+    assert all(line.startswith("vibroimpact: warning: ") for line in errors.splitlines())
+    assert len(list((tmp_path / "out").iterdir())) == 2
 
 
 @pytest.mark.parametrize(

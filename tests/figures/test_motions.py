@@ -135,7 +135,7 @@ def test_labels_with_units():
         ax = draw(hitting(), title="a title")
         assert ax.get_xlabel() == "relative displacement $u$ (mm)"
         assert ax.get_ylabel() == down
-        assert ax.get_title() == "a title"
+        assert ax.figure.get_suptitle() == "a title"
         assert ax.get_legend() is None  # of one motion there is nothing to tell apart
     whole, near = clearances(hitting(), title="a title")
     assert "(mm)" in whole.get_ylabel()

@@ -182,6 +182,8 @@ def _found(
 
 def _complete(data: xr.Dataset) -> xr.Dataset:
     """Add spectrum and section to a motion."""
+    import xarray as xr
+
     from vibroimpact.response.section import stroboscopic_section
     from vibroimpact.response.spectrum import spectrum
     from vibroimpact.response.variables import motion_parameters
@@ -191,7 +193,11 @@ def _complete(data: xr.Dataset) -> xr.Dataset:
     period = int(data["period"])
     phase = motion_parameters(data)["phase"]
     section = stroboscopic_section(data, phase, period or SECTION_POINTS)
-    lines = spectrum(data)
+    if float(data["cycle"][-1]) < 1.0:  # it was given up
+        lines = xr.Dataset()
+    else:
+        lines = spectrum(data)
+        data.attrs["spectrum_method"] = lines.attrs["method"]
     return data.assign({str(name): part[name] for part in (section, lines) for name in part})
 
 

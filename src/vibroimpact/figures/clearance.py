@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import Shown, named, shown
+from vibroimpact.figures.motions import Shown, check_cycles, named, shown
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
 
 _LINES: dict[str, Any] = {
@@ -50,10 +51,11 @@ def clearances(
     InputError
         If a dataset is not that of a motion with samples and bumpers, or `zoom` is not positive.
     """
+    check_cycles(cycles)
     curves = shown(named(motions), cycles)
     if not any(curve.gaps for curve in curves):
         raise InputError("motions: there is no bumper; a motion of a rig with one is accepted")
-    if zoom is not None and not zoom > 0.0:
+    if zoom is not None and not 0.0 < zoom < math.inf:
         raise InputError(f"zoom: {zoom!r}; a number of cycles greater than 0 is accepted")
     if axes is None:
         axes = Figure(figsize=(7.2, 5.4), layout="constrained").subplots(2, 1)
@@ -76,8 +78,10 @@ def clearances(
         ax.set_xlim(min(c.at[0] for c in curves), max(c.at[-1] for c in curves))
         ax.set_ylabel("clearance (mm)")
     begin, end, height = _shortest_flight(curves)
+    first, last = min(c.at[0] for c in curves), max(c.at[-1] for c in curves)
     half = 0.5 * (zoom if zoom is not None else 5.0 * (end - begin))
-    near.set_xlim(0.5 * (begin + end) - half, 0.5 * (begin + end) + half)
+    middle = 0.5 * (begin + end)
+    near.set_xlim(max(middle - half, first), min(middle + half, last))
     near.set_ylim(-0.08 * height, height)
     near.set_ylabel("clearance (mm),\nmagnified")
     near.set_xlabel("time in forcing cycles $t/T$ (–)")
@@ -100,7 +104,8 @@ def _shortest_flight(curves: list[Shown]) -> tuple[float, float, float]:
             if end > begin and (best is None or end - begin < best[1] - best[0]):
                 inside = (curve.at >= begin) & (curve.at <= end)
                 sides = [curve.values[f"{side}_clearance"][inside] for side in curve.gaps]
-                highest = max(float(side.max()) for side in sides)
+                # That of the nearer bumper; the other may be far away all the time.
+                highest = min(float(side.max()) for side in sides)
                 best = (begin, end, 2e3 * highest)
     if best is None:  # no flight between two contacts: all there is
         at = np.concatenate([curve.at for curve in curves])

@@ -12,8 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import SIDES, Shown, gap_lines, named, shown
+from vibroimpact.figures.motions import SIDES, Shown, check_cycles, gap_lines, named, shown
 from vibroimpact.figures.style import EDGE, LEGEND, panels
 
 
@@ -71,8 +70,7 @@ def time_history(
         If a dataset is not that of a motion with samples, or there are not three axes.
     """
     given_motions = named(motions)
-    if not cycles > 0.0:
-        raise InputError(f"cycles: {cycles!r}; a number greater than 0 is accepted")
+    check_cycles(cycles)
     curves = shown(given_motions, cycles)
     given = panels(axes, 3, "displacement, acceleration and velocity", (7.2, 7.6), title)
     for ax, panel in zip(given, PANELS, strict=True):

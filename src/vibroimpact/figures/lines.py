@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Literal
 
@@ -50,9 +51,17 @@ def spectrum_lines(
     """
     if quantity not in _LABELS:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
-    given = {"motion": spectra} if isinstance(spectra, xr.Dataset) else dict(spectra)
+    if not 0.0 < highest < math.inf:
+        raise InputError(f"highest: {highest!r}; an order greater than 0 is accepted")
+    # A dataset is a mapping, too.
+    if isinstance(spectra, Mapping) and not isinstance(spectra, xr.Dataset):
+        given = dict(spectra)
+    else:
+        given = {"motion": spectra}
+    if not given:
+        raise InputError("spectra: there is none; at least one spectrum is accepted")
     for data in given.values():
-        if "order" not in data.coords:
+        if not isinstance(data, xr.Dataset) or "order" not in data.coords:
             raise InputError("spectra: this is no spectrum; a dataset of spectrum is accepted")
     factor, label = _LABELS[quantity]
     ax = axes_or_new(ax, (5.6, 3.6), title)

@@ -46,12 +46,22 @@ def named(motions: xr.Dataset | Mapping[str, xr.Dataset]) -> dict[str, xr.Datase
     InputError
         If there is none, or one is not that of a motion with samples.
     """
-    given = {"motion": motions} if isinstance(motions, xr.Dataset) else dict(motions)
+    # A dataset is a mapping, too.
+    if isinstance(motions, Mapping) and not isinstance(motions, xr.Dataset):
+        given = dict(motions)
+    else:
+        given = {"motion": motions}
     if not given:
         raise InputError("motions: there is none; at least one motion is accepted")
     for motion in given.values():
         recorded(motion)
     return given
+
+
+def check_cycles(cycles: float) -> None:
+    """Raise an `InputError` unless it is a number greater than 0."""
+    if not 0.0 < cycles < math.inf:
+        raise InputError(f"cycles: {cycles!r}; a number greater than 0 is accepted")
 
 
 def looks(names: list[str]) -> list[Look]:
@@ -82,7 +92,8 @@ def axes_or_new(ax: Axes | None, size: tuple[float, float], title: str | None) -
         return ax
     made = Figure(figsize=size, layout="constrained").subplots()
     if title:
-        made.set_title(title, fontsize="medium")
+        # Above the legend, which is above the axes.
+        made.figure.suptitle(title, fontsize="medium")
     return made
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.history import PANELS, history_legend, history_panel
 from vibroimpact.figures.lines import spectrum_lines
-from vibroimpact.figures.motions import named, shown
+from vibroimpact.figures.motions import check_cycles, named, shown
 from vibroimpact.figures.portrait import phase_portrait
 from vibroimpact.response.spectrum import spectrum
 
@@ -51,8 +51,9 @@ def motion_page(
     InputError
         If there is no column, or a dataset is not that of a motion with samples.
     """
-    if not columns:
-        raise InputError("columns: there is none; at least one column of motions is accepted")
+    if isinstance(columns, xr.Dataset) or not columns:
+        raise InputError("columns: at least one motion by its heading is accepted")
+    check_cycles(cycles)
     count = len(columns)
     figure = Figure(figsize=(max(_WIDTH * count, 6.4), _HEIGHT * 5 + 1.6), layout="constrained")
     made: NDArray[Any] = figure.subplots(
@@ -62,9 +63,11 @@ def motion_page(
     for axes, (heading, motions) in zip(made.T, columns.items(), strict=True):
         given = named(motions)
         phase_portrait(given, axes[0])
-        spectrum_lines(
-            {name: spectrum(m, highest) for name, m in given.items()}, axes[1], highest=highest
-        )
+        # A motion that was given up may be too short for a spectrum.
+        long = {name: motion for name, motion in given.items() if motion["cycle"][-1] >= 1.0}
+        lines = {name: spectrum(motion, highest) for name, motion in long.items()}
+        if lines:
+            spectrum_lines(lines, axes[1], highest=highest)
         curves = shown(given, cycles)
         for ax, panel in zip(axes[2:], PANELS, strict=True):
             history_panel(ax, curves, panel)

@@ -57,6 +57,11 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
     if isinstance(dataset, xr.Dataset):
         return write_whole(path, lambda beside: dataset.to_netcdf(beside, engine="h5netcdf"))
     names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
+    if len(set(names.values())) < len(names):
+        raise InputError(
+            f"dataset: the names {', '.join(map(repr, names))} are not different as groups of a "
+            "file; names that differ otherwise than by blanks and slashes are accepted"
+        )
     tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
     tree.attrs["vibroimpact_version"] = __version__
     return write_whole(path, lambda beside: tree.to_netcdf(beside, engine="h5netcdf"))
@@ -83,7 +88,7 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     try:
         groups = [part.strip("/") for part in xr.open_groups(path, engine="h5netcdf")]
         groups = [part for part in groups if part]
-        if group in groups or not groups:
+        if group in groups or (group is None and not groups):
             data: xr.Dataset = xr.load_dataset(path, engine="h5netcdf", group=group)
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         reason = str(error).splitlines()[0]
@@ -91,11 +96,10 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
             f"file: {str(path)!r} is damaged or not a NetCDF file ({reason}); "
             "a file written by vibroimpact is accepted"
         ) from None
-    if groups and group not in groups:
+    if group not in groups and (groups or group is not None):
         given = "it holds several datasets" if group is None else f"it has no group {group!r}"
-        raise InputError(
-            f"group: {group!r} of {str(path)!r}: {given}; {', '.join(groups)} are accepted"
-        )
+        accepted = f"{', '.join(groups)} are accepted" if groups else "None is accepted"
+        raise InputError(f"group: {group!r} of {str(path)!r}: {given}; {accepted}")
     if "vibroimpact_version" not in data.attrs:
         raise InputError(
             f"file: {str(path)!r} was not written by vibroimpact; a file that it wrote is accepted"
