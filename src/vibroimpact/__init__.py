@@ -26,6 +26,7 @@ _HOME = {
     "Oscillator": "model",
     "Rig": "model",
     "State": "model",
+    "branch": "stability.branch",
     "coexisting": "stability.coexisting",
     "contacts": "response.contacts",
     "from_dimensionless": "model",
@@ -33,6 +34,8 @@ _HOME = {
     "laboratory": "model",
     "load": "response.files",
     "lyapunov_exponents": "stability.exponents",
+    "orbit": "stability.orbit",
+    "resonance_diagram": "stability.diagram",
     "save": "response.files",
     "simulate": "response.simulate",
     "spectrum": "response.spectrum",
@@ -53,6 +56,7 @@ __all__ = [
     "Rig",
     "State",
     "__version__",
+    "branch",
     "coexisting",
     "contacts",
     "from_dimensionless",
@@ -60,6 +64,8 @@ __all__ = [
     "laboratory",
     "load",
     "lyapunov_exponents",
+    "orbit",
+    "resonance_diagram",
     "save",
     "simulate",
     "spectrum",
@@ -90,8 +96,11 @@ if TYPE_CHECKING:
     from vibroimpact.response.simulate import simulate
     from vibroimpact.response.spectrum import spectrum
     from vibroimpact.response.sweep import sweep, sweeps
+    from vibroimpact.stability.branch import branch
     from vibroimpact.stability.coexisting import coexisting
+    from vibroimpact.stability.diagram import resonance_diagram
     from vibroimpact.stability.exponents import lyapunov_exponents
+    from vibroimpact.stability.orbit import orbit
     from vibroimpact.stability.steady import steady
 
 

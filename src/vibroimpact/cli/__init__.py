@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
+from vibroimpact.cli.branch import branch
 from vibroimpact.cli.motion import motion
 from vibroimpact.cli.simulate import simulate
 from vibroimpact.cli.sweep import sweep
@@ -31,6 +32,7 @@ For example:
     vibroimpact sweep B3-10mm-A3 --from 0.3Hz --to 4Hz --step 0.01Hz
     vibroimpact sweep study.toml --gap 12mm --output results
     vibroimpact motion B2-G1-A3 --frequency 2.6Hz
+    vibroimpact branch B2-G1-A3
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
 
 More about a command: vibroimpact COMMAND --help
@@ -83,6 +85,6 @@ def _app() -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
-    for command in (sweep, motion, simulate):
+    for command in (sweep, motion, branch, simulate):
         app.command(command)
     return app

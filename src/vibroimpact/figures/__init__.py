@@ -5,6 +5,7 @@ without given axes a figure is made on a `matplotlib.figure.Figure` of its own, 
 returned axes carry as ``.figure``.
 """
 
+from vibroimpact.figures.branches import bifurcation_diagram
 from vibroimpact.figures.clearance import clearances
 from vibroimpact.figures.cycle import hysteresis_cycle
 from vibroimpact.figures.history import time_history
@@ -15,6 +16,7 @@ from vibroimpact.figures.resonance import resonance_curves
 from vibroimpact.figures.style import save_figure
 
 __all__ = [
+    "bifurcation_diagram",
     "clearances",
     "hysteresis_cycle",
     "motion_page",

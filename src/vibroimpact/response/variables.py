@@ -159,7 +159,9 @@ VARIABLES: dict[str, Variable] = {
         "minus the sum of the two exponents wherever the bumpers' memory has decayed",
     ),
     "stable": Variable(
-        "1", "whether no small disturbance grows", "1 yes, 0 no, -1 not known (no orbit)"
+        "1",
+        "whether no small disturbance grows",
+        "1 yes, 0 no, -1 neither: no orbit, no dissipation, or a bifurcation itself",
     ),
     # branches
     "amplitude": Variable("m s-2", "peak base acceleration"),

@@ -15,6 +15,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -200,6 +201,22 @@ def born(found: Bifurcation) -> Iterator[Station]:
         if 0.3 * distance <= np.linalg.norm(away) <= 30.0 * distance:
             yield Station(orbit, orbit.tangent(normal), 0.0, 0)
             return
+
+
+def with_critical(stations: list[Station], found: list[Bifurcation]) -> list[Station]:
+    """A branch with the orbits of its bifurcations among the others, where they belong."""
+    added = [
+        Station(b.orbit, np.zeros(5), b.arclength, -1, critical=True)
+        for b in found
+        if b.kind != GRAZING
+    ]
+    merged = sorted([*stations, *added], key=lambda station: station.arclength)
+    piece = stations[0].piece
+    whole = []
+    for station in merged:
+        piece = piece if station.critical else station.piece
+        whole.append(replace(station, piece=piece))
+    return whole
 
 
 def joined(backward: Trace, forward: Trace) -> list[Station]:

@@ -221,7 +221,11 @@ def as_dataset(
 ) -> xr.Dataset:
     """Branches as one labelled dataset."""
     name = fam.parameter.name
-    stations = [(i, s) for i, one in enumerate(followed) for s in one.stations]
+    stations = [
+        (i, s)
+        for i, one in enumerate(followed)
+        for s in bifurcations.with_critical(one.stations, one.bifurcations)
+    ]
     orbits = [s.orbit for _, s in stations]
     measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
     high, low = measured[:, hold.U_MOST], measured[:, hold.U_LEAST]
@@ -243,7 +247,9 @@ def as_dataset(
         "impacts_left": measured[:, hold.HITS_LEFT],
         "period": [one.section.period for one in orbits],
         "antisymmetric": [one.section.mirror for one in orbits],
-        "stable": np.array([int(one.stable) for one in orbits], dtype=np.int64),
+        "stable": np.array(
+            [-1 if s.critical else int(s.orbit.stable) for _, s in stations], dtype=np.int64
+        ),
         "branch": np.array([i for i, _ in stations], dtype=np.int64),
         "piece": np.array([s.piece for _, s in stations], dtype=np.int64),
     }

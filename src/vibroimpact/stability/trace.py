@@ -48,6 +48,8 @@ class Station:
     """Number of the smooth piece of the branch: it changes at every grazing."""
     grazing: bool = False
     """Whether it is the grazing orbit itself, at the end of its piece."""
+    critical: bool = False
+    """Whether it is a bifurcation at which a multiplier lies on the unit circle."""
 
 
 @dataclass
@@ -147,7 +149,7 @@ def _end_on(trace: Trace, here: Station, value: float) -> None:
     point += share * here.tangent * here.orbit.section.scale
     point[section_map.PARAMETER] = value
     status, found = corrected(here.orbit.section, point, here.orbit.facts[section_map.MODE], HELD)
-    trace.ended = f"the end of the range, {value:.9g}, was reached"
+    trace.ended = f"the range ends at {value:.9g}"
     if status is Status.DONE and found.contacts == here.orbit.contacts:
         tangent = found.tangent(here.tangent)
         arclength = here.arclength + _distance(here.orbit, found)

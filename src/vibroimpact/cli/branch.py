@@ -1,0 +1,154 @@
+"""``vibroimpact branch``: all periodic orbits of a rig along a parameter, stable or not."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from cyclopts import Group, Parameter
+
+from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from vibroimpact.cli.rig import Subject
+
+_BRANCH = Group("Branch", sort_key=1)
+_WITH_UNITS = Parameter(group=_BRANCH, allow_leading_hyphen=True)
+
+
+def branch(
+    rig: RigName,
+    /,
+    *,
+    parameter: Annotated[
+        str,
+        Parameter(
+            group=_BRANCH,
+            help=(
+                "What is varied: frequency, amplitude, gap, right-gap, left-gap, "
+                "bumper-stiffness, bumper-damping, stiffness, damping, stiffness-ratio, gap-ratio."
+            ),
+        ),
+    ] = "frequency",
+    start: Annotated[
+        str | None, _WITH_UNITS, Parameter(name="--from", help="Least value; of a frequency 0.3Hz.")
+    ] = None,
+    stop: Annotated[
+        str | None, _WITH_UNITS, Parameter(name="--to", help="Largest value; of a frequency 5Hz.")
+    ] = None,
+    frequency: Annotated[
+        str | None,
+        _WITH_UNITS,
+        Parameter(help="Excitation frequency where another parameter is varied, such as 2Hz."),
+    ] = None,
+    quantity: Annotated[
+        Literal["eta_d", "eta_a", "displacement_excursion", "eccentricity"],
+        Parameter(group=_BRANCH, help="What the figure shows."),
+    ] = "eta_d",
+    longest: Annotated[
+        Whole, Parameter(group=_BRANCH, help="Longest period, in cycles, that is followed.")
+    ] = 4,
+    changes: RigOptions | None = None,
+    output: OutputOptions | None = None,
+) -> int:
+    """Follow the branches of periodic orbits along a parameter, through folds and grazings.
+
+    Along the frequency all branches are followed that sweeps, free flight, symmetry breakings
+    and period doublings lead to; along another parameter the one that begins where the motion
+    from rest settles. Prints the bifurcations; writes NAME-PARAMETER-branches.nc and
+    NAME-PARAMETER-branches.png, in the figure with a stepped sweep.
+
+    For example:
+
+        vibroimpact branch B2-G1-A3
+        vibroimpact branch B3-10mm-A3 --from 0.9Hz --to 1.3Hz --quantity eccentricity
+        vibroimpact branch B2-G1-A3 --parameter gap --from 1mm --to 20mm --frequency 2Hz
+    """
+    from vibroimpact.cli.output import output_folder, progress_bar, tell
+    from vibroimpact.cli.rig import subject
+
+    out = output or OutputOptions()
+    what = subject(rig, changes or RigOptions(), out.name)
+    along = parameter.replace("-", "_")
+    span = (start or ("0.3Hz" if along == "frequency" else None), stop or _default_end(along))
+    if None in span:
+        raise InputError(f"--from: missing; a range of {parameter} is accepted, --from and --to")
+
+    with output_folder(out.output) as folder:
+        from rich.console import Group as Together
+        from rich.text import Text
+
+        from vibroimpact.cli import summary
+        from vibroimpact.cli.bifurcations import facts, text
+        from vibroimpact.figures import bifurcation_diagram, save_figure
+        from vibroimpact.response.files import save
+
+        with progress_bar("following") as progress:
+            if along == "frequency":
+                data, swept = _over_frequency(what, span, longest, progress)
+            else:
+                data, swept = _over_another(what, along, span, frequency), None
+        data.attrs["title"] = what.name
+        axes = bifurcation_diagram(data, quantity=quantity, sweep=swept, title=what.name)
+        stem = folder / f"{what.slug}-{along.replace('_', '-')}-branches"
+        files = {
+            "data": save(data, f"{stem}.nc"),
+            "figure": save_figure(axes, f"{stem}.{out.figure}"),
+        }
+    found = {**summary.rig_facts(what), **facts(data), "files": files}
+    tell(
+        Together(summary.rig_text(what), text(data), Text(), summary.files_text(files)),
+        found,
+        out.json,
+    )
+    return 0
+
+
+def _default_end(parameter: str) -> str | None:
+    return "5Hz" if parameter == "frequency" else None
+
+
+def _over_frequency(
+    what: Subject, span: tuple[Any, Any], longest: int, progress: Any
+) -> tuple[xr.Dataset, xr.Dataset]:
+    """Branches along the frequency, and a stepped sweep to lay over them."""
+    import numpy as np
+
+    from vibroimpact.response.sweep import sweep
+    from vibroimpact.stability.diagram import resonance_diagram
+
+    phase = what.study.excitation.phase if what.study else 0.0
+    data = resonance_diagram(
+        what.oscillator,
+        what.amplitude,
+        *span,
+        phase=phase,
+        longest=longest,
+        progress=progress,
+    )
+    frequency = data["frequency"].values
+    grid = np.linspace(frequency.min(), frequency.max(), 120)
+    return data, sweep(what.oscillator, what.amplitude, grid)
+
+
+def _over_another(
+    what: Subject, parameter: str, span: tuple[Any, Any], frequency: str | None
+) -> xr.Dataset:
+    """The branch along another parameter, from where the motion from rest settles."""
+    from vibroimpact.model import Harmonic, to_si
+    from vibroimpact.model.units import FREQUENCY
+    from vibroimpact.stability.branch import branch as follow
+
+    if frequency is None:
+        raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
+    hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
+    phase = what.study.excitation.phase if what.study else 0.0
+    return follow(
+        what.oscillator,
+        Harmonic(what.amplitude, hertz, phase),
+        parameter=parameter,
+        low=span[0],
+        high=span[1],
+    )

@@ -1,0 +1,160 @@
+"""Branches of orbits: stable solid, unstable dashed, bifurcations marked."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.style import LEGEND, SWEEPS
+
+_Array = NDArray[np.float64]
+
+Quantity = Literal["eta_d", "eta_a", "displacement_excursion", "eccentricity"]
+
+_LABELS = {
+    "eta_d": (1.0, "$\\eta_d$ (–)"),
+    "eta_a": (1.0, "$\\eta_a$ (–)"),
+    "displacement_excursion": (1e3, "excursion of displacement (mm)"),
+    "eccentricity": (1e3, "eccentricity (mm)"),
+}
+
+
+class _Mark(NamedTuple):
+    marker: str
+    colour: str
+    filled: bool
+
+
+MARKS = {
+    "fold": _Mark("o", "#c05a00", True),
+    "symmetry breaking": _Mark("s", "#7a3e9d", True),
+    "period doubling": _Mark("^", "#00795c", True),
+    "Neimark-Sacker": _Mark("D", "#b0006d", True),
+    "grazing": _Mark("o", "black", False),
+}
+
+
+def bifurcation_diagram(
+    data: xr.Dataset,
+    ax: Axes | None = None,
+    *,
+    quantity: Quantity = "eta_d",
+    sweep: xr.Dataset | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw branches of periodic orbits against their parameter.
+
+    Parameters
+    ----------
+    data
+        Dataset of `branch` or `resonance_diagram`.
+    ax
+        Axes to draw on. None makes a new figure.
+    quantity
+        ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"`` or ``"eccentricity"``.
+    sweep
+        Dataset of `sweep` over the same frequencies, whose holds are drawn as marks.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset holds no branch, the quantity is another one, or a sweep is given for
+        another parameter than the frequency.
+    """
+    if "parameter" not in data.attrs or "branch" not in data:
+        raise InputError(
+            "data: this is no branch; a dataset of branch or resonance_diagram is accepted"
+        )
+    if quantity not in _LABELS:
+        raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
+    name = data.attrs["parameter"]
+    if sweep is not None and name != "frequency":
+        raise InputError(
+            f"sweep: the branches are along {name!r}; those along 'frequency' are accepted"
+        )
+    factor, label = _LABELS[quantity]
+    ax = axes_or_new(ax, (7.2, 4.6), title)
+    x, y = data[name].values, factor * data[quantity].values
+    for part, stable in _pieces(data):
+        ax.plot(
+            x[part],
+            y[part],
+            color="black",
+            linestyle="-" if stable else (0, (4, 2)),
+            linewidth=1.4 if stable else 0.9,
+            zorder=2,
+        )
+    handles: list[Any] = [
+        Line2D([], [], color="black", linewidth=1.4, label="stable"),
+        Line2D([], [], color="black", linewidth=0.9, linestyle=(0, (4, 2)), label="unstable"),
+    ]
+    kinds = data["bifurcation_kind"].values
+    for kind, mark in MARKS.items():
+        mine = kinds == kind
+        if not mine.any():
+            continue
+        drawn = ax.plot(
+            data["bifurcation_value"].values[mine],
+            factor * data[f"bifurcation_{quantity}"].values[mine],
+            linestyle="",
+            marker=mark.marker,
+            markersize=5.0,
+            markerfacecolor=mark.colour if mark.filled else "white",
+            markeredgecolor=mark.colour,
+            label=kind.replace("-", "–"),
+            zorder=4,
+        )
+        handles.append(drawn[0])
+    if sweep is not None:
+        handles += _marks_of(sweep, ax, quantity, factor)
+    ax.set_xlim(x.min(), x.max())
+    units = data[name].attrs.get("units", "")
+    ax.set_xlabel(f"{data[name].attrs.get('long_name', name)} ({'–' if units == '1' else units})")
+    ax.set_ylabel(label)
+    ax.legend(handles=handles, ncols=4, **LEGEND)
+    return ax
+
+
+def _pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:
+    """Runs of points of one branch between which the orbits are stable, or unstable."""
+    branch, stable = data["branch"].values, data["stable"].values
+    first, second = stable[:-1], stable[1:]
+    # At a bifurcation itself (-1) the other end of the segment decides.
+    solid = np.where(first < 0, second, np.where(second < 0, first, first * second)) == 1
+    within = branch[:-1] == branch[1:]
+    runs: list[tuple[slice, bool]] = []
+    for i in np.flatnonzero(within):
+        if runs and runs[-1][0].stop == i + 1 and runs[-1][1] == solid[i]:
+            runs[-1] = (slice(runs[-1][0].start, int(i) + 2), bool(solid[i]))
+        else:
+            runs.append((slice(int(i), int(i) + 2), bool(solid[i])))
+    return runs
+
+
+def _marks_of(sweep: xr.Dataset, ax: Axes, quantity: str, factor: float) -> list[Any]:
+    handles = []
+    for direction, look in SWEEPS.items():
+        if direction not in sweep["direction"].values:
+            continue
+        drawn = ax.plot(
+            sweep["frequency"].values,
+            factor * sweep[quantity].sel(direction=direction).values,
+            linestyle="",
+            marker=look.marker,
+            markersize=look.size * 0.8,
+            color=look.colour,
+            markerfacecolor=look.colour if look.filled else "none",
+            label=look.label,
+            zorder=3,
+        )
+        handles.append(drawn[0])
+    return handles
