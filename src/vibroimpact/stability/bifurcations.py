@@ -53,11 +53,12 @@ class Bifurcation(NamedTuple):
     """Contacts on each side per period beyond it; the orbit's own but for a grazing."""
 
 
-def _half_plus(orbit: Orbit) -> float:
+def half_plus(orbit: Orbit) -> float:
+    """det(M + I) of an orbit's map: zero where an eigenvalue is −1."""
     return float(np.linalg.det(orbit.columns + np.eye(4)))
 
 
-def _spiral(orbit: Orbit) -> float:
+def spiral(orbit: Orbit) -> float:
     """Logarithm of the largest modulus among complex multipliers; −1 if there is none."""
     values = orbit.map_multipliers
     complex_ones = np.abs(values[np.abs(values.imag) > 1e-9 * np.abs(values)])
@@ -101,8 +102,8 @@ def _tests(here: Station) -> list[tuple[str, Callable[[Orbit], float]]]:
     doubling = BREAKING if here.orbit.section.mirror else DOUBLING
     return [
         (FOLD, lambda orbit: float(orbit.tangent(along)[4])),
-        (doubling, _half_plus),
-        (NEIMARK, _spiral),
+        (doubling, half_plus),
+        (NEIMARK, spiral),
     ]
 
 
@@ -148,7 +149,7 @@ def _zero(section: Section, orbit: Orbit) -> Orbit | None:
         if status is not Status.DONE:
             return None
         point = found.point.copy()
-        tests.append(_half_plus(found))
+        tests.append(half_plus(found))
         if len(tests) < 2:
             continue
         rise = tests[-1] - tests[-2]

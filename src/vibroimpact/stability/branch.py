@@ -257,7 +257,7 @@ def as_dataset(
     data = data.assign_coords({name: ("point", [one.value for one in orbits])})
     data["multiplier_real"] = (("point", "multiplier"), multipliers.real)
     data["multiplier_imag"] = (("point", "multiplier"), multipliers.imag)
-    data["section"] = (("point", "component"), np.array([_state(one) for one in orbits]))
+    data["section"] = (("point", "component"), np.array([state_of(one) for one in orbits]))
     data = data.assign_coords(component=COMPONENTS)
     data = _with_bifurcations(data, followed)
     data.attrs["parameter"] = name
@@ -297,17 +297,19 @@ def _with_bifurcations(data: xr.Dataset, followed: list[Followed]) -> xr.Dataset
         "eta_a": peak / free[:, 1],
         "eccentricity": 0.5 * (measured[:, hold.U_MOST] + measured[:, hold.U_LEAST]),
         "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
+        "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
     }
     for key, value in values.items():
         data[f"bifurcation_{key}"] = ("bifurcation", np.asarray(value))
     data["bifurcation_multiplier_real"] = (("bifurcation", "multiplier"), multipliers.real)
     data["bifurcation_multiplier_imag"] = (("bifurcation", "multiplier"), multipliers.imag)
-    states = np.array([_state(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
+    states = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
     data["bifurcation_section"] = (("bifurcation", "component"), states)
     return data
 
 
-def _state(one: Orbit) -> list[float]:
+def state_of(one: Orbit) -> list[float]:
+    """The state at the section as the components of a dataset's state."""
     mode = int(one.facts[section_map.MODE])
     side = {RIGHT: 1.0, LEFT: -1.0}.get(mode, 0.0)
     return [*one.point[:4], one.section.family.phase, side]
