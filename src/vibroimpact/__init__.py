@@ -26,6 +26,7 @@ _HOME = {
     "Oscillator": "model",
     "Rig": "model",
     "State": "model",
+    "bifurcation_curve": "stability.curves",
     "branch": "stability.branch",
     "coexisting": "stability.coexisting",
     "contacts": "response.contacts",
@@ -56,6 +57,7 @@ __all__ = [
     "Rig",
     "State",
     "__version__",
+    "bifurcation_curve",
     "branch",
     "coexisting",
     "contacts",
@@ -98,6 +100,7 @@ if TYPE_CHECKING:
     from vibroimpact.response.sweep import sweep, sweeps
     from vibroimpact.stability.branch import branch
     from vibroimpact.stability.coexisting import coexisting
+    from vibroimpact.stability.curves import bifurcation_curve
     from vibroimpact.stability.diagram import resonance_diagram
     from vibroimpact.stability.exponents import lyapunov_exponents
     from vibroimpact.stability.orbit import orbit

@@ -14,6 +14,7 @@ from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
 from vibroimpact.cli.branch import branch
+from vibroimpact.cli.curve import curve
 from vibroimpact.cli.motion import motion
 from vibroimpact.cli.simulate import simulate
 from vibroimpact.cli.sweep import sweep
@@ -85,6 +86,6 @@ def _app() -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
-    for command in (sweep, motion, branch, simulate):
+    for command in (sweep, motion, branch, curve, simulate):
         app.command(command)
     return app

@@ -7,6 +7,7 @@ returned axes carry as ``.figure``.
 
 from vibroimpact.figures.branches import bifurcation_diagram
 from vibroimpact.figures.clearance import clearances
+from vibroimpact.figures.curves import bifurcation_curves
 from vibroimpact.figures.cycle import hysteresis_cycle
 from vibroimpact.figures.history import time_history
 from vibroimpact.figures.lines import spectrum_lines
@@ -16,6 +17,7 @@ from vibroimpact.figures.resonance import resonance_curves
 from vibroimpact.figures.style import save_figure
 
 __all__ = [
+    "bifurcation_curves",
     "bifurcation_diagram",
     "clearances",
     "hysteresis_cycle",

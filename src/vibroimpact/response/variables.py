@@ -193,7 +193,6 @@ VARIABLES: dict[str, Variable] = {
     "bifurcation_eccentricity": Variable("m", "eccentricity at the bifurcation"),
     "bifurcation_period": Variable("1", "period of the orbit in forcing cycles"),
     "bifurcation_antisymmetric": Variable("1", "whether the orbit is its own mirror image"),
-    "cusp": Variable("1", "1 where the projection of the curve turns back on itself"),
     "cusp_first": Variable("1", "first parameter at the cusp", "in the parameter's units"),
     "cusp_second": Variable("1", "second parameter at the cusp", "in the parameter's units"),
     "bifurcation_multiplier_real": Variable("1", "real part of the Floquet multipliers"),

@@ -15,15 +15,13 @@ In (z, p, q) the curve of folds is smooth where its projection has a cusp.
 
 from __future__ import annotations
 
-import itertools
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import margin
-from vibroimpact.engine.status import Status
+from vibroimpact.engine import hold
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
@@ -33,98 +31,22 @@ from vibroimpact.stability.bifurcations import (
     FOLD,
     GRAZING,
     NEIMARK,
-    half_plus,
-    spiral,
 )
 from vibroimpact.stability.branch import scales, state_of
+from vibroimpact.stability.defining import SEEN, Defining, Spot, solve, tangent_of
 from vibroimpact.stability.family import bounds
-from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, Section, evaluated
+from vibroimpact.stability.orbit import settled_on
 from vibroimpact.stability.plane import Plane, plane
+from vibroimpact.stability.settled import follow
 
 _Array = NDArray[np.float64]
 
 KINDS = (FOLD, BREAKING, DOUBLING, NEIMARK, GRAZING)
 
-_SEEN = np.array([1.0, 1.0, 0.0, 0.0, 1.0, 1.0])
-_STEP = 1e-7
 _FIRST, _LEAST, _MOST = 5e-3, 1e-8, 0.05
-_NEWTON = 12
-_GOOD = 1e-10
 _TURN = 0.95
-
-
-class _Spot(NamedTuple):
-    """A point on a curve."""
-
-    y: _Array
-    """z, p, q."""
-    orbit: Orbit
-    jacobian: _Array
-    """Of the defining system in scaled components, shape (5, 6)."""
-
-
-class _System(NamedTuple):
-    """The defining system of one curve."""
-
-    plane: Plane
-    kind: str
-    cycles: int
-    mirror: bool
-    mode: float
-    scale: _Array
-    """Of z, p, q."""
-
-    def section(self, q: float) -> Section:
-        return Section(self.plane.at_vectors(q), self.cycles, self.mirror, self.scale[:5])
-
-    def value(self, y: _Array) -> tuple[Orbit, _Array] | None:
-        """The orbit that y stands for, and the residual in scaled components."""
-        section = self.section(y[5])
-        status, orbit, image = evaluated(section, y[:5], self.mode)
-        if status is not Status.DONE:
-            return None
-        residual = np.empty(5)
-        residual[:4] = (image[:4] - orbit.point[:4]) / self.scale[:4]
-        residual[4] = self.test(orbit)
-        return orbit, residual
-
-    def test(self, orbit: Orbit) -> float:
-        """The condition φ."""
-        if self.kind == FOLD:
-            return float(np.linalg.det(orbit.columns - np.eye(4)))
-        if self.kind == NEIMARK:
-            return spiral(orbit)
-        if self.kind == GRAZING:
-            found: float = margin.grazing_margin(
-                orbit.section.family.system(orbit.value),
-                orbit.section.family.phase,
-                orbit.section.period,
-                MAX_EVENTS,
-                orbit.point,
-                orbit.facts,
-            )
-            return found / float(self.scale[0])
-        return half_plus(orbit)
-
-    def spot(self, y: _Array) -> _Spot | None:
-        """A point with the derivative of the system there."""
-        here = self.value(y)
-        if here is None:
-            return None
-        orbit, residual = here
-        jacobian = np.empty((5, 6))
-        jacobian[:4, :5] = orbit.jacobian
-        for j in range(6):
-            beside = y.copy()
-            beside[j] += _STEP * self.scale[j]
-            there = self.value(beside)
-            if there is None:
-                return None
-            change = (there[1] - residual) / _STEP
-            jacobian[4, j] = change[4]
-            if j == 5:
-                jacobian[:4, 5] = change[:4]
-        return _Spot(y, orbit, jacobian)
+_TURNED = 1.0  # rad, by which the section is moved
+_PARAMETERS = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
 
 
 def bifurcation_curve(
@@ -158,9 +80,9 @@ def bifurcation_curve(
     -------
     xarray.Dataset
         Dim ``point`` along the curve: both parameters by name, the ``section`` of the orbit and
-        its multipliers. ``cusp`` tells at which points the projection turns back on itself;
-        ``cusp_first`` and ``cusp_second`` are the parameters of the cusps, interpolated. The
-        attributes ``ended_low`` and ``ended_high`` say why it ends.
+        its multipliers. Dim ``cusp_number``: the parameters ``cusp_first`` and ``cusp_second`` of
+        each cusp, where the curve turns back on itself. The attributes ``ended_low`` and
+        ``ended_high`` say why it ends.
 
     Raises
     ------
@@ -183,22 +105,22 @@ def bifurcation_curve(
         for i, varied in enumerate((over.family.parameter, over.other))
     ]
     system, y = _start(over, kind, start, spans)
-    first = _corrected(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+    first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
     if first is None:
-        first = _corrected(system, y, np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
+        first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
     if first is None:
         raise InputError(
             f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; one that "
             "was found for it is accepted"
         )
-    traces = [_follow(system, first, sense, spans, most_points) for sense in (-1.0, 1.0)]
-    spots = [*reversed(traces[0][0]), *traces[1][0][1:]]
-    return _dataset(spots, over, kind, spans, (traces[0][1], traces[1][1]))
+    back, ahead = (_follow(system, first, sense, spans, most_points) for sense in (-1.0, 1.0))
+    spots = [*reversed(back[0]), *ahead[0][1:]]
+    return _dataset(spots, back[1] + ahead[1], over, kind, spans, (back[2], ahead[2]))
 
 
 def _start(
     over: Plane, kind: str, start: xr.Dataset, spans: list[tuple[float, float]]
-) -> tuple[_System, _Array]:
+) -> tuple[Defining, _Array]:
     state = start["bifurcation_section"].values
     p = float(start["bifurcation_value"])
     point = np.append(state[:4], p)
@@ -206,93 +128,114 @@ def _start(
     own = kind == BREAKING or bool(int(start["bifurcation_antisymmetric"]))
     mode = {1: 1.0, -1: 2.0}.get(int(state[5]), 0.0)
     period = int(start["bifurcation_period"])
-    return _System(over, kind, period, own, mode, scale), np.append(point, over.value)
-
-
-def _corrected(system: _System, y: _Array, normal: _Array) -> _Spot | None:
-    """Newton's method on the plane through y normal to `normal`."""
-    y = y.copy()
-    aim = y.copy()
-    spot = None
-    for _ in range(_NEWTON):
-        here = system.value(y)
-        if here is None:
-            return None
-        residual = here[1]
-        if np.abs(residual).max() <= _GOOD and spot is not None:
-            return system.spot(y)
-        spot = system.spot(y)
-        if spot is None:
-            return None
-        matrix = np.vstack([spot.jacobian, normal * _SEEN])
-        right = np.append(-residual, -(normal * _SEEN) @ ((y - aim) / system.scale))
-        try:
-            change = np.linalg.solve(matrix, right)
-        except np.linalg.LinAlgError:
-            return None
-        longest = np.abs(change).max()
-        if not longest < np.inf:
-            return None
-        y = y + min(1.0, 0.3 / max(longest, 1e-300)) * change * system.scale
-    here = system.value(y)
-    return system.spot(y) if here is not None and np.abs(here[1]).max() <= 1e-7 else None
-
-
-def _tangent(spot: _Spot, along: _Array) -> _Array:
-    tangent: _Array = np.linalg.svd(spot.jacobian)[2][-1]
-    tangent = tangent / np.linalg.norm(tangent * _SEEN)
-    return tangent if (tangent * _SEEN) @ along >= 0.0 else -tangent
+    return Defining(over, kind, period, own, mode, scale), np.append(point, over.value)
 
 
 def _follow(
-    system: _System,
-    first: _Spot,
+    system: Defining,
+    first: Spot,
     sense: float,
     spans: list[tuple[float, float]],
     most_points: int,
-) -> tuple[list[_Spot], str]:
-    """Points in one direction, and why they end."""
+) -> tuple[list[Spot], list[Spot], str]:
+    """Points in one direction, the cusps among them, and why they end."""
     spots = [first]
-    tangent = _tangent(first, sense * np.array([0.0, 0.0, 0.0, 0.0, 0.3, 1.0]))
+    cusps: list[Spot] = []
+    tangent = tangent_of(first, sense * np.array([0.0, 0.0, 0.0, 0.0, 0.3, 1.0]))
     length = _FIRST
+    moved = False
     while len(spots) < most_points:
         here = spots[-1]
-        spot = _corrected(system, here.y + length * tangent * system.scale, tangent)
+        spot = solve(system, here.y + length * tangent * system.scale, tangent)
         if spot is not None:
-            new = _tangent(spot, tangent)
-            turned = float((new * _SEEN) @ tangent)
-            far = np.linalg.norm((spot.y - here.y) / system.scale * _SEEN)
+            new = tangent_of(spot, tangent)
+            turned = float((new * SEEN) @ tangent)
+            far = np.linalg.norm((spot.y - here.y) / system.scale * SEEN)
             if turned >= _TURN and far <= 3.0 * length:
-                outside = [
-                    not span[0] <= value <= span[1]
-                    for span, value in zip(spans, spot.y[4:], strict=True)
-                ]
-                if any(outside):
-                    name = (system.plane.family.parameter, system.plane.other)[
-                        outside.index(True)
-                    ].name
-                    return spots, f"the range of {name} ends"
+                for i, span in enumerate(spans):
+                    if not span[0] <= spot.y[4 + i] <= span[1]:
+                        bound = span[0] if spot.y[4 + i] < span[0] else span[1]
+                        last = _on_bound(system, here, spot, i, bound)
+                        ended = (system.plane.family.parameter, system.plane.other)[i].name
+                        return spots + last, cusps, f"the range of {ended} ends at {bound:.9g}"
+                if new[4:] @ tangent[4:] < 0.0:
+                    cusps += _cusp(system, here, tangent, length)
                 spots.append(spot)
                 tangent = new
+                moved = False
                 length = min(1.5 * length, _MOST) if turned > 0.995 else length
                 if len(spots) > 10 and _closed(spots, system.scale):
-                    return spots, "it is closed"
+                    return spots, cusps, "it is closed"
                 continue
         length *= 0.5
         if length < _LEAST:
-            where = ", ".join(f"{value:.9g}" for value in here.y[4:])
-            return spots, f"no {system.kind} could be found beyond ({where}): least step"
-    return spots, f"{most_points} points were reached"
+            elsewhere = None if moved else _at_another_phase(system, here, tangent)
+            if elsewhere is None:
+                where = ", ".join(f"{value:.9g}" for value in here.y[4:])
+                return spots, cusps, f"no {system.kind} found beyond ({where}): least step"
+            system, spots[-1], tangent = elsewhere
+            moved, length = True, _FIRST
+    return spots, cusps, f"{most_points} points were reached"
 
 
-def _closed(spots: list[_Spot], scale: _Array) -> bool:
-    gap = np.linalg.norm((spots[-1].y - spots[0].y) / scale * _SEEN)
-    last = np.linalg.norm((spots[-1].y - spots[-2].y) / scale * _SEEN)
+def _on_bound(system: Defining, here: Spot, there: Spot, which: int, bound: float) -> list[Spot]:
+    """The point at the end of the range, if there is one."""
+    share = (bound - here.y[4 + which]) / (there.y[4 + which] - here.y[4 + which])
+    y = here.y + share * (there.y - here.y)
+    y[4 + which] = bound
+    normal = np.zeros(6)
+    normal[4 + which] = 1.0
+    spot = solve(system, y, normal)
+    return [spot] if spot is not None else []
+
+
+def _cusp(system: Defining, here: Spot, tangent: _Array, length: float) -> list[Spot]:
+    """The point within a step at which both parameters turn back, by bisection."""
+    good, bad = 0.0, length
+    found: list[Spot] = []
+    for _ in range(26):
+        middle = 0.5 * (good + bad)
+        spot = solve(system, here.y + middle * tangent * system.scale, tangent)
+        if spot is None:
+            return []
+        found = [spot]
+        if tangent_of(spot, tangent)[4:] @ tangent[4:] < 0.0:
+            bad = middle
+        else:
+            good = middle
+    return found
+
+
+def _at_another_phase(
+    system: Defining, here: Spot, tangent: _Array
+) -> tuple[Defining, Spot, _Array] | None:
+    """The same curve with the section elsewhere: where an event falls on it, no step goes on."""
+    over = system.plane
+    setting = over.other.write(over.family.oscillator, over.family.excitation, float(here.y[5]))
+    rig, shaken = over.family.parameter.write(*setting, float(here.y[4]))
+    settled = settled_on(here.orbit)._replace(oscillator=rig, excitation=shaken)
+    later = follow(settled, settled.state, _TURNED / (2.0 * np.pi))
+    turned = over.family.excitation.replace(phase=over.family.phase + _TURNED)
+    system = system._replace(
+        plane=over._replace(family=over.family._replace(excitation=turned)),
+        mode=float(later[hold.MODE]),
+    )
+    state = [later[hold.U], later[hold.V], later[hold.RIGHT_BUMPER], -later[hold.LEFT_BUMPER]]
+    spot = solve(system, np.append(state, here.y[4:]), tangent * _PARAMETERS)
+    if spot is None:
+        return None
+    return system, spot, tangent_of(spot, tangent * _PARAMETERS)
+
+
+def _closed(spots: list[Spot], scale: _Array) -> bool:
+    gap = np.linalg.norm((spots[-1].y - spots[0].y) / scale * SEEN)
+    last = np.linalg.norm((spots[-1].y - spots[-2].y) / scale * SEEN)
     return bool(gap <= last)
 
 
 def _dataset(
-    spots: list[_Spot],
+    spots: list[Spot],
+    cusps: list[Spot],
     over: Plane,
     kind: str,
     spans: list[tuple[float, float]],
@@ -302,17 +245,13 @@ def _dataset(
     values = np.array([spot.y[4:] for spot in spots])
     multipliers = np.array([spot.orbit.multipliers for spot in spots])
     sections = np.array([state_of(spot.orbit) for spot in spots])
-    cusps = _cusps(values, np.array([span[1] - span[0] for span in spans]))
-    flags = np.zeros(len(spots), dtype=np.int64)
-    flags[[i for i, _ in cusps]] = 1
     data = xr.Dataset(
         {
             "section": (("point", "component"), sections),
             "multiplier_real": (("point", "multiplier"), multipliers.real),
             "multiplier_imag": (("point", "multiplier"), multipliers.imag),
-            "cusp": ("point", flags),
-            "cusp_first": ("cusp_number", np.array([at[0] for _, at in cusps], dtype=float)),
-            "cusp_second": ("cusp_number", np.array([at[1] for _, at in cusps], dtype=float)),
+            "cusp_first": ("cusp_number", np.array([c.y[4] for c in cusps], dtype=float)),
+            "cusp_second": ("cusp_number", np.array([c.y[5] for c in cusps], dtype=float)),
         },
         coords={
             names[0]: ("point", values[:, 0]),
@@ -337,13 +276,3 @@ def _dataset(
         "high": [span[1] for span in spans],
     }
     return describe(data, "vibroimpact.bifurcation_curve", parameters)
-
-
-def _cusps(values: _Array, scale: _Array) -> list[tuple[int, _Array]]:
-    """Where the projection turns back: index, and the parameters by a parabola through three."""
-    steps = np.diff(values / scale, axis=0)
-    found = []
-    for i, (one, other) in enumerate(itertools.pairwise(steps)):
-        if one @ other < 0.0:
-            found.append((i + 1, values[i + 1]))
-    return found

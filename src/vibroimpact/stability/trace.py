@@ -30,6 +30,7 @@ FIRST, LEAST, MOST = 0.01, 1e-9, 0.1
 _TURN = 0.97  # cosine of the largest turn of the tangent in a step
 _GENTLE = 0.997  # below this turn the step may grow
 _BISECTIONS = 55
+_LOOK = 12  # bisections after which a grazing must show
 _BEYOND = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
 """Scaled distances behind a grazing at which the map must have the new contacts."""
 _RESTART = (1e-6, 1e-5, 1e-4, 1e-7)
@@ -132,7 +133,7 @@ def follow_branch(
                 here = behind
                 length = min(1e-3, FIRST)
                 continue
-        length *= 0.5
+        length *= 0.25
         if length < LEAST:
             trace.ended = f"no orbit could be found beyond {here.orbit.value:.9g} (least step)"
             return trace
@@ -178,10 +179,12 @@ def _past_grazing(here: Station, length: float) -> tuple[Station, Station] | Non
     contacts = here.orbit.contacts
     good, bad = 0.0, length
     last = here.orbit
-    for _ in range(_BISECTIONS):
+    for number in range(_BISECTIONS):
         middle = 0.5 * (good + bad)
         if middle in (good, bad):
             break
+        if number == _LOOK and not _near_other_contacts(last, here.tangent, 4.0 * (bad - good)):
+            return None  # the step failed for another reason
         status, found = step(here, middle)
         if status is Status.DONE and found.contacts == contacts:
             good, last = middle, found
@@ -212,6 +215,13 @@ def _past_grazing(here: Station, length: float) -> tuple[Station, Station] | Non
                     return before, behind
         return None
     return None
+
+
+def _near_other_contacts(last: Orbit, along: _Array, ahead: float) -> bool:
+    """Whether the map has other contacts a little further along the branch."""
+    point = last.point + ahead * last.tangent(along) * last.section.scale
+    status, other, _ = evaluated(last.section, point, last.facts[section_map.MODE])
+    return status is Status.DONE and other.contacts != last.contacts
 
 
 def bisect(

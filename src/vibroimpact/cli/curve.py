@@ -1,0 +1,204 @@
+"""``vibroimpact curve``: where a bifurcation moves in the plane of two parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from cyclopts import Group, Parameter
+
+from vibroimpact.cli.options import OutputOptions, RigName, RigOptions
+from vibroimpact.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from vibroimpact.cli.rig import Subject
+
+_CURVE = Group("Curve", sort_key=1)
+_WITH_UNITS = Parameter(group=_CURVE, allow_leading_hyphen=True)
+
+_KINDS = {
+    "fold": "fold",
+    "symmetry-breaking": "symmetry breaking",
+    "period-doubling": "period doubling",
+    "neimark-sacker": "Neimark-Sacker",
+    "grazing": "grazing",
+}
+
+
+def curve(
+    rig: RigName,
+    /,
+    *,
+    bifurcation: Annotated[
+        Literal["fold", "symmetry-breaking", "period-doubling", "neimark-sacker", "grazing"],
+        Parameter(group=_CURVE, help="Which bifurcation is followed."),
+    ] = "fold",
+    parameters: Annotated[
+        str,
+        Parameter(
+            group=_CURVE,
+            help="Two parameters, as for vibroimpact branch; the bifurcations are sought along "
+            "the first.",
+        ),
+    ] = "frequency,gap",
+    first: Annotated[
+        str | None, _WITH_UNITS, Parameter(help="Range of the first; of a frequency 0.3Hz:5Hz.")
+    ] = None,
+    second: Annotated[
+        str | None, _WITH_UNITS, Parameter(help="Range of the second, such as 1mm:20mm.")
+    ] = None,
+    frequency: Annotated[
+        str | None,
+        _WITH_UNITS,
+        Parameter(help="Excitation frequency where it is not the first parameter."),
+    ] = None,
+    changes: RigOptions | None = None,
+    output: OutputOptions | None = None,
+) -> int:
+    """Follow bifurcations in two parameters, through cusps.
+
+    Finds the bifurcations of one kind along the first parameter and follows each over both.
+    Prints where each curve ends and its cusps; writes NAME-BIFURCATION-FIRST-SECOND.nc (a group
+    for each curve) and the figure of the plane.
+
+    For example:
+
+        vibroimpact curve B2-G1-A3 --bifurcation fold --parameters frequency,gap --second 1mm:20mm
+        vibroimpact curve B2-G1-A3 --parameters frequency,stiffness-ratio --second 0.5:100
+    """
+    from vibroimpact.cli.output import output_folder, tell
+    from vibroimpact.cli.rig import subject
+
+    out = output or OutputOptions()
+    what = subject(rig, changes or RigOptions(), out.name)
+    names = [name.strip().replace("-", "_") for name in parameters.split(",")]
+    if len(names) != 2:
+        raise InputError(f"--parameters: {parameters!r}; two, as frequency,gap, are accepted")
+    default = "0.3Hz:5Hz" if names[0] == "frequency" else None
+    spans = [_range("--first", first or default), _range("--second", second)]
+
+    with output_folder(out.output) as folder:
+        from rich.console import Group as Together
+        from rich.text import Text
+
+        from vibroimpact.cli import summary
+        from vibroimpact.figures import bifurcation_curves, save_figure
+        from vibroimpact.response.files import save
+
+        kind = _KINDS[bifurcation]
+        found = _curves(what, kind, (names[0], names[1]), spans, frequency)
+        if not found:
+            raise InputError(
+                f"--bifurcation: no {kind} along {names[0]} between {spans[0][0]} and "
+                f"{spans[0][1]}; another kind or range is accepted"
+            )
+        stem = folder / f"{what.slug}-{bifurcation}-{'-'.join(names).replace('_', '-')}"
+        axes = bifurcation_curves(found, title=f"{what.name}, {kind}")
+        files = {
+            "data": save(found, f"{stem}.nc"),
+            "figure": save_figure(axes, f"{stem}.{out.figure}"),
+        }
+    facts = {
+        **summary.rig_facts(what),
+        "bifurcation": kind,
+        "parameters": names,
+        "curves": [
+            {
+                "points": data.sizes["point"],
+                "cusps": [
+                    [float(p), float(q)]
+                    for p, q in zip(data["cusp_first"], data["cusp_second"], strict=True)
+                ],
+                "ended_low": data.attrs["ended_low"],
+                "ended_high": data.attrs["ended_high"],
+            }
+            for data in found.values()
+        ],
+        "files": files,
+    }
+    lines = [Text(f"{len(found)} curve{'s' if len(found) > 1 else ''} of {kind}", style="bold")]
+    for name, data in found.items():
+        lines.append(
+            Text(
+                f"  {name}: {data.sizes['point']} points; beginning: {data.attrs['ended_low']}; "
+                f"end: {data.attrs['ended_high']}"
+            )
+        )
+        lines += [
+            Text(f"    cusp at {names[0]} {float(p):.9g}, {names[1]} {float(q):.9g}")
+            for p, q in zip(data["cusp_first"], data["cusp_second"], strict=True)
+        ]
+    text = Together(summary.rig_text(what), Text(), *lines, Text(), summary.files_text(files))
+    tell(text, facts, out.json)
+    return 0
+
+
+def _range(option: str, text: str | None) -> tuple[str, str]:
+    low, colon, high = (text or "").partition(":")
+    if not (low and colon and high):
+        raise InputError(f"{option}: {text!r}; a range is accepted, such as 1mm:20mm")
+    return low, high
+
+
+def _curves(
+    what: Subject,
+    kind: str,
+    names: tuple[str, str],
+    spans: list[tuple[str, str]],
+    frequency: str | None,
+) -> dict[str, xr.Dataset]:
+    """Each curve once, by the parameter at which it was found."""
+    import numpy as np
+
+    from vibroimpact.model import Harmonic, to_si
+    from vibroimpact.model.units import FREQUENCY
+    from vibroimpact.stability.branch import branch
+    from vibroimpact.stability.curves import bifurcation_curve
+    from vibroimpact.stability.diagram import resonance_diagram
+
+    phase = what.study.excitation.phase if what.study else 0.0
+    if names[0] == "frequency":
+        data = resonance_diagram(what.oscillator, what.amplitude, *spans[0], phase=phase)
+        middle = float(data["frequency"].mean())
+        shaken = Harmonic(what.amplitude, middle, phase)
+    else:
+        if frequency is None:
+            raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
+        hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
+        shaken = Harmonic(what.amplitude, hertz, phase)
+        data = branch(
+            what.oscillator, shaken, parameter=names[0], low=spans[0][0], high=spans[0][1]
+        )
+    found: dict[str, xr.Dataset] = {}
+    from vibroimpact.stability.family import parameter
+
+    here = parameter(names[1]).read(what.oscillator, shaken)
+    for i in np.flatnonzero(data["bifurcation_kind"].values == kind):
+        value = float(data["bifurcation_value"][i])
+        if any(_passes(curve, names, value, here) for curve in found.values()):
+            continue
+        found[f"{names[0]} {value:.6g}"] = bifurcation_curve(
+            what.oscillator,
+            shaken,
+            data.isel(bifurcation=int(i)),
+            parameters=names,
+            low=(spans[0][0], spans[1][0]),
+            high=(spans[0][1], spans[1][1]),
+        )
+    return found
+
+
+def _passes(data: xr.Dataset, names: tuple[str, str], p: float, q: float) -> bool:
+    """Whether a curve goes through a point: where it crosses q it is at p."""
+    import numpy as np
+
+    x, y = data[names[0]].values, data[names[1]].values
+    low, high = np.minimum(y[:-1], y[1:]), np.maximum(y[:-1], y[1:])
+    for i in np.flatnonzero((low <= q) & (q <= high)):
+        share = (q - y[i]) / (y[i + 1] - y[i]) if y[i + 1] != y[i] else 0.5
+        crossing = x[i] + share * (x[i + 1] - x[i])
+        # A chord misses the curve by a part of its own length.
+        if abs(crossing - p) <= 0.2 * abs(x[i + 1] - x[i]) + 1e-4 * abs(p):
+            return True
+    return False

@@ -1,0 +1,84 @@
+"""Curves of bifurcations in the plane of two parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import xarray as xr
+from matplotlib.axes import Axes
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.branches import MARKS
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.style import LEGEND
+
+_DASHES = {
+    "fold": "-",
+    "symmetry breaking": (0, (6, 2)),
+    "period doubling": (0, (3, 1.5)),
+    "Neimark-Sacker": (0, (5, 1.5, 1, 1.5)),
+    "grazing": (0, (1, 1.2)),
+}
+
+
+def bifurcation_curves(
+    curves: xr.Dataset | Mapping[str, xr.Dataset],
+    ax: Axes | None = None,
+    *,
+    title: str | None = None,
+) -> Axes:
+    """Draw curves of bifurcations, cusps marked, the second parameter upwards.
+
+    Parameters
+    ----------
+    curves
+        Dataset of `bifurcation_curve`, or several by name, in the same two parameters.
+    ax
+        Axes to draw on. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If a dataset holds no curve, or their parameters differ.
+    """
+    if isinstance(curves, Mapping) and not isinstance(curves, xr.Dataset):
+        given = list(curves.values())
+    else:
+        given = [curves]
+    if not given or any("other_parameter" not in data.attrs for data in given):
+        raise InputError("curves: there is none; a dataset of bifurcation_curve is accepted")
+    pairs = {(data.attrs["parameter"], data.attrs["other_parameter"]) for data in given}
+    if len(pairs) > 1:
+        raise InputError(f"curves: they are in {sorted(pairs)}; one pair of parameters is accepted")
+    ((first, second),) = pairs
+    ax = axes_or_new(ax, (6.4, 4.8), title)
+    seen = set()
+    for data in given:
+        kind = data.attrs["kind"]
+        ax.plot(
+            data[first].values,
+            data[second].values,
+            color=MARKS[kind].colour,
+            linestyle=_DASHES[kind],
+            linewidth=1.4,
+            label=None if kind in seen else kind.replace("-", "–"),
+        )
+        seen.add(kind)
+        if data.sizes["cusp_number"]:
+            ax.plot(
+                data["cusp_first"].values,
+                data["cusp_second"].values,
+                linestyle="",
+                marker="v",
+                color="black",
+                markersize=5,
+                label=None if "cusp" in seen else "cusp",
+            )
+            seen.add("cusp")
+    for name, write in ((first, ax.set_xlabel), (second, ax.set_ylabel)):
+        units = given[0][name].attrs["units"]
+        write(f"{given[0][name].attrs['long_name']} ({'–' if units == '1' else units})")
+    ax.legend(ncols=4, **LEGEND)
+    return ax

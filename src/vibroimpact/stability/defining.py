@@ -1,0 +1,135 @@
+"""The defining system of a curve of bifurcations, and Newton's method for it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import margin
+from vibroimpact.engine.status import Status
+from vibroimpact.stability.bifurcations import FOLD, GRAZING, NEIMARK, half_plus, spiral
+from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, Section, evaluated
+from vibroimpact.stability.plane import Plane
+
+_Array = NDArray[np.float64]
+
+SEEN = np.array([1.0, 1.0, 0.0, 0.0, 1.0, 1.0])
+"""Components of (z, p, q) by which lengths and angles are measured, as in `orbits`."""
+
+_STEP = 1e-7
+_NEWTON = 12
+_GOOD = 1e-11
+_ACCEPTED = 1e-8
+
+
+class Spot(NamedTuple):
+    """A point on a curve."""
+
+    y: _Array
+    """z, p, q."""
+    orbit: Orbit
+    jacobian: _Array
+    """Of the defining system in scaled components, shape (5, 6)."""
+
+
+class Defining(NamedTuple):
+    """The defining system of one curve."""
+
+    plane: Plane
+    kind: str
+    cycles: int
+    mirror: bool
+    mode: float
+    scale: _Array
+    """Of z, p, q."""
+
+    def section(self, q: float) -> Section:
+        """The section's map at a value of q."""
+        return Section(self.plane.at_vectors(q), self.cycles, self.mirror, self.scale[:5])
+
+    def value(self, y: _Array) -> tuple[Orbit, _Array] | None:
+        """The orbit that y stands for, and the residual in scaled components."""
+        section = self.section(y[5])
+        status, orbit, image = evaluated(section, y[:5], self.mode)
+        if status is not Status.DONE or not np.isfinite(orbit.columns).all():
+            return None
+        residual = np.empty(5)
+        residual[:4] = (image[:4] - orbit.point[:4]) / self.scale[:4]
+        residual[4] = self.test(orbit)
+        return orbit, residual
+
+    def test(self, orbit: Orbit) -> float:
+        """The condition φ."""
+        if self.kind == FOLD:
+            return float(np.linalg.det(orbit.columns - np.eye(4)))
+        if self.kind == NEIMARK:
+            return spiral(orbit)
+        if self.kind == GRAZING:
+            found: float = margin.grazing_margin(
+                orbit.section.family.system(orbit.value),
+                orbit.section.family.phase,
+                orbit.section.period,
+                MAX_EVENTS,
+                orbit.point,
+                orbit.facts,
+            )
+            return found / float(self.scale[0])
+        return half_plus(orbit)
+
+    def spot(self, y: _Array) -> Spot | None:
+        """A point with the derivative of the system there."""
+        here = self.value(y)
+        if here is None:
+            return None
+        orbit, residual = here
+        jacobian = np.empty((5, 6))
+        jacobian[:4, :5] = orbit.jacobian
+        for j in range(6):
+            beside = y.copy()
+            beside[j] += _STEP * self.scale[j]
+            there = self.value(beside)
+            if there is None:
+                return None
+            change = (there[1] - residual) / _STEP
+            jacobian[4, j] = change[4]
+            if j == 5:
+                jacobian[:4, 5] = change[:4]
+        return Spot(y, orbit, jacobian)
+
+
+def solve(system: Defining, y: _Array, normal: _Array) -> Spot | None:
+    """Newton's method on the plane through y normal to `normal`."""
+    y = y.copy()
+    aim = y.copy()
+    spot = None
+    for _ in range(_NEWTON):
+        here = system.value(y)
+        if here is None:
+            return None
+        residual = here[1]
+        if np.abs(residual).max() <= _GOOD and spot is not None:
+            return system.spot(y)
+        spot = system.spot(y)
+        if spot is None:
+            return None
+        matrix = np.vstack([spot.jacobian, normal * SEEN])
+        right = np.append(-residual, -(normal * SEEN) @ ((y - aim) / system.scale))
+        try:
+            change = np.linalg.solve(matrix, right)
+        except np.linalg.LinAlgError:
+            return None
+        longest = np.abs(change).max()
+        if not longest < np.inf:
+            return None
+        y = y + min(1.0, 0.3 / max(longest, 1e-300)) * change * system.scale
+    here = system.value(y)
+    return system.spot(y) if here is not None and np.abs(here[1]).max() <= _ACCEPTED else None
+
+
+def tangent_of(spot: Spot, along: _Array) -> _Array:
+    """Unit tangent of the curve in scaled components, in the sense of `along`."""
+    tangent: _Array = np.linalg.svd(spot.jacobian)[2][-1]
+    tangent = tangent / np.linalg.norm(tangent * SEEN)
+    return tangent if (tangent * SEEN) @ along >= 0.0 else -tangent
