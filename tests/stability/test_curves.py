@@ -1,0 +1,132 @@
+"""Curves of bifurcations over two parameters."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+
+@cache
+def case():
+    return vi.laboratory.case("B2-G1-A3")
+
+
+@cache
+def diagram():
+    return vi.resonance_diagram(case().oscillator, case().amplitude, 0.8, 4.0)
+
+
+def one(kind: str, number: int = -1):
+    rows = np.flatnonzero(diagram()["bifurcation_kind"].values == kind)
+    order = np.argsort(diagram()["bifurcation_value"].values[rows])
+    return diagram().isel(bifurcation=int(rows[order[number]]))
+
+
+@cache
+def curve(kind: str, other: str, low: float, high: float, number: int = -1):
+    return vi.bifurcation_curve(
+        case().oscillator,
+        vi.Harmonic(case().amplitude, 2.0),
+        one(kind, number),
+        parameters=("frequency", other),
+        low=(0.3, low),
+        high=(6.0, high),
+    )
+
+
+def test_grazing_of_free_flight_in_closed_form():
+    data = curve("grazing", "gap", 1e-3, 20e-3)
+    rig = case().oscillator
+    omega = 2 * np.pi * data["frequency"].values
+    k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
+    swing = case().amplitude / np.hypot(k - omega**2, c * omega)
+    np.testing.assert_allclose(data["gap"], swing, rtol=1e-9)
+    assert data["gap"].values.min() == pytest.approx(1e-3)
+    assert data["gap"].values.max() == pytest.approx(20e-3)
+
+
+def test_folds_are_those_of_the_branches_beside_it():
+    data = curve("fold", "gap", 4e-3, 12e-3)
+    for gap in (6e-3, 9e-3):
+        rig = case().oscillator
+        rig = rig.replace(right=rig.right.replace(gap=gap), left=rig.left.replace(gap=gap))
+        beside = vi.resonance_diagram(rig, case().amplitude, 1.0, 5.0)
+        folds = beside["bifurcation_value"].values[beside["bifurcation_kind"].values == "fold"]
+        order = np.argsort(data["gap"].values)
+        here = np.interp(gap, data["gap"].values[order], data["frequency"].values[order])
+        assert np.abs(folds - here).min() < 2e-3  # between two points of the curve
+
+
+def test_both_folds_meet_in_a_cusp():
+    """The border between rigs with and without a jump, the same from either fold."""
+    cusps = []
+    for number in (-1, -2):
+        data = curve("fold", "stiffness_ratio", 0.5, 60.0, number)
+        assert data.sizes["cusp_number"] == 1
+        cusps.append((float(data["cusp_first"][0]), float(data["cusp_second"][0])))
+        # Round the cusp and back to the range's end on both sides.
+        assert "stiffness_ratio ends at 60" in data.attrs["ended_low"]
+        assert "stiffness_ratio ends at 60" in data.attrs["ended_high"]
+    np.testing.assert_allclose(cusps[0], cusps[1], rtol=1e-6)
+    ratio = cusps[0][1]
+    counts = []
+    for factor in (0.97, 1.03):
+        rig = case().oscillator
+        stiffness = factor * ratio * rig.isolator.stiffness
+        bumper = rig.right.replace(
+            stiffness=stiffness, damping=rig.right.damping * stiffness / rig.right.stiffness
+        )
+        rig = rig.replace(right=bumper, left=bumper)
+        found = vi.resonance_diagram(rig, case().amplitude, 1.2, 3.0)
+        counts.append(int((found["bifurcation_kind"] == "fold").sum()))
+    assert counts == [0, 2]
+
+
+def test_multipliers_stay_critical():
+    data = curve("fold", "gap", 4e-3, 12e-3)
+    distance = np.abs(data["multiplier_real"].values - 1.0).min(axis=1)
+    assert distance.max() < 1e-5
+
+
+def test_symmetry_breaking_and_period_doubling():
+    rig = vi.laboratory.case("B3-10mm-A3")
+    found = vi.resonance_diagram(rig.oscillator, rig.amplitude, 0.9, 1.4)
+    for kind, critical in (("symmetry breaking", 1.0), ("period doubling", -1.0)):
+        row = int(np.flatnonzero(found["bifurcation_kind"].values == kind)[0])
+        data = vi.bifurcation_curve(
+            rig.oscillator,
+            vi.Harmonic(rig.amplitude, 1.2),
+            found.isel(bifurcation=row),
+            parameters=("frequency", "amplitude"),
+            low=(0.5, 0.47),
+            high=(2.0, 0.51),
+        )
+        assert data.sizes["point"] > 3
+        distance = np.abs(data["multiplier_real"].values - critical).min(axis=1)
+        assert distance.max() < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        ({"parameters": ("gap", "frequency")}, "parameters"),
+        ({"parameters": ("frequency", "frequency")}, "twice"),
+        ({"parameters": ("frequency", "mass")}, "parameters: 'mass'"),
+        ({"low": (0.3, 1.0)}, "high"),
+        ({"start": None}, "start"),
+    ],
+)
+def test_refused(wrong, told):
+    given = {
+        "start": one("fold"),
+        "parameters": ("frequency", "gap"),
+        "low": (0.3, 1e-3),
+        "high": (6.0, 2e-2),
+        **wrong,
+    }
+    with pytest.raises(vi.InputError, match=told):
+        vi.bifurcation_curve(case().oscillator, vi.Harmonic(0.5, 2.0), **given)
