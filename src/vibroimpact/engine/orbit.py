@@ -12,6 +12,8 @@ from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.phase import FLIGHT, PLAN
 from vibroimpact.engine.section_map import (
     AMPLITUDE,
+    CONTACTS_LEFT,
+    CONTACTS_RIGHT,
     FACTS,
     FREQUENCY,
     MODE,
@@ -196,16 +198,28 @@ def _slope(
     ignored: Vector,
     slope: Vector,
 ) -> None:
-    """∂P/∂p by a forward difference."""
-    trial[:] = point
-    seen[:] = facts
-    step = _DIFFERENCE * scale[PARAMETER]
-    system_plan(base, direction, point[PARAMETER] + step, plan, system)
-    outcome = section_map(
-        plan, system, phase, count, mirror, max_events, trial, seen, other, ignored
-    )
-    for i in range(DISTURBANCE):
-        slope[i] = (other[i] - image[i]) / step if outcome == DONE else 0.0
+    """∂P/∂p by a difference, on the side on which the contacts are the same.
+
+    At a grazing the derivative may jump.
+    """
+    for sign in range(2):
+        trial[:] = point
+        seen[:] = facts
+        step = (1.0 if sign == 0 else -1.0) * _DIFFERENCE * scale[PARAMETER]
+        system_plan(base, direction, point[PARAMETER] + step, plan, system)
+        outcome = section_map(
+            plan, system, phase, count, mirror, max_events, trial, seen, other, ignored
+        )
+        same = (
+            outcome == DONE
+            and seen[CONTACTS_RIGHT] == facts[CONTACTS_RIGHT]
+            and seen[CONTACTS_LEFT] == facts[CONTACTS_LEFT]
+        )
+        if sign == 0 or same:
+            for i in range(DISTURBANCE):
+                slope[i] = (other[i] - image[i]) / step if outcome == DONE else 0.0
+        if same:
+            break
 
 
 @entry(

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.orbits import SEEN, Orbit, Section, corrected, evaluated
+from vibroimpact.stability.orbits import SEEN, Orbit, Section, corrected, evaluated, is_fixed
 from vibroimpact.stability.trace import Station, Trace, bisect
 
 _Array = NDArray[np.float64]
@@ -34,8 +34,10 @@ DOUBLING = "period doubling"
 NEIMARK = "Neimark-Sacker"
 GRAZING = "grazing"
 
-_NEAR = 1e-2
-"""Scaled distance from its own mirror image below which an orbit may be next to a breaking."""
+_SMALL = 1e-4
+"""Of its larger value at the ends of a step, to which a test function must come down."""
+_REACH = 0.02
+"""Of the parameter's range, within which the parent of a branch is sought."""
 _OFF = (1e-3, 3e-4, 1e-4, 3e-3, 1e-2)
 """Scaled distances from a bifurcation at which the branch that is born there is sought."""
 
@@ -68,6 +70,8 @@ def spiral(orbit: Orbit) -> float:
 def find(stations: list[Station]) -> Iterator[Bifurcation]:
     """Bifurcations on a branch, in its order; between stations of one smooth piece."""
     for here, there in itertools.pairwise(stations):
+        if here.orbit.section.family.phase != there.orbit.section.family.phase:
+            continue  # one orbit, seen at two sections
         if here.piece != there.piece:
             # Followed backwards, the grazing orbit comes second.
             exact, other = (here, there) if here.grazing else (there, here)
@@ -86,15 +90,14 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
                 continue
             if kind == NEIMARK and -1.0 in (first, second):
                 continue  # a real pair became complex, or the other way round
-            located = _locate(here, there, function)
-            if located is None:
-                continue
-            orbit, length = located
             turns = kind == FOLD
-            if turns and (parent := _parent(orbit)) is not None:
+            if turns and (parent := _parent(here, there)) is not None:
                 # The branch turns where it meets that of the motions which it left.
                 kind, orbit = parent
-            yield Bifurcation(kind, orbit, here.arclength + length, turns, orbit.contacts)
+                arclength = 0.5 * (here.arclength + there.arclength)
+            else:
+                orbit, arclength = _locate(here, there, function)
+            yield Bifurcation(kind, orbit, arclength, turns, orbit.contacts)
 
 
 def _tests(here: Station) -> list[tuple[str, Callable[[Orbit], float]]]:
@@ -109,41 +112,67 @@ def _tests(here: Station) -> list[tuple[str, Callable[[Orbit], float]]]:
 
 def _locate(
     here: Station, there: Station, function: Callable[[Orbit], float]
-) -> tuple[Orbit, float] | None:
-    scale = here.orbit.section.scale
-    chord = (there.orbit.point - here.orbit.point) / scale * SEEN
-    status, orbit, length = bisect(here, float(chord @ here.tangent), function)
-    return (orbit, length) if status is Status.DONE else None
+) -> tuple[Orbit, float]:
+    """The orbit at which a test function vanishes, and its arclength.
 
-
-def _parent(orbit: Orbit) -> tuple[str, Orbit] | None:
-    """The symmetry breaking or period doubling that an orbit lies next to, if any.
-
-    There the orbit's own map is singular in a way that its fold function resolves poorly; the map
-    over half a cycle and the mirror, or over half the period, is not.
+    From either end; where neither reaches it, the end at which the function is smaller.
     """
-    section = orbit.section
+    largest = max(abs(function(here.orbit)), abs(function(there.orbit)))
+    back = replace(there, tangent=-there.tangent)
+    ends = [(here, there, 1.0), (back, here, -1.0)]
+    for start, end, sense in ends:
+        scale = start.orbit.section.scale
+        chord = (end.orbit.point - start.orbit.point) / scale * SEEN
+        length = float(chord @ start.tangent)
+        if length <= 0.0:
+            continue
+        status, orbit, length = bisect(start, length, function)
+        if status is Status.DONE and abs(function(orbit)) <= _SMALL * largest:
+            return orbit, start.arclength + sense * length
+    nearest = min((here, there), key=lambda station: abs(function(station.orbit)))
+    return nearest.orbit, nearest.arclength
+
+
+def _parent(here: Station, there: Station) -> tuple[str, Orbit] | None:
+    """The symmetry breaking or period doubling that a branch goes through in a step, if any.
+
+    On its two sides the orbits are each other's images under the simpler map, whose fixed point
+    lies between an orbit and its image.
+    """
+    section = here.orbit.section
     if section.mirror:
         return None
-    candidates = []
     if section.count % 2 == 0:
-        half_period = Section(section.family, section.count // 2, False, section.scale)
-        candidates.append((DOUBLING, half_period))
+        kind, simpler = DOUBLING, section.simpler(section.count // 2, mirror=False)
     elif section.family.symmetric:
-        half_cycles = Section(section.family, section.count, True, section.scale)
-        candidates.append((BREAKING, half_cycles))
-    for kind, simpler in candidates:
-        if is_fixed(simpler, orbit, _NEAR) and (found := _zero(simpler, orbit)) is not None:
-            return kind, found
-    return None
+        kind, simpler = BREAKING, section.simpler(section.count, mirror=True)
+    else:
+        return None
+    misses = []
+    for station in (here, there):
+        status, other, image = evaluated(
+            simpler, station.orbit.point, station.orbit.facts[section_map.MODE]
+        )
+        if status is not Status.DONE:
+            return None
+        misses.append((image - other.point) / section.scale * SEEN)
+    if misses[0] @ misses[1] >= 0.0:
+        return None
+    nearer, miss = min(
+        zip((here, there), misses, strict=True), key=lambda pair: float(np.linalg.norm(pair[1]))
+    )
+    guess = nearer.orbit.point + 0.5 * miss * section.scale
+    found = _zero(simpler, guess, float(nearer.orbit.facts[section_map.MODE]))
+    return None if found is None else (kind, found)
 
 
-def _zero(section: Section, orbit: Orbit) -> Orbit | None:
-    """The orbit of a simpler map near another one at which an eigenvalue is −1: by secants."""
-    values = [orbit.value, orbit.value + 1e-6 * section.scale[4]]
+def _zero(section: Section, guess: _Array, mode: float) -> Orbit | None:
+    """The orbit of a map near a point at which an eigenvalue is −1: by secants."""
+    first = float(guess[section_map.PARAMETER])
+    values = [first, first + 1e-6 * section.scale[4]]
     tests: list[float] = []
-    point, mode = orbit.point.copy(), float(orbit.facts[section_map.MODE])
-    for _ in range(20):
+    point = guess.copy()
+    for _ in range(30):
         point[section_map.PARAMETER] = values[len(tests)]
         status, found = corrected(section, point, mode)
         if status is not Status.DONE:
@@ -156,16 +185,10 @@ def _zero(section: Section, orbit: Orbit) -> Orbit | None:
         step = -tests[-1] * (values[-1] - values[-2]) / rise if rise else 0.0
         if abs(step) <= 1e-15 * abs(values[-1]):
             return found
-        if abs(values[-1] + step - orbit.value) > 0.01 * section.scale[4]:
+        if abs(values[-1] + step - first) > _REACH * section.scale[4]:
             return None
         values.append(values[-1] + step)
     return found
-
-
-def is_fixed(section: Section, orbit: Orbit, tolerance: float) -> bool:
-    """Whether an orbit is fixed under another map, to a scaled tolerance."""
-    status, image, _ = evaluated(section, orbit.point, orbit.facts[section_map.MODE])
-    return status is Status.DONE and bool(image.facts[section_map.RESIDUAL] <= tolerance)
 
 
 def own_mirror(orbit: Orbit, tolerance: float) -> bool:

@@ -18,9 +18,9 @@ from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.response.start import as_state
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability import bifurcations
-from vibroimpact.stability.bifurcations import Bifurcation, is_fixed, own_mirror
+from vibroimpact.stability.bifurcations import Bifurcation, own_mirror
 from vibroimpact.stability.family import Family, bounds, family
-from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, Section, corrected
+from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, Section, corrected, is_fixed
 from vibroimpact.stability.settled import settle
 from vibroimpact.stability.trace import Station, follow_branch
 
@@ -128,6 +128,8 @@ def first_orbit(
         mode = float(vector[hold.MODE])
     else:
         state = as_state(start)
+        if state.phase is not None:
+            fam = fam._replace(excitation=fam.excitation.replace(phase=state.phase))
         point = np.array(
             [
                 state.displacement,
@@ -333,8 +335,8 @@ def _measured(one: Orbit) -> _Array:
 def _free_peak(one: Orbit) -> tuple[float, float]:
     """Largest excursions of displacement and absolute acceleration in free flight."""
     rig, shaken = one.setting
-    if rig.isolator.damping == 0.0:
-        return np.nan, np.nan
+    if not 0.0 < rig.damping_ratio < np.sqrt(0.5):
+        return np.nan, np.nan  # no resonance, or no bound
     xi = rig.damping_ratio
     # |H| of the absolute acceleration is largest at r² = (√(1 + 8ξ²) − 1) / (4ξ²).
     root = np.sqrt(1.0 + 8.0 * xi * xi)

@@ -45,6 +45,7 @@ KINDS = (FOLD, BREAKING, DOUBLING, NEIMARK, GRAZING)
 
 _FIRST, _LEAST, _MOST = 5e-3, 1e-8, 0.05
 _TURN = 0.95
+_NOTHING = xr.DataArray([np.nan])
 _TURNED = 1.0  # rad, by which the section is moved
 _PARAMETERS = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
 
@@ -89,7 +90,7 @@ def bifurcation_curve(
     InputError
         If a value cannot be used, or the start is no bifurcation of this rig.
     """
-    if "bifurcation_kind" not in start or start["bifurcation_kind"].ndim:
+    if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
         raise InputError(
             "start: this is not one bifurcation; data.isel(bifurcation=i) of a branch is accepted"
         )
@@ -99,7 +100,8 @@ def bifurcation_curve(
             f"{start.attrs.get('parameter')!r} is accepted first"
         )
     kind = start["bifurcation_kind"].item()
-    over = plane(oscillator, excitation, (parameters[0], parameters[1]))
+    phase = float(start["bifurcation_section"].sel(component="phase"))
+    over = plane(oscillator, excitation.replace(phase=phase), (parameters[0], parameters[1]))
     spans = [
         bounds(varied, low[i], high[i])
         for i, varied in enumerate((over.family.parameter, over.other))

@@ -7,10 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import margin
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.bifurcations import FOLD, GRAZING, NEIMARK, half_plus, spiral
-from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, Section, evaluated
+from vibroimpact.stability.orbits import Orbit, Section, evaluated, margin_of
 from vibroimpact.stability.plane import Plane
 
 _Array = NDArray[np.float64]
@@ -67,15 +66,7 @@ class Defining(NamedTuple):
         if self.kind == NEIMARK:
             return spiral(orbit)
         if self.kind == GRAZING:
-            found: float = margin.grazing_margin(
-                orbit.section.family.system(orbit.value),
-                orbit.section.family.phase,
-                orbit.section.period,
-                MAX_EVENTS,
-                orbit.point,
-                orbit.facts,
-            )
-            return found / float(self.scale[0])
+            return margin_of(orbit)
         return half_plus(orbit)
 
     def spot(self, y: _Array) -> Spot | None:

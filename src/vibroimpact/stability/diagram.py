@@ -24,7 +24,7 @@ from vibroimpact.stability.branch import (
     follow,
 )
 from vibroimpact.stability.family import Family, bounds, family
-from vibroimpact.stability.orbits import SEEN, Orbit, Section, corrected, evaluated
+from vibroimpact.stability.orbits import SEEN, Orbit, Section, at_phase, corrected, evaluated
 
 _Array = NDArray[np.float64]
 
@@ -162,10 +162,11 @@ def on_branch(orbit: Orbit, one: Followed) -> bool:
     section = one.stations[0].orbit.section
     if section.period != orbit.section.period or section.mirror != orbit.section.mirror:
         return False
-    images = list(_images(orbit))
+    images: dict[float, list[_Array]] = {}
     scale = section.scale
     for here, there in itertools.pairwise(one.stations):
-        if here.piece != there.piece:
+        phase = here.orbit.section.family.phase
+        if here.piece != there.piece or there.orbit.section.family.phase != phase:
             continue
         low, high = sorted([here.orbit.value, there.orbit.value])
         if not low <= orbit.value <= high:
@@ -177,10 +178,13 @@ def on_branch(orbit: Orbit, one: Followed) -> bool:
         )
         guess = here.orbit.point + share * (there.orbit.point - here.orbit.point)
         reach = _CLOSE + np.linalg.norm((there.orbit.point - here.orbit.point) / scale * SEEN)
-        near = [z for z in images if np.linalg.norm((z - guess) / scale * SEEN) <= reach]
+        if phase not in images:
+            seen = at_phase(orbit, phase)
+            images[phase] = [] if seen is None else list(_images(seen))
+        near = [z for z in images[phase] if np.linalg.norm((z - guess) / scale * SEEN) <= reach]
         if not near:
             continue
-        status, found = corrected(section, guess, here.orbit.facts[section_map.MODE])
+        status, found = corrected(here.orbit.section, guess, here.orbit.facts[section_map.MODE])
         if status is Status.DONE and any(
             np.linalg.norm((found.point - z) / scale * SEEN) <= _SAME for z in near
         ):

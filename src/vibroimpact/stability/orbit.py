@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import numpy as np
 import xarray as xr
 
-from vibroimpact.engine import hold, section_map
-from vibroimpact.engine.phase import FLIGHT
+from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.response.variables import describe, motion_parameters
 from vibroimpact.stability.branch import first_orbit
 from vibroimpact.stability.family import family
-from vibroimpact.stability.orbits import MAX_EVENTS, Orbit
+from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, vector_of
 from vibroimpact.stability.settled import Settled
 from vibroimpact.stability.steady import describe_motion
 
@@ -75,11 +73,6 @@ def orbit(
 
 def settled_on(found: Orbit) -> Settled:
     """An orbit as a motion that has settled on it."""
-    mode = float(found.facts[section_map.MODE])
-    u, v, right, left = found.point[:4]
-    state = np.zeros(hold.STATE)
-    state[hold.MODE], state[hold.FRESH] = mode, float(mode != FLIGHT)
-    state[hold.U], state[hold.V] = u, v
-    state[hold.RIGHT_BUMPER], state[hold.LEFT_BUMPER] = right, -left
+    state = vector_of(found)
     rig, shaken = found.setting
     return Settled(rig, shaken, state, found.section.period, 0, Status.DONE)

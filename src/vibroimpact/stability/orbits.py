@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import orbit, section_map
+from vibroimpact.engine import batch, hold, margin, orbit, record, section_map
+from vibroimpact.engine.phase import FLIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.stability.family import Family
@@ -42,6 +44,10 @@ class Section:
     def period(self) -> int:
         """Of its fixed points, in forcing cycles."""
         return self.count
+
+    def simpler(self, count: int, *, mirror: bool) -> Section:
+        """Another map of the same rig."""
+        return Section(self.family, count, mirror, self.scale)
 
     def full(self) -> Section:
         """The same without the mirror: its fixed points include those of the other."""
@@ -196,3 +202,65 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
         image,
     )
     return Status(outcome), found, image
+
+
+def is_fixed(section: Section, found: Orbit, tolerance: float) -> bool:
+    """Whether an orbit is fixed under another map, to a scaled tolerance."""
+    status, image, _ = evaluated(section, found.point, found.facts[section_map.MODE])
+    return status is Status.DONE and bool(image.facts[section_map.RESIDUAL] <= tolerance)
+
+
+def margin_of(found: Orbit) -> float:
+    """Scaled distance from grazing: see `engine.margin`."""
+    section = found.section
+    value: float = margin.grazing_margin(
+        section.family.system(found.value),
+        section.family.phase,
+        section.period,
+        MAX_EVENTS,
+        found.point,
+        found.facts,
+    )
+    return value / float(section.scale[0])
+
+
+def vector_of(found: Orbit) -> _Array:
+    """The state at the section as the engine's vector."""
+    mode = float(found.facts[section_map.MODE])
+    u, v, right, left = found.point[:4]
+    state = np.zeros(hold.STATE)
+    state[hold.MODE], state[hold.FRESH] = mode, float(mode != FLIGHT)
+    state[hold.U], state[hold.V] = u, v
+    state[hold.RIGHT_BUMPER], state[hold.LEFT_BUMPER] = right, -left
+    return state
+
+
+def at_phase(found: Orbit, phase: float) -> Orbit | None:
+    """The same orbit seen at another section, if Newton's method confirms it."""
+    section = found.section
+    ahead = ((phase - section.family.phase) / (2.0 * math.pi)) % 1.0
+    if ahead == 0.0:
+        return found
+    state = vector_of(found)
+    system = section.family.system(found.value)
+    batch.trajectory(
+        system[: section_map.AMPLITUDE].copy(),
+        float(system[section_map.AMPLITUDE]),
+        float(system[section_map.FREQUENCY]),
+        section.family.phase,
+        state,
+        0.0,
+        ahead,
+        0,
+        MAX_EVENTS,
+        np.empty((0, record.SAMPLE)),
+        np.empty((MAX_EVENTS + 2, record.EVENT)),
+    )
+    turned = section.family.excitation.replace(phase=phase)
+    moved = Section(
+        section.family._replace(excitation=turned), section.count, section.mirror, section.scale
+    )
+    right, left = state[hold.RIGHT_BUMPER], -state[hold.LEFT_BUMPER]
+    point = np.array([state[hold.U], state[hold.V], right, left, found.value])
+    status, there = corrected(moved, point, float(state[hold.MODE]))
+    return there if status is Status.DONE else None

@@ -21,7 +21,16 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.orbits import HELD, SEEN, Orbit, corrected, evaluated
+from vibroimpact.stability.orbits import (
+    HELD,
+    SEEN,
+    Orbit,
+    at_phase,
+    corrected,
+    evaluated,
+    is_fixed,
+    margin_of,
+)
 
 _Array = NDArray[np.float64]
 
@@ -29,6 +38,8 @@ FIRST, LEAST, MOST = 0.01, 1e-9, 0.1
 """Length of the first step, of the least and of the largest one, in scaled components."""
 _TURN = 0.97  # cosine of the largest turn of the tangent in a step
 _GENTLE = 0.997  # below this turn the step may grow
+_MISS = 0.4  # of a step, by which the orbit may miss the prediction
+_SLID = 1e-7
 _BISECTIONS = 55
 _LOOK = 12  # bisections after which a grazing must show
 _BEYOND = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
@@ -49,6 +60,8 @@ class Station:
     """Number of the smooth piece of the branch: it changes at every grazing."""
     grazing: bool = False
     """Whether it is the grazing orbit itself, at the end of its piece."""
+    phases_tried: int = 0
+    """How often the section was moved at this very orbit."""
     critical: bool = False
     """Whether it is a bifurcation at which a multiplier lies on the unit circle."""
 
@@ -64,9 +77,27 @@ class Trace:
 
 
 def step(at: Station, length: float) -> tuple[Status, Orbit]:
-    """Predict and correct."""
-    point = at.orbit.point + length * at.tangent * at.orbit.section.scale
-    return corrected(at.orbit.section, point, at.orbit.facts[section_map.MODE], at.tangent)
+    """Predict and correct; an orbit that is far from the prediction is on another branch."""
+    section = at.orbit.section
+    point = at.orbit.point + length * at.tangent * section.scale
+    status, found = corrected(section, point, at.orbit.facts[section_map.MODE], at.tangent)
+    if status is Status.DONE:
+        miss = np.linalg.norm((found.point - point) / section.scale * SEEN)
+        if miss > _MISS * length + 1e-9 or slid(found):
+            return Status.NOT_SETTLED, found
+    return status, found
+
+
+def slid(found: Orbit) -> bool:
+    """Whether an orbit has become one of a simpler map: its own mirror image, or half as long."""
+    section = found.section
+    if section.mirror:
+        return False
+    if section.family.symmetric and section.count % 2 == 1:
+        return is_fixed(section.simpler(section.count, mirror=True), found, _SLID)
+    if section.count % 2 == 0:
+        return is_fixed(section.simpler(section.count // 2, mirror=False), found, _SLID)
+    return False
 
 
 def follow_branch(
@@ -134,6 +165,14 @@ def follow_branch(
                 length = min(1e-3, FIRST)
                 continue
         length *= 0.25
+        if length < 1e-5 and here.phases_tried < len(PHASES):
+            # An event may fall on the section: there a smooth branch has a corner.
+            moved = _at_another_phase(here)
+            if moved is not None:
+                trace.stations.append(moved)
+                here = moved
+                length = 1e-3
+                continue
         if length < LEAST:
             trace.ended = f"no orbit could be found beyond {here.orbit.value:.9g} (least step)"
             return trace
@@ -163,6 +202,9 @@ def _returned(trace: Trace, here: Station) -> bool:
     if len(trace.stations) < 8 or here.orbit.contacts != first.orbit.contacts:
         return False
     before = trace.stations[-2]
+    phase = first.orbit.section.family.phase
+    if here.orbit.section.family.phase != phase or before.orbit.section.family.phase != phase:
+        return False
     gap = _distance(before.orbit, here.orbit)
     scale = first.orbit.section.scale
     ahead = (first.orbit.point - before.orbit.point) / scale * SEEN
@@ -172,6 +214,21 @@ def _returned(trace: Trace, here: Station) -> bool:
         and np.linalg.norm(ahead - (ahead @ before.tangent) * before.tangent * SEEN) <= 0.2 * gap
         and (here.tangent * SEEN) @ first.tangent > 0.9
     )
+
+
+PHASES = (1.0, 2.1, 3.3, 0.4)
+"""rad, by which the section is moved in turn."""
+
+
+def _at_another_phase(here: Station) -> Station | None:
+    """The same orbit with the section elsewhere."""
+    for number in range(here.phases_tried, len(PHASES)):
+        found = at_phase(here.orbit, here.orbit.section.family.phase + PHASES[number])
+        if found is None or found.contacts != here.orbit.contacts:
+            continue
+        tangent = found.tangent(HELD * math.copysign(1.0, here.tangent[4]))
+        return Station(found, tangent, here.arclength, here.piece, phases_tried=number + 1)
+    return None
 
 
 def _past_grazing(here: Station, length: float) -> tuple[Station, Station] | None:
@@ -190,6 +247,8 @@ def _past_grazing(here: Station, length: float) -> tuple[Station, Station] | Non
             good, last = middle, found
         else:
             bad = middle
+    if good > 0.0:
+        last, good = _refined(here, last, good)
     tangent = last.tangent(here.tangent) if good > 0.0 else here.tangent
     before = Station(last, tangent, here.arclength + good, here.piece, True)
     # The map just beyond, where it has the new contacts: at a point that is no orbit yet.
@@ -215,6 +274,26 @@ def _past_grazing(here: Station, length: float) -> tuple[Station, Station] | Non
                     return before, behind
         return None
     return None
+
+
+def _refined(here: Station, last: Orbit, good: float) -> tuple[Orbit, float]:
+    """Go on to where the turning point touches: the bisection may stop a little before."""
+    inner = good * (1.0 - 1e-3)
+    status, earlier = step(here, inner)
+    if status is not Status.DONE or earlier.contacts != last.contacts:
+        return last, good
+    first, second = margin_of(earlier), margin_of(last)
+    if not (abs(second) < abs(first) and second != first):
+        return last, good
+    target = good - second * (good - inner) / (second - first)
+    for share in (1.0, 1.0 - 1e-9, 1.0 - 1e-6):
+        length = good + share * (target - good)
+        if not good < length < good + 1e-6:
+            continue
+        status, found = step(here, length)
+        if status is Status.DONE and found.contacts == last.contacts:
+            return found, length
+    return last, good
 
 
 def _near_other_contacts(last: Orbit, along: _Array, ahead: float) -> bool:
