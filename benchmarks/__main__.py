@@ -4,6 +4,7 @@ import argparse
 
 from rich.console import Console
 
+from benchmarks.branches import branches
 from benchmarks.campaign import campaign
 from benchmarks.machine import load, machine
 from benchmarks.memory import memory
@@ -43,6 +44,8 @@ def main() -> None:
         add(campaign())
     with console.status("motions ..."):
         add(motions())
+    with console.status("branches ..."):
+        add(branches())
     with console.status("starting and memory ..."):
         add(startup(compiled), memory())
     about.add("load when it ended", f"{load():.1f}")

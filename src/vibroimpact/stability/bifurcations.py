@@ -84,7 +84,10 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
             )
             continue
         for kind, function in _tests(here):
-            first, second = function(here.orbit), function(there.orbit)
+            if kind == FOLD:  # the tangents are known
+                first, second = float(here.tangent[4]), float(there.tangent[4])
+            else:
+                first, second = function(here.orbit), function(there.orbit)
             # A zero at the end belongs to the next step.
             if not (first * second < 0.0 or (first == 0.0 and second != 0.0)):
                 continue

@@ -10,11 +10,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import hold, orbit, section_map
+from vibroimpact.engine import parameters as par
 from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
-from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.response.start import as_state
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability import bifurcations
@@ -255,13 +255,15 @@ def as_dataset(
         "branch": np.array([i for i, _ in stations], dtype=np.int64),
         "piece": np.array([s.piece for _, s in stations], dtype=np.int64),
     }
-    data = xr.Dataset({key: ("point", np.asarray(value)) for key, value in values.items()})
-    data = data.assign_coords({name: ("point", [one.value for one in orbits])})
-    data["multiplier_real"] = (("point", "multiplier"), multipliers.real)
-    data["multiplier_imag"] = (("point", "multiplier"), multipliers.imag)
-    data["section"] = (("point", "component"), np.array([state_of(one) for one in orbits]))
-    data = data.assign_coords(component=COMPONENTS)
-    data = _with_bifurcations(data, followed)
+    variables: dict[str, Any] = {
+        **{key: ("point", np.asarray(value)) for key, value in values.items()},
+        "multiplier_real": (("point", "multiplier"), multipliers.real),
+        "multiplier_imag": (("point", "multiplier"), multipliers.imag),
+        "section": (("point", "component"), np.array([state_of(one) for one in orbits])),
+        **_bifurcations(followed),
+    }
+    coordinates = {name: ("point", [one.value for one in orbits]), "component": COMPONENTS}
+    data = xr.Dataset(variables, coordinates)
     data.attrs["parameter"] = name
     for i, one in enumerate(followed):
         prefix = "" if len(followed) == 1 else f"branch_{i}_"
@@ -282,7 +284,8 @@ def as_dataset(
     )
 
 
-def _with_bifurcations(data: xr.Dataset, followed: list[Followed]) -> xr.Dataset:
+def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
+    """The bifurcations as variables."""
     found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
     multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, 4)
     measured = np.array([_measured(b.orbit) for _, b in found]).reshape(-1, hold.RESULTS)
@@ -301,13 +304,16 @@ def _with_bifurcations(data: xr.Dataset, followed: list[Followed]) -> xr.Dataset
         "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
         "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
     }
-    for key, value in values.items():
-        data[f"bifurcation_{key}"] = ("bifurcation", np.asarray(value))
-    data["bifurcation_multiplier_real"] = (("bifurcation", "multiplier"), multipliers.real)
-    data["bifurcation_multiplier_imag"] = (("bifurcation", "multiplier"), multipliers.imag)
     states = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
-    data["bifurcation_section"] = (("bifurcation", "component"), states)
-    return data
+    return {
+        **{
+            f"bifurcation_{key}": ("bifurcation", np.asarray(value))
+            for key, value in values.items()
+        },
+        "bifurcation_multiplier_real": (("bifurcation", "multiplier"), multipliers.real),
+        "bifurcation_multiplier_imag": (("bifurcation", "multiplier"), multipliers.imag),
+        "bifurcation_section": (("bifurcation", "component"), states),
+    }
 
 
 def state_of(one: Orbit) -> list[float]:
@@ -334,12 +340,14 @@ def _measured(one: Orbit) -> _Array:
 
 def _free_peak(one: Orbit) -> tuple[float, float]:
     """Largest excursions of displacement and absolute acceleration in free flight."""
-    rig, shaken = one.setting
-    if not 0.0 < rig.damping_ratio < np.sqrt(0.5):
+    system = one.section.family.system(one.value)
+    omega = np.sqrt(system[par.STIFFNESS])
+    xi = system[par.DAMPING] / (2.0 * omega)
+    if not 0.0 < xi < np.sqrt(0.5):
         return np.nan, np.nan  # no resonance, or no bound
-    xi = rig.damping_ratio
+    amplitude = system[section_map.AMPLITUDE]
     # |H| of the absolute acceleration is largest at r² = (√(1 + 8ξ²) − 1) / (4ξ²).
-    root = np.sqrt(1.0 + 8.0 * xi * xi)
-    r2 = (root - 1.0) / (4.0 * xi * xi)
+    r2 = (np.sqrt(1.0 + 8.0 * xi * xi) - 1.0) / (4.0 * xi * xi)
     gain = np.sqrt((1.0 + 4.0 * xi * xi * r2) / ((1.0 - r2) ** 2 + 4.0 * xi * xi * r2))
-    return 2.0 * peak_displacement(rig, shaken.amplitude), 2.0 * shaken.amplitude * float(gain)
+    largest = amplitude / (2.0 * xi * np.sqrt(1.0 - xi * xi) * omega**2)
+    return 2.0 * float(largest), 2.0 * float(amplitude * gain)

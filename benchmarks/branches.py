@@ -1,0 +1,55 @@
+"""Branches of orbits: a forced oscillator between stops, and a full resonance diagram."""
+
+import importlib.util
+import math
+
+import vibroimpact as vi
+from benchmarks.report import Table, met, targets
+from benchmarks.rounds import Spread, interleave
+
+_ROUNDS = 11
+_BRANCH = 0.02
+_DIAGRAM = 2.0
+_TURN = 2.0 * math.pi
+
+
+def branches() -> Table:
+    """Measure `vi.branch` of a known problem, and `vi.resonance_diagram` of a published rig."""
+    stop = vi.Bumper(10.0, 0.0, 1.0)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop)
+    excitation = vi.Harmonic(0.2, 2.0 / _TURN)
+    case = vi.laboratory.case("B3-10mm-A3")
+
+    def branch() -> object:
+        return vi.branch(rig, excitation, low=1.0 / _TURN, high=2.5 / _TURN)
+
+    def diagram() -> object:
+        return vi.resonance_diagram(case.oscillator, case.amplitude, 0.3, 4.0)
+
+    table = targets("Branches of orbits, warm")
+    seconds = interleave({"branch": branch, "diagram": diagram}, _ROUNDS)
+    data = branch()
+    spread = Spread.of(seconds["branch"])
+    table.add(
+        "elastic stops, whole branch with both limits, ms",
+        spread.text(1e3),
+        f"under {1e3 * _BRANCH:g} ms",
+        met(spread.median < _BRANCH),
+    )
+    spread = Spread.of(seconds["diagram"])
+    table.add(
+        "B3-10mm-A3, 0.3 to 4 Hz, all branches to period 4, s",
+        spread.text(),
+        f"under {_DIAGRAM:g} s",
+        met(spread.median < _DIAGRAM),
+    )
+    kinds = data["bifurcation_kind"].values
+    folds = _TURN * data["bifurcation_value"].values[kinds == "fold"]
+    grazings = _TURN * data["bifurcation_value"].values[kinds == "grazing"]
+    table.notes.append(
+        f"The stops: {data.sizes['point']} orbits; upper fold at Ω = {folds.max():.9f}, grazing "
+        f"at Ω = {grazings.max():.12f}, no contact smoothed."
+    )
+    if importlib.util.find_spec("auto") is None:
+        table.notes.append("AUTO-07p is not installed here: it was not run beside.")
+    return table
