@@ -1,15 +1,16 @@
 """Branches of orbits: a forced oscillator between stops, and a full resonance diagram."""
 
-import importlib.util
 import math
 
 import vibroimpact as vi
+from benchmarks.peers import auto07
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import Spread, interleave
 
 _ROUNDS = 11
 _BRANCH = 0.02
 _DIAGRAM = 2.0
+_AUTO = ((1e-3, 60), (1e-5, 400))
 _TURN = 2.0 * math.pi
 
 
@@ -50,6 +51,23 @@ def branches() -> Table:
         f"The stops: {data.sizes['point']} orbits; upper fold at Ω = {folds.max():.9f}, grazing "
         f"at Ω = {grazings.max():.12f}, no contact smoothed."
     )
-    if importlib.util.find_spec("auto") is None:
-        table.notes.append("AUTO-07p is not installed here: it was not run beside.")
+    ours = Spread.of(seconds["branch"]).median
+    for smoothing, intervals in _AUTO:
+        auto = auto07.continued(smoothing, intervals, _ROUNDS)
+        if auto is None:
+            table.notes.append("AUTO-07p with gfortran is not installed here: not run beside.")
+            break
+        took = Spread.of(auto.seconds)
+        table.add(
+            f"the stops by AUTO-07p, tanh width {smoothing:g}, {intervals} intervals, ms",
+            took.text(1e3),
+            "",
+            "",
+        )
+        table.add("the same, times ours", f"{took.median / ours:.1f}", "", "")
+        table.notes.append(
+            f"AUTO with tanh width {smoothing:g}: upper fold {max(auto.folds):.5f}, lower limit "
+            f"{min(auto.folds):.5f} (off by {abs(max(auto.folds) - folds.max()):.0e} and "
+            f"{abs(min(auto.folds) - grazings.max()):.0e})."
+        )
     return table
