@@ -10,7 +10,7 @@ from benchmarks.rounds import Spread, interleave
 _ROUNDS = 11
 _BRANCH = 0.02
 _DIAGRAM = 2.0
-_AUTO = ((1e-3, 60), (1e-5, 400))
+_AUTO = ((1e-3, 60, 0.05), (1e-5, 400, 0.005))
 _TURN = 2.0 * math.pi
 
 
@@ -52,8 +52,8 @@ def branches() -> Table:
         f"at Ω = {grazings.max():.12f}, no contact smoothed."
     )
     ours = Spread.of(seconds["branch"]).median
-    for smoothing, intervals in _AUTO:
-        auto = auto07.continued(smoothing, intervals, _ROUNDS)
+    for smoothing, intervals, longest in _AUTO:
+        auto = auto07.continued(smoothing, intervals, longest, _ROUNDS)
         if auto is None:
             table.notes.append("AUTO-07p with gfortran is not installed here: not run beside.")
             break
@@ -66,8 +66,8 @@ def branches() -> Table:
         )
         table.add("the same, times ours", f"{took.median / ours:.1f}", "", "")
         table.notes.append(
-            f"AUTO with tanh width {smoothing:g}: upper fold {max(auto.folds):.5f}, lower limit "
+            f"AUTO with tanh width {smoothing:g}: upper fold {max(auto.folds):.5f}, lower fold "
             f"{min(auto.folds):.5f} (off by {abs(max(auto.folds) - folds.max()):.0e} and "
-            f"{abs(min(auto.folds) - grazings.max()):.0e})."
+            f"{abs(min(auto.folds) - folds.min()):.0e})."
         )
     return table

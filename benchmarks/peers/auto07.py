@@ -53,7 +53,7 @@ ICP=[1,11]
 NTST={intervals}, NCOL=4, IAD=3, ISP=2, ISW=1, IPLT=0, NBC=0, NINT=0
 NMX=5000, NPR=5000, MXBF=0, IID=2, ITMX=9, ITNW=7, NWTN=3, JAC=0
 EPSL=1e-7, EPSU=1e-7, EPSS=1e-5
-DS=-0.01, DSMIN=1e-8, DSMAX=0.05, IADS=1
+DS=-0.01, DSMIN=1e-8, DSMAX={longest}, IADS=1
 NPAR=11, THL={{11:0.0}}, THU={{}}
 UZSTOP={{1:[1.0,2.5]}}
 """
@@ -83,8 +83,11 @@ def program() -> str | None:
     return shutil.which("auto-07p") or shutil.which("auto")
 
 
-def continued(smoothing: float, intervals: int, rounds: int) -> Run | None:
+def continued(smoothing: float, intervals: int, longest: float, rounds: int) -> Run | None:
     """Continue the branch from Ω = 2 to Ω = 1; compiling is not timed, AUTO's files are.
+
+    The contact is smoothed over a tanh's width `smoothing`; the mesh has `intervals`, the largest
+    step is `longest`.
 
     Returns None where AUTO is not installed or does not finish.
     """
@@ -95,7 +98,7 @@ def continued(smoothing: float, intervals: int, rounds: int) -> Run | None:
         folder = Path(name)
         fortran = f"{smoothing:.1e}".replace("e", "D")
         (folder / "stops.f90").write_text(_EQUATIONS.replace("{smoothing}", fortran))
-        (folder / "c.stops").write_text(_CONSTANTS.format(intervals=intervals))
+        (folder / "c.stops").write_text(_CONSTANTS.format(intervals=intervals, longest=longest))
         (folder / "run.auto").write_text(_SCRIPT.format(rounds=rounds))
         try:
             done = subprocess.run(
