@@ -224,3 +224,31 @@ def test_a_parameter_that_the_bumpers_do_not_share():
         vi.branch(rig, vi.Harmonic(0.5, 2.0), parameter="gap", low=1e-3, high=1e-2)
     data = vi.branch(rig, vi.Harmonic(0.5, 2.0), parameter="left_gap", low=1e-3, high=1e-2)
     assert data.sizes["point"] > 5
+
+
+def remembering() -> vi.Oscillator:
+    """Bumpers that relax more slowly than they are struck."""
+    bumper = vi.Bumper(0.01, 0.2, 0.6)
+    return vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), bumper, bumper)
+
+
+@pytest.mark.parametrize("phase", [0.0, 2.0])
+def test_neimark_sacker_with_a_long_memory(phase):
+    """There a pair can cross the unit circle, and beyond it the motion is quasi-periodic."""
+    turn = 2 * np.pi
+    data = vi.resonance_diagram(remembering(), 1.0, 1.0 / turn, 1.8 / turn, phase=phase)
+    (value,) = values(data, "Neimark-Sacker")
+    row = int(np.flatnonzero(data["bifurcation_kind"].values == "Neimark-Sacker")[0])
+    pair = data.isel(bifurcation=row)
+    modulus = np.hypot(*(pair[f"bifurcation_multiplier_{part}"][0] for part in ("real", "imag")))
+    assert float(modulus) == pytest.approx(1.0, abs=1e-9)
+    assert abs(float(pair["bifurcation_multiplier_imag"][0])) > 0.1
+    beside = [vi.steady(remembering(), vi.Harmonic(1.0, value * f)) for f in (0.98, 1.02)]
+    assert [m["motion"].item() for m in beside] == ["periodic", "quasi-periodic"]
+
+
+def test_grazings_tell_the_contacts_on_both_sides():
+    data = diagram("B2-G1-A3", 0.8, 4.0)
+    (row,) = np.flatnonzero(data["bifurcation_kind"].values == "grazing")
+    told = data["bifurcation_contacts"].values[row]
+    assert sorted(told.split(" | ")) == ["0R 0L", "1R 1L"]

@@ -130,3 +130,24 @@ def test_refused(wrong, told):
     }
     with pytest.raises(vi.InputError, match=told):
         vi.bifurcation_curve(case().oscillator, vi.Harmonic(0.5, 2.0), **given)
+
+
+def test_neimark_sacker():
+    bumper = vi.Bumper(0.01, 0.2, 0.6)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), bumper, bumper)
+    turn = 2 * np.pi
+    found = vi.resonance_diagram(rig, 1.0, 1.0 / turn, 1.5 / turn)
+    row = int(np.flatnonzero(found["bifurcation_kind"].values == "Neimark-Sacker")[0])
+    seen = []
+    data = vi.bifurcation_curve(
+        rig,
+        vi.Harmonic(1.0, 1.2 / turn),
+        found.isel(bifurcation=row),
+        parameters=("frequency", "gap"),
+        low=(0.5 / turn, 0.4),
+        high=(2.0 / turn, 0.9),
+        progress=lambda *at: seen.append(at),
+    )
+    modulus = np.hypot(data["multiplier_real"], data["multiplier_imag"]).values[:, 0]
+    np.testing.assert_allclose(modulus, 1.0, atol=1e-9)
+    assert len(seen) > 5

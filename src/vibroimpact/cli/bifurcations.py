@@ -23,6 +23,7 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
                 "value": float(row["bifurcation_value"]),
                 "period": int(row["bifurcation_period"]),
                 "turns": bool(row["bifurcation_turns"]),
+                "contacts": row["bifurcation_contacts"].item(),
                 "eta_d": float(row["bifurcation_eta_d"]),
                 "multipliers": [
                     [float(real), float(imaginary)]
@@ -75,21 +76,25 @@ def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
     for name in (heading, "η_d", "largest multipliers", ""):
         table.add_column(name, justify="right")
     for one in found:
-        largest = ", ".join(_complex(*pair) for pair in one["multipliers"][:2])
+        first, second = one["multipliers"][:2]
+        if abs(first[1]) > 1e-9 * abs(first[0]):
+            largest = f"{first[0]:.4f} ± {abs(first[1]):.4f}i"
+        else:
+            largest = f"{first[0]:.4f}, {second[0]:.4f}"
         table.add_row(
             one["kind"],
             f"{one['value']:.10g}",
             f"{one['eta_d']:.4g}",
             largest,
-            "the branch turns back" if one["turns"] else "",
+            _note(one),
         )
     return table
 
 
-def _complex(real: float, imaginary: float) -> str:
-    if abs(imaginary) <= 1e-9 * abs(real):
-        return f"{real:.4f}"
-    return f"{real:.4f}{imaginary:+.4f}i"
+def _note(one: dict[str, Any]) -> str:
+    if one["turns"]:
+        return "turns back"
+    return str(one["contacts"]) if one["kind"] == "grazing" else ""
 
 
 def _prefix(data: xr.Dataset, number: int) -> str:

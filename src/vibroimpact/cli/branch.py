@@ -89,7 +89,7 @@ def branch(
             if along == "frequency":
                 data, swept = _over_frequency(what, span, longest, progress)
             else:
-                data, swept = _over_another(what, along, span, frequency), None
+                data, swept = _over_another(what, along, span, frequency, progress), None
         data.attrs["title"] = what.name
         axes = bifurcation_diagram(data, quantity=quantity, sweep=swept, title=what.name)
         stem = folder / f"{what.slug}-{along.replace('_', '-')}-branches"
@@ -134,7 +134,7 @@ def _over_frequency(
 
 
 def _over_another(
-    what: Subject, parameter: str, span: tuple[Any, Any], frequency: str | None
+    what: Subject, parameter: str, span: tuple[Any, Any], frequency: str | None, progress: Any
 ) -> xr.Dataset:
     """The branch along another parameter, from where the motion from rest settles."""
     from vibroimpact.model import Harmonic, to_si
@@ -151,4 +151,5 @@ def _over_another(
         parameter=parameter,
         low=span[0],
         high=span[1],
+        progress=progress and (lambda at: progress(0, None)),
     )

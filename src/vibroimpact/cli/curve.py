@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
@@ -67,7 +67,7 @@ def curve(
         vibroimpact curve B2-G1-A3 --bifurcation fold --parameters frequency,gap --second 1mm:20mm
         vibroimpact curve B2-G1-A3 --parameters frequency,stiffness-ratio --second 0.5:100
     """
-    from vibroimpact.cli.output import output_folder, tell
+    from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
 
     out = output or OutputOptions()
@@ -87,7 +87,8 @@ def curve(
         from vibroimpact.response.files import save
 
         kind = _KINDS[bifurcation]
-        found = _curves(what, kind, (names[0], names[1]), spans, frequency)
+        with progress_bar("following") as progress:
+            found = _curves(what, kind, (names[0], names[1]), spans, frequency, progress)
         if not found:
             raise InputError(
                 f"--bifurcation: no {kind} along {names[0]} between {spans[0][0]} and "
@@ -147,6 +148,7 @@ def _curves(
     names: tuple[str, str],
     spans: list[tuple[str, str]],
     frequency: str | None,
+    progress: Any,
 ) -> dict[str, xr.Dataset]:
     """Each curve once, by the parameter at which it was found."""
     import numpy as np
@@ -159,7 +161,9 @@ def _curves(
 
     phase = what.study.excitation.phase if what.study else 0.0
     if names[0] == "frequency":
-        data = resonance_diagram(what.oscillator, what.amplitude, *spans[0], phase=phase)
+        data = resonance_diagram(
+            what.oscillator, what.amplitude, *spans[0], phase=phase, progress=progress
+        )
         middle = float(data["frequency"].mean())
         shaken = Harmonic(what.amplitude, middle, phase)
     else:
@@ -185,6 +189,7 @@ def _curves(
             parameters=names,
             low=(spans[0][0], spans[1][0]),
             high=(spans[0][1], spans[1][1]),
+            progress=progress and (lambda *at: progress(0, None)),
         )
     return found
 

@@ -192,6 +192,9 @@ VARIABLES: dict[str, Variable] = {
     "bifurcation_eta_a": Variable("1", "normalised excursion of absolute acceleration"),
     "bifurcation_eccentricity": Variable("m", "eccentricity at the bifurcation"),
     "bifurcation_period": Variable("1", "period of the orbit in forcing cycles"),
+    "bifurcation_contacts": Variable(
+        "1", "contacts per period", "of a grazing on both of its sides"
+    ),
     "bifurcation_antisymmetric": Variable("1", "whether the orbit is its own mirror image"),
     "cusp_first": Variable("1", "first parameter at the cusp", "in the parameter's units"),
     "cusp_second": Variable("1", "second parameter at the cusp", "in the parameter's units"),

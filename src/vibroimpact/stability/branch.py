@@ -303,6 +303,7 @@ def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
         "eccentricity": 0.5 * (measured[:, hold.U_MOST] + measured[:, hold.U_LEAST]),
         "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
         "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
+        "contacts": np.array([_contacts(b) for _, b in found], dtype=str),
     }
     states = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
     return {
@@ -314,6 +315,14 @@ def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
         "bifurcation_multiplier_imag": (("bifurcation", "multiplier"), multipliers.imag),
         "bifurcation_section": (("bifurcation", "component"), states),
     }
+
+
+def _contacts(found: Bifurcation) -> str:
+    """Contacts per period, right (R) and left (L); at a grazing on both sides of it."""
+    before = "{}R {}L".format(*found.orbit.contacts)
+    if found.contacts_behind == found.orbit.contacts:
+        return before
+    return before + " | {}R {}L".format(*found.contacts_behind)
 
 
 def state_of(one: Orbit) -> list[float]:

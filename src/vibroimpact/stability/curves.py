@@ -15,6 +15,7 @@ In (z, p, q) the curve of folds is smooth where its projection has a cusp.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -59,6 +60,7 @@ def bifurcation_curve(
     low: tuple[float | str, float | str],
     high: tuple[float | str, float | str],
     most_points: int = 2000,
+    progress: Callable[[float, float], None] | None = None,
 ) -> xr.Dataset:
     """Follow a bifurcation in two parameters.
 
@@ -76,6 +78,8 @@ def bifurcation_curve(
         Range of each.
     most_points
         Points in each direction after which it is given up.
+    progress
+        Called with both parameters as the curve is followed.
 
     Returns
     -------
@@ -115,7 +119,9 @@ def bifurcation_curve(
             f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; one that "
             "was found for it is accepted"
         )
-    back, ahead = (_follow(system, first, sense, spans, most_points) for sense in (-1.0, 1.0))
+    back, ahead = (
+        _follow(system, first, sense, spans, most_points, progress) for sense in (-1.0, 1.0)
+    )
     spots = [*reversed(back[0]), *ahead[0][1:]]
     return _dataset(spots, back[1] + ahead[1], over, kind, spans, (back[2], ahead[2]))
 
@@ -139,6 +145,7 @@ def _follow(
     sense: float,
     spans: list[tuple[float, float]],
     most_points: int,
+    progress: Callable[[float, float], None] | None,
 ) -> tuple[list[Spot], list[Spot], str]:
     """Points in one direction, the cusps among them, and why they end."""
     spots = [first]
@@ -163,6 +170,8 @@ def _follow(
                 if new[4:] @ tangent[4:] < 0.0:
                     cusps += _cusp(system, here, tangent, length)
                 spots.append(spot)
+                if progress:
+                    progress(float(spot.y[4]), float(spot.y[5]))
                 tangent = new
                 moved = False
                 length = min(1.5 * length, _MOST) if turned > 0.995 else length
