@@ -117,6 +117,11 @@ def test_symmetry_breaking_and_period_doubling():
         ({"parameters": ("frequency", "frequency")}, "twice"),
         ({"parameters": ("frequency", "mass")}, "parameters: 'mass'"),
         ({"low": (0.3, 1.0)}, "high"),
+        ({"low": (0.3, 1e-2)}, "leaves out"),
+        (
+            {"parameters": ("frequency", "gap_ratio"), "low": (0.3, 0.4), "high": (6.0, 0.5)},
+            "leaves",
+        ),
         ({"start": None}, "start"),
     ],
 )

@@ -110,6 +110,11 @@ def bifurcation_curve(
         bounds(varied, low[i], high[i])
         for i, varied in enumerate((over.family.parameter, over.other))
     ]
+    if not spans[1][0] <= over.value <= spans[1][1]:
+        raise InputError(
+            f"low: {spans[1][0]:g} to {spans[1][1]:g} leaves out the rig's {parameters[1]}, "
+            f"{over.value:g}; a range that holds it is accepted"
+        )
     system, y = _start(over, kind, start, spans)
     first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
     if first is None:

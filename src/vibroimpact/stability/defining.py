@@ -17,6 +17,7 @@ _Array = NDArray[np.float64]
 SEEN = np.array([1.0, 1.0, 0.0, 0.0, 1.0, 1.0])
 """Components of (z, p, q) by which lengths and angles are measured, as in `orbits`."""
 
+_FAR = 1e3  # scaled; Newton's method has lost its way
 _STEP = 1e-7
 _NEWTON = 12
 _GOOD = 1e-11
@@ -50,6 +51,8 @@ class Defining(NamedTuple):
 
     def value(self, y: _Array) -> tuple[Orbit, _Array] | None:
         """The orbit that y stands for, and the residual in scaled components."""
+        if not (np.isfinite(y).all() and np.abs(y[:4] / self.scale[:4]).max() < _FAR):
+            return None
         section = self.section(y[5])
         status, orbit, image = evaluated(section, y[:5], self.mode)
         if status is not Status.DONE or not np.isfinite(orbit.columns).all():
