@@ -252,3 +252,56 @@ def test_grazings_tell_the_contacts_on_both_sides():
     (row,) = np.flatnonzero(data["bifurcation_kind"].values == "grazing")
     told = data["bifurcation_contacts"].values[row]
     assert sorted(told.split(" | ")) == ["0R 0L", "1R 1L"]
+
+
+def between_stops(damping: float) -> vi.Oscillator:
+    stop = vi.Bumper(10.0, damping, 1.0)
+    return vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop)
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.7, 3.0])
+def test_an_event_on_the_section_does_not_end_a_branch(phase):
+    """With a dashpot the acceleration jumps at contact, and the section's state has a corner."""
+    turn = 2 * np.pi
+    data = vi.branch(
+        between_stops(3.0), vi.Harmonic(0.2, 2.0 / turn, phase), low=0.3 / turn, high=2.5 / turn
+    )
+    assert float(data["frequency"].min()) == pytest.approx(0.3 / turn)
+    assert float(data["frequency"].max()) == pytest.approx(2.5 / turn)
+    (fold,) = values(data, "fold")
+    assert fold * turn == pytest.approx(1.15226, abs=1e-4)
+    # Free flight grazes where it reaches the stops.
+    squares = np.sort(np.roots([1.0, -(2.0 - 4.0 * 0.05**2), 1.0 - 0.2**2]).real)
+    np.testing.assert_allclose(values(data, "grazing") * turn, np.sqrt(squares), rtol=1e-11)
+
+
+@pytest.mark.parametrize("phase", [0.0, 1.3])
+def test_along_the_gap_through_the_grazing(phase):
+    """The derivative with respect to the gap jumps there: one side's must be used."""
+    turn = 2 * np.pi
+    data = vi.branch(
+        between_stops(0.5),
+        vi.Harmonic(0.2, 1.2 / turn, phase),
+        parameter="gap",
+        low=0.01,
+        high=2.0,
+    )
+    assert float(data["gap"].min()) == pytest.approx(0.01)
+    assert float(data["gap"].max()) == pytest.approx(2.0)
+    # At Ω = 1.2 free flight has the amplitude at which it grazes.
+    swing = 0.2 / np.hypot(1.0 - 1.2**2, 0.1 * 1.2)
+    assert values(data, "grazing")[0] == pytest.approx(swing, rel=1e-11)
+
+
+def test_no_step_lands_on_another_branch():
+    case = vi.laboratory.case("B2-G1-A3")
+    data = vi.branch(
+        case.oscillator, vi.Harmonic(case.amplitude, 2.0), parameter="gap", low=1e-4, high=2e-2
+    )
+    assert float(data["gap"].min()) == pytest.approx(1e-4)
+    assert float(data["gap"].max()) == pytest.approx(2e-2)
+    kinds = list(data["bifurcation_kind"].values)
+    assert kinds.count("symmetry breaking") == 2
+    assert kinds.count("fold") == 2
+    jump = np.abs(np.diff(data["gap"].values))
+    assert jump.max() < 0.11 * 2e-2
