@@ -305,3 +305,28 @@ def test_no_step_lands_on_another_branch():
     assert kinds.count("fold") == 2
     jump = np.abs(np.diff(data["gap"].values))
     assert jump.max() < 0.11 * 2e-2
+
+
+@pytest.mark.parametrize("phase", [1.5, 2.2])
+def test_grazing_of_a_heavy_dashpot(phase):
+    """Where Newton's method itself chooses between the sides of a sharp corner."""
+    turn = 2 * np.pi
+    data = vi.branch(
+        between_stops(10.0), vi.Harmonic(0.2, 2.0 / turn, phase), low=0.8 / turn, high=2.5 / turn
+    )
+    squares = np.sort(np.roots([1.0, -(2.0 - 4.0 * 0.05**2), 1.0 - 0.2**2]).real)
+    np.testing.assert_allclose(values(data, "grazing") * turn, np.sqrt(squares), rtol=5e-12)
+
+
+def test_a_fold_beside_a_period_doubling_is_a_fold():
+    data = diagram("B3-10mm-A3")
+    kinds, periods = data["bifurcation_kind"].values, data["bifurcation_period"].values
+    folds = data["bifurcation_value"].values[(kinds == "fold") & (periods == 4)]
+    assert np.abs(folds - 1.1050054621).min() < 1e-8
+    assert np.abs(folds - 1.0082179154).min() < 1e-8
+
+
+def test_an_orbit_has_its_least_period():
+    case = vi.laboratory.case("B2-G1-A3")
+    data = vi.branch(case.oscillator, vi.Harmonic(case.amplitude, 2.0), low=1.9, high=2.1, period=3)
+    assert set(data["period"].values) == {1}

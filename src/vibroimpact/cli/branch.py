@@ -72,9 +72,7 @@ def branch(
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
     along = parameter.replace("-", "_")
-    span = (start or ("0.3Hz" if along == "frequency" else None), stop or _default_end(along))
-    if None in span:
-        raise InputError(f"--from: missing; a range of {parameter} is accepted, --from and --to")
+    span = option_range(along, start, stop, ("--from", "--to"))
 
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
@@ -106,12 +104,43 @@ def branch(
     return 0
 
 
-def _default_end(parameter: str) -> str | None:
-    return "5Hz" if parameter == "frequency" else None
+def option_range(
+    name: str, low: str | None, high: str | None, options: tuple[str, str]
+) -> tuple[float, float]:
+    """A range of a parameter from two options; that of a frequency has a default.
+
+    Raises
+    ------
+    InputError
+        If there is no such parameter, an end is missing or cannot be used, or none lies between.
+    """
+    from vibroimpact.model import to_si
+    from vibroimpact.stability.family import parameter
+
+    varied = parameter(name, "--parameter")
+    given = [low, high]
+    if name == "frequency":
+        given = [
+            text if text is not None else default
+            for text, default in zip(given, ("0.3Hz", "5Hz"), strict=True)
+        ]
+    ends = []
+    for text, option in zip(given, options, strict=True):
+        if text is None:
+            raise InputError(f"{option}: missing; the end of the range of {name} is accepted")
+        if name == "frequency":
+            ends.append(to_si(text, varied.quantity, option, above=0.0))
+        else:
+            ends.append(to_si(text, varied.quantity, option, minimum=0.0))
+    if not ends[0] < ends[1]:
+        raise InputError(
+            f"{options[1]}: {given[1]} does not lie above {given[0]}; a larger value is accepted"
+        )
+    return ends[0], ends[1]
 
 
 def _over_frequency(
-    what: Subject, span: tuple[Any, Any], longest: int, progress: Any
+    what: Subject, span: tuple[float, float], longest: int, progress: Any
 ) -> tuple[xr.Dataset, xr.Dataset]:
     """Branches along the frequency, and a stepped sweep to lay over them."""
     import numpy as np
@@ -134,17 +163,24 @@ def _over_frequency(
 
 
 def _over_another(
-    what: Subject, parameter: str, span: tuple[Any, Any], frequency: str | None, progress: Any
+    what: Subject, parameter: str, span: tuple[float, float], frequency: str | None, progress: Any
 ) -> xr.Dataset:
     """The branch along another parameter, from where the motion from rest settles."""
     from vibroimpact.model import Harmonic, to_si
     from vibroimpact.model.units import FREQUENCY
     from vibroimpact.stability.branch import branch as follow
+    from vibroimpact.stability.family import parameter as varied
 
     if frequency is None:
         raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
     hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
     phase = what.study.excitation.phase if what.study else 0.0
+    here = varied(parameter).read(what.oscillator, Harmonic(what.amplitude, hertz, phase))
+    if not span[0] <= here <= span[1]:
+        raise InputError(
+            f"--from: {span[0]:g} to {span[1]:g} leaves out the rig's {parameter}, {here:g}; a "
+            "range that holds it is accepted"
+        )
     return follow(
         what.oscillator,
         Harmonic(what.amplitude, hertz, phase),

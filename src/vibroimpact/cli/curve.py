@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from vibroimpact.cli.rig import Subject
+    from vibroimpact.model import Harmonic
 
 _CURVE = Group("Curve", sort_key=1)
 _WITH_UNITS = Parameter(group=_CURVE, allow_leading_hyphen=True)
@@ -75,8 +76,9 @@ def curve(
     names = [name.strip().replace("-", "_") for name in parameters.split(",")]
     if len(names) != 2:
         raise InputError(f"--parameters: {parameters!r}; two, as frequency,gap, are accepted")
-    default = "0.3Hz:5Hz" if names[0] == "frequency" else None
-    spans = [_range("--first", first or default), _range("--second", second)]
+    shaken = _excitation(what, names[0], frequency)
+    spans = [_range("--first", names[0], first), _range("--second", names[1], second)]
+    _check(what, shaken, (names[0], names[1]), spans)
 
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
@@ -88,7 +90,7 @@ def curve(
 
         kind = _KINDS[bifurcation]
         with progress_bar("following") as progress:
-            found = _curves(what, kind, (names[0], names[1]), spans, frequency, progress)
+            found = _curves(what, kind, (names[0], names[1]), spans, shaken, progress)
         if not found:
             raise InputError(
                 f"--bifurcation: no {kind} along {names[0]} between {spans[0][0]} and "
@@ -135,47 +137,74 @@ def curve(
     return 0
 
 
-def _range(option: str, text: str | None) -> tuple[str, str]:
+def _range(option: str, name: str, text: str | None) -> tuple[float, float]:
+    from vibroimpact.cli.branch import option_range
+
+    if text is None and name == "frequency":
+        return option_range(name, None, None, (option, option))
     low, colon, high = (text or "").partition(":")
     if not (low and colon and high):
         raise InputError(f"{option}: {text!r}; a range is accepted, such as 1mm:20mm")
-    return low, high
+    return option_range(name, low, high, (option, option))
+
+
+def _excitation(what: Subject, first: str, frequency: str | None) -> Harmonic:
+    """The forcing of the rig; along the frequency its own does not matter."""
+    from vibroimpact.model import Harmonic, to_si
+    from vibroimpact.model.units import FREQUENCY
+
+    phase = what.study.excitation.phase if what.study else 0.0
+    if frequency is None and first != "frequency":
+        raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
+    hertz = what.oscillator.natural_frequency
+    if frequency is not None:
+        hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
+    return Harmonic(what.amplitude, hertz, phase)
+
+
+def _check(
+    what: Subject,
+    shaken: Harmonic,
+    names: tuple[str, str],
+    spans: list[tuple[float, float]],
+) -> None:
+    """Refuse what cannot be followed before anything is sought."""
+    from vibroimpact.stability.plane import plane
+
+    over = plane(what.oscillator, shaken, names)
+    low, high = spans[1]
+    if not low <= over.value <= high:
+        raise InputError(
+            f"--second: {low:g} to {high:g} leaves out the rig's {names[1]}, {over.value:g}; a "
+            "range that holds it is accepted"
+        )
 
 
 def _curves(
     what: Subject,
     kind: str,
     names: tuple[str, str],
-    spans: list[tuple[str, str]],
-    frequency: str | None,
+    spans: list[tuple[float, float]],
+    shaken: Harmonic,
     progress: Any,
 ) -> dict[str, xr.Dataset]:
     """Each curve once, by the parameter at which it was found."""
     import numpy as np
 
-    from vibroimpact.model import Harmonic, to_si
-    from vibroimpact.model.units import FREQUENCY
     from vibroimpact.stability.branch import branch
     from vibroimpact.stability.curves import bifurcation_curve
     from vibroimpact.stability.diagram import resonance_diagram
+    from vibroimpact.stability.family import parameter
 
-    phase = what.study.excitation.phase if what.study else 0.0
     if names[0] == "frequency":
         data = resonance_diagram(
-            what.oscillator, what.amplitude, *spans[0], phase=phase, progress=progress
+            what.oscillator, what.amplitude, *spans[0], phase=shaken.phase, progress=progress
         )
-        middle = float(data["frequency"].mean())
-        shaken = Harmonic(what.amplitude, middle, phase)
     else:
-        if frequency is None:
-            raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
-        hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
-        shaken = Harmonic(what.amplitude, hertz, phase)
         data = branch(
             what.oscillator, shaken, parameter=names[0], low=spans[0][0], high=spans[0][1]
         )
     found: dict[str, xr.Dataset] = {}
-    from vibroimpact.stability.family import parameter
 
     here = parameter(names[1]).read(what.oscillator, shaken)
     for i in np.flatnonzero(data["bifurcation_kind"].values == kind):

@@ -26,6 +26,9 @@ _LABELS = {
 }
 
 
+_NORMALISED = {"eta_d": "displacement_excursion", "eta_a": "acceleration_excursion"}
+
+
 class _Mark(NamedTuple):
     marker: str
     colour: str
@@ -81,9 +84,12 @@ def bifurcation_diagram(
         raise InputError(
             f"sweep: the branches are along {name!r}; those along 'frequency' are accepted"
         )
+    if sweep is not None and "direction" not in sweep.coords:
+        raise InputError("sweep: this is no sweep; a dataset of sweep is accepted")
     factor, label = _LABELS[quantity]
     ax = axes_or_new(ax, (7.2, 4.6), title)
-    x, y = data[name].values, factor * data[quantity].values
+    scale, unit = axis_unit(data[name])
+    x, y = scale * data[name].values, factor * data[quantity].values
     for part, stable in _pieces(data):
         ax.plot(
             x[part],
@@ -103,7 +109,7 @@ def bifurcation_diagram(
         if not mine.any():
             continue
         drawn = ax.plot(
-            data["bifurcation_value"].values[mine],
+            scale * data["bifurcation_value"].values[mine],
             factor * data[f"bifurcation_{quantity}"].values[mine],
             linestyle="",
             marker=mark.marker,
@@ -115,13 +121,20 @@ def bifurcation_diagram(
         )
         handles.append(drawn[0])
     if sweep is not None:
-        handles += _marks_of(sweep, ax, quantity, factor)
+        handles += _marks_of(sweep, data, ax, quantity, factor)
     ax.set_xlim(x.min(), x.max())
-    units = data[name].attrs.get("units", "")
-    ax.set_xlabel(f"{data[name].attrs.get('long_name', name)} ({'–' if units == '1' else units})")
+    ax.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
     ax.set_ylabel(label)
     ax.legend(handles=handles, ncols=4, **LEGEND)
     return ax
+
+
+def axis_unit(values: xr.DataArray) -> tuple[float, str]:
+    """Factor and unit in which a parameter is drawn: lengths in mm."""
+    units = str(values.attrs["units"])
+    if units == "m":
+        return 1e3, "mm"
+    return 1.0, {"1": "–", "m s-2": "m/s²", "N m-1": "N/m", "N s m-1": "N s/m"}.get(units, units)
 
 
 def _pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:
@@ -140,14 +153,21 @@ def _pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:
     return runs
 
 
-def _marks_of(sweep: xr.Dataset, ax: Axes, quantity: str, factor: float) -> list[Any]:
+def _marks_of(
+    sweep: xr.Dataset, data: xr.Dataset, ax: Axes, quantity: str, factor: float
+) -> list[Any]:
+    """The holds of a sweep, normalised as the branches are: over the peak at any frequency."""
     handles = []
+    source = quantity
+    if quantity in _NORMALISED:
+        source = _NORMALISED[quantity]
+        factor *= float((data[quantity] / data[source])[0])
     for direction, look in SWEEPS.items():
         if direction not in sweep["direction"].values:
             continue
         drawn = ax.plot(
             sweep["frequency"].values,
-            factor * sweep[quantity].sel(direction=direction).values,
+            factor * sweep[source].sel(direction=direction).values,
             linestyle="",
             marker=look.marker,
             markersize=look.size * 0.8,

@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.branches import MARKS
+from vibroimpact.figures.branches import MARKS, axis_unit
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND
 
@@ -54,12 +54,13 @@ def bifurcation_curves(
         raise InputError(f"curves: they are in {sorted(pairs)}; one pair of parameters is accepted")
     ((first, second),) = pairs
     ax = axes_or_new(ax, (6.4, 4.8), title)
+    scales, units = zip(*(axis_unit(given[0][name]) for name in (first, second)), strict=True)
     seen = set()
     for data in given:
         kind = data.attrs["kind"]
         ax.plot(
-            data[first].values,
-            data[second].values,
+            scales[0] * data[first].values,
+            scales[1] * data[second].values,
             color=MARKS[kind].colour,
             linestyle=_DASHES[kind],
             linewidth=1.4,
@@ -68,8 +69,8 @@ def bifurcation_curves(
         seen.add(kind)
         if data.sizes["cusp_number"]:
             ax.plot(
-                data["cusp_first"].values,
-                data["cusp_second"].values,
+                scales[0] * data["cusp_first"].values,
+                scales[1] * data["cusp_second"].values,
                 linestyle="",
                 marker="v",
                 color="black",
@@ -77,8 +78,7 @@ def bifurcation_curves(
                 label=None if "cusp" in seen else "cusp",
             )
             seen.add("cusp")
-    for name, write in ((first, ax.set_xlabel), (second, ax.set_ylabel)):
-        units = given[0][name].attrs["units"]
-        write(f"{given[0][name].attrs['long_name']} ({'–' if units == '1' else units})")
+    ax.set_xlabel(f"{given[0][first].attrs['long_name']} ({units[0]})")
+    ax.set_ylabel(f"{given[0][second].attrs['long_name']} ({units[1]})")
     ax.legend(ncols=4, **LEGEND)
     return ax

@@ -188,6 +188,7 @@ VARIABLES: dict[str, Variable] = {
     "bifurcation_arclength": Variable("1", "arclength at the bifurcation"),
     "bifurcation_turns": Variable("1", "whether the branch turns back at the bifurcation"),
     "bifurcation_branch": Variable("1", "number of the branch of the bifurcation"),
+    "bifurcation_displacement_excursion": Variable("m", "excursion of relative displacement"),
     "bifurcation_eta_d": Variable("1", "normalised excursion of relative displacement"),
     "bifurcation_eta_a": Variable("1", "normalised excursion of absolute acceleration"),
     "bifurcation_eccentricity": Variable("m", "eccentricity at the bifurcation"),

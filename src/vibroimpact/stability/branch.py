@@ -298,6 +298,7 @@ def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
         "arclength": [b.arclength for _, b in found],
         "turns": np.array([int(b.turns) for _, b in found], dtype=np.int64),
         "branch": np.array([i for i, _ in found], dtype=np.int64),
+        "displacement_excursion": excursion,
         "eta_d": excursion / free[:, 0],
         "eta_a": peak / free[:, 1],
         "eccentricity": 0.5 * (measured[:, hold.U_MOST] + measured[:, hold.U_LEAST]),

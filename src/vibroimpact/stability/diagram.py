@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, to_si
+from vibroimpact.model import Harmonic, Oscillator, State, to_si
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import DIRECTIONS, sweep
 from vibroimpact.response.threads import Progress
@@ -93,7 +93,8 @@ def resonance_diagram(
             raise InputError(f"{name}: {value!r}; a whole number of at least 1 is accepted")
     followed: list[Followed] = []
     waiting: list[tuple[Orbit, Bifurcation | None]] = [
-        (first, None) for first in _settled(fam, span, starts, longest)
+        (first, None)
+        for first in itertools.chain(_free(fam, span, starts), _settled(fam, span, starts, longest))
     ]
     complete = True
     while waiting:
@@ -117,6 +118,33 @@ def resonance_diagram(
     data = as_dataset(followed, fam, span, "resonance_diagram")
     data.attrs["complete"] = int(complete)
     return data
+
+
+def _free(fam: Family, span: tuple[float, float], starts: int) -> Iterator[Orbit]:
+    """Steady free flight where it reaches no bumper: at the ends of each such range."""
+    rig, shaken = fam.oscillator, fam.excitation
+    gaps = [b.gap for b in (rig.right, rig.left) if b is not None]
+    grid = np.linspace(*span, starts)
+    omega = 2.0 * np.pi * grid
+    stiff = rig.isolator.stiffness / rig.mass - omega**2
+    damped = rig.isolator.damping / rig.mass * omega
+    square = stiff**2 + damped**2
+    with np.errstate(divide="ignore"):
+        swing = shaken.amplitude / np.sqrt(square)
+    flies = swing < min(gaps, default=np.inf)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], flies, [False]]).astype(int)))
+    for i in sorted({int(k) for a, b in edges.reshape(-1, 2) for k in (a, b - 1)}):
+        # u = −A ((k − ω²) sin θ − c ω cos θ) / ((k − ω²)² + c² ω²)
+        s, c = np.sin(fam.phase), np.cos(fam.phase)
+        u = -shaken.amplitude * (stiff[i] * s - damped[i] * c) / square[i]
+        v = -shaken.amplitude * omega[i] * (stiff[i] * c + damped[i] * s) / square[i]
+        here = fam._replace(
+            value=float(grid[i]), excitation=shaken.replace(frequency=float(grid[i]))
+        )
+        try:
+            yield first_orbit(here, span, State(float(u), float(v), phase=fam.phase), 1)
+        except InputError:
+            continue  # undamped, at resonance
 
 
 def _settled(fam: Family, span: tuple[float, float], starts: int, longest: int) -> Iterator[Orbit]:

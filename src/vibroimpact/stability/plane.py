@@ -66,16 +66,16 @@ def plane(oscillator: Oscillator, excitation: Harmonic, names: tuple[str, str]) 
             setting = varied.write(*setting, value)
         return system_vector(*setting)
 
-    corners = [vector(0, 0), vector(1, 0), vector(0, 1), vector(1, 1), vector(2, 2)]
+    corners = [vector(0, 0), vector(1, 0), vector(0, 1), vector(1, 1), vector(2, 5)]
     same = np.all([corner == corners[0] for corner in corners], axis=0)
     here, along, across, diagonal, far = (np.where(same, 0.0, corner) for corner in corners)
     both = (diagonal - along - across + here) / (steps[0] * steps[1])
     p_slope = (along - here) / steps[0] - q * both
     q_slope = (across - here) / steps[1] - p * both
     base = here - p * p_slope - q * q_slope - p * q * both
-    p2, q2 = p + 2.0 * steps[0], q + 2.0 * steps[1]
+    p2, q2 = p + 2.0 * steps[0], q + 5.0 * steps[1]
     guess = base + p2 * p_slope + q2 * q_slope + p2 * q2 * both
-    swapped = np.where(same, 0.0, vector(2, 2, swapped=True))
+    swapped = np.where(same, 0.0, vector(2, 5, swapped=True))
     straight = np.ones(len(far), dtype=bool)
     for target in (guess, swapped):
         straight &= np.abs(target - far) <= _AGREE * np.maximum(np.abs(far), np.abs(target))

@@ -1,0 +1,330 @@
+"""``vibroimpact branch`` from the words typed to the files written."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli import main
+
+CASE = vi.laboratory.case("B2-G1-A3")
+GAPS = ("--parameter", "gap", "--from", "1mm", "--to", "20mm")
+STUDY = Path(__file__).parents[2] / "examples" / "study.toml"
+
+
+def told(folder: Path, *words: str) -> tuple[int, str, str]:
+    """Run the command in a folder; return exit code, stdout and stderr."""
+    out, errors = io.StringIO(), io.StringIO()
+    with (
+        contextlib.chdir(folder),
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(errors),
+    ):
+        code = main(("branch", *words))
+    # The first run ever says that it compiles the engine.
+    lines = errors.getvalue().splitlines(keepends=True)
+    return code, out.getvalue(), "".join(line for line in lines if "compiling" not in line)
+
+
+@pytest.fixture
+def run(tmp_path):
+    return lambda *words: told(tmp_path, *words)
+
+
+def swing(rig: vi.Oscillator, frequency: float) -> float:
+    """How far the free mass swings: |A/(k − ω² + icω)| with k = K/M and c = C/M."""
+    k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
+    omega = 2.0 * math.pi * frequency
+    return CASE.amplitude / abs(k - omega**2 + 1j * c * omega)
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """Of all frequencies: the folder and what is printed."""
+    folder = tmp_path_factory.mktemp("whole")
+    code, out, errors = told(folder, "B2-G1-A3")
+    assert (code, errors) == (0, "")
+    return folder, out
+
+
+@pytest.fixture(scope="module")
+def gaps(tmp_path_factory):
+    """Over the gap: the facts, and the folder of the files."""
+    folder = tmp_path_factory.mktemp("gaps")
+    code, out, errors = told(folder, "B2-G1-A3", *GAPS, "--frequency", "2Hz", "--json")
+    assert (code, errors) == (0, "")
+    return json.loads(out), folder
+
+
+def of_kind(facts: dict, kind: str) -> list[dict]:
+    return [one for one in facts["bifurcations"] if one["kind"] == kind]
+
+
+def test_summary(whole):
+    folder, out = whole
+    lines = [line.rstrip() for line in out.splitlines()]
+    for line in (
+        "B2-G1-A3",
+        "beginning: the range ends at 0.3; end: the range ends at 5",
+        "Files",
+        "  out/B2-G1-A3-frequency-branches.nc",
+        "  out/B2-G1-A3-frequency-branches.png",
+    ):
+        assert lines.count(line) == 1
+    rows = [line.split() for line in lines if line.startswith(("fold ", "grazing "))]
+    found = [(kind, value) for kind, value, *_ in rows]
+    assert found[-3:] == [
+        ("fold", "2.659478881"),
+        ("fold", "1.665006975"),
+        ("grazing", "1.665211522"),
+    ]
+    for line in lines:
+        if line.startswith(("fold ", "grazing ")):
+            assert line.endswith("turns back") == line.startswith("fold ")
+    assert "frequency (Hz)" in out
+    assert "nan" not in out
+    names = {path.name for path in (folder / "out").iterdir()}
+    assert names == {"B2-G1-A3-frequency-branches.nc", "B2-G1-A3-frequency-branches.png"}
+    png = (folder / "out/B2-G1-A3-frequency-branches.png").read_bytes()
+    assert png.startswith(b"\x89PNG")
+
+
+def test_the_file_holds_the_diagram(whole):
+    data = vi.load(whole[0] / "out/B2-G1-A3-frequency-branches.nc")
+    assert data.attrs.pop("title") == "B2-G1-A3"
+    made = vi.resonance_diagram(CASE.oscillator, CASE.amplitude, 0.3, 5.0)
+    assert {k: str(v) for k, v in data.attrs.items()} == {k: str(v) for k, v in made.attrs.items()}
+    assert set(data.variables) == set(made.variables)
+    for name in made.variables:
+        np.testing.assert_array_equal(data[name].values, made[name].values, err_msg=name)
+        assert data[name].attrs["long_name"] == made[name].attrs["long_name"]
+    # Grazing of free flight, in closed form.
+    value = float(data["bifurcation_value"][-1])
+    assert swing(CASE.oscillator, value) == pytest.approx(7.5e-3, rel=1e-9)
+
+
+def test_folds_are_where_sweeps_jump(whole):
+    data = vi.load(whole[0] / "out/B2-G1-A3-frequency-branches.nc")
+    upper, lower = data["bifurcation_value"].values[-3:-1]
+    for fold, direction in ((upper, "forward"), (lower, "backward")):
+        step = 0.002
+        on = fold + np.arange(-5, 6) * step
+        to, behind = np.arange(1.5, on[0], 0.03), np.arange(2.9, on[-1], -0.03)
+        grid = np.unique([*(to if direction == "forward" else on), *on, *behind])
+        swept = vi.sweep(CASE.oscillator, CASE.amplitude, grid, direction)
+        frequency = swept["frequency"].values
+        high = swept["displacement_excursion"].isel(direction=0).values > 16e-3
+        (jump,) = np.flatnonzero(np.diff(high))
+        assert frequency[jump] - step < fold < frequency[jump + 1] + step
+
+
+def test_json(run, tmp_path):
+    code, out, errors = run("B2-G1-A3", "--from", "1Hz", "--to", "4Hz", "--json")
+    assert (code, errors) == (0, "")
+    facts = json.loads(out)
+    assert facts["parameter"] == "frequency"
+    (branch,) = facts["branches"]
+    assert (branch["branch"], branch["period"], branch["closed"]) == (0, 1, False)
+    assert (branch["ended_low"], branch["ended_high"]) == (
+        "the range ends at 1",
+        "the range ends at 4",
+    )
+    data = vi.load(tmp_path / facts["files"]["data"])
+    assert branch["points"] == data.sizes["point"]
+    assert [one["kind"] for one in facts["bifurcations"]] == ["fold", "fold", "grazing"]
+    for i, one in enumerate(facts["bifurcations"]):
+        row = data.isel(bifurcation=i)
+        assert one["turns"] is (one["kind"] == "fold")
+        assert (one["branch"], one["period"]) == (0, 1)
+        assert one["value"] == float(row["bifurcation_value"])
+        assert one["eta_d"] == float(row["bifurcation_eta_d"])
+        assert len(one["multipliers"]) == 4
+        modulus = [math.hypot(*pair) for pair in one["multipliers"]]
+        assert modulus == sorted(modulus, reverse=True)
+        if one["kind"] == "fold":
+            assert one["multipliers"][0] == pytest.approx([1.0, 0.0], abs=1e-6)
+    values = [one["value"] for one in facts["bifurcations"]]
+    assert values == pytest.approx([2.659478881, 1.665006975, 1.665211522], abs=6e-10)
+    assert (tmp_path / facts["files"]["figure"]).is_file()
+
+
+def test_along_the_gap(gaps):
+    facts, folder = gaps
+    assert facts["parameter"] == "gap"
+    assert facts["files"]["data"] == "out/B2-G1-A3-gap-branches.nc"
+    data = vi.load(folder / facts["files"]["data"])
+    alone = vi.branch(
+        CASE.oscillator,
+        vi.Harmonic(CASE.amplitude, 2.0),
+        parameter="gap",
+        low="1 mm",
+        high="20 mm",
+    )
+    for name in alone.variables:
+        np.testing.assert_array_equal(data[name].values, alone[name].values, err_msg=name)
+    assert (data["gap"].min(), data["gap"].max()) == (1e-3, 20e-3)
+    # The mass that flies freely at 2 Hz grazes a gap of just its swing.
+    (grazing,) = of_kind(facts, "grazing")
+    assert grazing["value"] == pytest.approx(swing(CASE.oscillator, 2.0), rel=1e-9)
+    # From there on nothing changes with the gap.
+    free = data["impacts_right"].values == 0
+    np.testing.assert_allclose(
+        data["displacement_max"].values[free], swing(CASE.oscillator, 2.0), rtol=1e-9
+    )
+
+
+def test_the_fold_over_the_gap_is_where_the_motion_with_contacts_ends(gaps):
+    """The mass that hits the bumpers goes on to do so just below the fold, and not above."""
+    facts, folder = gaps
+    data = vi.load(folder / facts["files"]["data"])
+    i = next(i for i, one in enumerate(facts["bifurcations"]) if one["kind"] == "fold")
+    fold = facts["bifurcations"][i]["value"]
+    assert float(data["bifurcation_value"][i]) == fold
+    motion, shaken = None, vi.Harmonic(CASE.amplitude, 2.0)
+    for gap in [*np.linspace(7.5e-3, 0.9995 * fold, 40), 1.0005 * fold]:
+        rig = CASE.oscillator
+        rig = rig.replace(left=rig.left.replace(gap=gap), right=rig.right.replace(gap=gap))
+        # A whole number of cycles and a quarter: there the mass is off the bumpers.
+        motion = vi.simulate(rig, shaken, 40 if motion else 40.25, motion, samples=4)
+        if gap < fold:
+            assert (motion["event_time"] > motion["time"][-1] - 0.5).sum() == 4
+    motion = vi.simulate(rig, shaken, 400, motion, samples=4)
+    assert not (motion["event_time"] > motion["time"][-1] - 50.0).any()
+
+
+def test_quantity_period_name_and_format(run, tmp_path):
+    words = ("--from", "0.99Hz", "--to", "1.27Hz", "--quantity", "eccentricity", "--longest", "1")
+    code, out, _ = run("B3-10mm-A3", *words, "--name", "pair", "--figure", "svg", "--json")
+    assert code == 0
+    facts = json.loads(out)
+    assert facts["files"] == {
+        "data": "out/pair-frequency-branches.nc",
+        "figure": "out/pair-frequency-branches.svg",
+    }
+    assert {one["period"] for one in facts["branches"]} == {1}
+    assert of_kind(facts, "period doubling")  # found, but what is born there is not followed
+    data = vi.load(tmp_path / facts["files"]["data"])
+    pair = ~data["antisymmetric"].values
+    assert 1e3 * float(np.abs(data["eccentricity"].values[pair]).max()) == pytest.approx(0.61, 0.02)
+    svg = (tmp_path / facts["files"]["figure"]).read_text()
+    assert "<!-- eccentricity (mm) -->" in svg
+    assert "<!-- pair -->" in svg
+    assert len(list((tmp_path / "out").iterdir())) == 2
+
+
+def test_excursion_is_a_quantity(run):
+    words = ("--from", "1.8Hz", "--to", "4Hz", "--quantity", "displacement_excursion")
+    assert run("B2-G1-A3", *words)[0] == 0
+
+
+def test_free_flight_is_found_in_a_narrow_range(run):
+    """It is stable from 1.6652 Hz on, though both ends of a sweep to 2 Hz hit the bumpers."""
+    code, out, _ = run("B2-G1-A3", "--from", "1.5Hz", "--to", "2Hz", "--json")
+    assert code == 0
+    assert {one["kind"] for one in json.loads(out)["bifurcations"]} == {"fold", "grazing"}
+
+
+def test_study_with_unequal_sides(run, tmp_path):
+    code, out, errors = run(str(STUDY), "--from", "1.4Hz", "--to", "2.4Hz", "--json")
+    assert (code, errors) == (0, "")
+    facts = json.loads(out)
+    assert facts["files"]["data"] == "out/moat-wall-frequency-branches.nc"
+    data = vi.load(tmp_path / facts["files"]["data"])
+    assert not data["antisymmetric"].any()
+    rig = vi.Oscillator(**json.loads(data.attrs["parameters"])["oscillator"])
+    assert (rig.right.gap, rig.left.gap) == (pytest.approx(7.5e-3), pytest.approx(9e-3))
+    # Free flight grazes the nearer wall, and on the way to it the orbits that hit one the other.
+    last = of_kind(facts, "grazing")[-1]["value"]
+    assert swing(rig, last) == pytest.approx(7.5e-3, rel=1e-9)
+    hits = {
+        (int(r), int(left))
+        for r, left in zip(data["impacts_right"], data["impacts_left"], strict=True)
+    }
+    assert hits == {(0, 0), (1, 0), (1, 1)}
+
+
+def test_a_phase_and_a_value_typed_over_a_study(run, tmp_path):
+    """The orbits are cut at the study's phase, but they are the same."""
+    (tmp_path / "late.toml").write_text(
+        'case = "B2-G1-A3"\n[excitation]\nphase = "90 deg"\n[simulate]\nfrequency = "2 Hz"\n'
+    )
+    found = []
+    for rig, phase in (("late.toml", math.pi / 2), ("B2-G1-A3", 0.0)):
+        words = ("--parameter", "amplitude", "--from", "0.005g", "--to", "0.15g")
+        code, out, _ = run(rig, *words, "--frequency", "2Hz", "--gap", "5mm", "--json")
+        assert code == 0
+        facts = json.loads(out)
+        found.append([(one["kind"], one["value"]) for one in facts["bifurcations"]])
+        data = vi.load(tmp_path / facts["files"]["data"])
+        assert data["section"].sel(component="phase").values[0] == pytest.approx(phase)
+    assert [kind for kind, _ in found[0]] == [kind for kind, _ in found[1]]
+    late, now = ([value for _, value in one] for one in found)
+    assert late == pytest.approx(now, rel=1e-7)
+    # Free flight is in proportion to the amplitude.
+    (grazing,) = (value for kind, value in found[1] if kind == "grazing")
+    exact = CASE.amplitude * 5e-3 / swing(CASE.oscillator, 2.0)
+    assert grazing == pytest.approx(exact, rel=1e-8)
+
+
+TO = ("--to", "20mm", "--frequency", "2Hz")
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (["--parameter", "mass", "--from", "1", "--to", "2", "--frequency", "2Hz"], "parameter"),
+        (["--parameter", "mass"], "--parameter"),
+        pytest.param(["--from", "3Hz", "--to", "1Hz"], "--to"),
+        pytest.param(["--from", "2Hz", "--to", "2Hz"], "--to"),
+        pytest.param(["--to", "0.2Hz"], "--to"),
+        pytest.param(["--from", "abc"], "--from"),
+        pytest.param(["--from", ""], "--from"),
+        pytest.param(["--from", "-1Hz"], "--from"),
+        pytest.param(["--from", "nanHz"], "--from"),
+        pytest.param(["--to", "2kg"], "--to"),
+        pytest.param(["--to", "infHz"], "--to"),
+        (["--parameter", "gap", "--frequency", "2Hz"], "--from: missing"),
+        (["--parameter", "gap", "--from", "1mm", "--frequency", "2Hz"], "--to"),
+        (["--parameter", "gap", *TO], "--from: missing"),
+        ([*GAPS], "--frequency: missing"),
+        ([*GAPS, "--frequency", "abc"], "--frequency: 'abc'"),
+        ([*GAPS, "--frequency", "0Hz"], "--frequency"),
+        ([*GAPS, "--frequency", "2kg"], "--frequency: '2kg' is a mass"),
+        pytest.param(["--parameter", "gap", "--from", "1Hz", *TO], "--from"),
+        pytest.param(
+            ["--parameter", "gap", "--from", "10mm", *TO], "--from"
+        ),  # without the rig's own gap
+        (["--parameter", "right-gap", "--no-right", "--from", "1mm", *TO], "no right bumper"),
+        (["--parameter", "gap", "--left-gap", "9mm", "--from", "1mm", *TO], "'gap' is that of"),
+        (["--longest", "0"], "longest: 0"),
+        (["--longest", "1.5"], "--longest"),
+        (["--quantity", "velocity"], "--quantity"),
+        (["--figure", "bmp"], "--figure"),
+        (["--gap", "15 kg"], "--gap"),
+        (["--output", "/proc/vibroimpact"], "--output"),
+        (["--paramter", "gap"], "--paramter"),
+    ],
+)
+def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):
+    code, out, errors = run("B2-G1-A3", *words)
+    assert (code, out) == (2, "")
+    assert errors.startswith("vibroimpact: error: ")
+    assert errors.count("\n") == 1
+    assert named in errors
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_output_that_is_a_file_is_refused_and_kept(run, tmp_path):
+    (tmp_path / "taken").write_text("kept")
+    code, out, errors = run("B2-G1-A3", "--output", "taken")
+    assert (code, out) == (2, "")
+    assert errors.startswith("vibroimpact: error: --output: 'taken' cannot be written to")
+    assert errors.count("\n") == 1
+    assert (tmp_path / "taken").read_text() == "kept"

@@ -1,0 +1,225 @@
+"""``vibroimpact curve`` from the words typed to the files written."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli import main
+
+CASE = vi.laboratory.case("B2-G1-A3")
+RATIO = ("--parameters", "frequency,stiffness-ratio", "--second", "0.5:100", "--first", "1Hz:4Hz")
+GAP = ("--parameters", "frequency,gap", "--second", "1mm:20mm", "--first", "1Hz:4Hz")
+
+
+def told(folder: Path, *words: str) -> tuple[int, str, str]:
+    """Run the command in a folder; return exit code, stdout and stderr."""
+    out, errors = io.StringIO(), io.StringIO()
+    with (
+        contextlib.chdir(folder),
+        contextlib.redirect_stdout(out),
+        contextlib.redirect_stderr(errors),
+    ):
+        code = main(("curve", *words))
+    # The first run ever says that it compiles the engine.
+    lines = errors.getvalue().splitlines(keepends=True)
+    return code, out.getvalue(), "".join(line for line in lines if "compiling" not in line)
+
+
+@pytest.fixture
+def run(tmp_path):
+    return lambda *words: told(tmp_path, *words)
+
+
+def groups(path: Path) -> set[str]:
+    with h5py.File(path) as file:
+        return set(file)
+
+
+def swing(rig: vi.Oscillator, amplitude: float, frequency: np.ndarray) -> np.ndarray:
+    """How far the free mass swings: |A/(k − ω² + icω)| with k = K/M and c = C/M."""
+    k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
+    omega = 2.0 * np.pi * frequency
+    return amplitude / np.abs(k - omega**2 + 1j * c * omega)
+
+
+def with_ratio(ratio: float) -> vi.Oscillator:
+    rig = CASE.oscillator
+    stiffness = ratio * rig.isolator.stiffness
+    damping = rig.right.damping * stiffness / rig.right.stiffness
+    bumper = rig.right.replace(stiffness=stiffness, damping=damping)
+    return rig.replace(right=bumper, left=bumper)
+
+
+def test_summary_and_files(run, tmp_path):
+    code, out, errors = run("B2-G1-A3", *RATIO)
+    assert (code, errors) == (0, "")
+    lines = [line.rstrip() for line in out.splitlines()]
+    stem = "B2-G1-A3-fold-frequency-stiffness-ratio"
+    for line in ("B2-G1-A3", "1 curve of fold", "Files", f"  out/{stem}.nc", f"  out/{stem}.png"):
+        assert lines.count(line) == 1
+    (cusp,) = (line for line in lines if "cusp" in line)
+    words = cusp.replace(",", "").split()
+    assert words[:3] == ["cusp", "at", "frequency"]
+    assert words[4] == "stiffness_ratio"
+    assert float(words[3]) == pytest.approx(1.61545, abs=1e-5)
+    assert float(words[5]) == pytest.approx(1.62770, abs=1e-5)
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {f"{stem}.nc", f"{stem}.png"}
+    assert (tmp_path / f"out/{stem}.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.fixture(scope="module")
+def ratios(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("ratios")
+    code, out, errors = told(folder, "B2-G1-A3", *RATIO, "--json")
+    assert (code, errors) == (0, "")
+    return json.loads(out), folder
+
+
+def test_json_and_groups(ratios):
+    facts, folder = ratios
+    assert (facts["bifurcation"], facts["parameters"]) == ("fold", ["frequency", "stiffness_ratio"])
+    (one,) = facts["curves"]
+    assert one["ended_low"] == one["ended_high"] == "the range of stiffness_ratio ends at 100"
+    assert one["cusps"] == [pytest.approx([1.61545, 1.62770], abs=1e-5)]
+    path = folder / facts["files"]["data"]
+    assert groups(path) == {"frequency_2.65948"}
+    data = vi.load(path, group="frequency_2.65948")
+    assert data.sizes["point"] == one["points"]
+    assert data.attrs["kind"] == "fold"
+    assert [[float(data["cusp_first"][0]), float(data["cusp_second"][0])]] == one["cusps"]
+    # The least ratio of all, and round it both folds of the rig itself.
+    ratio, frequency = data["stiffness_ratio"].values, data["frequency"].values
+    assert ratio.min() >= one["cusps"][0][1] - 1e-9
+    assert ratio[[0, -1]] == pytest.approx([100.0, 100.0])
+    here = CASE.oscillator.right.stiffness / CASE.oscillator.isolator.stiffness
+    low = int(np.argmin(ratio))
+    sides = [slice(None, low + 1), slice(low, None)]
+    folds = [
+        np.interp(here, *(np.sort(ratio[p]), frequency[p][np.argsort(ratio[p])])) for p in sides
+    ]
+    assert sorted(folds) == pytest.approx([1.665006975, 2.659478881], abs=3e-3)
+
+
+def test_sweeps_jump_above_the_cusp_and_not_below(ratios):
+    """Up and down agree where there is no fold."""
+    ((_, ratio),) = ratios[0]["curves"][0]["cusps"]
+    for factor, apart in ((0.9, False), (1.5, True)):
+        rig = with_ratio(factor * ratio)
+        swept = vi.sweep(rig, CASE.amplitude, np.arange(1.5, 1.8, 0.004))
+        up, down = swept["displacement_excursion"].transpose("direction", "frequency").values
+        assert (np.abs(up - down).max() > 1e-4) == apart
+
+
+def test_grazing_in_closed_form(run, tmp_path):
+    code, out, errors = run("B2-G1-A3", "--bifurcation", "grazing", *GAP, "--json")
+    assert (code, errors) == (0, "")
+    facts = json.loads(out)
+    assert facts["files"] == {
+        "data": "out/B2-G1-A3-grazing-frequency-gap.nc",
+        "figure": "out/B2-G1-A3-grazing-frequency-gap.png",
+    }
+    (one,) = facts["curves"]
+    assert one["cusps"] == []
+    data = vi.load(tmp_path / facts["files"]["data"], group="frequency_1.66521")
+    exact = swing(CASE.oscillator, CASE.amplitude, data["frequency"].values)
+    np.testing.assert_allclose(data["gap"], exact, rtol=1e-9)
+    assert sorted(data["gap"].values[[0, -1]]) == pytest.approx([1e-3, 20e-3])
+    ends = {one["ended_low"], one["ended_high"]}
+    assert ends == {"the range of gap ends at 0.001", "the range of gap ends at 0.02"}
+
+
+def test_two_parameters_neither_of_which_is_the_frequency(run, tmp_path):
+    """Free flight at 2 Hz grazes a gap in proportion to the amplitude."""
+    words = ("--parameters", "gap,amplitude", "--first", "2mm:20mm", "--second", "0.02g:0.1g")
+    code, out, errors = run(
+        "B2-G1-A3", "--bifurcation", "grazing", *words, "--frequency", "2Hz", "--json"
+    )
+    assert (code, errors) == (0, "")
+    facts = json.loads(out)
+    assert facts["files"]["data"] == "out/B2-G1-A3-grazing-gap-amplitude.nc"
+    path = tmp_path / facts["files"]["data"]
+    (group,) = groups(path)
+    data = vi.load(path, group=group)
+    exact = swing(CASE.oscillator, data["amplitude"].values, np.array(2.0))
+    np.testing.assert_allclose(data["gap"], exact, rtol=1e-9)
+
+
+def test_a_study_and_what_is_typed_over_it(run, tmp_path):
+    (tmp_path / "low.toml").write_text('case = "B2-G1-A3"\n[excitation]\namplitude = "0.04 g"\n')
+    words = ("--bifurcation", "grazing", "--damping", "1.2 kN s/m", "--figure", "svg")
+    code, out, _ = run("low.toml", *GAP, *words)
+    assert code == 0
+    assert "1 curve of grazing" in out
+    path = tmp_path / "out/low-grazing-frequency-gap.nc"
+    (group,) = groups(path)
+    data = vi.load(path, group=group)
+    rig = CASE.oscillator
+    rig = rig.replace(isolator=rig.isolator.replace(damping=1200.0))
+    exact = swing(rig, 0.8 * CASE.amplitude, data["frequency"].values)
+    np.testing.assert_allclose(data["gap"], exact, rtol=1e-9)
+    svg = (tmp_path / "out/low-grazing-frequency-gap.svg").read_text()
+    assert "<!-- low, grazing -->" in svg
+
+
+SECOND = ("--second", "1mm:20mm")
+GAPS = ("--first", "1mm:20mm")
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (["--parameters", "frequency", *SECOND], "--parameters: 'frequency'; two"),
+        (["--parameters", "", *SECOND], "--parameters"),
+        (["--parameters", "frequency,gap,damping", *SECOND], "--parameters"),
+        (["--parameters", "frequency,mass", *SECOND], "parameter: 'mass'"),
+        (["--parameters", "mass,gap", "--first", "1:2", *SECOND, "--frequency", "2Hz"], "'mass'"),
+        (["--parameters", "frequency,frequency", "--second", "1Hz:2Hz"], "'frequency' twice"),
+        (["--parameters", "frequency,", *SECOND], "''"),
+        ([], "--second"),
+        (["--first", "1Hz", *SECOND], "--first: '1Hz'"),
+        (["--first", "1Hz:", *SECOND], "--first: '1Hz:'"),
+        (["--first", ":1Hz", *SECOND], "--first: ':1Hz'"),
+        (["--second", "1mm"], "--second: '1mm'"),
+        pytest.param(["--first", "4Hz:1Hz", *SECOND], "--first"),
+        pytest.param(["--first", "a:b", *SECOND], "--first"),
+        pytest.param(["--second", "20mm:1mm"], "--second"),
+        pytest.param(["--second", "a:b"], "--second"),
+        pytest.param(["--second", "1mm:2mm:3mm"], "--second"),
+        pytest.param(["--second", "1Hz:2Hz"], "--second"),
+        pytest.param(["--second=-1mm:2mm"], "--second"),
+        pytest.param(["--second", "10mm:20mm"], "--second"),  # without the rig's own gap
+        (["--parameters", "gap,damping", *SECOND], "--frequency: missing"),
+        (
+            ["--parameters", "gap,damping", *GAPS, "--second", "1kN s/m:2kN s/m"],
+            "--frequency: missing",
+        ),
+        pytest.param(
+            ["--parameters", "gap,gap-ratio", *GAPS, "--second", "0.1:1", "--frequency", "2Hz"],
+            "parameters: ",
+        ),
+        (["--first", "3Hz:4Hz", *SECOND], "--bifurcation: no fold along frequency"),
+        (["--bifurcation", "neimark-sacker", "--first", "2Hz:3Hz", *SECOND], "no Neimark-Sacker"),
+        (["--bifurcation", "hopf", *SECOND], "--bifurcation"),
+        (["--no-right", "--no-left", *SECOND], "no bumper"),
+        ([*SECOND, "--figure", "bmp"], "--figure"),
+        ([*SECOND, "--output", "/proc/vibroimpact"], "--output"),
+        ([*SECOND, "--paramter", "gap"], "--paramter"),
+    ],
+)
+def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):
+    # Of what is not asked, a narrow range: it is quick.
+    narrow = [] if "--first" in words or "gap,damping" in words else ["--first", "1.5Hz:3Hz"]
+    code, out, errors = run("B2-G1-A3", *words, *narrow)
+    assert (code, out) == (2, "")
+    assert errors.startswith("vibroimpact: error: ")
+    assert errors.count("\n") == 1
+    assert named in errors
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,342 @@
+"""Figures of branches and of curves: what is drawn is what the datasets hold."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import matplotlib
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.colors import same_color
+from matplotlib.figure import Figure
+
+import vibroimpact as vi
+from vibroimpact.figures import bifurcation_curves, bifurcation_diagram, save_figure
+from vibroimpact.figures.style import SWEEPS
+
+CASE = vi.laboratory.case("B2-G1-A3")
+SHAKEN = vi.Harmonic(CASE.amplitude, 2.0)
+FREQUENCY = "excitation frequency (Hz)"
+
+
+@cache
+def diagram() -> xr.Dataset:
+    return vi.resonance_diagram(CASE.oscillator, CASE.amplitude, 1.0, 4.0)
+
+
+@cache
+def several() -> xr.Dataset:
+    """Symmetry breaking, period doubling, and the branches that are born there."""
+    case = vi.laboratory.case("B3-10mm-A3")
+    return vi.resonance_diagram(case.oscillator, case.amplitude, 0.9, 1.4, longest=2)
+
+
+@cache
+def gaps() -> xr.Dataset:
+    return vi.branch(CASE.oscillator, SHAKEN, parameter="gap", low=1e-3, high=20e-3)
+
+
+@cache
+def swept() -> xr.Dataset:
+    return vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(1.0, 4.0, 0.05))
+
+
+@cache
+def curve(kind: str, other: str = "stiffness_ratio") -> xr.Dataset:
+    row = int(np.flatnonzero(diagram()["bifurcation_kind"].values == kind)[0])
+    low, high = {"stiffness_ratio": (0.5, 100.0), "gap": (4e-3, 20e-3)}[other]
+    return vi.bifurcation_curve(
+        CASE.oscillator,
+        SHAKEN,
+        diagram().isel(bifurcation=row),
+        parameters=("frequency", other),
+        low=(1.0, low),
+        high=(4.0, high),
+    )
+
+
+def points(line) -> np.ndarray:
+    return np.column_stack([line.get_xdata(), line.get_ydata()])
+
+
+def curves(ax) -> list:
+    return [line for line in ax.lines if line.get_linestyle() != "None"]
+
+
+def marks(ax) -> dict:
+    return {line.get_label(): line for line in ax.lines if line.get_linestyle() == "None"}
+
+
+def named(ax) -> list[str]:
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+# Branches
+
+
+@pytest.mark.parametrize("made", [diagram, several, gaps])
+def test_solid_where_stable_and_dashed_where_not(made):
+    """From one bifurcation to the next, which belongs to both."""
+    data = made()
+    along = data[data.attrs["parameter"]]
+    x, y = (1e3 if along.attrs["units"] == "m" else 1.0) * along.values, data["eta_d"].values
+    branch, stable = data["branch"].values, data["stable"].values
+    drawn = {}
+    for line in curves(bifurcation_diagram(data)):
+        assert line.get_linestyle() in ("-", "--")
+        solid = line.get_linestyle() == "-"
+        assert same_color(line.get_color(), "black")
+        for begin, end in zip(points(line)[:-1], points(line)[1:], strict=True):
+            drawn[(*begin, *end)] = solid
+    wanted = {}
+    for i in range(len(x) - 1):
+        if branch[i] != branch[i + 1]:
+            continue
+        ends = {int(stable[i]), int(stable[i + 1])} - {-1}
+        assert len(ends) <= 1  # it changes at bifurcations only
+        if ends:
+            wanted[(x[i], y[i], x[i + 1], y[i + 1])] = ends == {1}
+    assert {key: drawn[key] for key in wanted} == wanted
+    assert len(drawn) <= np.sum(branch[:-1] == branch[1:])  # and none from branch to branch
+
+
+def test_the_line_changes_at_the_folds():
+    data = diagram()
+    upper, lower = data["bifurcation_value"].values[:2]
+    first, between, last = curves(bifurcation_diagram(data))
+    looks = [line.get_linestyle() for line in (first, between, last)]
+    assert looks == ["-", "--", "-"]
+    assert points(first)[-1, 0] == points(between)[0, 0] == upper
+    assert points(between)[-1, 0] == points(last)[0, 0] == lower
+    assert first.get_linewidth() > between.get_linewidth()
+
+
+def test_free_flight_ends_where_it_swings_from_gap_to_gap():
+    ax = bifurcation_diagram(diagram(), quantity="displacement_excursion")
+    ((frequency, excursion),) = points(marks(ax)["grazing"])
+    assert excursion == pytest.approx(15.0, rel=1e-9)  # mm
+    rig, omega = CASE.oscillator, 2.0 * np.pi * frequency
+    k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
+    swing = CASE.amplitude / abs(k - omega**2 + 1j * c * omega)
+    assert swing == pytest.approx(7.5e-3, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "factor", "label"),
+    [
+        ("eta_d", 1.0, "$\\eta_d$ (–)"),
+        ("eta_a", 1.0, "$\\eta_a$ (–)"),
+        pytest.param("displacement_excursion", 1e3, "excursion of displacement (mm)"),
+        ("eccentricity", 1e3, "eccentricity (mm)"),
+    ],
+)
+def test_quantities_and_labels(quantity, factor, label):
+    data = several()
+    ax = bifurcation_diagram(data, quantity=quantity, title="a title")
+    assert ax.get_xlabel() == FREQUENCY
+    assert ax.get_ylabel() == label
+    assert ax.figure.get_suptitle() == "a title"
+    assert ax.get_xlim() == (0.9, 1.4)
+    drawn = np.concatenate([points(line) for line in curves(ax)])
+    held = np.column_stack([data["frequency"].values, factor * data[quantity].values])
+    assert {tuple(row) for row in drawn} == {tuple(row) for row in held}
+    for kind in ("symmetry breaking", "period doubling", "grazing"):
+        mine = data["bifurcation_kind"].values == kind
+        there = points(marks(ax)[kind])
+        np.testing.assert_array_equal(there[:, 0], data["bifurcation_value"].values[mine])
+        # On the branch: at the point that is the bifurcation.
+        assert mine.sum() == len(there) > 0
+        for row in there:
+            assert np.isclose(drawn, row, rtol=1e-9, atol=1e-9).all(axis=1).any()
+
+
+def test_marks_differ_and_are_named():
+    ax = bifurcation_diagram(several())
+    assert named(ax)[:2] == ["stable", "unstable"]
+    assert named(ax)[2:] == list(marks(ax))
+    looks = [
+        (line.get_marker(), line.get_markeredgecolor(), line.get_markerfacecolor())
+        for line in marks(ax).values()
+    ]
+    assert len(set(looks)) == len(looks) >= 3
+    assert named(bifurcation_diagram(gaps()))[2:] == ["fold", "symmetry breaking", "grazing"]
+    # What is not there is not named.
+    assert named(bifurcation_diagram(diagram())) == ["stable", "unstable", "fold", "grazing"]
+
+
+def test_other_parameters_are_named_with_their_units():
+    assert bifurcation_diagram(gaps()).get_xlabel().startswith("gap of each side (")
+    data = vi.branch(CASE.oscillator, SHAKEN, parameter="stiffness_ratio", low=10.0, high=30.0)
+    label = bifurcation_diagram(data).get_xlabel()
+    assert label.startswith("stiffness ratio")
+    assert label.endswith(" (–)")
+
+
+@pytest.mark.parametrize(
+    ("quantity", "factor"),
+    [
+        pytest.param("displacement_excursion", 1e3),
+        ("eccentricity", 1e3),
+        ("eta_a", 1.0),
+    ],
+)
+def test_a_sweep_is_laid_over_in_its_colours(quantity, factor):
+    ax = bifurcation_diagram(diagram(), quantity=quantity, sweep=swept())
+    for direction, look in SWEEPS.items():
+        line = marks(ax)[look.label]
+        assert line.get_color() == look.colour
+        assert line.get_marker() == look.marker
+        x, y = points(line).T
+        np.testing.assert_array_equal(x, swept()["frequency"].values)
+        held = factor * swept()[quantity].sel(direction=direction).values
+        scale = held.max() or 1.0  # of η within what a grid misses of the largest free flight
+        np.testing.assert_allclose(y, held, atol=0.01 * scale if factor == 1.0 else 0.0)
+    assert named(ax)[-2:] == ["forward sweep", "backward sweep"]
+    one = bifurcation_diagram(diagram(), sweep=swept().sel(direction=["backward"]))
+    assert named(one)[-1] == "backward sweep"
+    assert "forward sweep" not in named(one)
+
+
+def test_a_sweep_falls_on_the_solid_lines():
+    ax = bifurcation_diagram(diagram(), quantity="displacement_excursion", sweep=swept())
+    upper, _, lower = (points(line) for line in curves(ax))
+    below = lower[np.argsort(lower[:, 0])]
+    for look in SWEEPS.values():
+        for x, y in points(marks(ax)[look.label]):
+            near = [np.interp(x, part[:, 0], part[:, 1]) for part in (upper, below)]
+            # Between two points of a line its chord is a bit off.
+            assert np.abs(np.array(near) - y).min() < 0.15
+
+
+@pytest.mark.parametrize("quantity", ["eta_d", "eta_a"])
+@pytest.mark.parametrize(
+    "low",
+    [
+        1.0,
+        pytest.param(2.0),
+    ],
+)
+def test_a_sweep_is_at_the_scale_of_the_branches(quantity, low):
+    """Over the largest free flight at any frequency, though the sweep has not been there."""
+    data = vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(low, 4.0, 0.05), "backward")
+    ax = bifurcation_diagram(diagram(), quantity=quantity, sweep=data)
+    x, y = points(marks(ax)["backward sweep"]).T
+    free = np.flatnonzero(x > 2.9)
+    lower = points(curves(ax)[-1])
+    lower = lower[np.argsort(lower[:, 0])]
+    np.testing.assert_allclose(y[free], np.interp(x[free], *lower.T), rtol=0.02)
+
+
+# Curves
+
+
+def test_a_curve_and_its_cusp():
+    data = curve("fold")
+    ax = bifurcation_curves(data, title="a title")
+    (line,) = curves(ax)
+    np.testing.assert_array_equal(line.get_xdata(), data["frequency"].values)
+    np.testing.assert_array_equal(line.get_ydata(), data["stiffness_ratio"].values)
+    (cusp,) = points(marks(ax)["cusp"])
+    assert cusp == pytest.approx([1.61545, 1.62770], abs=1e-5)
+    # Both folds of the rig end there: the line turns back beside it.
+    assert points(line)[:, 1].min() == pytest.approx(cusp[1], rel=0.05)
+    assert named(ax) == ["fold", "cusp"]
+    assert ax.get_xlabel() == FREQUENCY
+    assert ax.get_ylabel().startswith("stiffness ratio")
+    assert ax.get_ylabel().endswith(" (–)")
+    assert ax.figure.get_suptitle() == "a title"
+
+
+def test_curves_of_several_kinds():
+    both = {"fold": curve("fold", "gap"), "grazing": curve("grazing", "gap")}
+    ax = bifurcation_curves(both)
+    first, second = curves(ax)
+    for line, data in zip((first, second), both.values(), strict=True):
+        np.testing.assert_array_equal(line.get_xdata(), data["frequency"].values)
+    assert first.get_linestyle() != second.get_linestyle()
+    assert not same_color(first.get_color(), second.get_color())
+    assert [name for name in named(ax) if name != "cusp"] == ["fold", "grazing"]
+    # The same kind twice has one name.
+    twice = bifurcation_curves({"a": curve("grazing", "gap"), "b": curve("grazing", "gap")})
+    assert len(curves(twice)) == 2
+    assert named(twice) == ["grazing"]
+
+
+# Files, axes, and what is left alone
+
+
+@pytest.mark.parametrize("kind", ["png", "pdf", "svg"])
+def test_the_same_file_every_time(kind, tmp_path):
+    def drawn():
+        yield bifurcation_diagram(several(), sweep=swept(), title="branches")
+        yield bifurcation_curves(curve("fold"), title="curves")
+
+    first, second = (
+        [
+            save_figure(ax, tmp_path / f"{name}{i}.{kind}").read_bytes()
+            for i, ax in enumerate(drawn())
+        ]
+        for name in "ab"
+    )
+    assert first == second
+    assert min(map(len, first)) > 5000
+    assert not any(date in one for one in first for date in (b"CreationDate", b"dc:date"))
+
+
+def test_given_axes_are_drawn_on_and_the_rest_is_left_alone():
+    settings = dict(matplotlib.rcParams)
+    held = (diagram().copy(deep=True), swept().copy(deep=True), curve("fold").copy(deep=True))
+    one, other = Figure().subplots(1, 2)
+    assert bifurcation_diagram(diagram(), one, sweep=swept()) is one
+    assert bifurcation_curves(curve("fold"), other) is other
+    assert one.figure.axes == [one, other]
+    assert dict(matplotlib.rcParams) == settings
+    for now, before in zip((diagram(), swept(), curve("fold")), held, strict=True):
+        xr.testing.assert_identical(now, before)
+
+
+# Refused
+
+
+def refused(call, begins: str, *holds: str) -> None:
+    with pytest.raises(vi.InputError) as caught:
+        call()
+    told = str(caught.value)
+    assert told.startswith(begins)
+    assert "accepted" in told
+    assert "\n" not in told
+    for part in holds:
+        assert part in told
+
+
+def test_what_is_no_branch_is_refused():
+    for wrong in (xr.Dataset(), swept(), curve("fold")):
+        refused(lambda wrong=wrong: bifurcation_diagram(wrong), "data: ", "resonance_diagram")
+
+
+def test_other_quantities_are_refused():
+    refused(
+        lambda: bifurcation_diagram(diagram(), quantity="jerk"),
+        "quantity: 'jerk'; ",
+        "eta_d, eta_a",
+    )
+
+
+def test_a_sweep_over_another_parameter_or_none_is_refused():
+    refused(lambda: bifurcation_diagram(gaps(), sweep=swept()), "sweep: ", "'gap'", "'frequency'")
+
+
+@pytest.mark.parametrize("wrong", [diagram, xr.Dataset])
+def test_what_is_no_sweep_is_refused(wrong):
+    refused(lambda: bifurcation_diagram(diagram(), sweep=wrong()), "sweep: ")
+
+
+def test_what_is_no_curve_is_refused():
+    for wrong in (xr.Dataset(), diagram(), {}, {"a": curve("fold"), "b": swept()}):
+        refused(lambda wrong=wrong: bifurcation_curves(wrong), "curves: ", "bifurcation_curve")
+
+
+def test_curves_in_other_parameters_are_not_mixed():
+    mixed = {"a": curve("fold"), "b": curve("fold", "gap")}
+    refused(lambda: bifurcation_curves(mixed), "curves: ", "'gap'", "'stiffness_ratio'", "one pair")
