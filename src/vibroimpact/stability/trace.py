@@ -34,7 +34,7 @@ from vibroimpact.stability.orbits import (
 
 _Array = NDArray[np.float64]
 
-FIRST, LEAST, MOST = 0.01, 1e-9, 0.1
+FIRST, LEAST, MOST = 0.01, 1e-9, 0.05
 """Length of the first step, of the least and of the largest one, in scaled components."""
 _TURN = 0.97  # cosine of the largest turn of the tangent in a step
 _GENTLE = 0.997  # below this turn the step may grow
