@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.stability.family import system_vector
+from vibroimpact.stability.plane import RATES, plane
 
 
 @cache
@@ -156,3 +158,56 @@ def test_neimark_sacker():
     modulus = np.hypot(data["multiplier_real"], data["multiplier_imag"]).values[:, 0]
     np.testing.assert_allclose(modulus, 1.0, atol=1e-9)
     assert len(seen) > 5
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_grazing_of_one_bumper(side):
+    """Free flight reaches one bumper only: its amplitude is that side's gap."""
+    rig = case().oscillator
+    far = rig.right.replace(gap=1.0)
+    rig = rig.replace(**{"left" if side == "right" else "right": far})
+    found = vi.resonance_diagram(rig, case().amplitude, 1.2, 3.0)
+    row = int(np.flatnonzero(found["bifurcation_kind"].values == "grazing")[-1])
+    data = vi.bifurcation_curve(
+        rig,
+        vi.Harmonic(case().amplitude, 2.0),
+        found.isel(bifurcation=row),
+        parameters=("frequency", f"{side}_gap"),
+        low=(0.5, 4e-3),
+        high=(5.0, 12e-3),
+    )
+    omega = 2 * np.pi * data["frequency"].values
+    k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
+    swing = case().amplitude / np.hypot(k - omega**2, c * omega)
+    np.testing.assert_allclose(data[f"{side}_gap"], swing, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("pair", "independent"),
+    [
+        (("frequency", "gap"), True),
+        (("stiffness_ratio", "gap_ratio"), True),
+        (("amplitude", "damping"), True),
+        (("gap", "gap_ratio"), False),
+        (("amplitude", "gap_ratio"), False),
+        (("stiffness", "stiffness_ratio"), False),
+        (("bumper_damping", "stiffness_ratio"), False),
+        (("gap", "right_gap"), False),
+    ],
+)
+def test_pairs_of_parameters(pair, independent):
+    """Each writes its own numbers of the rig, and its line does not bend with the other."""
+    for names in (pair, pair[::-1]):
+        if not independent:
+            with pytest.raises(vi.InputError, match="not independent"):
+                plane(case().oscillator, vi.Harmonic(case().amplitude, 2.0), names)
+            continue
+        made = plane(case().oscillator, vi.Harmonic(case().amplitude, 2.0), names)
+        p, q = 1.3 * made.family.value, 0.8 * made.value
+        setting = made.other.write(
+            *made.family.parameter.write(case().oscillator, vi.Harmonic(case().amplitude, 2.0), p),
+            q,
+        )
+        found, expected = made.at_vectors(q).system(p), system_vector(*setting)
+        kept = [i for i in range(len(found)) if i not in RATES]
+        np.testing.assert_allclose(found[kept], expected[kept], rtol=1e-12)

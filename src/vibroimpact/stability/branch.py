@@ -182,10 +182,11 @@ def symmetric_if_so(found: Orbit) -> Orbit:
 def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
     """Sizes of displacement, velocity, deformations and parameter."""
     rig, shaken = fam.oscillator, fam.excitation
-    gaps = [b.gap for b in (rig.right, rig.left) if b is not None]
+    # The nearer bumper: the other may be far out of reach.
+    gap = min((b.gap for b in (rig.right, rig.left) if b is not None), default=0.0)
     omega = shaken.angular_frequency
     size = max(
-        *(gaps or [0.0]),
+        gap,
         abs(float(point[0])),
         abs(float(point[1])) / omega,
         1e-3 * shaken.amplitude / rig.angular_frequency**2,
