@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.engine import batch, lyapunov, record
-from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
+from vibroimpact.model.counts import whole
 from vibroimpact.model.units import ANGLE
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import beginning, recorded
@@ -48,9 +48,7 @@ def stroboscopic_section(
     """
     origin = recorded(motion)
     angle = to_si(phase, ANGLE, "phase")
-    count = max(1, math.floor(origin.cycles)) if cycles is None else cycles
-    if isinstance(count, bool) or not isinstance(count, int) or count < 1:
-        raise InputError(f"cycles: {cycles!r}; a whole number of at least 1 is accepted")
+    count = max(1, math.floor(origin.cycles)) if cycles is None else whole(cycles, "cycles")
     start = beginning(motion)
     state = engine_state(origin.oscillator, start)
     rig = engine_rig(origin.oscillator)

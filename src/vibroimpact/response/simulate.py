@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, record
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State, to_si
+from vibroimpact.model.counts import whole
 from vibroimpact.model.units import DIMENSIONLESS
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
@@ -62,9 +62,7 @@ def simulate(
         If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
     """
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
-    for field, value, least in (("samples", samples, 0), ("max_events", max_events, 1)):
-        if isinstance(value, bool) or not isinstance(value, int) or value < least:
-            raise InputError(f"{field}: {value!r}; a whole number of at least {least} is accepted")
+    samples, max_events = whole(samples, "samples", 0), whole(max_events, "max_events")
     check_bounded(oscillator, excitation.frequency, "frequency")
     state = as_state(start)
     phase = excitation.phase if state.phase is None else state.phase
@@ -97,12 +95,12 @@ def simulate(
     status = Status(outcome)
     if status is not Status.DONE:
         # The cycle that was given up is left out; its events until then are kept.
-        whole = max(at - 1, 0)
+        finished = max(at - 1, 0)
         warnings.warn(
-            f"simulate stopped in cycle {whole}: {status.advice}", RuntimeWarning, stacklevel=2
+            f"simulate stopped in cycle {finished}: {status.advice}", RuntimeWarning, stacklevel=2
         )
-        out = out[: whole * samples]
-        length = float(whole)
+        out = out[: finished * samples]
+        length = float(finished)
     variables: dict[str, Any] = {
         "final_state": ("component", components(vector, phase + 2.0 * math.pi * (length % 1.0)))
     }
@@ -175,7 +173,7 @@ def _samples(
 
 
 def _events(events: NDArray[np.float64], period: float) -> dict[str, Any]:
-    whole = {
+    integers = {
         "event_cycle": record.E_CYCLE,
         "event_contact": record.E_KIND,
         "event_side": record.E_SIDE,
@@ -192,6 +190,6 @@ def _events(events: NDArray[np.float64], period: float) -> dict[str, Any]:
     time = events[:, record.E_CYCLE] * period + events[:, record.E_TIME]
     return {
         "event_time": ("event", time),
-        **{name: ("event", events[:, at].astype(np.int64)) for name, at in whole.items()},
+        **{name: ("event", events[:, at].astype(np.int64)) for name, at in integers.items()},
         **{name: ("event", events[:, at] + 0.0) for name, at in columns.items()},  # no -0.0
     }

@@ -46,7 +46,8 @@ def as_state(start: State | xr.DataArray | xr.Dataset | None) -> State:
         values: dict[str, Any] = {
             str(k): float(start.sel(component=k)) for k in start["component"].values
         }
-        values["contact"] = int(values["contact"])
+        if "contact" in values:
+            values["contact"] = int(values["contact"])
         return State(**values)
     raise InputError(
         f"start: {type(start).__name__} is not a state; a State, a dataset of simulate or its "

@@ -17,10 +17,11 @@ from vibroimpact.engine import batch, hold
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State, to_si
+from vibroimpact.model.counts import share, whole
 from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY
 from vibroimpact.response.free_flight import check_bounded, free_flight_excursions
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
-from vibroimpact.response.threads import Progress, check_threads, run
+from vibroimpact.response.threads import Progress, run
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 
 DIRECTIONS = ("forward", "backward")
@@ -140,16 +141,10 @@ def sweeps(
     state = as_state(start)
     if state.phase is not None:
         angle = state.phase
-    if not 0.0 < tolerance < 1.0:
-        raise InputError(f"tolerance: {tolerance!r}; a number between 0 and 1 is accepted")
-    for field, value in (
-        ("max_cycles", max_cycles),
-        ("window", window),
-        ("max_events", max_events),
-    ):
-        if not (isinstance(value, int) and value > 0):
-            raise InputError(f"{field}: {value!r}; a whole number greater than 0 is accepted")
-    check_threads(threads)
+    tolerance = share(tolerance, "tolerance")
+    max_cycles, window = whole(max_cycles, "max_cycles"), whole(window, "window")
+    max_events = whole(max_events, "max_events")
+    threads = None if threads is None else whole(threads, "threads")
 
     free = np.empty((2, len(pairs), len(grid)))
     prepared = []

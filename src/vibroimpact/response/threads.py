@@ -9,16 +9,8 @@ from concurrent.futures import ThreadPoolExecutor, wait
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError
-
 Progress = Callable[[int, int], None]
 """Called now and then with how much is done and how much there is to do."""
-
-
-def check_threads(threads: int | None) -> None:
-    """Raise an `InputError` unless it is None or a whole number greater than 0."""
-    if threads is not None and not (isinstance(threads, int) and threads > 0):
-        raise InputError(f"threads: {threads!r}; a whole number greater than 0 is accepted")
 
 
 def run(

@@ -15,6 +15,7 @@ from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model.counts import whole
 from vibroimpact.response.start import as_state
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability import bifurcations
@@ -100,9 +101,7 @@ def branch(
             f"low: {span[0]:g} to {span[1]:g} leaves out the first orbit's {parameter}, "
             f"{fam.value:g}; a range that holds it is accepted"
         )
-    for name, value in (("period", period), ("most_points", most_points)):
-        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-            raise InputError(f"{name}: {value!r}; a whole number of at least 1 is accepted")
+    period, most_points = whole(period, "period"), whole(most_points, "most_points")
     first = first_orbit(fam, span, start, period)
     return as_dataset([follow(first, span, most_points, progress)], fam, span)
 

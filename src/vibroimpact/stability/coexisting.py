@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model.counts import whole
 from vibroimpact.response.start import as_state, components, engine_rig
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
 from vibroimpact.response.variables import COMPONENTS, describe, motion_parameters
@@ -98,8 +98,7 @@ def coexisting(
     InputError
         If a value cannot be used.
     """
-    if isinstance(random, bool) or not isinstance(random, int) or random < 0:
-        raise InputError(f"random: {random!r}; a whole number of at least 0 is accepted")
+    random = whole(random, "random", 0)
     kept: list[_Kept] = []
     given_up: dict[Status, tuple[State, list[str]]] = {}
     options = (samples, window, exponent_cycles, max_events)

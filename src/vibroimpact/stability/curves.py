@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import hold
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.model.counts import whole
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability.bifurcations import (
     BREAKING,
@@ -103,6 +104,7 @@ def bifurcation_curve(
             f"parameters: {parameters[0]!r} is not what the start was found along; "
             f"{start.attrs.get('parameter')!r} is accepted first"
         )
+    most_points = whole(most_points, "most_points")
     kind = start["bifurcation_kind"].item()
     phase = float(start["bifurcation_section"].sel(component="phase"))
     over = plane(oscillator, excitation.replace(phase=phase), (parameters[0], parameters[1]))

@@ -13,6 +13,7 @@ from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State, to_si
+from vibroimpact.model.counts import whole
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import DIRECTIONS, sweep
 from vibroimpact.response.threads import Progress
@@ -83,14 +84,9 @@ def resonance_diagram(
     peak = to_si(amplitude, ACCELERATION, "amplitude", above=0.0)
     fam = family(oscillator, Harmonic(peak, high, phase), "frequency")
     span = bounds(fam.parameter, low, high)
-    for name, value in (
-        ("longest", longest),
-        ("most_branches", most_branches),
-        ("most_points", most_points),
-        ("starts", starts),
-    ):
-        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-            raise InputError(f"{name}: {value!r}; a whole number of at least 1 is accepted")
+    longest, starts = whole(longest, "longest"), whole(starts, "starts")
+    most_branches = whole(most_branches, "most_branches")
+    most_points = whole(most_points, "most_points")
     followed: list[Followed] = []
     waiting: list[tuple[Orbit, Bifurcation | None]] = [
         (first, None)

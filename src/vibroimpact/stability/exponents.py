@@ -9,13 +9,13 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.engine import lyapunov
-from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State, to_si
+from vibroimpact.model.counts import whole
 from vibroimpact.model.units import ANGLE
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, engine_rig, engine_state
 from vibroimpact.response.sweep import SweptRig, check_frequencies, named_rigs
-from vibroimpact.response.threads import Progress, check_threads, run
+from vibroimpact.response.threads import Progress, run
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.stability.kind import averages
 
@@ -83,14 +83,9 @@ def lyapunov_exponents(
     state = as_state(start)
     if state.phase is not None:
         angle = state.phase
-    for field, value, least in (
-        ("cycles", cycles, 1),
-        ("transient", transient, 0),
-        ("max_events", max_events, 1),
-    ):
-        if isinstance(value, bool) or not isinstance(value, int) or value < least:
-            raise InputError(f"{field}: {value!r}; a whole number of at least {least} is accepted")
-    check_threads(threads)
+    cycles, transient = whole(cycles, "cycles"), whole(transient, "transient", 0)
+    max_events = whole(max_events, "max_events")
+    threads = None if threads is None else whole(threads, "threads")
     prepared = []
     for oscillator, amplitude in pairs:
         for i, frequency in enumerate(grid):

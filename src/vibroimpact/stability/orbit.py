@@ -6,8 +6,8 @@ import xarray as xr
 
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model.counts import whole
 from vibroimpact.response.variables import describe, motion_parameters
 from vibroimpact.stability.branch import first_orbit
 from vibroimpact.stability.family import family
@@ -52,9 +52,7 @@ def orbit(
     InputError
         If a value cannot be used, or Newton's method finds no orbit near the guess.
     """
-    for name, value in (("period", period), ("samples", samples)):
-        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-            raise InputError(f"{name}: {value!r}; a whole number of at least 1 is accepted")
+    period, samples = whole(period, "period"), whole(samples, "samples")
     fam = family(oscillator, excitation, "frequency")
     found = first_orbit(fam, (0.0, 1.0), guess, period, symmetric=False)
     data = describe_motion(settled_on(found), samples, 1, 1, MAX_EVENTS)

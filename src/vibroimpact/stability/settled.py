@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, hold, record
 from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model.counts import share
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import engine_rig, engine_state
 
@@ -48,8 +48,7 @@ def settle(
     InputError
         If the start cannot be, or an undamped mass that no bumper stops is at resonance.
     """
-    if not 0.0 < tolerance < 1.0:
-        raise InputError(f"tolerance: {tolerance!r}; a number between 0 and 1 is accepted")
+    tolerance = share(tolerance, "tolerance")
     check_bounded(oscillator, excitation.frequency, "frequency")
     if start.phase is not None:
         excitation = excitation.replace(phase=start.phase)

@@ -14,6 +14,7 @@ from vibroimpact.engine import measure
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model.counts import whole
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import Phases, Recorded, measured, phases, recorded
 from vibroimpact.response.simulate import simulate
@@ -81,13 +82,9 @@ def steady(
     InputError
         If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
     """
-    _check(
-        samples=samples,
-        window=window,
-        max_cycles=max_cycles,
-        exponent_cycles=exponent_cycles,
-        max_events=max_events,
-    )
+    samples, window = whole(samples, "samples"), whole(window, "window")
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), whole(max_events, "max_events")
+    exponent_cycles = whole(exponent_cycles, "exponent_cycles")
     for field, value, most in (
         ("window", window * samples, MOST_SAMPLES),
         ("exponent_cycles", exponent_cycles, MOST_CYCLES),
@@ -135,12 +132,6 @@ def describe_motion(
     }
     data.attrs["evidence"] = kind.evidence
     return _measured(data, scalars)
-
-
-def _check(**values: int) -> None:
-    for field, value in values.items():
-        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-            raise InputError(f"{field}: {value!r}; a whole number of at least 1 is accepted")
 
 
 def _stable(kind: Judgement) -> int:
