@@ -14,7 +14,6 @@ from vibroimpact.engine.section_map import (
     AMPLITUDE,
     CONTACTS_LEFT,
     CONTACTS_RIGHT,
-    FACTS,
     FREQUENCY,
     MODE,
     PARAMETER,
@@ -61,28 +60,23 @@ def solve(a: Vector, b: Vector, n: int) -> bool:
     return True
 
 
+Line = tuple[Vector, Vector, float, int, bool, int, Vector]
+"""base, direction, phase, count, mirror, max_events and scale, as in `correct`."""
+
+
 @kernel
 def _newton(
     plan: Vector,
-    base: Vector,
-    direction: Vector,
-    phase: float,
-    count: int,
-    mirror: bool,
-    max_events: int,
-    scale: Vector,
+    line: Line,
     tangent: Vector,
     point: Vector,
     facts: Vector,
     columns: Vector,
     slope: Vector,
 ) -> int:
+    base, direction, phase, count, mirror, max_events, scale = line
     system = np.empty(SYSTEM)
     image = np.empty(DISTURBANCE)
-    other = np.empty(DISTURBANCE)
-    ignored = np.empty((DISTURBANCE, DISTURBANCE))
-    trial = np.empty(POINT)
-    seen = np.empty(FACTS)
     aim = point.copy()
     best = math.inf
     found = np.empty(POINT)
@@ -114,26 +108,7 @@ def _newton(
             last = True
             point[:] = found
             continue
-        # The derivative with respect to the parameter, by a difference: it only steers.
-        _slope(
-            plan,
-            system,
-            base,
-            direction,
-            phase,
-            count,
-            mirror,
-            max_events,
-            scale,
-            point,
-            facts,
-            image,
-            trial,
-            seen,
-            other,
-            ignored,
-            slope,
-        )
+        _slope(plan, line, point, facts, image, slope)
         for i in range(DISTURBANCE):
             for j in range(DISTURBANCE):
                 matrix[i, j] = columns[j, i] * scale[j] / scale[i]
@@ -156,55 +131,24 @@ def _newton(
             point[j] += share * right[j] * scale[j]
         facts[STEPS] += 1.0
     facts[RESIDUAL] = min(best, residual)
-    _slope(
-        plan,
-        system,
-        base,
-        direction,
-        phase,
-        count,
-        mirror,
-        max_events,
-        scale,
-        point,
-        facts,
-        image,
-        trial,
-        seen,
-        other,
-        ignored,
-        slope,
-    )
+    _slope(plan, line, point, facts, image, slope)
     return DONE if facts[RESIDUAL] <= 1e-12 else NOT_SETTLED
 
 
 @kernel
 def _slope(
-    plan: Vector,
-    system: Vector,
-    base: Vector,
-    direction: Vector,
-    phase: float,
-    count: int,
-    mirror: bool,
-    max_events: int,
-    scale: Vector,
-    point: Vector,
-    facts: Vector,
-    image: Vector,
-    trial: Vector,
-    seen: Vector,
-    other: Vector,
-    ignored: Vector,
-    slope: Vector,
+    plan: Vector, line: Line, point: Vector, facts: Vector, image: Vector, slope: Vector
 ) -> None:
     """∂P/∂p by a difference, on the side on which the contacts are the same.
 
-    At a grazing the derivative may jump.
+    At a grazing the derivative may jump. It only steers: a step's end is judged by P alone.
     """
+    base, direction, phase, count, mirror, max_events, scale = line
+    system = np.empty(SYSTEM)
+    other = np.empty(DISTURBANCE)
+    ignored = np.empty((DISTURBANCE, DISTURBANCE))
     for sign in range(2):
-        trial[:] = point
-        seen[:] = facts
+        trial, seen = point.copy(), facts.copy()
         step = (1.0 if sign == 0 else -1.0) * _DIFFERENCE * scale[PARAMETER]
         system_plan(base, direction, point[PARAMETER] + step, plan, system)
         outcome = section_map(
@@ -271,21 +215,8 @@ def correct(
         DONE, NOT_SETTLED (the residual stays above 1e-12 of the scale), or what went wrong.
     """
     memory = np.zeros(PLAN)
-    outcome = _newton(
-        pointer(memory),
-        base,
-        direction,
-        phase,
-        count,
-        mirror,
-        max_events,
-        scale,
-        tangent,
-        point,
-        facts,
-        columns,
-        slope,
-    )
+    line = (base, direction, phase, count, mirror, max_events, scale)
+    outcome = _newton(pointer(memory), line, tangent, point, facts, columns, slope)
     memory[0] = 0.0  # keeps it alive until here
     return outcome
 
@@ -322,25 +253,8 @@ def evaluate(
     for i in range(DISTURBANCE):
         facts[RESIDUAL] = max(facts[RESIDUAL], abs(image[i] - point[i]) / scale[i])
     if outcome == DONE:
-        _slope(
-            plan,
-            system,
-            base,
-            direction,
-            phase,
-            count,
-            mirror,
-            max_events,
-            scale,
-            point,
-            facts,
-            image,
-            np.empty(POINT),
-            np.empty(FACTS),
-            np.empty(DISTURBANCE),
-            np.empty((DISTURBANCE, DISTURBANCE)),
-            slope,
-        )
+        line = (base, direction, phase, count, mirror, max_events, scale)
+        _slope(plan, line, point, facts, image, slope)
     memory[0] = 0.0  # keeps it alive until here
     return outcome
 
