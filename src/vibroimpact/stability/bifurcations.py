@@ -57,7 +57,8 @@ class Bifurcation(NamedTuple):
 
 def half_plus(orbit: Orbit) -> float:
     """det(M + I) of an orbit's map: zero where an eigenvalue is −1."""
-    return float(np.linalg.det(orbit.columns + np.eye(4)))
+    with np.errstate(all="ignore"):  # far from any orbit it may overflow
+        return float(np.linalg.det(orbit.columns + np.eye(4)))
 
 
 def spiral(orbit: Orbit) -> float:
@@ -217,7 +218,10 @@ def born(found: Bifurcation) -> Iterator[Station]:
     values, vectors = np.linalg.eig(found.orbit.columns.T)
     vector = np.real(vectors[:, np.argmin(np.abs(values + 1.0))]) / section.scale[:4]
     normal = np.append(vector, 0.0)
-    normal /= np.linalg.norm(normal * SEEN)
+    size = float(np.linalg.norm(normal * SEEN))
+    if not size > 0.0:
+        return  # only a bumper's deformation would differ
+    normal /= size
     for distance in _OFF:
         point = found.orbit.point + distance * normal * section.scale
         status, orbit = corrected(target, point, found.orbit.facts[section_map.MODE], normal)

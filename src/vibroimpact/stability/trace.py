@@ -198,21 +198,29 @@ def _end_on(trace: Trace, here: Station, value: float) -> None:
 
 def _returned(trace: Trace, here: Station) -> bool:
     """Whether the last step went past the beginning of the branch."""
-    first = trace.stations[0]
+    first, before = trace.stations[0], trace.stations[-2]
     if len(trace.stations) < 8 or here.orbit.contacts != first.orbit.contacts:
         return False
-    before = trace.stations[-2]
-    phase = first.orbit.section.family.phase
-    if here.orbit.section.family.phase != phase or before.orbit.section.family.phase != phase:
+    values = [before.orbit.value, here.orbit.value]
+    reach = abs(values[1] - values[0])
+    if not min(values) - reach <= first.orbit.value <= max(values) + reach:
         return False
-    gap = _distance(before.orbit, here.orbit)
+    # Sections may have been moved on the way.
+    phase = first.orbit.section.family.phase
+    ends = [at_phase(station.orbit, phase) for station in (before, here)]
+    if ends[0] is None or ends[1] is None:
+        return False
     scale = first.orbit.section.scale
-    ahead = (first.orbit.point - before.orbit.point) / scale * SEEN
+    chord = (ends[1].point - ends[0].point) / scale * SEEN
+    ahead = (first.orbit.point - ends[0].point) / scale * SEEN
+    gap = float(np.linalg.norm(chord))
+    if gap == 0.0:
+        return False
+    along = float(ahead @ chord) / gap
     return bool(
-        np.linalg.norm(ahead) <= 1.5 * gap
-        and 0.0 <= ahead @ before.tangent <= gap
-        and np.linalg.norm(ahead - (ahead @ before.tangent) * before.tangent * SEEN) <= 0.2 * gap
-        and (here.tangent * SEEN) @ first.tangent > 0.9
+        0.0 <= along <= gap
+        and np.linalg.norm(ahead - along * chord / gap) <= 0.2 * gap
+        and chord @ first.tangent > 0.9 * gap
     )
 
 
