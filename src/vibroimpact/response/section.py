@@ -7,13 +7,13 @@ import math
 import numpy as np
 import xarray as xr
 
-from vibroimpact.engine import batch, lyapunov, record
+from vibroimpact.engine import lyapunov
 from vibroimpact.model import to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.units import ANGLE
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import beginning, recorded
-from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.start import engine_rig, engine_state, moved_on
 from vibroimpact.response.variables import describe, motion_parameters
 
 _MAX_EVENTS = 10_000
@@ -59,19 +59,7 @@ def stroboscopic_section(
         [start.displacement, start.velocity, start.right_bumper, start.left_bumper], dtype=float
     )
     if ahead > 0.0:
-        batch.trajectory(
-            rig,
-            shaken.amplitude,
-            shaken.frequency,
-            shaken.phase,
-            state,
-            0.0,
-            ahead,
-            0,
-            _MAX_EVENTS,
-            np.empty((0, record.SAMPLE)),
-            np.empty((_MAX_EVENTS + 2, record.EVENT)),
-        )
+        state = moved_on(rig, shaken, state, ahead, _MAX_EVENTS)
         first = np.array([*state[2:5], -state[5]])
     _, done = lyapunov.growth(
         rig, shaken.amplitude, shaken.frequency, angle, state, 0, 0, _MAX_EVENTS, rows

@@ -9,11 +9,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold
+from vibroimpact.engine import batch, hold, record
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, State
+from vibroimpact.model import Bumper, Harmonic, Oscillator, State
+from vibroimpact.response.variables import COMPONENTS
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
@@ -141,3 +142,34 @@ def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]
         axis=-1,
     )
     return stacked + 0.0  # no negative zeros
+
+
+def state_from(vector: NDArray[np.float64], phase: float) -> State:
+    """An engine's state at a forcing phase as a `State`."""
+    values: dict[str, Any] = dict(zip(COMPONENTS, components(vector, phase), strict=True))
+    return State(**{**values, "contact": int(values["contact"])})
+
+
+def moved_on(
+    rig: NDArray[np.float64],
+    excitation: Harmonic,
+    vector: NDArray[np.float64],
+    cycles: float,
+    max_events: int = 10_000,
+) -> NDArray[np.float64]:
+    """The engine's state some forcing cycles later; it stops where a limit is met."""
+    later = vector.copy()
+    batch.trajectory(
+        rig,
+        excitation.amplitude,
+        excitation.frequency,
+        excitation.phase,
+        later,
+        0.0,
+        cycles,
+        0,
+        max_events,
+        np.empty((0, record.SAMPLE)),
+        np.empty((max_events + 1, record.EVENT)),
+    )
+    return later

@@ -144,14 +144,10 @@ def _parent(here: Station, there: Station) -> tuple[str, Orbit] | None:
     lies between an orbit and its image.
     """
     section = here.orbit.section
-    if section.mirror:
+    simpler = section.parent()
+    if simpler is None:
         return None
-    if section.count % 2 == 0:
-        kind, simpler = DOUBLING, section.simpler(section.count // 2, mirror=False)
-    elif section.family.symmetric:
-        kind, simpler = BREAKING, section.simpler(section.count, mirror=True)
-    else:
-        return None
+    kind = BREAKING if simpler.mirror else DOUBLING
     misses = []
     for station in (here, there):
         status, other, image = evaluated(
@@ -200,7 +196,7 @@ def own_mirror(orbit: Orbit, tolerance: float) -> bool:
     section = orbit.section
     if not section.family.symmetric or section.count % 2 == 0:
         return False
-    return is_fixed(Section(section.family, section.count, True, section.scale), orbit, tolerance)
+    return is_fixed(section.simpler(section.count, mirror=True), orbit, tolerance)
 
 
 def born(found: Bifurcation) -> Iterator[Station]:

@@ -161,7 +161,7 @@ def reduced(found: Orbit) -> Orbit:
     """The orbit with its least period."""
     section = found.section
     for count in range(1, section.count):
-        simpler = Section(section.family, count, False, section.scale)
+        simpler = section.simpler(count, mirror=False)
         if section.count % count == 0 and is_fixed(simpler, found, 1e-9):
             status, simple = corrected(simpler, found.point, found.facts[section_map.MODE])
             return simple if status is Status.DONE else found
@@ -173,7 +173,7 @@ def symmetric_if_so(found: Orbit) -> Orbit:
     section = found.section
     if not own_mirror(found, 1e-9):
         return found
-    half = Section(section.family, section.count, True, section.scale)
+    half = section.simpler(section.count, mirror=True)
     status, mirrored = corrected(half, found.point, found.facts[section_map.MODE])
     return mirrored if status is Status.DONE else found
 

@@ -14,9 +14,9 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
-from vibroimpact.response.start import as_state, components, engine_rig
+from vibroimpact.response.start import as_state, engine_rig, state_from
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
-from vibroimpact.response.variables import COMPONENTS, describe, motion_parameters
+from vibroimpact.response.variables import describe, motion_parameters
 from vibroimpact.stability.settled import (
     Settled,
     apart,
@@ -125,14 +125,10 @@ def coexisting(
         state = State(u, v * excitation.angular_frequency, phase=excitation.phase)
         go(f"random {number + 1}", state)
     if symmetric(oscillator):
-        for one in kept:
+        for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
-                # The mirror image is a motion where the forcing has turned by half a cycle.
-                image = mirrored(follow(one.found, one.found.state, 0.5, max_events))
-                values = dict(
-                    zip(COMPONENTS, components(image, one.found.excitation.phase), strict=True)
-                )
-                go("mirror image", State(**{**values, "contact": int(values["contact"])}))
+                image = _image(one.found, max_events)
+                go("mirror image", state_from(image.state, excitation.phase))
     kept.sort(key=lambda one: -float(one.motion["displacement_excursion"]))
     motions = [_labelled(one, max_events) for one in kept]
     for start, names in given_up.values():

@@ -116,6 +116,11 @@ def resonance_diagram(
     return data
 
 
+def _at(fam: Family, frequency: float) -> Family:
+    """The family along the frequency, made at another one."""
+    return fam._replace(value=frequency, excitation=fam.excitation.replace(frequency=frequency))
+
+
 def _free(fam: Family, span: tuple[float, float], starts: int) -> Iterator[Orbit]:
     """Steady free flight where it reaches no bumper: at the ends of each such range."""
     rig, shaken = fam.oscillator, fam.excitation
@@ -134,9 +139,7 @@ def _free(fam: Family, span: tuple[float, float], starts: int) -> Iterator[Orbit
         s, c = np.sin(fam.phase), np.cos(fam.phase)
         u = -shaken.amplitude * (stiff[i] * s - damped[i] * c) / square[i]
         v = -shaken.amplitude * omega[i] * (stiff[i] * c + damped[i] * s) / square[i]
-        here = fam._replace(
-            value=float(grid[i]), excitation=shaken.replace(frequency=float(grid[i]))
-        )
+        here = _at(fam, float(grid[i]))
         try:
             yield first_orbit(here, span, State(float(u), float(v), phase=fam.phase), 1)
         except InputError:
@@ -156,12 +159,7 @@ def _settled(fam: Family, span: tuple[float, float], starts: int, longest: int) 
             period = int(data["period"][i])
             if not 0 < period <= longest:
                 continue
-            setting = family(
-                fam.oscillator,
-                Harmonic(fam.excitation.amplitude, float(grid[i]), fam.phase),
-                "frequency",
-            )
-            here = fam._replace(value=float(grid[i]), excitation=setting.excitation)
+            here = _at(fam, float(grid[i]))
             try:
                 yield first_orbit(here, span, data["section"].isel(frequency=i, drop=True), period)
             except InputError:

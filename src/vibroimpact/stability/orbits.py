@@ -9,10 +9,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold, margin, orbit, record, section_map
+from vibroimpact.engine import hold, margin, orbit, section_map
 from vibroimpact.engine.phase import FLIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.response.start import moved_on
 from vibroimpact.stability.family import Family
 
 _Array = NDArray[np.float64]
@@ -48,6 +49,18 @@ class Section:
     def simpler(self, count: int, *, mirror: bool) -> Section:
         """Another map of the same rig."""
         return Section(self.family, count, mirror, self.scale)
+
+    def parent(self) -> Section | None:
+        """The map from whose fixed points those of this one may branch off, if any.
+
+        Over half the period; or, for an odd number of cycles of a symmetric rig, over half a cycle
+        more often, each followed by the mirror.
+        """
+        if self.mirror:
+            return None
+        if self.count % 2 == 0:
+            return self.simpler(self.count // 2, mirror=False)
+        return self.simpler(self.count, mirror=True) if self.family.symmetric else None
 
     def full(self) -> Section:
         """The same without the mirror: its fixed points include those of the other."""
@@ -135,6 +148,13 @@ class Orbit:
         return self.section.family.at(self.value)
 
 
+def _blank(section: Section, point: _Array, mode: float) -> Orbit:
+    """What the engine writes an orbit into."""
+    facts = np.zeros(section_map.FACTS)
+    facts[section_map.MODE] = mode
+    return Orbit(section, np.array(point, dtype=np.float64), facts, np.zeros((4, 4)), np.zeros(4))
+
+
 def corrected(
     section: Section, point: _Array, mode: float, normal: _Array = HELD
 ) -> tuple[Status, Orbit]:
@@ -151,14 +171,7 @@ def corrected(
     normal
         Normal of the plane, scaled; of its components only those in `SEEN` count.
     """
-    found = Orbit(
-        section,
-        np.array(point, dtype=np.float64),
-        np.zeros(section_map.FACTS),
-        np.zeros((4, 4)),
-        np.zeros(4),
-    )
-    found.facts[section_map.MODE] = mode
+    found = _blank(section, point, mode)
     outcome = orbit.correct(
         section.family.base,
         section.family.direction,
@@ -178,14 +191,7 @@ def corrected(
 
 def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orbit, _Array]:
     """The map and its derivative at a point that need not be fixed, and the point's image."""
-    found = Orbit(
-        section,
-        np.array(point, dtype=np.float64),
-        np.zeros(section_map.FACTS),
-        np.zeros((4, 4)),
-        np.zeros(4),
-    )
-    found.facts[section_map.MODE] = mode
+    found = _blank(section, point, mode)
     image = found.point.copy()
     outcome = orbit.evaluate(
         section.family.base,
@@ -241,21 +247,14 @@ def at_phase(found: Orbit, phase: float) -> Orbit | None:
     ahead = ((phase - section.family.phase) / (2.0 * math.pi)) % 1.0
     if ahead == 0.0:
         return found
-    state = vector_of(found)
     system = section.family.system(found.value)
-    batch.trajectory(
-        system[: section_map.AMPLITUDE].copy(),
+    here = Harmonic(
         float(system[section_map.AMPLITUDE]),
         float(system[section_map.FREQUENCY]),
         section.family.phase,
-        state,
-        0.0,
-        ahead,
-        0,
-        MAX_EVENTS,
-        np.empty((0, record.SAMPLE)),
-        np.empty((MAX_EVENTS + 2, record.EVENT)),
     )
+    rig = system[: section_map.AMPLITUDE].copy()
+    state = moved_on(rig, here, vector_of(found), ahead, MAX_EVENTS)
     turned = section.family.excitation.replace(phase=phase)
     moved = Section(
         section.family._replace(excitation=turned), section.count, section.mirror, section.scale

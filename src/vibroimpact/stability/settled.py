@@ -7,13 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold, record
+from vibroimpact.engine import batch, hold
 from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import share
 from vibroimpact.response.free_flight import check_bounded
-from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.start import engine_rig, engine_state, moved_on
 
 _Array = NDArray[np.float64]
 
@@ -96,21 +96,8 @@ def mirrored(state: _Array) -> _Array:
 
 def follow(found: Settled, state: _Array, cycles: float, max_events: int = 10_000) -> _Array:
     """The state some forcing cycles later."""
-    later = state.copy()
-    batch.trajectory(
-        engine_rig(found.oscillator),
-        found.excitation.amplitude,
-        found.excitation.frequency,
-        found.excitation.phase,
-        later,
-        0.0,
-        cycles,
-        0,
-        max_events,
-        np.empty((0, record.SAMPLE)),
-        np.empty((max_events + 1, record.EVENT)),
-    )
-    return later
+    rig = engine_rig(found.oscillator)
+    return moved_on(rig, found.excitation, state, cycles, max_events)
 
 
 def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:

@@ -18,8 +18,8 @@ from vibroimpact.model.counts import whole
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import Phases, Recorded, measured, phases, recorded
 from vibroimpact.response.simulate import simulate
-from vibroimpact.response.start import as_state, components
-from vibroimpact.response.variables import COMPONENTS, describe, motion_parameters
+from vibroimpact.response.start import as_state, state_from
+from vibroimpact.response.variables import describe, motion_parameters
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.growth import judge_orbit, judge_wandering
 from vibroimpact.stability.kind import Judgement
@@ -140,11 +140,6 @@ def _stable(kind: Judgement) -> int:
     return -1 if abs(largest) < NEUTRAL else int(largest < 0.0)
 
 
-def _start(found: Settled, state: _Array) -> State:
-    values = dict(zip(COMPONENTS, components(state, found.excitation.phase), strict=True))
-    return State(**{**values, "contact": int(values["contact"])})
-
-
 def _record(
     found: Settled, state: _Array, samples: int, cycles: int, max_events: int
 ) -> xr.Dataset:
@@ -152,7 +147,7 @@ def _record(
         found.oscillator,
         found.excitation,
         cycles,
-        _start(found, state),
+        state_from(state, found.excitation.phase),
         samples,
         max_events=max_events,
     )
@@ -260,7 +255,7 @@ def _until_the_last_event(data: xr.Dataset, found: Settled, samples: int) -> xr.
         found.oscillator,
         found.excitation,
         length,
-        _start(found, found.state),
+        state_from(found.state, found.excitation.phase),
         samples,
         max_events=max(data.sizes["event"], 1),
     )

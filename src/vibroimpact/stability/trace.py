@@ -90,14 +90,8 @@ def step(at: Station, length: float) -> tuple[Status, Orbit]:
 
 def slid(found: Orbit) -> bool:
     """Whether an orbit has become one of a simpler map: its own mirror image, or half as long."""
-    section = found.section
-    if section.mirror:
-        return False
-    if section.family.symmetric and section.count % 2 == 1:
-        return is_fixed(section.simpler(section.count, mirror=True), found, _SLID)
-    if section.count % 2 == 0:
-        return is_fixed(section.simpler(section.count // 2, mirror=False), found, _SLID)
-    return False
+    parent = found.section.parent()
+    return parent is not None and is_fixed(parent, found, _SLID)
 
 
 def follow_branch(
