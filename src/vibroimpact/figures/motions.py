@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
 from vibroimpact.response.contacts import contacts
-from vibroimpact.response.phases import recorded
+from vibroimpact.response.phases import phases, recorded
 
 _Array = NDArray[np.float64]
 
@@ -133,8 +133,13 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         clearance = np.where(mine, 0.0, bumper.gap + side * distance)
         parts = [motion[f"{name}_clearance"].values, clearance, clearance]
         values[f"{name}_clearance"] = np.concatenate(parts)[order]
-    touching = _touching(motion, events)
-    log = contacts(motion)
+    every = phases(motion)
+    touching = [
+        (int(every.contact[i]), begin, begin + float(every.length[i]) * frequency)
+        for i in np.flatnonzero(every.contact)
+        for begin in [float(every.begin[i]) * frequency]
+    ]
+    log = motion if "contact_peak_time" in motion else contacts(motion)
     peak_at = log["contact_peak_time"].values * frequency
     height = np.interp(peak_at, times[order], values["acceleration"])
     peak = log["contact_peak_acceleration"].values * np.sign(height)
@@ -146,24 +151,6 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
     if "period" in motion:  # steady, but not periodic: its record begins anywhere
         return _cut(curve, 0.0, cycles)
     return _cut(curve, max(float(at[0]), float(at[-1]) - cycles), float(at[-1]))
-
-
-def _touching(motion: xr.Dataset, events: _Array) -> list[tuple[int, float, float]]:
-    """Side, begin and end of each contact, in forcing cycles; cut off by the record's ends."""
-    at = motion["cycle"].values
-    begins: dict[int, float] = {}
-    kinds, sides = motion["event_contact"].values, motion["event_side"].values
-    if len(kinds) and not kinds[0]:
-        begins[int(sides[0])] = float(at[0])
-    elif side := int(motion["contact"].values[0]):
-        begins[side] = float(at[0])
-    found = []
-    for time, begin, side in zip(events, kinds, sides, strict=True):
-        if begin:
-            begins[int(side)] = float(time)
-        elif side in begins:
-            found.append((int(side), begins.pop(int(side)), float(time)))
-    return found + [(side, begin, float(at[-1])) for side, begin in begins.items()]
 
 
 def _repeated(curve: Shown, period: float, cycles: float) -> Shown:

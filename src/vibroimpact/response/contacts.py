@@ -9,7 +9,14 @@ from numpy.typing import NDArray
 from vibroimpact.engine import measure
 from vibroimpact.model import to_si
 from vibroimpact.model.units import DIMENSIONLESS
-from vibroimpact.response.phases import Phases, Recorded, measured, phases, recorded
+from vibroimpact.response.phases import (
+    Phases,
+    Recorded,
+    measured,
+    phases,
+    recorded,
+    relaxation_loss,
+)
 from vibroimpact.response.variables import describe, motion_parameters
 
 GRAZING = 1e-3
@@ -48,13 +55,13 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     found = measured(origin, chosen)
     mass, period = origin.oscillator.mass, origin.excitation.period
     side, begin = chosen.contact, chosen.begin
-    damping = _of_side(origin, side, "damping")
+    damping = origin.of_side(side, "damping")
     closing, parting = chosen.first[:, 1], chosen.last[:, 1]
     # The bumper may still be relaxing towards the mass: u̇_j = −u_j K_j / C_j.
     deformation = np.where(side == 1, chosen.first[:, 2], -chosen.first[:, 3])
     damped = damping > 0.0
     rate = np.divide(
-        _of_side(origin, side, "stiffness"), damping, out=np.zeros(len(side)), where=damped
+        origin.of_side(side, "stiffness"), damping, out=np.zeros(len(side)), where=damped
     )
     approach = side * closing + rate * deformation
     fastest = np.abs(
@@ -111,31 +118,18 @@ def _whole_contacts(every: Phases, origin: Recorded) -> tuple[Phases, NDArray[np
     return chosen, first
 
 
-def _of_side(origin: Recorded, side: NDArray[np.int64], name: str) -> NDArray[np.float64]:
-    """A bumper's number for each contact."""
-    right, left = (
-        getattr(bumper, name) if bumper else np.nan
-        for bumper in (origin.oscillator.right, origin.oscillator.left)
-    )
-    return np.where(side == 1, right, left)
-
-
 def _relaxing(every: Phases, first: NDArray[np.int64], origin: Recorded) -> NDArray[np.float64]:
-    """Energy that each free bumper loses between its contacts: what its spring no longer holds.
+    """Energy that each free bumper loses between its contacts.
 
     It is counted to the contact before, which is given by the phase in which it begins.
     """
     lost = np.zeros(len(every.contact))
     last = len(every.contact) - 1
-    for side, component, bumper in (
-        (1, 2, origin.oscillator.right),
-        (-1, 3, origin.oscillator.left),
-    ):
+    losses = relaxation_loss(origin, every)
+    for side, of_side in zip((1, -1), losses.T, strict=True):
         pressed = np.flatnonzero(every.contact == side)
-        if bumper is None or not len(pressed):
+        if not len(pressed):
             continue
-        held = 0.5 * bumper.stiffness * every.first[:, component] ** 2
-        left = 0.5 * bumper.stiffness * every.last[:, component] ** 2
         for i in np.flatnonzero(every.contact != side):
             earlier = pressed[pressed < i]
             if len(earlier):
@@ -146,5 +140,5 @@ def _relaxing(every: Phases, first: NDArray[np.int64], origin: Recorded) -> NDAr
                 continue  # of a contact before the record
             if owner == 0 and last in pressed and origin.periodic:
                 owner = last  # the contact that the end of the period cuts begins there
-            lost[owner] += held[i] - left[i]
+            lost[owner] += of_side[i]
     return lost[first]

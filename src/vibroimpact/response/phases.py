@@ -31,6 +31,14 @@ class Recorded(NamedTuple):
     periodic: bool
     """Whether the record is one period of a periodic motion: its end is its beginning."""
 
+    def of_side(self, side: NDArray[np.int64], name: str) -> _Array:
+        """A bumper's number for each phase by the bumper pressed; 0 in flight."""
+        right, left = (
+            getattr(bumper, name) if bumper else 0.0
+            for bumper in (self.oscillator.right, self.oscillator.left)
+        )
+        return np.where(side == 1, right, np.where(side == -1, left, 0.0))
+
 
 class Phases(NamedTuple):
     """Phases of a motion, in the order of time: one value each, or one row of a state each."""
@@ -143,3 +151,17 @@ def measured(origin: Recorded, parts: Phases) -> _Array:
         found,
     )
     return found
+
+
+def relaxation_loss(origin: Recorded, parts: Phases) -> _Array:
+    """Energy (J) that each free bumper loses in each phase, shape (phase, 2): right, left.
+
+    What its spring no longer holds at the end.
+    """
+    lost = np.zeros((len(parts.contact), 2))
+    bumpers = (origin.oscillator.right, origin.oscillator.left)
+    for i, (side, bumper) in enumerate(zip((1, -1), bumpers, strict=True)):
+        if bumper is not None:
+            squares = parts.first[:, 2 + i] ** 2 - parts.last[:, 2 + i] ** 2
+            lost[:, i] = np.where(parts.contact != side, 0.5 * bumper.stiffness * squares, 0.0)
+    return lost

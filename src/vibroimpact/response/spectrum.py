@@ -78,16 +78,10 @@ def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[
     """Complex amplitudes at the given orders: of u, u̇ and ü + A_t."""
     rig, shaken = origin.oscillator, origin.excitation
     side = parts.contact
-    bumpers = {1: rig.right, -1: rig.left}
-
-    def of_mode(name: str) -> NDArray[np.float64]:
-        values = {s: getattr(bumper, name) if bumper else 0.0 for s, bumper in bumpers.items()}
-        return np.where(side == 0, 0.0, np.where(side == 1, values[1], values[-1]))
-
     # In contact x = u − (±gap), the bumper's deformation.
-    face = (side * of_mode("gap"))[:, np.newaxis]
-    k = (rig.isolator.stiffness + of_mode("stiffness"))[:, np.newaxis] / rig.mass
-    c = (rig.isolator.damping + of_mode("damping"))[:, np.newaxis] / rig.mass
+    face = (side * origin.of_side(side, "gap"))[:, np.newaxis]
+    k = (rig.isolator.stiffness + origin.of_side(side, "stiffness"))[:, np.newaxis] / rig.mass
+    c = (rig.isolator.damping + origin.of_side(side, "damping"))[:, np.newaxis] / rig.mass
     load = -rig.isolator.stiffness / rig.mass * face
     pressed = np.where(side == 1, 2, 3)
     ends = []

@@ -22,7 +22,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.counts import whole
@@ -37,9 +36,8 @@ from vibroimpact.stability.bifurcations import (
 from vibroimpact.stability.branch import scales, state_of
 from vibroimpact.stability.defining import SEEN, Defining, Spot, solve, tangent_of
 from vibroimpact.stability.family import bounds
-from vibroimpact.stability.orbit import settled_on
+from vibroimpact.stability.orbits import seen_at
 from vibroimpact.stability.plane import Plane, plane
-from vibroimpact.stability.settled import follow
 
 _Array = NDArray[np.float64]
 
@@ -229,17 +227,12 @@ def _at_another_phase(
 ) -> tuple[Defining, Spot, _Array] | None:
     """The same curve with the section elsewhere: where an event falls on it, no step goes on."""
     over = system.plane
-    setting = over.other.write(over.family.oscillator, over.family.excitation, float(here.y[5]))
-    rig, shaken = over.family.parameter.write(*setting, float(here.y[4]))
-    settled = settled_on(here.orbit)._replace(oscillator=rig, excitation=shaken)
-    later = follow(settled, settled.state, _TURNED / (2.0 * np.pi))
     turned = over.family.excitation.replace(phase=over.family.phase + _TURNED)
+    point, mode = seen_at(here.orbit, turned.phase)
     system = system._replace(
-        plane=over._replace(family=over.family._replace(excitation=turned)),
-        mode=float(later[hold.MODE]),
+        plane=over._replace(family=over.family._replace(excitation=turned)), mode=mode
     )
-    state = [later[hold.U], later[hold.V], later[hold.RIGHT_BUMPER], -later[hold.LEFT_BUMPER]]
-    spot = solve(system, np.append(state, here.y[4:]), tangent * _PARAMETERS)
+    spot = solve(system, np.append(point[:4], here.y[4:]), tangent * _PARAMETERS)
     if spot is None:
         return None
     return system, spot, tangent_of(spot, tangent * _PARAMETERS)

@@ -241,25 +241,33 @@ def vector_of(found: Orbit) -> _Array:
     return state
 
 
-def at_phase(found: Orbit, phase: float) -> Orbit | None:
-    """The same orbit seen at another section, if Newton's method confirms it."""
+def seen_at(found: Orbit, phase: float) -> tuple[_Array, float]:
+    """Point and mode of the same motion at another forcing phase of the section."""
     section = found.section
-    ahead = ((phase - section.family.phase) / (2.0 * math.pi)) % 1.0
-    if ahead == 0.0:
-        return found
     system = section.family.system(found.value)
     here = Harmonic(
         float(system[section_map.AMPLITUDE]),
         float(system[section_map.FREQUENCY]),
         section.family.phase,
     )
-    rig = system[: section_map.AMPLITUDE].copy()
-    state = moved_on(rig, here, vector_of(found), ahead, MAX_EVENTS)
+    ahead = ((phase - here.phase) / (2.0 * math.pi)) % 1.0
+    state = vector_of(found)
+    if ahead > 0.0:
+        rig = system[: section_map.AMPLITUDE].copy()
+        state = moved_on(rig, here, state, ahead, MAX_EVENTS)
+    right, left = state[hold.RIGHT_BUMPER], -state[hold.LEFT_BUMPER]
+    point = np.array([state[hold.U], state[hold.V], right, left, found.value])
+    return point, float(state[hold.MODE])
+
+
+def at_phase(found: Orbit, phase: float) -> Orbit | None:
+    """The same orbit seen at another section, if Newton's method confirms it."""
+    section = found.section
+    if phase == section.family.phase:
+        return found
     turned = section.family.excitation.replace(phase=phase)
     moved = Section(
         section.family._replace(excitation=turned), section.count, section.mirror, section.scale
     )
-    right, left = state[hold.RIGHT_BUMPER], -state[hold.LEFT_BUMPER]
-    point = np.array([state[hold.U], state[hold.V], right, left, found.value])
-    status, there = corrected(moved, point, float(state[hold.MODE]))
+    status, there = corrected(moved, *seen_at(found, phase))
     return there if status is Status.DONE else None

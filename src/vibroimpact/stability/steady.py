@@ -16,7 +16,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.response.contacts import contacts
-from vibroimpact.response.phases import Phases, Recorded, measured, phases, recorded
+from vibroimpact.response.phases import measured, phases, recorded, relaxation_loss
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, state_from
 from vibroimpact.response.variables import describe, motion_parameters
@@ -172,8 +172,7 @@ def _measured(data: xr.Dataset, scalars: dict[str, Any]) -> xr.Dataset:
     rows = measured(origin, every)
     rig, shaken = origin.oscillator, origin.excitation
     side = every.contact
-    gaps = [b.gap if b else 0.0 for b in (rig.right, rig.left)]
-    face = np.where(side == 1, gaps[0], np.where(side == -1, -gaps[1], 0.0))
+    face = side * origin.of_side(side, "gap")
     # A left contact is measured towards the bumper.
     least = np.where(side == -1, -rows[:, measure.X_MOST], rows[:, measure.X_LEAST]) + face
     most = np.where(side == -1, -rows[:, measure.X_LEAST], rows[:, measure.X_MOST]) + face
@@ -181,8 +180,7 @@ def _measured(data: xr.Dataset, scalars: dict[str, Any]) -> xr.Dataset:
     top, bottom = float(rows[:, measure.A_MOST].max()), float(rows[:, measure.A_LEAST].min())
     log = contacts(data)
     cycles = max(origin.cycles, 1.0)
-    damping = [b.damping if b else 0.0 for b in (rig.right, rig.left)]
-    pressed = np.where(side == 1, damping[0], np.where(side == -1, damping[1], 0.0))
+    pressed = origin.of_side(side, "damping")
     squares = rows[:, measure.SQUARES]
     values: dict[str, Any] = {
         "displacement_max": high,
@@ -196,24 +194,11 @@ def _measured(data: xr.Dataset, scalars: dict[str, Any]) -> xr.Dataset:
         "impacts_left": int((log["contact_side"] == -1).sum()) / cycles,
         "energy_supplied": -rig.mass * shaken.amplitude * rows[:, measure.WORK].sum() / cycles,
         "energy_isolator": rig.isolator.damping * squares.sum() / cycles,
-        "energy_bumpers": (float(pressed @ squares) + _relaxed(origin, every)) / cycles,
+        "energy_bumpers": float(pressed @ squares + relaxation_loss(origin, every).sum()) / cycles,
     }
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
     return describe(data, "vibroimpact.steady", motion_parameters(data))
-
-
-def _relaxed(origin: Recorded, every: Phases) -> float:
-    """Energy that the bumpers lose while they are free."""
-    total = 0.0
-    for side, component, bumper in (
-        (1, 2, origin.oscillator.right),
-        (-1, 3, origin.oscillator.left),
-    ):
-        if bumper is not None:
-            squares = every.first[:, component] ** 2 - every.last[:, component] ** 2
-            total += 0.5 * bumper.stiffness * float(squares[every.contact != side].sum())
-    return total
 
 
 def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
