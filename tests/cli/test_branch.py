@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import json
 import math
 from pathlib import Path
@@ -12,30 +10,11 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.cli import main
 
+COMMAND = "branch"
 CASE = vi.laboratory.case("B2-G1-A3")
 GAPS = ("--parameter", "gap", "--from", "1mm", "--to", "20mm")
 STUDY = Path(__file__).parents[2] / "examples" / "study.toml"
-
-
-def told(folder: Path, *words: str) -> tuple[int, str, str]:
-    """Run the command in a folder; return exit code, stdout and stderr."""
-    out, errors = io.StringIO(), io.StringIO()
-    with (
-        contextlib.chdir(folder),
-        contextlib.redirect_stdout(out),
-        contextlib.redirect_stderr(errors),
-    ):
-        code = main(("branch", *words))
-    # The first run ever says that it compiles the engine.
-    lines = errors.getvalue().splitlines(keepends=True)
-    return code, out.getvalue(), "".join(line for line in lines if "compiling" not in line)
-
-
-@pytest.fixture
-def run(tmp_path):
-    return lambda *words: told(tmp_path, *words)
 
 
 def swing(rig: vi.Oscillator, frequency: float) -> float:
@@ -46,7 +25,7 @@ def swing(rig: vi.Oscillator, frequency: float) -> float:
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory):
+def whole(tmp_path_factory, told):
     """Of all frequencies: the folder and what is printed."""
     folder = tmp_path_factory.mktemp("whole")
     code, out, errors = told(folder, "B2-G1-A3")
@@ -55,7 +34,7 @@ def whole(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def gaps(tmp_path_factory):
+def gaps(tmp_path_factory, told):
     """Over the gap: the facts, and the folder of the files."""
     folder = tmp_path_factory.mktemp("gaps")
     code, out, errors = told(folder, "B2-G1-A3", *GAPS, "--frequency", "2Hz", "--json")

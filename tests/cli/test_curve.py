@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import json
 from pathlib import Path
 
@@ -12,30 +10,11 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.cli import main
 
+COMMAND = "curve"
 CASE = vi.laboratory.case("B2-G1-A3")
 RATIO = ("--parameters", "frequency,stiffness-ratio", "--second", "0.5:100", "--first", "1Hz:4Hz")
 GAP = ("--parameters", "frequency,gap", "--second", "1mm:20mm", "--first", "1Hz:4Hz")
-
-
-def told(folder: Path, *words: str) -> tuple[int, str, str]:
-    """Run the command in a folder; return exit code, stdout and stderr."""
-    out, errors = io.StringIO(), io.StringIO()
-    with (
-        contextlib.chdir(folder),
-        contextlib.redirect_stdout(out),
-        contextlib.redirect_stderr(errors),
-    ):
-        code = main(("curve", *words))
-    # The first run ever says that it compiles the engine.
-    lines = errors.getvalue().splitlines(keepends=True)
-    return code, out.getvalue(), "".join(line for line in lines if "compiling" not in line)
-
-
-@pytest.fixture
-def run(tmp_path):
-    return lambda *words: told(tmp_path, *words)
 
 
 def groups(path: Path) -> set[str]:
@@ -76,7 +55,7 @@ def test_summary_and_files(run, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def ratios(tmp_path_factory):
+def ratios(tmp_path_factory, told):
     folder = tmp_path_factory.mktemp("ratios")
     code, out, errors = told(folder, "B2-G1-A3", *RATIO, "--json")
     assert (code, errors) == (0, "")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import json
 import math
 from pathlib import Path
@@ -13,30 +11,11 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.cli import main
 
+COMMAND = "motion"
 CASE = vi.laboratory.case("B2-G1-A3")
 AS_PDF = ("--figure", "pdf", "--json")
 STUDY = Path(__file__).parents[2] / "examples" / "study.toml"
-
-
-def told(folder: Path, *words: str) -> tuple[int, str, str]:
-    """Run the command in a folder; return exit code, stdout and stderr."""
-    out, errors = io.StringIO(), io.StringIO()
-    with (
-        contextlib.chdir(folder),
-        contextlib.redirect_stdout(out),
-        contextlib.redirect_stderr(errors),
-    ):
-        code = main(("motion", *words))
-    # The first run ever says that it compiles the engine.
-    lines = errors.getvalue().splitlines(keepends=True)
-    return code, out.getvalue(), "".join(line for line in lines if "compiling" not in line)
-
-
-@pytest.fixture
-def run(tmp_path):
-    return lambda *words: told(tmp_path, *words)
 
 
 def groups(path: Path) -> set[str]:
@@ -45,7 +24,7 @@ def groups(path: Path) -> set[str]:
 
 
 @pytest.fixture(scope="module")
-def two(tmp_path_factory):
+def two(tmp_path_factory, told):
     """Two motions that coexist: the facts, and the folder of the files."""
     folder = tmp_path_factory.mktemp("two")
     words = ("B2-G1-A3", "--frequency", "2Hz", "--random", "3", "--json")

@@ -1,0 +1,37 @@
+"""Running one command as a user would, in a folder of its own."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from vibroimpact.cli import main
+
+
+@pytest.fixture(scope="module")
+def told(request) -> Callable[..., tuple[int, str, str]]:
+    """Run the module's ``COMMAND`` in a folder; return exit code, stdout and stderr."""
+
+    def told(folder: Path, *words: str) -> tuple[int, str, str]:
+        out, errors = io.StringIO(), io.StringIO()
+        with (
+            contextlib.chdir(folder),
+            contextlib.redirect_stdout(out),
+            contextlib.redirect_stderr(errors),
+        ):
+            code = main((request.module.COMMAND, *words))
+        # The first run ever says that it compiles the engine.
+        lines = errors.getvalue().splitlines(keepends=True)
+        return code, out.getvalue(), "".join(line for line in lines if "compiling" not in line)
+
+    return told
+
+
+@pytest.fixture
+def run(tmp_path, told):
+    """Run the module's ``COMMAND`` in an empty folder."""
+    return lambda *words: told(tmp_path, *words)
