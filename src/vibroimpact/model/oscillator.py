@@ -131,6 +131,11 @@ class Oscillator(Model):
         """Damping factor of the isolator, ξ = C/(2√(K M)) (the paper's Section 7)."""
         return self.isolator.damping / (2.0 * math.sqrt(self.isolator.stiffness * self.mass))
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether it is its own mirror image."""
+        return self.right == self.left
+
     def mirrored(self) -> Oscillator:
         """Return the oscillator with its right and left bumpers exchanged."""
         return self.replace(right=self.left, left=self.right)

@@ -6,9 +6,8 @@ from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.response.swept import Array, Direction, Swept, swept
 
 PROMINENCE = 0.02
 """Least prominence of a peak, as a share of its height.
@@ -20,11 +19,8 @@ PRIMARY_HEIGHT = 0.5
 """Least height of the primary resonance, as a share of the curve's maximum."""
 
 Curve: TypeAlias = Literal["eta_a", "eta_d"]
-Direction: TypeAlias = Literal["forward", "backward"]
 
 CURVES: tuple[Curve, ...] = ("eta_a", "eta_d")
-
-Array: TypeAlias = NDArray[np.float64]
 
 
 class Peak(NamedTuple):
@@ -46,7 +42,7 @@ class Peak(NamedTuple):
     """The curve still rises at the end of the range: the resonance lies beyond it."""
 
 
-def peaks(data: xr.Dataset, *, prominence: float = PROMINENCE) -> tuple[Peak, ...]:
+def peaks(data: xr.Dataset | Swept, *, prominence: float = PROMINENCE) -> tuple[Peak, ...]:
     """Find the maxima of η_a and η_d of each direction, by frequency.
 
     Parameters
@@ -66,11 +62,11 @@ def peaks(data: xr.Dataset, *, prominence: float = PROMINENCE) -> tuple[Peak, ..
     InputError
         If the dataset is not that of a sweep of one rig.
     """
+    both = data if isinstance(data, Swept) else swept(data)
     found: list[Peak] = []
-    for direction in swept_directions(data):
-        one = data.sel(direction=direction)
+    for k, direction in enumerate(both.directions):
         for name in CURVES:
-            curve = one[name].values
+            curve: Array = getattr(both, name)[k]
             known = np.flatnonzero(np.isfinite(curve))
             if not len(known):
                 continue
@@ -79,12 +75,12 @@ def peaks(data: xr.Dataset, *, prominence: float = PROMINENCE) -> tuple[Peak, ..
             places = [i for i in _summits(y) if i == top or _prominence(y, i) > prominence * y[i]]
             if top not in places:  # at an end of the range
                 places = sorted([*places, top])
-            period = one["period"].values[known]
+            period = both.period[k][known]
             primary = max(
                 (i for i in places if y[i] >= PRIMARY_HEIGHT * y[top] and period[i] <= 1),
                 default=top,
             )
-            frequency = one["frequency"].values[known]
+            frequency = both.frequency[known]
             found += [
                 Peak(
                     direction,
@@ -98,17 +94,6 @@ def peaks(data: xr.Dataset, *, prominence: float = PROMINENCE) -> tuple[Peak, ..
                 for i in places
             ]
     return tuple(found)
-
-
-def swept_directions(data: xr.Dataset) -> list[Direction]:
-    """Directions in the dataset of the sweep of one rig; any other dataset is refused."""
-    if set(data.get("eta_a", xr.DataArray()).dims) != {"direction", "frequency"}:
-        raise InputError(
-            f"data: a dataset with the dims {dict(data.sizes)} is not the sweep of one rig; "
-            "a dataset of sweep is accepted, or one rig of sweeps, such as data.isel(rig=0)"
-        )
-    present = data["direction"].values
-    return [d for d in ("forward", "backward") if d in present]
 
 
 def _summits(y: Array) -> list[int]:

@@ -28,15 +28,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.response.peaks import (
-    CURVES,
-    PROMINENCE,
-    Array,
-    Direction,
-    Peak,
-    peaks,
-    swept_directions,
-)
+from vibroimpact.response.peaks import CURVES, PROMINENCE, Peak, peaks
+from vibroimpact.response.swept import Array, Direction, Flags, Swept, swept
 
 APART = 0.01
 """Excursions that differ by more than this share belong to different motions.
@@ -136,7 +129,7 @@ class Features(NamedTuple):
 
 
 def features(
-    data: xr.Dataset,
+    data: xr.Dataset | Swept,
     *,
     apart: float = APART,
     unsettled_apart: float = UNSETTLED_APART,
@@ -150,17 +143,19 @@ def features(
     InputError
         If the dataset is not that of a sweep of one rig.
     """
+    both = _arrays(data)
+    apart_by = hysteresis(both, apart=apart, unsettled_apart=unsettled_apart)
     return Features(
-        peaks(data, prominence=prominence),
-        jumps(data, apart=apart, unsettled_apart=unsettled_apart, step=step),
-        hysteresis(data, apart=apart, unsettled_apart=unsettled_apart),
-        ranges(data, data["motion"] != "periodic"),
-        ranges(data, data["impacts_right"] + data["impacts_left"] > 0.0),
+        peaks(both, prominence=prominence),
+        _jumps(both, apart_by, apart, unsettled_apart, step),
+        apart_by,
+        ranges(both, ~both.settled),
+        ranges(both, both.touching),
     )
 
 
 def hysteresis(
-    data: xr.Dataset, *, apart: float = APART, unsettled_apart: float = UNSETTLED_APART
+    data: xr.Dataset | Swept, *, apart: float = APART, unsettled_apart: float = UNSETTLED_APART
 ) -> tuple[Hysteresis, ...]:
     """Find the ranges in which forward and backward sweep follow different motions.
 
@@ -181,20 +176,18 @@ def hysteresis(
     InputError
         If the dataset is not that of a sweep of one rig.
     """
-    if len(swept_directions(data)) < 2:
+    both = _arrays(data)
+    if len(both.directions) < 2:
         return ()
-    periodic = (data["motion"] == "periodic").all("direction").values
-    excess = {
-        name: _relative(*(data[name].sel(direction=d).values for d in ("forward", "backward")))
-        for name in CURVES
-    }
+    periodic: Flags = np.logical_and.reduce(both.settled)
+    excess = {name: _relative(*getattr(both, name)) for name in CURVES}
     known = np.flatnonzero(np.isfinite(excess["eta_a"] + excess["eta_d"]))
     settled = periodic[known]
     least = np.where(settled, apart, unsettled_apart)
     a, d = excess["eta_a"][known], excess["eta_d"][known]
     differ = (np.abs(a) > least) | (np.abs(d) > least)
     turns = (np.sign(a[1:]) != np.sign(a[:-1])) & (np.sign(d[1:]) != np.sign(d[:-1]))
-    frequency = data["frequency"].values[known]
+    frequency = both.frequency[known]
 
     found = []
     for first, last in _runs(differ, turns):
@@ -213,7 +206,7 @@ def hysteresis(
 
 
 def jumps(
-    data: xr.Dataset,
+    data: xr.Dataset | Swept,
     *,
     apart: float = APART,
     unsettled_apart: float = UNSETTLED_APART,
@@ -240,29 +233,54 @@ def jumps(
     InputError
         If the dataset is not that of a sweep of one rig.
     """
+    both = _arrays(data)
+    found = hysteresis(both, apart=apart, unsettled_apart=unsettled_apart)
+    return _jumps(both, found, apart, unsettled_apart, step)
+
+
+def ranges(data: xr.Dataset | Swept, where: xr.DataArray | Flags) -> tuple[Range, ...]:
+    """Find the runs of neighbouring frequencies, in each direction, at which `where` is true.
+
+    As an array it has the dims direction (forward first) and frequency.
+    """
+    both = _arrays(data)
+    flags: Flags = (
+        where.sel(direction=list(both.directions)).transpose(..., "frequency").values
+        if isinstance(where, xr.DataArray)
+        else where
+    )
+    frequency = both.frequency
+    return tuple(
+        Range(direction, float(frequency[first]), float(frequency[last]), last - first + 1)
+        for direction, true in zip(both.directions, flags, strict=True)
+        for first, last in _runs(true)
+    )
+
+
+def _arrays(data: xr.Dataset | Swept) -> Swept:
+    return data if isinstance(data, Swept) else swept(data)
+
+
+def _jumps(
+    both: Swept,
+    apart_by: tuple[Hysteresis, ...],
+    apart: float,
+    unsettled_apart: float,
+    step: float,
+) -> tuple[Jump, ...]:
     places = {
-        direction: _breaks(data.sel(direction=direction), apart, unsettled_apart, step)
-        for direction in swept_directions(data)
+        direction: _breaks(both.of(direction), apart, unsettled_apart, step)
+        for direction in both.directions
     }
-    for found in hysteresis(data, apart=apart, unsettled_apart=unsettled_apart):
+    for found in apart_by:
         if found.above is not None:
             places["forward"][found.high, found.above] = found.settled
         if found.below is not None:
             places["backward"][found.below, found.low] = found.settled
     return tuple(
-        _jump(data, direction, *(pair if direction == "forward" else pair[::-1]), settled)
+        _jump(both, direction, *(pair if direction == "forward" else pair[::-1]), settled)
         for direction, found_there in places.items()
         for pair, settled in sorted(found_there.items(), reverse=direction == "backward")
-    )
-
-
-def ranges(data: xr.Dataset, where: xr.DataArray) -> tuple[Range, ...]:
-    """Find the runs of neighbouring frequencies, in each direction, at which `where` is true."""
-    frequency = data["frequency"].values
-    return tuple(
-        Range(direction, float(frequency[first]), float(frequency[last]), last - first + 1)
-        for direction in swept_directions(data)
-        for first, last in _runs(where.sel(direction=direction).values)
     )
 
 
@@ -285,7 +303,7 @@ def _runs(true: NDArray[np.bool_], split: NDArray[np.bool_] | None = None) -> li
 
 
 def _breaks(
-    one: xr.Dataset, apart: float, unsettled_apart: float, step: float
+    one: Swept, apart: float, unsettled_apart: float, step: float
 ) -> dict[tuple[float, float], bool]:
     """Find the steps of one direction's curves that are far steeper than both neighbours.
 
@@ -298,12 +316,12 @@ def _breaks(
     """
     found: dict[tuple[float, float], bool] = {}
     for name in CURVES:
-        curve = one[name].values
+        curve: Array = getattr(one, name)[0]
         known = np.flatnonzero(np.isfinite(curve))
         if len(known) < 4:
             continue
-        frequency, y = one["frequency"].values[known], curve[known]
-        settled = one["motion"].values[known] == "periodic"
+        frequency, y = one.frequency[known], curve[known]
+        settled = one.settled[0][known]
         slope = np.abs(np.diff(y) / np.diff(frequency))
         steep = slope[1:-1] > step * np.maximum(slope[:-2], slope[2:])
         least = np.where(settled[1:-2] & settled[2:-1], apart, unsettled_apart)
@@ -316,9 +334,8 @@ def _breaks(
     return found
 
 
-def _jump(
-    data: xr.Dataset, direction: Direction, before: float, after: float, settled: bool
-) -> Jump:
-    ends = data.sel(direction=direction, frequency=[before, after])
-    eta_a, eta_d = ((float(v[0]), float(v[1])) for v in (ends[name].values for name in CURVES))
-    return Jump(direction, before, after, eta_a, eta_d, settled)
+def _jump(both: Swept, direction: Direction, before: float, after: float, settled: bool) -> Jump:
+    k = both.directions.index(direction)
+    at = np.searchsorted(both.frequency, [before, after])
+    (a0, a1), (d0, d1) = (getattr(both, name)[k][at].tolist() for name in CURVES)
+    return Jump(direction, before, after, (a0, a1), (d0, d1), settled)

@@ -124,7 +124,7 @@ def coexisting(
         u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
         state = State(u, v * excitation.angular_frequency, phase=excitation.phase)
         go(f"random {number + 1}", state)
-    if symmetric(oscillator):
+    if oscillator.symmetric:
         for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
                 image = _image(one.found, max_events)
@@ -147,14 +147,9 @@ def coexisting(
     return motions
 
 
-def symmetric(oscillator: Oscillator) -> bool:
-    """Whether the mirror image of each motion is a motion, half a cycle later."""
-    return oscillator.right == oscillator.left
-
-
 def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     pair = (
-        symmetric(one.found.oscillator)
+        one.found.oscillator.symmetric
         and not bool(one.motion["antisymmetric"])
         and not _same(one.found, _image(one.found, max_events), max_events)
     )
@@ -183,7 +178,7 @@ def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int,
         if _same(one.found, found, options[3]):
             one.starts.append(name)
             return
-        if symmetric(found.oscillator) and _same(one.found, _image(found, options[3]), options[3]):
+        if found.oscillator.symmetric and _same(one.found, _image(found, options[3]), options[3]):
             one.mirrored_starts.append(name)
             return
     kept.append(_Kept(found, describe_motion(found, *options), [name], []))

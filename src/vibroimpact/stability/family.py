@@ -188,7 +188,7 @@ class Family(NamedTuple):
     @property
     def symmetric(self) -> bool:
         """Whether each motion's mirror image is a motion, all along."""
-        return self.oscillator.right == self.oscillator.left and not (
+        return self.oscillator.symmetric and not (
             self.parameter.name.startswith(("right_", "left_"))
         )
 

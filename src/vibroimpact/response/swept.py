@@ -1,0 +1,83 @@
+"""A pair of resonance curves as plain arrays: what features are found in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+
+Array: TypeAlias = NDArray[np.float64]
+Flags: TypeAlias = NDArray[np.bool_]
+Direction: TypeAlias = Literal["forward", "backward"]
+
+_FIELDS = ("eta_a", "eta_d", "motion", "period", "impacts_right", "impacts_left")
+
+
+class Swept(NamedTuple):
+    """Resonance curves of one rig; arrays have the dims direction and frequency."""
+
+    frequency: Array
+    """In Hz, rising."""
+    directions: tuple[Direction, ...]
+    """Forward first."""
+    eta_a: Array
+    eta_d: Array
+    settled: Flags
+    """Whether the motion became periodic."""
+    period: NDArray[np.int64]
+    touching: Flags
+    """Whether the mass touches a bumper."""
+
+    def of(self, direction: Direction) -> Swept:
+        """One direction alone."""
+        k = self.directions.index(direction)
+        return self._replace(
+            directions=(direction,), **{name: getattr(self, name)[k : k + 1] for name in _ARRAYS}
+        )
+
+
+_ARRAYS = ("eta_a", "eta_d", "settled", "period", "touching")
+
+
+def swept(data: xr.Dataset) -> Swept:
+    """Arrays of the sweep of one rig.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a sweep of one rig.
+    """
+    if set(data.get("eta_a", xr.DataArray()).dims) != {"direction", "frequency"}:
+        raise InputError(
+            f"data: a dataset with the dims {dict(data.sizes)} is not the sweep of one rig; "
+            "a dataset of sweep is accepted, or one rig of sweeps, such as data.isel(rig=0)"
+        )
+    (one,) = each_swept(data.expand_dims("rig"))
+    return one
+
+
+def each_swept(data: xr.Dataset) -> Iterator[Swept]:
+    """Arrays of each rig of `sweeps`, one after the other."""
+    present = [str(d) for d in data["direction"].values]
+    known: tuple[Direction, ...] = ("forward", "backward")
+    directions = tuple(d for d in known if d in present)
+    order = [present.index(d) for d in directions]
+    a, d, motion, period, right, left = (
+        data[name].transpose("rig", "direction", "frequency").values[:, order] for name in _FIELDS
+    )
+    frequency = data["frequency"].values
+    for r in range(len(a)):
+        yield Swept(
+            frequency,
+            directions,
+            a[r],
+            d[r],
+            motion[r] == "periodic",
+            period[r],
+            right[r] + left[r] > 0.0,
+        )

@@ -1,0 +1,1 @@
+"""Scenarios S0 to S6: features of resonance curves -> scenario, and maps over parameters."""

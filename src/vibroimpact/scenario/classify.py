@@ -1,0 +1,118 @@
+"""Name the scenario of one rig, with the evidence for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import xarray as xr
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, to_si
+from vibroimpact.model.units import ACCELERATION
+from vibroimpact.response.sweep import sweep
+from vibroimpact.response.threads import Progress
+from vibroimpact.scenario.evidence import Evidence, evidence
+from vibroimpact.scenario.frequencies import frequencies as default_frequencies
+from vibroimpact.scenario.orbits import with_folds, with_kinds
+from vibroimpact.scenario.thresholds import Thresholds
+from vibroimpact.scenario.verdict import confidence, scenario
+from vibroimpact.scenario.words import in_words
+
+
+@dataclass(frozen=True)
+class Classification:
+    """A scenario, and why.
+
+    Attributes
+    ----------
+    scenario
+        ``"S0"`` to ``"S6"``, or ``"unclassified"``.
+    confidence
+        Share of the variations of the thresholds, each halved and each doubled, under which
+        the scenario is the same.
+    evidence
+        What the curves show, in words.
+    alternatives
+        The variations that give another scenario: (threshold, its value) to scenario.
+    features
+        The evidence in numbers.
+    thresholds
+        Those that were used.
+    sweep
+        The resonance curves, as `vibroimpact.sweep` gives them.
+    """
+
+    scenario: str
+    confidence: float
+    evidence: str
+    alternatives: dict[tuple[str, float], str]
+    features: Evidence
+    thresholds: Thresholds
+    sweep: xr.Dataset
+
+    def __str__(self) -> str:
+        return f"{self.scenario} ({self.confidence:.0%}): {self.evidence}"
+
+
+def classify(
+    oscillator: Oscillator,
+    amplitude: float | str,
+    frequencies: Iterable[float | str] | None = None,
+    *,
+    thresholds: Thresholds | None = None,
+    max_cycles: int = 2000,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Classification:
+    """Name the scenario of a rig: S0 to S6, or unclassified (the paper's Sections 4.3 and 6).
+
+    The rig is swept forward and backward. Motions that did not become periodic are named by
+    the growth of disturbances, and the branch of orbits through the primary resonance tells the
+    jumps exactly: also those of a hysteresis so narrow that it hides between two frequencies.
+
+    Parameters
+    ----------
+    oscillator
+        What vibrates.
+    amplitude
+        Peak base acceleration A in m/s², greater than 0; or text such as ``"0.05 g"``.
+    frequencies
+        The frequencies to hold in Hz, rising. None for steps of a hundredth of the natural
+        frequency from 0.4 times it to where no bumper can be hit any more.
+    thresholds
+        Where one scenario ends and the next begins; see `Thresholds`.
+    max_cycles, threads, progress
+        As in `sweeps`.
+
+    Returns
+    -------
+    Classification
+        ``scenario``, ``confidence``, ``evidence``, and what they were found from.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    used = thresholds or Thresholds()
+    peak = to_si(amplitude, ACCELERATION, "amplitude", above=0.0)
+    held = default_frequencies(oscillator, peak) if frequencies is None else frequencies
+    data = sweep(oscillator, peak, held, max_cycles=max_cycles, threads=threads, progress=progress)
+    if data.sizes["frequency"] < 4:
+        raise InputError(
+            f"frequencies: {data.sizes['frequency']} given; at least 4 are accepted, for curves "
+            "are looked at"
+        )
+    found = evidence(oscillator, data, 0.5 * used.prominence)
+    found = with_folds(with_kinds(found, oscillator, peak, data), oscillator, peak, data)
+    named = scenario(found, used)
+    others: dict[tuple[str, float], str] = {}
+    for name in Thresholds.names():
+        for other in used.variations():
+            value = getattr(other, name)
+            if value != getattr(used, name) and (there := scenario(found, other)) is not named:
+                others[name, value] = there.label
+    return Classification(
+        named.label, confidence(found, used), in_words(found, used), others, found, used, data
+    )

@@ -1,0 +1,328 @@
+"""What a pair of resonance curves shows, as far as it tells the scenario.
+
+A secondary resonance lies below the primary one and within the range in which the mass hits the
+bumpers. Where contact begins on the primary resonance's ascending branch, the motion often is not
+regular over a short range: the bumpers are grazed, now and then. That is the transition onto the
+primary resonance, no resonance of its own; it is told apart as the onset.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator
+from vibroimpact.response.peaks import Peak, peaks
+from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
+from vibroimpact.response.swept import Array, Direction, Flags, Swept, each_swept
+
+UNEVEN = 1e-6
+"""Eccentricity, as a share of the excursion, that rounding does not explain."""
+
+Kind: TypeAlias = Literal[
+    "not periodic", "quasi-periodic", "chaotic", "subharmonic", "mirrored pair"
+]
+
+
+class Irregular(NamedTuple):
+    """Neighbouring frequencies at which the motion is not regular.
+
+    Regular is a motion of one forcing cycle that, on a symmetric rig, is its own mirror image.
+    """
+
+    direction: Direction
+    low: float
+    """First frequency (Hz)."""
+    high: float
+    """Last frequency (Hz)."""
+    kinds: tuple[Kind, ...]
+    """What occurs in it. A sweep tells "not periodic" only."""
+    prominence: float
+    """Of the most prominent peak of η_a in it, over its height; 0 if it holds none."""
+    not_periodic: tuple[float, float] | None
+    """First and last frequency (Hz) of its motions that are not periodic."""
+
+
+class Evidence(NamedTuple):
+    """What tells the scenario of a rig."""
+
+    natural_frequency: float
+    """f0 in Hz."""
+    swept: tuple[float, float]
+    """Lowest and highest frequency (Hz)."""
+    contact: tuple[float, float] | None
+    """Lowest and highest frequency at which a bumper is hit (Hz); None in free flight."""
+    contact_from_the_first: bool
+    """Whether it is hit at the lowest frequency already."""
+    attached: bool
+    """Whether all bumpers touch the mass at rest."""
+    gap_ratio: float
+    """Smallest gap over the largest amplitude of free flight at the frequencies swept."""
+    penetration: float
+    """Largest penetration over the gap of that side; NaN if the bumpers are attached."""
+    resonance: float
+    """Frequency of the largest η_d of the primary resonance, forward, over that of free flight."""
+    primary_regular: bool
+    """Whether the motion at the primary resonance is regular."""
+    primary_beyond: bool
+    """Whether the curves still rise where the sweep ends."""
+    jumps: tuple[Jump, ...]
+    hysteresis: tuple[Hysteresis, ...]
+    left: tuple[Hysteresis, ...]
+    """Left hystereses of secondary resonances."""
+    irregular: tuple[Irregular, ...]
+    """All ranges that are not regular, but for the onset."""
+    onset: tuple[float, float] | None
+    """Range from where contact begins in which the motion is not regular, or the two directions
+    differ (Hz)."""
+    secondary: tuple[Peak, ...]
+    """Peaks of η_a, below the primary resonance, of regular motions with impacts."""
+    peaks: tuple[Peak, ...]
+    folds: tuple[float, ...] | None = None
+    """Frequencies at which the branch of the primary resonance turns back (Hz): where it was
+    followed, this is exact."""
+
+    @property
+    def jumping(self) -> bool:
+        """Whether the curves jump anywhere, however narrow the hysteresis."""
+        if any(item.settled for item in self.hysteresis):
+            return True
+        if self.folds is not None:
+            return bool(self.folds)
+        return any(jump.settled for jump in self.jumps)
+
+    @property
+    def top(self) -> float:
+        """Highest frequency of a primary resonance's peak (Hz)."""
+        return max((p.frequency for p in self.peaks if p.primary), default=math.inf)
+
+    @property
+    def right(self) -> tuple[Hysteresis, ...]:
+        """Right hystereses."""
+        return tuple(item for item in self.hysteresis if item.side == "right" and item.settled)
+
+    def extent(self, prominence: float) -> float:
+        """Width of all left hystereses and non-regular resonances together, over f0.
+
+        Parameters
+        ----------
+        prominence
+            Least prominence of a non-regular resonance, as a share of its height.
+        """
+        spans = [item.ends for item in self.left]
+        spans += [(item.low, item.high) for item in self.irregular if item.prominence >= prominence]
+        total, reached = 0.0, -math.inf
+        for low, high in sorted(spans):
+            total += max(0.0, high - max(low, reached))
+            reached = max(reached, high)
+        return total / self.natural_frequency
+
+
+def evidence(oscillator: Oscillator, data: xr.Dataset, prominence: float) -> Evidence:
+    """What the sweep of one rig shows.
+
+    Parameters
+    ----------
+    oscillator
+        The rig.
+    data
+        Dataset of its sweep in both directions.
+    prominence
+        Least prominence of peaks that are kept, as a share of their height.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of the sweep of one rig in both directions.
+    """
+    if set(data.get("eta_a", xr.DataArray()).dims) != {"direction", "frequency"}:
+        raise InputError(
+            f"data: a dataset with the dims {dict(data.sizes)} is not the sweep of one rig; "
+            "a dataset of sweep is accepted"
+        )
+    (found,) = each_evidence([oscillator], data.expand_dims("rig"), prominence)
+    return found
+
+
+def each_evidence(
+    oscillators: list[Oscillator], data: xr.Dataset, prominence: float
+) -> Iterator[Evidence]:
+    """What the sweep of each rig of `sweeps` shows, one after the other."""
+    if data.sizes["direction"] != 2:
+        raise InputError(
+            f"data: the sweep went {data['direction'].values.tolist()}; one forward and backward "
+            "is accepted, for hysteresis is what tells the scenarios apart"
+        )
+    most = data["displacement_max"].max(["direction", "frequency"]).values
+    least = data["displacement_min"].min(["direction", "frequency"]).values
+    free = 0.5 * data["free_displacement_excursion"].values
+    order = ["rig", "direction", "frequency"]
+    ordered = data.sel(direction=["forward", "backward"]).transpose(*order, ...)
+    uneven = np.abs(ordered["eccentricity"].values) > UNEVEN * (
+        ordered["displacement_excursion"].values
+    )
+    for r, (oscillator, both) in enumerate(zip(oscillators, each_swept(data), strict=True)):
+        yield _one(
+            oscillator,
+            both,
+            uneven[r] & oscillator.symmetric,
+            free[r],
+            float(most[r]),
+            float(least[r]),
+            prominence,
+        )
+
+
+def _one(
+    oscillator: Oscillator,
+    both: Swept,
+    uneven: Flags,
+    free: Array,
+    most: float,
+    least: float,
+    prominence: float,
+) -> Evidence:
+    frequency = both.frequency
+    reached = {"right": most, "left": -least}
+    bumpers = {side: b for side in reached if (b := getattr(oscillator, side)) is not None}
+    gaps = {side: b.gap for side, b in bumpers.items()}
+    touched = np.flatnonzero(both.touching.any(axis=0))
+    apart = hysteresis(both)
+    found = peaks(both, prominence=prominence)
+    irregular = ~both.settled | (both.period != 1) | uneven
+    begins = _onset(oscillator, both, irregular, apart, touched, free)
+    primary = {p.direction: p for p in found if p.primary and p.curve == "eta_a"}
+    swing = next(
+        (p for p in found if p.primary and p.curve == "eta_d" and p.direction == "forward"), None
+    )
+    at = {d: int(np.searchsorted(frequency, p.frequency)) for d, p in primary.items()}
+    return Evidence(
+        natural_frequency=oscillator.natural_frequency,
+        swept=(float(frequency[0]), float(frequency[-1])),
+        contact=(float(frequency[touched[0]]), float(frequency[touched[-1]]))
+        if len(touched)
+        else None,
+        contact_from_the_first=bool(len(touched)) and touched[0] == 0,
+        attached=bool(gaps) and not any(gaps.values()),
+        gap_ratio=min(gaps.values(), default=math.inf) / float(free.max()),
+        penetration=max(
+            ((reached[side] - gap) / gap for side, gap in gaps.items() if gap > 0.0),
+            default=math.nan,
+        ),
+        resonance=swing.frequency / float(frequency[np.argmax(free)]) if swing else math.nan,
+        primary_regular=all(not irregular[both.directions.index(d), i] for d, i in at.items()),
+        primary_beyond=any(p.at_end and p.frequency == frequency[-1] for p in primary.values()),
+        jumps=jumps(both),
+        hysteresis=apart,
+        left=tuple(
+            item
+            for item in apart
+            if item.side == "left" and item.settled and not _within(item.low, begins)
+        ),
+        irregular=tuple(_irregular(both, irregular, uneven, found, begins)),
+        onset=begins,
+        secondary=tuple(
+            peak
+            for peak in found
+            if _regular_secondary(peak, both, irregular, primary)
+            and not _within(peak.frequency, begins)
+        ),
+        peaks=found,
+    )
+
+
+def _onset(
+    oscillator: Oscillator,
+    both: Swept,
+    irregular: Flags,
+    apart: tuple[Hysteresis, ...],
+    touched: NDArray[np.intp],
+    free: Array,
+) -> tuple[float, float] | None:
+    """The range behind the first contact in which the motion is not regular.
+
+    Where the mass presses a bumper at any low frequency (δ0 < A/(ω0² u_max)), there is none.
+    """
+    gaps = [b.gap for b in (oscillator.right, oscillator.left) if b is not None]
+    if not len(touched) or not gaps:
+        return None
+    first = int(touched[0])
+    # Free flight's amplitude A/ω0² |H| at the lowest frequency, without its gain |H|.
+    ratio = float(both.frequency[0]) / oscillator.natural_frequency
+    gain = 1.0 / math.hypot((1.0 - ratio) * (1.0 + ratio), 2.0 * oscillator.damping_ratio * ratio)
+    if first == 0 and float(free[0]) / gain >= min(gaps):
+        return None
+    loose: Flags = np.logical_or.reduce(irregular)
+    for item in apart:
+        if item.side == "left":
+            loose |= (both.frequency >= item.low) & (both.frequency <= item.high)
+    rest = np.flatnonzero(~loose[first:])
+    count = int(rest[0]) if len(rest) else len(loose) - first
+    if not count:
+        return None
+    return float(both.frequency[first]), float(both.frequency[first + count - 1])
+
+
+def _irregular(
+    both: Swept,
+    irregular: Flags,
+    uneven: Flags,
+    found: tuple[Peak, ...],
+    begins: tuple[float, float] | None,
+) -> Iterator[Irregular]:
+    frequency = both.frequency
+    for k, direction in enumerate(both.directions):
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], irregular[k], [False]])))
+        for first, end in edges.reshape(-1, 2):
+            low, high = float(frequency[first]), float(frequency[end - 1])
+            if _within(low, begins):
+                continue
+            inside = slice(first, end)
+            unsettled = np.flatnonzero(~both.settled[k, inside]) + first
+            present: dict[Kind, bool] = {
+                "not periodic": len(unsettled) > 0,
+                "subharmonic": bool((both.period[k, inside] > 1).any()),
+                "mirrored pair": bool((uneven[k, inside] & (both.period[k, inside] == 1)).any()),
+            }
+            heights = [
+                p.prominence / p.value
+                for p in found
+                if p.curve == "eta_a"
+                and p.direction == direction
+                and not p.primary
+                and low <= p.frequency <= high
+            ]
+            yield Irregular(
+                direction,
+                low,
+                high,
+                tuple(kind for kind, there in present.items() if there),
+                max(heights, default=0.0),
+                (float(frequency[unsettled[0]]), float(frequency[unsettled[-1]]))
+                if len(unsettled)
+                else None,
+            )
+
+
+def _regular_secondary(
+    peak: Peak, both: Swept, irregular: Flags, primary: dict[Direction, Peak]
+) -> bool:
+    if peak.curve != "eta_a" or peak.primary or peak.at_end:
+        return False
+    if peak.frequency >= primary[peak.direction].frequency:
+        return False
+    k, i = (
+        both.directions.index(peak.direction),
+        int(np.searchsorted(both.frequency, peak.frequency)),
+    )
+    return bool(both.touching[k, i] and not irregular[k, i])
+
+
+def _within(frequency: float, span: tuple[float, float] | None) -> bool:
+    return span is not None and span[0] <= frequency <= span[1]

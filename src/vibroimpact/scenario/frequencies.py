@@ -1,0 +1,55 @@
+"""Which frequencies a rig has to be swept over to name its scenario."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.model import Oscillator
+
+LOW = 0.4
+"""Lowest frequency over the natural one: that at which the published tests begin (0.40 to
+0.45 for the three accelerations)."""
+STEP = 0.01
+"""Step over the natural frequency: a tenth of that of the published tests."""
+LEAST_HIGH = 1.5
+"""Highest frequency over the natural one, at least; free flight's resonance lies below 1."""
+
+
+def highest(oscillator: Oscillator, amplitude: float) -> float:
+    """Frequency over the natural one above which no steady motion hits the bumpers.
+
+    Two bounds, the lower one counts, with a margin:
+
+    - Energy. A motion of one forcing cycle that reaches both bumpers travels 2 (G_R + G_L) in a
+      cycle, so that the mean of its velocity squared is at least (2 f (G_R + G_L))². The base
+      supplies at most M A √(mean of u̇²/2) of power, the isolator alone takes C (mean of u̇²):
+      f ≤ M A/(2√2 C (G_R + G_L)). With one bumper the mean of u is not on the bumper's side,
+      for that only pushes: the mass travels 2 G at least, and G takes the place of the sum.
+    - Stiffness. Nothing is stiffer than isolator and bumper in contact all the time:
+      f ≤ f0 √(1 + λ), which damping only lowers.
+    """
+    bumpers = [b for b in (oscillator.right, oscillator.left) if b is not None]
+    if not bumpers:
+        return LEAST_HIGH
+    stiffest = max(b.stiffness for b in bumpers) / oscillator.isolator.stiffness
+    travel = sum(b.gap for b in bumpers) * oscillator.isolator.damping
+    supplied = oscillator.mass * amplitude / (2.0 * math.sqrt(2.0))
+    energy = supplied / travel / oscillator.natural_frequency if travel > 0.0 else math.inf
+    return max(LEAST_HIGH, 1.1 * min(math.sqrt(1.0 + stiffest), energy) + 0.1)
+
+
+def frequencies(
+    oscillator: Oscillator, amplitude: float, step: float = STEP
+) -> NDArray[np.float64]:
+    """Frequencies (Hz) from `LOW` by `step` to `highest`, all over the natural frequency."""
+    return grid(highest(oscillator, amplitude), step) * oscillator.natural_frequency
+
+
+def grid(high: float, step: float) -> NDArray[np.float64]:
+    """Multiples of `step` above `LOW` up to `high` at least."""
+    count = math.ceil((high - LOW) / step)
+    values: NDArray[np.float64] = LOW + step * np.arange(count + 1, dtype=np.float64)
+    return values

@@ -1,0 +1,40 @@
+"""The scenarios (the paper's Sections 4.3 and 6)."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Scenario(IntEnum):
+    """What a pair of resonance curves shows; its value is the number in datasets."""
+
+    S0 = 0
+    S1 = 1
+    S2 = 2
+    S3 = 3
+    S4 = 4
+    S5 = 5
+    S6 = 6
+    UNCLASSIFIED = 7
+
+    @property
+    def label(self) -> str:
+        """``"S4"``, or ``"unclassified"``."""
+        return "unclassified" if self is Scenario.UNCLASSIFIED else self.name
+
+    @property
+    def meaning(self) -> str:
+        """What is seen, in a few words."""
+        return _MEANINGS[self]
+
+
+_MEANINGS = {
+    Scenario.S0: "free flight",
+    Scenario.S1: "grazing",
+    Scenario.S2: "primary resonance with right hysteresis",
+    Scenario.S3: "as S2, with a secondary resonance without hysteresis",
+    Scenario.S4: "secondary resonances with left hysteresis or not regular",
+    Scenario.S5: "bumpers attached, smooth",
+    Scenario.S6: "bent to the right, without jumps",
+    Scenario.UNCLASSIFIED: "none of the others",
+}

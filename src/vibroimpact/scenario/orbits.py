@@ -1,0 +1,87 @@
+"""What the orbits behind the curves add to the evidence: kinds of motion, and exact jumps."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.response.start import as_state, engine_state
+from vibroimpact.scenario.evidence import Evidence, Irregular, Kind
+from vibroimpact.stability.branch import branch
+from vibroimpact.stability.growth import judge_wandering
+from vibroimpact.stability.settled import Settled
+
+KIND_CYCLES = 5000
+"""Forcing cycles over which growth tells chaotic from quasi-periodic motions."""
+_MAX_EVENTS = 10_000
+
+
+def with_kinds(
+    found: Evidence,
+    oscillator: Oscillator,
+    amplitude: float,
+    data: xr.Dataset,
+    cycles: int = KIND_CYCLES,
+) -> Evidence:
+    """Name the motions that are not periodic, by the growth of disturbances.
+
+    Of each range, the motion in its middle is named; one that no verdict was found for stays
+    "not periodic".
+    """
+    named = tuple(_named(item, oscillator, amplitude, data, cycles) for item in found.irregular)
+    return found._replace(irregular=named)
+
+
+def _named(
+    item: Irregular, oscillator: Oscillator, amplitude: float, data: xr.Dataset, cycles: int
+) -> Irregular:
+    if item.not_periodic is None:
+        return item
+    inside = data.sel(direction=item.direction, frequency=slice(*item.not_periodic))
+    wandering = np.flatnonzero(inside["period"].values == 0)
+    i = int(wandering[len(wandering) // 2])
+    start = as_state(inside["section"].isel(frequency=i, drop=True))
+    excitation = Harmonic(amplitude, float(inside["frequency"][i]), start.phase or 0.0)
+    state = engine_state(oscillator, start)
+    followed = Settled(oscillator, excitation, state, 0, 0, Status.NOT_SETTLED)
+    found = judge_wandering(followed, state, cycles, _MAX_EVENTS)[0].motion
+    kinds: dict[str, Kind] = {"chaotic": "chaotic", "quasi-periodic": "quasi-periodic"}
+    kind = kinds.get(found, "not periodic")
+    return item._replace(
+        kinds=tuple(kind if known == "not periodic" else known for known in item.kinds)
+    )
+
+
+def with_folds(
+    found: Evidence, oscillator: Oscillator, amplitude: float, data: xr.Dataset
+) -> Evidence:
+    """Find where the branch through the primary resonance turns back, where it can be followed."""
+    return found._replace(folds=_folds(oscillator, amplitude, data, found))
+
+
+def _folds(
+    oscillator: Oscillator, amplitude: float, data: xr.Dataset, found: Evidence
+) -> tuple[float, ...] | None:
+    """Where the branch through the primary resonance turns back (Hz), rising; None if unknown."""
+    tops = [p for p in found.peaks if p.primary and p.direction == "forward" and p.curve == "eta_a"]
+    if found.contact is None or not tops:
+        return None
+    hold = data.sel(direction="forward", frequency=tops[0].frequency)
+    if int(hold["period"]) != 1:
+        return None
+    low, high = found.swept
+    try:
+        orbits = branch(
+            oscillator,
+            Harmonic(amplitude, tops[0].frequency),
+            hold["section"],
+            low=low,
+            high=high,
+        )
+    except InputError:  # on the edge of stability Newton's method may find none
+        return None
+    turns = orbits["bifurcation_value"].values[orbits["bifurcation_turns"].values == 1]
+    return tuple(sorted(float(f) for f in turns if low < f < high))

@@ -1,0 +1,63 @@
+"""Where one scenario ends and the next begins: every threshold, and its reason."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+
+from vibroimpact.errors import InputError
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """The thresholds of `classify`, all of them shares.
+
+    Attributes
+    ----------
+    prominence
+        Least prominence of a secondary resonance in η_a, as a share of its height. Smaller
+        ripples would be lost in any measurement. It parts S2 from S3.
+    extent
+        Least width of all secondary left hystereses and non-regular resonances together, as a
+        share of the natural frequency. A test steps by 0.08 to 0.09 of it (0.1 Hz, the paper's
+        Section 3): where they cover less, no hold of such a test need fall on them. It parts S2
+        and S3 from S4.
+    touch
+        Largest share by which the gap is smaller than free flight's amplitude for a contact to
+        be called grazing (1 - δ0). The tests called so in the paper's Fig. 14 have 0.07, the
+        next ones 0.22. It parts S1 from S2 and S6.
+    deformation
+        Largest penetration, as a share of the gap, of a grazing contact: a lightly damped mass
+        that grazes on one motion may hit hard on another. It parts S1 from S2 and S6.
+
+    Raises
+    ------
+    InputError
+        If one is not a number greater than 0 and at most 1.
+    """
+
+    prominence: float = 0.02
+    extent: float = 0.08
+    touch: float = 0.1
+    deformation: float = 0.1
+
+    def __post_init__(self) -> None:
+        for name in self.names():
+            value = getattr(self, name)
+            number = isinstance(value, int | float) and not isinstance(value, bool)
+            if not (number and math.isfinite(value) and 0.0 < value <= 1.0):
+                raise InputError(
+                    f"{name}: {value!r}; a number greater than 0 and at most 1 is accepted"
+                )
+
+    @classmethod
+    def names(cls) -> tuple[str, ...]:
+        """Names of the thresholds."""
+        return tuple(field.name for field in fields(cls))
+
+    def variations(self) -> Iterator[Thresholds]:
+        """Each threshold halved and doubled in turn, the others as they are."""
+        for name in self.names():
+            for factor in (0.5, 2.0):
+                yield replace(self, **{name: min(1.0, factor * getattr(self, name))})

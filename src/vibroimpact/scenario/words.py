@@ -1,0 +1,103 @@
+"""The evidence for a scenario in words."""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.response.resonance import Hysteresis
+from vibroimpact.scenario.evidence import Evidence, Irregular
+from vibroimpact.scenario.thresholds import Thresholds
+
+_SAME = 0.15
+"""Peaks of the two directions closer than this share of their frequency are one resonance's."""
+
+
+def in_words(found: Evidence, thresholds: Thresholds) -> str:
+    """What the curves show, the features that tell the scenario first."""
+    if found.contact is None:
+        room = (
+            "there is no bumper"
+            if math.isinf(found.gap_ratio)
+            else f"the gap is {found.gap_ratio:.3g} times free flight's amplitude"
+        )
+        return f"no contact from {_span(*found.swept)}; {room}"
+    parts = []
+    if found.attached:
+        parts.append("bumpers attached to the mass at rest")
+    elif found.gap_ratio >= 1.0 - thresholds.touch:
+        parts.append(
+            f"the gap is {found.gap_ratio:.3g} times free flight's amplitude, and the mass "
+            f"presses in by {found.penetration:.2g} of it"
+        )
+    sides = [("right", item) for item in found.right] + [("left", item) for item in found.left]
+    parts += [f"{side} hysteresis {_span(*_ends(found, item))}" for side, item in sides]
+    if not found.right and (hidden := _hidden(found)):
+        parts.append(f"right hysteresis {hidden}, between two frequencies")
+    parts += _irregular(found, thresholds)
+    parts += [
+        f"secondary resonance at {frequency:.3g} Hz ({share:.0%} prominent)"
+        for frequency, share in _secondary(found, thresholds)
+    ]
+    if found.onset is not None:
+        parts.append(f"not regular where contact begins, {_span(*found.onset)}")
+    if not found.jumping:
+        parts.append("no jumps")
+    if math.isfinite(found.resonance):
+        parts.append(f"resonance at {found.resonance:.3g} times that of free flight")
+    if found.primary_beyond:
+        parts.append("the primary resonance lies beyond the frequencies swept")
+    parts.append(f"contact {_span(*found.contact)}")
+    return "; ".join(parts)
+
+
+def _irregular(found: Evidence, thresholds: Thresholds) -> list[str]:
+    """Ranges that are not regular, those of both directions that overlap told once."""
+    told: list[Irregular] = []
+    for item in found.irregular:
+        if not any(item.low <= other.high and other.low <= item.high for other in told):
+            told.append(item)
+    lines = []
+    for item in sorted(told, key=lambda item: item.low):
+        kinds = " and ".join(item.kinds)
+        what = (
+            f"{kinds} resonance" if item.prominence >= thresholds.prominence else f"{kinds} motions"
+        )
+        lines.append(f"{what} {_span(item.low, item.high)}")
+    return lines
+
+
+def _ends(found: Evidence, item: Hysteresis) -> tuple[float, float]:
+    """Ends of a hysteresis: turning points of the branch between its last two frequencies."""
+    low, high = item.ends
+    below = item.low if item.below is None else item.below
+    above = item.high if item.above is None else item.above
+    folds = found.folds or ()
+    low = next((f for f in folds if below <= f <= item.low), low)
+    high = next((f for f in folds if item.high <= f <= above), high)
+    return low, high
+
+
+def _hidden(found: Evidence) -> str:
+    above = [fold for fold in found.folds or () if fold > found.top]
+    return _span(min(above), max(above)) if above else ""
+
+
+def _secondary(found: Evidence, thresholds: Thresholds) -> list[tuple[float, float]]:
+    """Frequency and prominence of the regular secondary resonances, those of both sweeps once."""
+    told: list[tuple[float, float]] = []
+    for peak in sorted(found.secondary, key=lambda p: -p.prominence):
+        share = peak.prominence / peak.value
+        if share >= thresholds.prominence and all(
+            abs(peak.frequency - known) > _SAME * known for known, _ in told
+        ):
+            told.append((peak.frequency, share))
+    return sorted(told)
+
+
+def _span(low: float, high: float) -> str:
+    """A range of frequencies, with as many digits as tell its ends apart."""
+    digits = 3
+    while digits < 8 and low != high and f"{low:.{digits}g}" == f"{high:.{digits}g}":
+        digits += 1
+    first, last = f"{low:.{digits}g}", f"{high:.{digits}g}"
+    return f"{first} Hz" if first == last else f"{first}–{last} Hz"
