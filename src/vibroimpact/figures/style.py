@@ -41,6 +41,31 @@ MOTIONS = (
 )
 """In turn, for motions that are not named after a sweep."""
 
+
+class Area(NamedTuple):
+    """How a scenario is drawn: colour as in the paper, pattern and label without it."""
+
+    colour: str
+    hatch: str
+    line: str
+    """A darker shade, for curves and text."""
+
+
+SCENARIOS = {
+    "S0": Area("#d9efd9", "", "#5aa469"),
+    "S1": Area("#8fce9f", "....", "#2e7d32"),
+    "S2": Area("#9dbbe8", "", "#1f4fbf"),
+    "S3": Area("#f0a49b", "////", "#c8102e"),
+    "S4": Area("#e39ad6", "xxxx", "#b0008e"),
+    "S5": Area("#a9e3ee", "----", "#0097b2"),
+    "S6": Area("#f9cf94", "\\\\\\\\", "#d97700"),
+    "unclassified": Area("#d9d9d9", "++", "0.35"),
+}
+"""S0 and S1 green, S2 blue, S3 red, S4 magenta, S5 light blue, S6 orange."""
+
+BUMPERS = {"B1": "o", "B2": "s", "B3": "^", "B4": "D"}
+"""Symbols of the laboratory's bumpers, as in the paper's Fig. 21."""
+
 FREE = Look("free flight", "black", "-.", 0.9, "", 0.0, False)
 
 SHADE = "0.9"

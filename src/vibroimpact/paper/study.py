@@ -32,8 +32,7 @@ STIFFNESSES = ("10kN/m", "20kN/m", "40kN/m", "B1", "200kN/m", "B2", "B3", "B4", 
 def grid(low: float = LOW, high: float = HIGH) -> NDArray[np.float64]:
     """Frequencies by `STEP`, in Hz."""
     first, last = round(low / STEP), round(high / STEP)
-    values: NDArray[np.float64] = np.arange(first, last + 1) * STEP
-    return values.round(10)
+    return np.array([round(k * STEP, 10) for k in range(first, last + 1)])
 
 
 class Study:

@@ -1,0 +1,47 @@
+"""A statement of the paper, and what the computation says of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import StrEnum
+from typing import NamedTuple
+
+from vibroimpact.paper.study import Study
+
+
+class Verdict(StrEnum):
+    """What became of a statement."""
+
+    REPRODUCED = "reproduced"
+    NOT_REPRODUCED = "not reproduced"
+    NEEDS_DATA = "needs the experiment's data"
+
+
+class Finding(NamedTuple):
+    """What was computed for a statement."""
+
+    holds: bool | None
+    """Whether the statement holds for what was computed; None if only measurements can tell."""
+    number: str
+    """The numbers that decide it, with units."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict: it follows from what was computed."""
+        if self.holds is None:
+            return Verdict.NEEDS_DATA
+        return Verdict.REPRODUCED if self.holds else Verdict.NOT_REPRODUCED
+
+
+class Claim(NamedTuple):
+    """One testable statement."""
+
+    key: str
+    """Short name, unique."""
+    section: str
+    """Where the paper says it, such as ``4.2``, ``Table 1``, ``Fig. 16``."""
+    statement: str
+    """In our own words."""
+    quantity: str
+    """What is computed, and what decides."""
+    find: Callable[[Study], Finding]
