@@ -26,8 +26,10 @@ _HOME = {
     "Oscillator": "model",
     "Rig": "model",
     "State": "model",
+    "Thresholds": "scenario.thresholds",
     "bifurcation_curve": "stability.curves",
     "branch": "stability.branch",
+    "classify": "scenario.classify",
     "coexisting": "stability.coexisting",
     "contacts": "response.contacts",
     "from_dimensionless": "model",
@@ -38,6 +40,7 @@ _HOME = {
     "orbit": "stability.orbit",
     "resonance_diagram": "stability.diagram",
     "save": "response.files",
+    "scenario_map": "scenario.map",
     "simulate": "response.simulate",
     "spectrum": "response.spectrum",
     "steady": "stability.steady",
@@ -56,9 +59,11 @@ __all__ = [
     "Oscillator",
     "Rig",
     "State",
+    "Thresholds",
     "__version__",
     "bifurcation_curve",
     "branch",
+    "classify",
     "coexisting",
     "contacts",
     "from_dimensionless",
@@ -69,6 +74,7 @@ __all__ = [
     "orbit",
     "resonance_diagram",
     "save",
+    "scenario_map",
     "simulate",
     "spectrum",
     "steady",
@@ -98,6 +104,9 @@ if TYPE_CHECKING:
     from vibroimpact.response.simulate import simulate
     from vibroimpact.response.spectrum import spectrum
     from vibroimpact.response.sweep import sweep, sweeps
+    from vibroimpact.scenario.classify import classify
+    from vibroimpact.scenario.map import scenario_map
+    from vibroimpact.scenario.thresholds import Thresholds
     from vibroimpact.stability.branch import branch
     from vibroimpact.stability.coexisting import coexisting
     from vibroimpact.stability.curves import bifurcation_curve

@@ -14,7 +14,9 @@ from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
 from vibroimpact.cli.branch import branch
+from vibroimpact.cli.classify import classify
 from vibroimpact.cli.curve import curve
+from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
 from vibroimpact.cli.simulate import simulate
 from vibroimpact.cli.sweep import sweep
@@ -86,6 +88,7 @@ def _app() -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
-    for command in (sweep, motion, branch, curve, simulate):
+    for command in (sweep, motion, branch, curve, simulate, classify):
         app.command(command)
+    app.command(scenario_map, name="map")
     return app

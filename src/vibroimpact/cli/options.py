@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from cyclopts import Group, Parameter, Token
 
+from vibroimpact.errors import InputError
+
+if TYPE_CHECKING:
+    from vibroimpact.scenario.thresholds import Thresholds
+
 RIG = Group("Rig (replacing values of the case or study)", sort_key=2)
 COMPUTATION = Group("Computation", sort_key=3)
+THRESHOLDS = Group("Thresholds", sort_key=3)
 OUTPUT = Group("Output", sort_key=4)
 
 # A text with units may begin with a minus sign: the model says what is wrong with it.
@@ -102,6 +108,53 @@ class RigOptions:
         bool,
         Parameter(group=RIG, negative="", show_default=False, help="Take the left bumper away."),
     ] = False
+
+
+_THRESHOLD = Parameter(group=THRESHOLDS, allow_leading_hyphen=True)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class ThresholdOptions:
+    """Where one scenario ends and the next begins."""
+
+    prominence: Annotated[
+        float | None,
+        _THRESHOLD,
+        Parameter(
+            help="Least prominence of a secondary resonance in η_a, as a share of its height; 0.02."
+        ),
+    ] = None
+    extent: Annotated[
+        float | None,
+        _THRESHOLD,
+        Parameter(
+            help=(
+                "Least width of secondary left hystereses and non-regular resonances together, as "
+                "a share of the natural frequency; 0.08, the step of the published tests."
+            )
+        ),
+    ] = None
+    touch: Annotated[
+        float | None,
+        _THRESHOLD,
+        Parameter(help="Largest 1 - δ0 of a grazing contact; 0.1."),
+    ] = None
+    deformation: Annotated[
+        float | None,
+        _THRESHOLD,
+        Parameter(help="Largest penetration of a grazing contact, as a share of the gap; 0.1."),
+    ] = None
+
+    def thresholds(self) -> Thresholds:
+        """Return the thresholds, those that are not given at their defaults."""
+        from vibroimpact.scenario.thresholds import Thresholds
+
+        given = {name: getattr(self, name) for name in Thresholds.names()}
+        try:
+            return Thresholds(**{name: v for name, v in given.items() if v is not None})
+        except InputError as error:
+            raise InputError(f"--{error}") from None
 
 
 @Parameter(name="*")

@@ -13,6 +13,13 @@ Progress = Callable[[int, int], None]
 """Called now and then with how much is done and how much there is to do."""
 
 
+def available() -> int:
+    """Processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
 def run(
     task: Callable[[int], None],
     counter: NDArray[np.int64],
@@ -36,8 +43,7 @@ def run(
     progress
         Called from the calling thread.
     """
-    available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    with ThreadPoolExecutor(min(threads or available or 1, len(counter))) as pool:
+    with ThreadPoolExecutor(min(threads or available(), len(counter))) as pool:
         futures = [pool.submit(task, number) for number in range(len(counter))]
         try:
             pending = set(futures)

@@ -208,6 +208,43 @@ VARIABLES: dict[str, Variable] = {
     "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),
     "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
     "energy_bumpers": Variable("J", "energy lost in the bumpers per forcing cycle"),
+    # maps
+    "relaxation_time": Variable("1", "relaxation time of the bumpers", "ω0 C_j / K_j"),
+    "damping_ratio": Variable("1", "damping ratio of the isolator", "C / (2 √(K M))"),
+    "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
+    "confidence": Variable(
+        "1",
+        "confidence in the scenario",
+        "share of the variations of the thresholds, halved and doubled, that leave it the same",
+    ),
+    "level": Variable(
+        "1",
+        "level of refinement at which the node was computed",
+        "-1: it was not, it has the scenario of the square around it",
+    ),
+    "extent": Variable(
+        "1",
+        "width of secondary left hystereses and non-regular resonances over natural frequency",
+    ),
+    "penetration_ratio": Variable("1", "largest penetration over gap"),
+    "resonance_ratio": Variable(
+        "1", "frequency of the primary resonance over that of free flight", "of η_d, forward"
+    ),
+    "peak_eta_a_forward": Variable("1", "largest η_a, forward"),
+    "peak_eta_a_backward": Variable("1", "largest η_a, backward"),
+    "peak_eta_d_forward": Variable("1", "largest η_d, forward"),
+    "peak_eta_d_backward": Variable("1", "largest η_d, backward"),
+    "jump_down_ratio": Variable("1", "frequency of the downward jump over natural frequency"),
+    "jump_up_ratio": Variable("1", "frequency of the upward jump over natural frequency"),
+    "contact_low_ratio": Variable("1", "lowest frequency with contact over natural frequency"),
+    "contact_high_ratio": Variable("1", "highest frequency with contact over natural frequency"),
+    "left_hysteresis_count": Variable("1", "number of left hystereses"),
+    "secondary_count": Variable("1", "number of regular secondary resonances"),
+    "irregular_count": Variable("1", "number of ranges that are not regular"),
+    "chaotic_count": Variable("1", "number of ranges with chaotic motions"),
+    "quasi_periodic_count": Variable("1", "number of ranges with quasi-periodic motions"),
+    "subharmonic_count": Variable("1", "number of ranges with subharmonic motions"),
+    "mirrored_pair_count": Variable("1", "number of ranges with mirrored pairs of motions"),
 }
 
 COMPONENTS = ["displacement", "velocity", "right_bumper", "left_bumper", "phase", "contact"]

@@ -1,9 +1,10 @@
 """What a pair of resonance curves shows, as far as it tells the scenario.
 
 A secondary resonance lies below the primary one and within the range in which the mass hits the
-bumpers. Where contact begins on the primary resonance's ascending branch, the motion often is not
-regular over a short range: the bumpers are grazed, now and then. That is the transition onto the
-primary resonance, no resonance of its own; it is told apart as the onset.
+bumpers: also in the valley at its foot, on the side of low frequencies. Where contact begins on the
+primary resonance's ascending branch, the motion often is not regular over a short range: the
+bumpers are grazed, now and then. That is the transition from free flight onto the primary
+resonance, no resonance of its own; it is told apart as the onset.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator
@@ -24,6 +24,9 @@ from vibroimpact.response.swept import Array, Direction, Flags, Swept, each_swep
 
 UNEVEN = 1e-6
 """Eccentricity, as a share of the excursion, that rounding does not explain."""
+
+SAME = 0.15
+"""Peaks of the two directions closer than this share of their frequency are one resonance's."""
 
 Kind: TypeAlias = Literal[
     "not periodic", "quasi-periodic", "chaotic", "subharmonic", "mirrored pair"
@@ -78,8 +81,8 @@ class Evidence(NamedTuple):
     """Left hystereses of secondary resonances."""
     irregular: tuple[Irregular, ...]
     """All ranges that are not regular, but for the onset."""
-    onset: tuple[float, float] | None
-    """Range from where contact begins in which the motion is not regular, or the two directions
+    onset: tuple[tuple[float, float], ...]
+    """Ranges where contact begins in which the motion is not regular, or the two directions
     differ (Hz)."""
     secondary: tuple[Peak, ...]
     """Peaks of η_a, below the primary resonance, of regular motions with impacts."""
@@ -106,6 +109,26 @@ class Evidence(NamedTuple):
     def right(self) -> tuple[Hysteresis, ...]:
         """Right hystereses."""
         return tuple(item for item in self.hysteresis if item.side == "right" and item.settled)
+
+    @property
+    def irregular_once(self) -> tuple[Irregular, ...]:
+        """Ranges that are not regular, those of the two directions that overlap once."""
+        told: list[Irregular] = []
+        for item in self.irregular:
+            if not any(item.low <= other.high and other.low <= item.high for other in told):
+                told.append(item)
+        return tuple(sorted(told, key=lambda item: item.low))
+
+    def secondary_resonances(self, prominence: float) -> list[tuple[float, float]]:
+        """Frequency (Hz) and prominence (over height) of the regular ones, each once."""
+        told: list[tuple[float, float]] = []
+        for peak in sorted(self.secondary, key=lambda p: -p.prominence):
+            share = peak.prominence / peak.value
+            if share >= prominence and all(
+                abs(peak.frequency - known) > SAME * known for known, _ in told
+            ):
+                told.append((peak.frequency, share))
+        return sorted(told)
 
     def extent(self, prominence: float) -> float:
         """Width of all left hystereses and non-regular resonances together, over f0.
@@ -196,7 +219,7 @@ def _one(
     apart = hysteresis(both)
     found = peaks(both, prominence=prominence)
     irregular = ~both.settled | (both.period != 1) | uneven
-    begins = _onset(oscillator, both, irregular, apart, touched, free)
+    begins = _onset(oscillator, both, irregular, apart, free, prominence)
     primary = {p.direction: p for p in found if p.primary and p.curve == "eta_a"}
     swing = next(
         (p for p in found if p.primary and p.curve == "eta_d" and p.direction == "forward"), None
@@ -232,6 +255,12 @@ def _one(
             for peak in found
             if _regular_secondary(peak, both, irregular, primary)
             and not _within(peak.frequency, begins)
+            and _foot_in_contact(
+                both,
+                both.directions.index(peak.direction),
+                int(np.searchsorted(frequency, peak.frequency)),
+                prominence,
+            )
         ),
         peaks=found,
     )
@@ -242,31 +271,49 @@ def _onset(
     both: Swept,
     irregular: Flags,
     apart: tuple[Hysteresis, ...],
-    touched: NDArray[np.intp],
     free: Array,
-) -> tuple[float, float] | None:
-    """The range behind the first contact in which the motion is not regular.
-
-    Where the mass presses a bumper at any low frequency (δ0 < A/(ω0² u_max)), there is none.
-    """
-    gaps = [b.gap for b in (oscillator.right, oscillator.left) if b is not None]
-    if not len(touched) or not gaps:
-        return None
-    first = int(touched[0])
-    # Free flight's amplitude A/ω0² |H| at the lowest frequency, without its gain |H|.
-    ratio = float(both.frequency[0]) / oscillator.natural_frequency
-    gain = 1.0 / math.hypot((1.0 - ratio) * (1.0 + ratio), 2.0 * oscillator.damping_ratio * ratio)
-    if first == 0 and float(free[0]) / gain >= min(gaps):
-        return None
+    prominence: float,
+) -> tuple[tuple[float, float], ...]:
+    """Ranges, not regular or with left hysteresis, that belong to where contact begins."""
     loose: Flags = np.logical_or.reduce(irregular)
     for item in apart:
         if item.side == "left":
             loose |= (both.frequency >= item.low) & (both.frequency <= item.high)
-    rest = np.flatnonzero(~loose[first:])
-    count = int(rest[0]) if len(rest) else len(loose) - first
-    if not count:
-        return None
-    return float(both.frequency[first]), float(both.frequency[first + count - 1])
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], loose, [False]]))).reshape(-1, 2)
+    return tuple(
+        (float(both.frequency[first]), float(both.frequency[end - 1]))
+        for first, end in edges
+        if not (
+            _pressed_at_rest(oscillator, both, free)
+            if first == 0
+            else _foot_in_contact(both, 0, int(first), prominence)
+        )
+    )
+
+
+def _foot_in_contact(both: Swept, k: int, i: int, prominence: float) -> bool:
+    """Whether the mass hits a bumper in the valley of η_a below a frequency.
+
+    Going down from it, the valley is passed where the curve has risen again by `prominence` of
+    its height; if it never does, it is where the curve was lowest.
+    """
+    curve, height = both.eta_a[k], both.eta_a[k, i]
+    foot = i
+    for j in range(i - 1, -1, -1):
+        if curve[j] < curve[foot]:
+            foot = j
+        elif curve[j] - curve[foot] > prominence * height:
+            break
+    return bool(both.touching[k, foot])
+
+
+def _pressed_at_rest(oscillator: Oscillator, both: Swept, free: Array) -> bool:
+    """Whether the mass presses a bumper at any low frequency: A/ω0² is larger than a gap."""
+    gaps = [b.gap for b in (oscillator.right, oscillator.left) if b is not None]
+    # Free flight's amplitude A/ω0² |H| at the lowest frequency, without its gain |H|.
+    ratio = float(both.frequency[0]) / oscillator.natural_frequency
+    gain = 1.0 / math.hypot((1.0 - ratio) * (1.0 + ratio), 2.0 * oscillator.damping_ratio * ratio)
+    return bool(gaps) and float(free[0]) / gain >= min(gaps)
 
 
 def _irregular(
@@ -274,7 +321,7 @@ def _irregular(
     irregular: Flags,
     uneven: Flags,
     found: tuple[Peak, ...],
-    begins: tuple[float, float] | None,
+    begins: tuple[tuple[float, float], ...],
 ) -> Iterator[Irregular]:
     frequency = both.frequency
     for k, direction in enumerate(both.directions):
@@ -324,5 +371,5 @@ def _regular_secondary(
     return bool(both.touching[k, i] and not irregular[k, i])
 
 
-def _within(frequency: float, span: tuple[float, float] | None) -> bool:
-    return span is not None and span[0] <= frequency <= span[1]
+def _within(frequency: float, spans: tuple[tuple[float, float], ...]) -> bool:
+    return any(low <= frequency <= high for low, high in spans)

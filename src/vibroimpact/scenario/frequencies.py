@@ -17,11 +17,14 @@ STEP = 0.01
 LEAST_HIGH = 1.5
 """Highest frequency over the natural one, at least; free flight's resonance lies below 1."""
 
+ROUND = 0.5
+"""Rigs that differ little are swept over the same range, many at once."""
+
 
 def highest(oscillator: Oscillator, amplitude: float) -> float:
     """Frequency over the natural one above which no steady motion hits the bumpers.
 
-    Two bounds, the lower one counts, with a margin:
+    Two bounds, the lower one counts, with a margin, rounded up to a multiple of `ROUND`:
 
     - Energy. A motion of one forcing cycle that reaches both bumpers travels 2 (G_R + G_L) in a
       cycle, so that the mean of its velocity squared is at least (2 f (G_R + G_L))². The base
@@ -38,7 +41,8 @@ def highest(oscillator: Oscillator, amplitude: float) -> float:
     travel = sum(b.gap for b in bumpers) * oscillator.isolator.damping
     supplied = oscillator.mass * amplitude / (2.0 * math.sqrt(2.0))
     energy = supplied / travel / oscillator.natural_frequency if travel > 0.0 else math.inf
-    return max(LEAST_HIGH, 1.1 * min(math.sqrt(1.0 + stiffest), energy) + 0.1)
+    bound = 1.1 * min(math.sqrt(1.0 + stiffest), energy) + 0.1
+    return max(LEAST_HIGH, ROUND * math.ceil(bound / ROUND))
 
 
 def frequencies(
@@ -50,6 +54,6 @@ def frequencies(
 
 def grid(high: float, step: float) -> NDArray[np.float64]:
     """Multiples of `step` above `LOW` up to `high` at least."""
-    count = math.ceil((high - LOW) / step)
+    count = math.ceil((high - LOW) / step - 1e-9)
     values: NDArray[np.float64] = LOW + step * np.arange(count + 1, dtype=np.float64)
     return values

@@ -66,22 +66,31 @@ def _folds(
     oscillator: Oscillator, amplitude: float, data: xr.Dataset, found: Evidence
 ) -> tuple[float, ...] | None:
     """Where the branch through the primary resonance turns back (Hz), rising; None if unknown."""
+    orbits = primary_branch(found, oscillator, amplitude, data)
+    if orbits is None:
+        return None
+    low, high = found.swept
+    turns = orbits["bifurcation_value"].values[orbits["bifurcation_turns"].values == 1]
+    return tuple(sorted(float(f) for f in turns if low < f < high))
+
+
+def primary_branch(
+    found: Evidence, oscillator: Oscillator, amplitude: float, data: xr.Dataset
+) -> xr.Dataset | None:
+    """The branch of orbits through the primary resonance, over the frequencies that were swept.
+
+    None where the mass hits no bumper, where the motion there is not of one forcing cycle, or
+    where Newton's method finds no orbit, as on the edge of stability.
+    """
     tops = [p for p in found.peaks if p.primary and p.direction == "forward" and p.curve == "eta_a"]
     if found.contact is None or not tops:
         return None
     hold = data.sel(direction="forward", frequency=tops[0].frequency)
     if int(hold["period"]) != 1:
         return None
+    excitation = Harmonic(amplitude, tops[0].frequency)
     low, high = found.swept
     try:
-        orbits = branch(
-            oscillator,
-            Harmonic(amplitude, tops[0].frequency),
-            hold["section"],
-            low=low,
-            high=high,
-        )
-    except InputError:  # on the edge of stability Newton's method may find none
+        return branch(oscillator, excitation, hold["section"], low=low, high=high)
+    except InputError:
         return None
-    turns = orbits["bifurcation_value"].values[orbits["bifurcation_turns"].values == 1]
-    return tuple(sorted(float(f) for f in turns if low < f < high))

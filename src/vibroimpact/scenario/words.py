@@ -5,11 +5,8 @@ from __future__ import annotations
 import math
 
 from vibroimpact.response.resonance import Hysteresis
-from vibroimpact.scenario.evidence import Evidence, Irregular
+from vibroimpact.scenario.evidence import Evidence
 from vibroimpact.scenario.thresholds import Thresholds
-
-_SAME = 0.15
-"""Peaks of the two directions closer than this share of their frequency are one resonance's."""
 
 
 def in_words(found: Evidence, thresholds: Thresholds) -> str:
@@ -36,10 +33,9 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
     parts += _irregular(found, thresholds)
     parts += [
         f"secondary resonance at {frequency:.3g} Hz ({share:.0%} prominent)"
-        for frequency, share in _secondary(found, thresholds)
+        for frequency, share in found.secondary_resonances(thresholds.prominence)
     ]
-    if found.onset is not None:
-        parts.append(f"not regular where contact begins, {_span(*found.onset)}")
+    parts += [f"not regular where contact begins, {_span(*span)}" for span in found.onset]
     if not found.jumping:
         parts.append("no jumps")
     if math.isfinite(found.resonance):
@@ -52,12 +48,8 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
 
 def _irregular(found: Evidence, thresholds: Thresholds) -> list[str]:
     """Ranges that are not regular, those of both directions that overlap told once."""
-    told: list[Irregular] = []
-    for item in found.irregular:
-        if not any(item.low <= other.high and other.low <= item.high for other in told):
-            told.append(item)
     lines = []
-    for item in sorted(told, key=lambda item: item.low):
+    for item in found.irregular_once:
         kinds = " and ".join(item.kinds)
         what = (
             f"{kinds} resonance" if item.prominence >= thresholds.prominence else f"{kinds} motions"
@@ -80,18 +72,6 @@ def _ends(found: Evidence, item: Hysteresis) -> tuple[float, float]:
 def _hidden(found: Evidence) -> str:
     above = [fold for fold in found.folds or () if fold > found.top]
     return _span(min(above), max(above)) if above else ""
-
-
-def _secondary(found: Evidence, thresholds: Thresholds) -> list[tuple[float, float]]:
-    """Frequency and prominence of the regular secondary resonances, those of both sweeps once."""
-    told: list[tuple[float, float]] = []
-    for peak in sorted(found.secondary, key=lambda p: -p.prominence):
-        share = peak.prominence / peak.value
-        if share >= thresholds.prominence and all(
-            abs(peak.frequency - known) > _SAME * known for known, _ in told
-        ):
-            told.append((peak.frequency, share))
-    return sorted(told)
 
 
 def _span(low: float, high: float) -> str:

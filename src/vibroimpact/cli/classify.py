@@ -1,0 +1,175 @@
+"""``vibroimpact classify``: the scenario of a rig, with the evidence for it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Group, Parameter
+
+from vibroimpact.cli.options import (
+    COMPUTATION,
+    OutputOptions,
+    RigName,
+    RigOptions,
+    ThresholdOptions,
+    Whole,
+)
+
+if TYPE_CHECKING:
+    from vibroimpact.model import Oscillator
+
+_FREQUENCIES = Group("Frequencies", sort_key=1)
+_FREQUENCY = Parameter(group=_FREQUENCIES, allow_leading_hyphen=True)
+
+
+def classify(
+    rig: RigName,
+    /,
+    *,
+    start: Annotated[
+        str | None,
+        _FREQUENCY,
+        Parameter(name="--from", help="First frequency; 0.4 times the natural one."),
+    ] = None,
+    stop: Annotated[
+        str | None,
+        _FREQUENCY,
+        Parameter(name="--to", help="Last frequency; where no bumper can be hit any more."),
+    ] = None,
+    step: Annotated[
+        str | None,
+        _FREQUENCY,
+        Parameter(help="Distance of two frequencies; a hundredth of the natural one."),
+    ] = None,
+    changes: RigOptions | None = None,
+    thresholds: ThresholdOptions | None = None,
+    threads: Annotated[
+        Whole | None,
+        Parameter(group=COMPUTATION, help="How many sweeps run at once; one a processor."),
+    ] = None,
+    output: OutputOptions | None = None,
+) -> int:
+    """Name the scenario of a rig, S0 to S6, with the evidence for it.
+
+    Sweeps the rig forward and backward, tells what the resonance curves show, and names the
+    scenario: S0 free flight, S1 grazing, S2 primary resonance with right hysteresis, S3 as S2
+    with a secondary resonance, S4 secondary resonances with left hysteresis or not regular, S5
+    bumpers attached and smooth, S6 bent to the right without jumps; or unclassified. Writes
+    NAME-scenario.nc (the curves) and NAME-scenario.png.
+
+    For example:
+
+        vibroimpact classify B2-G1-A3
+        vibroimpact classify B3-10mm-A3 --from 0.3Hz --to 5Hz
+        vibroimpact classify B3-G1-A3 --extent 0.01
+    """
+    from vibroimpact.cli.output import output_folder, progress_bar, tell
+    from vibroimpact.cli.rig import subject
+
+    out = output or OutputOptions()
+    what = subject(rig, changes or RigOptions(), out.name)
+    held = _frequencies(what.oscillator, what.amplitude, start, stop, step)
+    used = (thresholds or ThresholdOptions()).thresholds()
+
+    with output_folder(out.output) as folder:
+        from rich.console import Group as Together
+        from rich.table import Table
+        from rich.text import Text
+
+        from vibroimpact.cli import summary
+        from vibroimpact.figures import resonance_curves, save_figure
+        from vibroimpact.response.files import save
+        from vibroimpact.scenario.classify import classify as run
+        from vibroimpact.scenario.kinds import Scenario
+
+        with progress_bar("sweeping") as progress:
+            found = run(
+                what.oscillator,
+                what.amplitude,
+                held,
+                thresholds=used,
+                threads=threads,
+                progress=progress,
+            )
+        meaning = next(s.meaning for s in Scenario if s.label == found.scenario)
+        data = found.sweep
+        data.attrs["title"] = what.name
+        axes = resonance_curves(data, title=f"{what.name}: {found.scenario}, {meaning}")
+        stem = folder / f"{what.slug}-scenario"
+        files = {
+            "data": save(data, f"{stem}.nc"),
+            "figure": save_figure(axes[0], f"{stem}.{out.figure}"),
+        }
+    facts = {
+        **summary.rig_facts(what),
+        "scenario": found.scenario,
+        "meaning": meaning,
+        "confidence": found.confidence,
+        "evidence": found.evidence.split("; "),
+        "alternatives": [
+            {"threshold": name, "value": value, "scenario": other}
+            for (name, value), other in found.alternatives.items()
+        ],
+        "thresholds": {name: getattr(used, name) for name in used.names()},
+        "features": _plain(found.features._asdict()),
+        "files": files,
+    }
+    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
+    for line in found.evidence.split("; "):
+        table.add_row("", line)
+    others = [
+        Text(f"  with --{name} {value:g}: {other}")
+        for (name, value), other in found.alternatives.items()
+    ]
+    text = Together(
+        summary.rig_text(what),
+        Text(),
+        Text(f"{found.scenario}: {meaning}", style="bold"),
+        table,
+        Text(
+            f"Confidence {found.confidence:.0%}: share of the thresholds' variations, each halved "
+            "and each doubled, that leave the scenario the same"
+        ),
+        *others,
+        Text(),
+        summary.files_text(files),
+    )
+    tell(text, facts, out.json)
+    return 0
+
+
+def _frequencies(
+    oscillator: Oscillator,
+    amplitude: float,
+    start: str | None,
+    stop: str | None,
+    step: str | None,
+) -> tuple[float, ...] | None:
+    """The frequencies that were asked for; None for the default."""
+    if start is None and stop is None and step is None:
+        return None
+    from vibroimpact.cli.grid import frequency_grid
+    from vibroimpact.model import to_si
+    from vibroimpact.model.units import FREQUENCY
+    from vibroimpact.scenario.frequencies import LOW, STEP, highest
+
+    natural = oscillator.natural_frequency
+    defaults = (LOW * natural, highest(oscillator, amplitude) * natural, STEP * natural)
+    numbers = [
+        default if text is None else to_si(text, FREQUENCY, option, above=0.0)
+        for option, text, default in zip(
+            ("--from", "--to", "--step"), (start, stop, step), defaults, strict=True
+        )
+    ]
+    return frequency_grid(*numbers)
+
+
+def _plain(value: Any) -> Any:
+    """Named tuples as mappings, all the way down."""
+    if hasattr(value, "_asdict"):
+        return {key: _plain(item) for key, item in value._asdict().items()}
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value

@@ -1,0 +1,242 @@
+"""Scenarios over two parameters, as in the paper's Fig. 21."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.branches import axis_unit
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.style import SCENARIOS
+from vibroimpact.scenario.kinds import Scenario
+
+_SYMBOLS = {"stiffness_ratio": "$\\lambda$", "gap_ratio": "$\\delta_0$"}
+_SYMBOLS |= {"relaxation_time": "$\\tau$", "damping_ratio": "$\\xi$"}
+
+
+class Mark(NamedTuple):
+    """Rigs that are marked on a map with one symbol."""
+
+    label: str
+    marker: str
+    x: Sequence[float]
+    y: Sequence[float]
+
+
+def scenario_map(
+    data: xr.Dataset,
+    ax: Axes | None = None,
+    *,
+    border: xr.Dataset | None = None,
+    marks: Sequence[Mark] = (),
+    lines: Mapping[str, tuple[Sequence[float], Sequence[float]]] | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw a map of scenarios: coloured, hatched and labelled areas.
+
+    Parameters
+    ----------
+    data
+        Dataset of `vibroimpact.scenario_map`.
+    ax
+        Axes to draw on. None makes a new figure.
+    border
+        Dataset of `jump_border` for the same map: a line of points that are exact.
+    marks
+        Rigs to mark.
+    lines
+        Further lines by their labels, as x and y in the map's units (SI).
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no map, or the border is that of another one.
+    """
+    if "scenario" not in data or data["scenario"].ndim != 2:
+        raise InputError("data: this is no map; a dataset of scenario_map is accepted")
+    second, first = (str(name) for name in data["scenario"].dims)
+    if border is not None and not {first, second} <= set(border.variables):
+        raise InputError(
+            f"border: it is not in {first} and {second}; that of the same map is accepted"
+        )
+    ax = axes_or_new(ax, (7.2, 6.4), title)
+    (fx, ux), (fy, uy) = axis_unit(data[first]), axis_unit(data[second])
+    x, y = fx * data[first].values, fy * data[second].values
+    logarithmic = [_logarithmic(v) for v in (x, y)]
+    edges = [_edges(v, log) for v, log in zip((x, y), logarithmic, strict=True)]
+    kinds = data["scenario"].values
+    handles: list[Patch | Line2D] = []
+    for scenario in Scenario:
+        mine = kinds == scenario
+        if mine.any():
+            handles.append(_area(ax, (x, y), edges, mine, scenario))
+    if (kinds < 0).any():
+        handles.append(Patch(facecolor="white", edgecolor="0.6", label="not computed yet"))
+    _outlines(ax, edges[0], edges[1], kinds)
+    if border is not None and border.sizes["border_point"]:
+        order = np.argsort(border[second].values)
+        (line,) = ax.plot(
+            fx * border[first].values[order],
+            fy * border[second].values[order],
+            color="black",
+            linewidth=1.6,
+            linestyle=(0, (5, 1.5)),
+            marker=".",
+            label="cusps of the folds: jumps begin (exact)",
+            zorder=5,
+        )
+        handles.append(line)
+    for dashes, (label, (px, py)) in zip(
+        ("--", ":", "-.", (0, (1, 3))) * 3, (lines or {}).items(), strict=False
+    ):
+        (line,) = ax.plot(
+            fx * np.asarray(px),
+            fy * np.asarray(py),
+            color="black",
+            linewidth=1.1,
+            linestyle=dashes,
+            label=label,
+            zorder=4,
+        )
+        handles.append(line)
+    for mark in marks:
+        (line,) = ax.plot(
+            fx * np.asarray(mark.x),
+            fy * np.asarray(mark.y),
+            linestyle="",
+            marker=mark.marker,
+            markersize=5.5,
+            markerfacecolor="white",
+            markeredgecolor="black",
+            label=mark.label,
+            zorder=6,
+        )
+        handles.append(line)
+    for axis, log in ((ax.xaxis, logarithmic[0]), (ax.yaxis, logarithmic[1])):
+        if log:
+            axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.set_xlim(edges[0][0], edges[0][-1])
+    ax.set_ylim(edges[1][0], edges[1][-1])
+    ax.set_xlabel(_label(data[first], ux))
+    ax.set_ylabel(_label(data[second], uy))
+    ax.legend(
+        handles=handles,
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.14),
+        ncols=2,
+        frameon=False,
+        fontsize="small",
+        borderaxespad=0.0,
+        handlelength=2.4,
+        handleheight=1.2,
+    )
+    return ax
+
+
+def _area(
+    ax: Axes,
+    nodes: tuple[NDArray[np.float64], NDArray[np.float64]],
+    edges: list[NDArray[np.float64]],
+    mine: NDArray[np.bool_],
+    scenario: Scenario,
+) -> Patch:
+    look = SCENARIOS[scenario.label]
+    ax.pcolormesh(
+        *edges,
+        np.ma.masked_where(~mine, mine),
+        cmap=ListedColormap([look.colour]),
+        zorder=1,
+        rasterized=True,
+    )
+    if look.hatch:
+        # Half-way between 0 and 1 lies half-way between two nodes, where the colours end, too.
+        hatched = ax.contourf(
+            *nodes, mine, levels=[0.5, 1.5], colors="none", hatches=[look.hatch], zorder=2
+        )
+        hatched.set_edgecolor(look.line)
+        hatched.set_linewidth(0.0)
+    at = _deepest(mine)
+    if at is not None:
+        row, column = at
+        ax.text(
+            _middle(edges[0], column),
+            _middle(edges[1], row),
+            scenario.label,
+            ha="center",
+            va="center",
+            fontsize="medium",
+            fontweight="bold",
+            color="black",
+            bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "linewidth": 0.0},
+            zorder=7,
+        )
+    return Patch(
+        facecolor=look.colour,
+        edgecolor=look.line,
+        hatch=look.hatch,
+        linewidth=0.0,
+        label=f"{scenario.label}: {scenario.meaning}"
+        if scenario is not Scenario.UNCLASSIFIED
+        else "unclassified",
+    )
+
+
+def _outlines(
+    ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64], kinds: NDArray[np.int8]
+) -> None:
+    """Lines between neighbouring nodes of different scenarios."""
+    for row, column in zip(*np.nonzero(kinds[:, 1:] != kinds[:, :-1]), strict=True):
+        ax.plot([x[column + 1]] * 2, y[row : row + 2], color="0.25", linewidth=0.6, zorder=3)
+    for row, column in zip(*np.nonzero(kinds[1:] != kinds[:-1]), strict=True):
+        ax.plot(x[column : column + 2], [y[row + 1]] * 2, color="0.25", linewidth=0.6, zorder=3)
+
+
+def _deepest(mine: NDArray[np.bool_]) -> tuple[int, int] | None:
+    """A node as far as can be from the others; None if the area is no wider than a few nodes."""
+    depth = np.zeros(mine.shape, dtype=int)
+    left = mine.copy()
+    while left.any():
+        depth[left] += 1
+        framed = np.pad(left, 1)
+        left = left & framed[2:, 1:-1] & framed[:-2, 1:-1] & framed[1:-1, 2:] & framed[1:-1, :-2]
+    if depth.max() < max(2, min(mine.shape) // 30):
+        return None
+    at = np.argwhere(depth == depth.max())
+    row, column = at[np.argmin(((at - at.mean(axis=0)) ** 2).sum(axis=1))]
+    return int(row), int(column)
+
+
+def _middle(edges: NDArray[np.float64], i: int) -> float:
+    return float(0.5 * (edges[i] + edges[i + 1]))
+
+
+def _edges(values: NDArray[np.float64], logarithmic: bool) -> NDArray[np.float64]:
+    """Borders half-way between values; the first and the last value end the range."""
+    middle = np.sqrt(values[:-1] * values[1:]) if logarithmic else 0.5 * (values[:-1] + values[1:])
+    return np.concatenate([values[:1], middle, values[-1:]])
+
+
+def _logarithmic(values: NDArray[np.float64]) -> bool:
+    if values[0] <= 0.0 or len(values) < 3:
+        return False
+    ratios = values[1:] / values[:-1]
+    return bool(np.ptp(ratios) < 1e-6 * ratios.max() and ratios.max() > 1.0 + 1e-9)
+
+
+def _label(values: xr.DataArray, unit: str) -> str:
+    name = str(values.name)
+    symbol = f" {_SYMBOLS[name]}" if name in _SYMBOLS else ""
+    return f"{values.attrs['long_name']}{symbol} ({unit})"

@@ -1,0 +1,191 @@
+"""The quantities over which a map can be drawn, and the rig of each of its nodes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Dimensionless, Oscillator, Rig, to_dimensionless, to_si
+from vibroimpact.model.units import (
+    ACCELERATION,
+    DIMENSIONLESS,
+    LENGTH,
+    STIFFNESS,
+    Quantity,
+)
+
+_Array = NDArray[np.float64]
+
+
+class Parameter(NamedTuple):
+    """One quantity that an axis can show."""
+
+    quantity: Quantity
+    zero: bool
+    """Whether it may be 0."""
+    physical: bool
+
+
+PARAMETERS: Mapping[str, Parameter] = {
+    "gap": Parameter(LENGTH, True, True),
+    "amplitude": Parameter(ACCELERATION, False, True),
+    "bumper_stiffness": Parameter(STIFFNESS, False, True),
+    "stiffness_ratio": Parameter(DIMENSIONLESS, False, False),
+    "gap_ratio": Parameter(DIMENSIONLESS, True, False),
+    "relaxation_time": Parameter(DIMENSIONLESS, True, False),
+    "damping_ratio": Parameter(DIMENSIONLESS, False, False),
+}
+"""By name; lengths and stiffnesses are those of each side."""
+
+
+class Axis(NamedTuple):
+    """Values of one parameter."""
+
+    name: str
+    values: _Array
+    """In SI units, rising."""
+
+    @property
+    def logarithmic(self) -> bool:
+        """Whether neighbouring values have one ratio, and not one difference."""
+        if self.values[0] <= 0.0 or len(self.values) < 3:
+            return False
+        steps, ratios = np.diff(self.values), np.diff(np.log(self.values))
+        return bool(np.ptp(ratios) < 1e-6 * ratios.max() and np.ptp(steps) > 1e-6 * steps.max())
+
+    def refined(self, times: int) -> Axis:
+        """With a value half-way between any two, done so many times; the old values stay."""
+        values = self.values
+        for _ in range(times):
+            low, high = values[:-1], values[1:]
+            middle = np.sqrt(low * high) if self.logarithmic else 0.5 * (low + high)
+            finer = np.empty(2 * len(values) - 1)
+            finer[0::2], finer[1::2] = values, middle
+            values = finer
+        return Axis(self.name, values)
+
+
+def axis(given: object, field: str) -> Axis:
+    """Read an axis: the name of a parameter, and its values.
+
+    Raises
+    ------
+    InputError
+        If it is no such pair, or a value cannot be used.
+    """
+    if not (isinstance(given, tuple | list) and len(given) == 2 and isinstance(given[0], str)):
+        raise InputError(
+            f"{field}: {given!r} is no axis; a pair of a name and values is accepted, such as "
+            '("gap_ratio", [0, 0.5, 1])'
+        )
+    name, values = given
+    if name not in PARAMETERS:
+        raise InputError(f"{field}: {name!r}; one of {', '.join(PARAMETERS)} is accepted")
+    parameter = PARAMETERS[name]
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise InputError(f"{field}: {values!r} is no list of values; at least two are accepted")
+    limits: dict[str, Any] = {"minimum": 0.0} if parameter.zero else {"above": 0.0}
+    numbers = np.array(
+        [
+            to_si(value, parameter.quantity, f"{field}[{i}]", **limits)
+            for i, value in enumerate(values)
+        ]
+    )
+    if len(numbers) < 2:
+        raise InputError(f"{field}: {len(numbers)} values given; at least two are accepted")
+    for i in np.flatnonzero(np.diff(numbers) <= 0.0):
+        raise InputError(
+            f"{field}[{i + 1}]: {numbers[i + 1]:g} follows {numbers[i]:g}; "
+            "rising values are accepted"
+        )
+    if name == "damping_ratio" and numbers[-1] >= math.sqrt(0.5):
+        raise InputError(
+            f"{field}[{len(numbers) - 1}]: a damping ratio of {numbers[-1]:g} has no resonance "
+            "peak; values below 0.707107 are accepted"
+        )
+    return Axis(name, numbers)
+
+
+def check_pair(x: Axis, y: Axis) -> None:
+    """Refuse two axes of one parameter, or of a physical and a dimensionless one.
+
+    Raises
+    ------
+    InputError
+        If they do not go together.
+    """
+    if x.name == y.name:
+        raise InputError(f"y: {y.name!r} is that of x; another parameter is accepted")
+    if PARAMETERS[x.name].physical != PARAMETERS[y.name].physical:
+        other = [n for n, p in PARAMETERS.items() if p.physical == PARAMETERS[x.name].physical]
+        raise InputError(
+            f"y: {y.name!r} does not go with {x.name!r}: one is physical, one dimensionless; "
+            f"one of {', '.join(n for n in other if n != x.name)} is accepted"
+        )
+
+
+class Base(NamedTuple):
+    """The rig whose other parameters all nodes share."""
+
+    oscillator: Oscillator
+    amplitude: float
+    """m/s²"""
+
+    def rig(self, values: Mapping[str, float]) -> Rig:
+        """The rig at a node.
+
+        Physical parameters are set on both sides; of the bumpers' damping the relaxation time
+        C_j/K_j is kept. Dimensionless ones are set among the base's own dimensionless
+        parameters, at its mass, isolator stiffness and amplitude.
+
+        Raises
+        ------
+        InputError
+            If there is no bumper to set, or the base has no dimensionless parameters.
+        """
+        if not self.oscillator.right and not self.oscillator.left:
+            raise InputError("base: there is no bumper; a rig with one or two is accepted")
+        if all(PARAMETERS[name].physical for name in values):
+            return self._physical(values)
+        return self._dimensionless(values)
+
+    def _physical(self, values: Mapping[str, float]) -> Rig:
+        changes = {}
+        for side in ("right", "left"):
+            bumper = getattr(self.oscillator, side)
+            if bumper is None:
+                continue
+            stiffness = values.get("bumper_stiffness", bumper.stiffness)
+            changes[side] = bumper.replace(
+                gap=values.get("gap", bumper.gap),
+                stiffness=stiffness,
+                damping=bumper.damping * (stiffness / bumper.stiffness),
+            )
+        return Rig(self.oscillator.replace(**changes), values.get("amplitude", self.amplitude))
+
+    def _dimensionless(self, values: Mapping[str, float]) -> Rig:
+        group = to_dimensionless(self.oscillator, self.amplitude)
+        own = {
+            name: values[key]
+            for key, name in (
+                ("stiffness_ratio", "stiffness_ratio"),
+                ("gap_ratio", "gap"),
+                ("relaxation_time", "relaxation_time"),
+            )
+            if key in values
+        }
+        sides = {
+            side: None if bumper is None else bumper.replace(**own)
+            for side, bumper in (("right", group.right), ("left", group.left))
+        }
+        changed = Dimensionless(values.get("damping_ratio", group.damping_ratio), **sides)
+        return changed.to_physical(
+            mass=self.oscillator.mass,
+            stiffness=self.oscillator.isolator.stiffness,
+            amplitude=self.amplitude,
+        )

@@ -1,0 +1,134 @@
+"""One node of a map: its rig swept, looked at, and named."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.model import Rig
+from vibroimpact.response.peaks import Curve
+from vibroimpact.response.sweep import sweeps
+from vibroimpact.response.swept import Direction
+from vibroimpact.response.threads import Progress
+from vibroimpact.scenario.evidence import Evidence, each_evidence
+from vibroimpact.scenario.frequencies import grid, highest
+from vibroimpact.scenario.orbits import with_folds, with_kinds
+from vibroimpact.scenario.thresholds import Thresholds
+from vibroimpact.scenario.verdict import confidence, scenario
+
+MAX_CYCLES = 300
+"""Forcing cycles to wait for a steady motion. Those of the published rigs take less; what does
+not settle then, nor keeps closing in, is not periodic."""
+WINDOW = 100
+"""Forcing cycles over which a motion that did not settle is measured."""
+KIND_CYCLES = 2000
+"""Forcing cycles over which growth tells chaotic from quasi-periodic motions."""
+
+Value = Callable[[Evidence, Thresholds], float]
+
+VALUES: dict[str, Value] = {
+    "confidence": confidence,
+    "extent": lambda e, t: e.extent(t.prominence),
+    "penetration_ratio": lambda e, t: e.penetration,
+    "peak_eta_a_forward": lambda e, t: _peak(e, "eta_a", "forward"),
+    "peak_eta_a_backward": lambda e, t: _peak(e, "eta_a", "backward"),
+    "peak_eta_d_forward": lambda e, t: _peak(e, "eta_d", "forward"),
+    "peak_eta_d_backward": lambda e, t: _peak(e, "eta_d", "backward"),
+    "resonance_ratio": lambda e, t: e.resonance,
+    "jump_down_ratio": lambda e, t: _over(e, e.right[-1].ends[1] if e.right else None),
+    "jump_up_ratio": lambda e, t: _over(e, e.right[-1].ends[0] if e.right else None),
+    "contact_low_ratio": lambda e, t: _over(e, e.contact[0] if e.contact else None),
+    "contact_high_ratio": lambda e, t: _over(e, e.contact[1] if e.contact else None),
+}
+"""The numbers that a map holds of each node; NaN where there is none."""
+
+Count = Callable[[Evidence, Thresholds], int]
+
+COUNTS: dict[str, Count] = {
+    "left_hysteresis_count": lambda e, t: len(e.left),
+    "secondary_count": lambda e, t: len(e.secondary_resonances(t.prominence)),
+    "irregular_count": lambda e, t: len(e.irregular_once),
+    "chaotic_count": lambda e, t: _ranges(e, "chaotic"),
+    "quasi_periodic_count": lambda e, t: _ranges(e, "quasi-periodic"),
+    "subharmonic_count": lambda e, t: _ranges(e, "subharmonic"),
+    "mirrored_pair_count": lambda e, t: _ranges(e, "mirrored pair"),
+}
+"""How many ranges of a kind a map counts at each node; -1 at nodes that were not computed."""
+
+
+def classified(
+    rigs: Sequence[Rig],
+    thresholds: Thresholds,
+    step: float,
+    max_cycles: int,
+    progress: Progress | None = None,
+) -> dict[str, NDArray[Any]]:
+    """Sweep some rigs of one natural frequency, on this thread, and name their scenarios.
+
+    Returns
+    -------
+    dict
+        ``scenario`` and the names of `VALUES` and `COUNTS`, each an array with a value a rig.
+    """
+    found: dict[int, Evidence] = {}
+    highs = [highest(*rig) for rig in rigs]
+    for high in dict.fromkeys(highs):
+        mine = [i for i, own in enumerate(highs) if own == high]
+        held = grid(high, step) * rigs[0].oscillator.natural_frequency
+        seen = _seen([rigs[i] for i in mine], held, thresholds, max_cycles, progress)
+        found.update(zip(mine, seen, strict=True))
+    ordered = [found[i] for i in range(len(rigs))]
+    return {
+        "scenario": np.array([scenario(one, thresholds) for one in ordered], dtype=np.int8),
+        **{name: np.array([get(e, thresholds) for e in ordered]) for name, get in VALUES.items()},
+        **{
+            name: np.array([count(e, thresholds) for e in ordered], dtype=np.int16)
+            for name, count in COUNTS.items()
+        },
+    }
+
+
+def _seen(
+    rigs: list[Rig],
+    held: NDArray[np.float64],
+    thresholds: Thresholds,
+    max_cycles: int,
+    progress: Progress | None,
+) -> Iterator[Evidence]:
+    """What the sweeps of some rigs over the same frequencies show."""
+    data = sweeps(rigs, held, max_cycles=max_cycles, window=WINDOW, threads=1, progress=progress)
+    few = data[["period", "section"]]  # selecting from all variables would take longer
+    oscillators = [rig.oscillator for rig in rigs]
+    for r, found in enumerate(each_evidence(oscillators, data, 0.5 * thresholds.prominence)):
+        if any(item.not_periodic for item in found.irregular):
+            found = with_kinds(found, *rigs[r], few.isel(rig=r, drop=True), KIND_CYCLES)
+        if _rests_on_a_jump(found, thresholds):
+            found = with_folds(found, *rigs[r], few.isel(rig=r, drop=True))
+        yield found
+
+
+def _rests_on_a_jump(found: Evidence, thresholds: Thresholds) -> bool:
+    """Whether the scenario may hang on a jump that no two frequencies show."""
+    if found.right or found.contact is None:
+        return False
+    named = {scenario(found._replace(folds=folds), thresholds) for folds in ((), (math.inf,))}
+    return len(named) > 1
+
+
+def _peak(found: Evidence, curve: Curve, direction: Direction) -> float:
+    heights = [p.value for p in found.peaks if p.curve == curve and p.direction == direction]
+    return max(heights, default=math.nan)
+
+
+def _over(found: Evidence, frequency: float | None) -> float:
+    return math.nan if frequency is None else frequency / found.natural_frequency
+
+
+def _ranges(found: Evidence, kind: str) -> int:
+    """How many ranges hold such motions, those of the two directions that overlap once."""
+    holding = [item for item in found.irregular if kind in item.kinds]
+    return len(found._replace(irregular=tuple(holding)).irregular_once)

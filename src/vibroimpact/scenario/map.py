@@ -1,0 +1,240 @@
+"""Scenarios over two parameters, computed block by block."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, Rig, from_dimensionless, to_si
+from vibroimpact.model.counts import share, whole
+from vibroimpact.model.units import ACCELERATION
+from vibroimpact.response.threads import Progress, available
+from vibroimpact.response.variables import oscillator_parameters
+from vibroimpact.scenario.axes import Axis, Base, axis, check_pair
+from vibroimpact.scenario.cell import MAX_CYCLES, classified
+from vibroimpact.scenario.frequencies import STEP
+from vibroimpact.scenario.nodes import UNKNOWN, Nodes, Scenarios
+from vibroimpact.scenario.store import MapStore, map_store
+from vibroimpact.scenario.thresholds import Thresholds
+
+DAMPING_RATIO, RELAXATION_TIME = 0.15, 0.01
+"""ξ and τ of the published rig (the paper's Section 7)."""
+_FEW = 10
+"""Rigs that a thread sweeps at a time, at most."""
+
+
+def scenario_map(
+    x: tuple[str, Any],
+    y: tuple[str, Any],
+    base: tuple[Oscillator, float | str] | None = None,
+    *,
+    step: float = STEP,
+    refine: int = 0,
+    thresholds: Thresholds | None = None,
+    max_cycles: int = MAX_CYCLES,
+    store: Path | str | None = None,
+    block: int = 10,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Name the scenarios over two parameters.
+
+    Parameters
+    ----------
+    x, y
+        Name and rising values of a parameter. Physical: ``"gap"`` (m, of each side),
+        ``"amplitude"`` (m/s²), ``"bumper_stiffness"`` (N/m, at the base's C_j/K_j).
+        Dimensionless: ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ,
+        ``"damping_ratio"`` ξ. Both physical or both dimensionless.
+    base
+        Oscillator and amplitude, for all other parameters. None for ξ = 0.15, τ = 0.01,
+        λ = 25.9 and δ0 = 0.5, on two sides.
+    step
+        Step of the sweeps, as a share of the natural frequency.
+    refine
+        How often the nodes beside a border are made twice as dense. Between nodes of one
+        scenario nothing is computed: what is smaller than a square of the first grid may be
+        missed.
+    thresholds
+        See `Thresholds`.
+    max_cycles
+        As in `sweeps`.
+    store
+        Folder for the map as a Zarr group, written block by block. If it holds the same map,
+        unfinished, that is completed. None keeps the map in memory.
+    block
+        Nodes of the first grid along each side of a block. So much is lost at most when the
+        computation is stopped, and held in memory at a time.
+    threads
+        How many rigs are computed at once; None for one a processor. No result depends on it.
+    progress
+        Called from the calling thread with the nodes done and those known so far to be wanted.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims are the names of y and x. ``scenario`` (0 to 6, or 7 for unclassified;
+        ``flag_meanings`` names them), ``confidence``, ``level`` and features: peaks, jumps,
+        counts of left hystereses, of regular and of non-regular ranges. With a store, values
+        are read from it when they are used.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or the store holds something else.
+    """
+    first, second = axis(x, "x"), axis(y, "y")
+    check_pair(first, second)
+    start = _base(base)
+    used = thresholds or Thresholds()
+    settings = {
+        "x": {"name": first.name, "values": first.values.tolist()},
+        "y": {"name": second.name, "values": second.values.tolist()},
+        "base": {
+            "oscillator": oscillator_parameters(start.oscillator),
+            "amplitude": start.amplitude,
+        },
+        "step": share(step, "step"),
+        "refine": whole(refine, "refine", 0),
+        "thresholds": {name: getattr(used, name) for name in Thresholds.names()},
+        "max_cycles": whole(max_cycles, "max_cycles"),
+        "block": whole(block, "block"),
+    }
+    workers = available() if threads is None else whole(threads, "threads")
+    fine = first.refined(refine), second.refined(refine)
+    for end in (0, -1):  # refused before anything is computed
+        start.rig({one.name: float(one.values[end]) for one in fine})
+    plan = _Plan(
+        fine,
+        Nodes((len(fine[1].values), len(fine[0].values)), refine),
+        block << refine,
+        start,
+    )
+
+    def compute(rigs: list[Rig], check: Progress) -> dict[str, NDArray[Any]]:
+        return classified(rigs, used, step, max_cycles, check)
+
+    with map_store(store, fine, plan.chunk, refine + 1, settings) as held:
+        for level in range(refine + 1):
+            _level(plan, held, level, compute, workers, progress)
+        held.inherit(_known(plan, held, refine))
+        data = held.dataset()
+    return data.load() if store is None else data
+
+
+class _Plan(NamedTuple):
+    axes: tuple[Axis, Axis]
+    """x and y, with the values of the finest grid."""
+    nodes: Nodes
+    chunk: int
+    """Nodes of the finest grid along each side of a block."""
+    base: Base
+
+    def blocks(self) -> Iterator[tuple[int, int, tuple[slice, slice]]]:
+        """Row, column and place of each block."""
+        rows, columns = (range(0, n, self.chunk) for n in self.nodes.shape)
+        for r, row in enumerate(rows):
+            for c, column in enumerate(columns):
+                yield r, c, (slice(row, row + self.chunk), slice(column, column + self.chunk))
+
+    def rig(self, row: int, column: int) -> Rig:
+        x, y = self.axes
+        return self.base.rig({x.name: float(x.values[column]), y.name: float(y.values[row])})
+
+
+Compute = Callable[[list[Rig], Progress], dict[str, NDArray[Any]]]
+
+
+def _level(
+    plan: _Plan,
+    held: MapStore,
+    level: int,
+    compute: Compute,
+    workers: int,
+    progress: Progress | None,
+) -> None:
+    """Compute the nodes of one level that are wanted, and pass on to the others what is known."""
+    chosen = plan.nodes.wanted(level, _known(plan, held, level - 1))
+    total, done = int(chosen.sum()), 0
+    for row, column, place in plan.blocks():
+        mine = chosen[place]
+        if mine.any() and not held.done(level, row, column):
+            at = np.argwhere(mine) + np.array([place[0].start, place[1].start])
+            rigs = [plan.rig(int(i), int(j)) for i, j in at]
+            held.write(place, mine, level, _parallel(rigs, compute, workers, progress, done, total))
+            held.mark(level, row, column)
+        done += int(mine.sum())
+        if progress:
+            progress(done, total)
+
+
+def _known(plan: _Plan, held: MapStore, level: int) -> Scenarios:
+    """Scenario of the nodes that are known when a level is complete."""
+    scenarios, levels = held.computed()
+    known = np.full(plan.nodes.shape, UNKNOWN, dtype=np.int8)
+    for one in range(level + 1):
+        mine = levels == one
+        known[mine] = scenarios[mine]
+        if one:
+            plan.nodes.fill(one, known)
+    return known
+
+
+def _parallel(
+    rigs: list[Rig],
+    compute: Compute,
+    workers: int,
+    progress: Progress | None,
+    before: int,
+    total: int,
+) -> dict[str, NDArray[Any]]:
+    """Compute some rigs, a few at a time on each thread; all stop when one fails, or on Ctrl-C."""
+    few = max(1, min(_FEW, len(rigs) // (4 * workers)))
+    parts = [rigs[i : i + few] for i in range(0, len(rigs), few)]
+    stopped = threading.Event()
+
+    def check(_done: int, _total: int) -> None:
+        if stopped.is_set():
+            raise _Stopped
+
+    with ThreadPoolExecutor(workers) as pool:
+        futures = [pool.submit(compute, part, check) for part in parts]
+        try:
+            pending = set(futures)
+            while pending:
+                pending = wait(pending, timeout=0.2, return_when=FIRST_EXCEPTION).not_done
+                failed = [f for f in futures if f.done() and not f.cancelled() and f.exception()]
+                if failed:
+                    break
+                if progress:
+                    ready = sum(len(p) for p, f in zip(parts, futures, strict=True) if f.done())
+                    progress(before + ready, total)
+            results = [future.result() for future in futures]
+        except BaseException:
+            stopped.set()
+            for future in futures:
+                future.cancel()
+            raise
+    return {name: np.concatenate([r[name] for r in results]) for name in results[0]}
+
+
+class _Stopped(Exception):  # noqa: N818 - nothing went wrong
+    """Raised in a thread whose result is not wanted any more."""
+
+
+def _base(given: tuple[Oscillator, float | str] | None) -> Base:
+    if given is None:
+        return Base(*from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO))
+    if not (isinstance(given, tuple) and len(given) == 2 and isinstance(given[0], Oscillator)):
+        raise InputError(
+            f"base: {given!r} is no rig; a pair of an oscillator and an amplitude is accepted"
+        )
+    return Base(given[0], to_si(given[1], ACCELERATION, "base[1]", above=0.0))
