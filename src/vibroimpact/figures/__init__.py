@@ -6,25 +6,37 @@ returned axes carry as ``.figure``.
 """
 
 from vibroimpact.figures.branches import bifurcation_diagram
+from vibroimpact.figures.cases import scenario_cases
 from vibroimpact.figures.clearance import clearances
 from vibroimpact.figures.curves import bifurcation_curves
 from vibroimpact.figures.cycle import hysteresis_cycle
+from vibroimpact.figures.family import family_legend, resonance_family
+from vibroimpact.figures.feature import feature_map
 from vibroimpact.figures.history import time_history
 from vibroimpact.figures.lines import spectrum_lines
+from vibroimpact.figures.marks import frequency_marks
 from vibroimpact.figures.page import motion_page
 from vibroimpact.figures.portrait import phase_portrait
 from vibroimpact.figures.resonance import resonance_curves
+from vibroimpact.figures.scenarios import Mark, scenario_map
 from vibroimpact.figures.style import save_figure
 
 __all__ = [
+    "Mark",
     "bifurcation_curves",
     "bifurcation_diagram",
     "clearances",
+    "family_legend",
+    "feature_map",
+    "frequency_marks",
     "hysteresis_cycle",
     "motion_page",
     "phase_portrait",
     "resonance_curves",
+    "resonance_family",
     "save_figure",
+    "scenario_cases",
+    "scenario_map",
     "spectrum_lines",
     "time_history",
 ]

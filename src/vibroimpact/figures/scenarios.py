@@ -11,17 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
 from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.plane import node_edges, plane_axes
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.scenario.kinds import Scenario
-
-_SYMBOLS = {"stiffness_ratio": "$\\lambda$", "gap_ratio": "$\\delta_0$"}
-_SYMBOLS |= {"relaxation_time": "$\\tau$", "damping_ratio": "$\\xi$"}
 
 
 class Mark(NamedTuple):
@@ -72,10 +69,9 @@ def scenario_map(
             f"border: it is not in {first} and {second}; that of the same map is accepted"
         )
     ax = axes_or_new(ax, (7.2, 6.4), title)
-    (fx, ux), (fy, uy) = axis_unit(data[first]), axis_unit(data[second])
+    (fx, _), (fy, _) = axis_unit(data[first]), axis_unit(data[second])
     x, y = fx * data[first].values, fy * data[second].values
-    logarithmic = [_logarithmic(v) for v in (x, y)]
-    edges = [_edges(v, log) for v, log in zip((x, y), logarithmic, strict=True)]
+    edges = [node_edges(data[first]), node_edges(data[second])]
     kinds = data["scenario"].values
     handles: list[Patch | Line2D] = []
     for scenario in Scenario:
@@ -124,14 +120,7 @@ def scenario_map(
             zorder=6,
         )
         handles.append(line)
-    for axis, log in ((ax.xaxis, logarithmic[0]), (ax.yaxis, logarithmic[1])):
-        if log:
-            axis.axes.set(**{f"{axis.axis_name}scale": "log"})
-            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    ax.set_xlim(edges[0][0], edges[0][-1])
-    ax.set_ylim(edges[1][0], edges[1][-1])
-    ax.set_xlabel(_label(data[first], ux))
-    ax.set_ylabel(_label(data[second], uy))
+    plane_axes(ax, data[first], data[second])
     ax.legend(
         handles=handles,
         loc="upper center",
@@ -221,22 +210,3 @@ def _deepest(mine: NDArray[np.bool_]) -> tuple[int, int] | None:
 
 def _middle(edges: NDArray[np.float64], i: int) -> float:
     return float(0.5 * (edges[i] + edges[i + 1]))
-
-
-def _edges(values: NDArray[np.float64], logarithmic: bool) -> NDArray[np.float64]:
-    """Borders half-way between values; the first and the last value end the range."""
-    middle = np.sqrt(values[:-1] * values[1:]) if logarithmic else 0.5 * (values[:-1] + values[1:])
-    return np.concatenate([values[:1], middle, values[-1:]])
-
-
-def _logarithmic(values: NDArray[np.float64]) -> bool:
-    if values[0] <= 0.0 or len(values) < 3:
-        return False
-    ratios = values[1:] / values[:-1]
-    return bool(np.ptp(ratios) < 1e-6 * ratios.max() and ratios.max() > 1.0 + 1e-9)
-
-
-def _label(values: xr.DataArray, unit: str) -> str:
-    name = str(values.name)
-    symbol = f" {_SYMBOLS[name]}" if name in _SYMBOLS else ""
-    return f"{values.attrs['long_name']}{symbol} ({unit})"

@@ -9,11 +9,16 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.model import Harmonic, laboratory
+from vibroimpact.model import Harmonic, State, laboratory
 from vibroimpact.response.resonance import Features, features
+from vibroimpact.response.simulate import simulate
+from vibroimpact.response.start import as_state
 from vibroimpact.response.sweep import sweeps
 from vibroimpact.scenario.classify import Classification, classify
+from vibroimpact.scenario.map import scenario_map
+from vibroimpact.stability.branch import branch
 from vibroimpact.stability.coexisting import arrivals, coexisting
+from vibroimpact.stability.orbit import orbit
 from vibroimpact.stability.steady import steady
 
 _T = TypeVar("_T")
@@ -23,10 +28,28 @@ STEP = 0.01
 LOW, HIGH = 0.5, 5.0
 """Range of the tests in Hz."""
 
-GAPS = ("0mm", "2mm", "5mm", "10mm", "G1", "G2", "G3", "G4", "40mm", "50mm", "60mm", "80mm", "Ginf")
+GAPS = (
+    "0mm",
+    "2mm",
+    "5mm",
+    "10mm",
+    "G1",
+    "G2",
+    "G3",
+    "G4",
+    "40mm",
+    "50mm",
+    "60mm",
+    "65mm",
+    "80mm",
+    "Ginf",
+)
 """Total gaps of the numerical Fig. 19 (B3-A3), those of the tests among them."""
 STIFFNESSES = ("10kN/m", "20kN/m", "40kN/m", "B1", "200kN/m", "B2", "B3", "B4", "10000kN/m")
 """Bumper stiffnesses of the numerical Fig. 20 (G3-A1), those of the tests among them."""
+
+MAP_NODES, MAP_STEP = (15, 15), 0.02
+"""Of the map of Fig. 21: coarse, for the whole study takes less than a minute."""
 
 
 def grid(low: float = LOW, high: float = HIGH) -> NDArray[np.float64]:
@@ -104,6 +127,7 @@ class Study:
         frequency: float,
         direction: Literal["forward", "backward"],
         parameters: laboratory.Parameters = "table",
+        samples: int = 256,
     ) -> xr.Dataset:
         """The steady motion at which a sweep in that direction arrives (`vibroimpact.steady`)."""
         case = laboratory.case(code, parameters)
@@ -111,9 +135,9 @@ class Study:
 
         def make() -> xr.Dataset:
             start = arrivals(case.oscillator, excitation)[f"{direction} branch"]
-            return steady(case.oscillator, excitation, start)
+            return steady(case.oscillator, excitation, start, samples)
 
-        return self._once(("motion", code, frequency, direction, parameters), make)
+        return self._once(("motion", code, frequency, direction, parameters, samples), make)
 
     def motions(self, code: str, frequency: float) -> list[xr.Dataset]:
         """All steady motions found at a frequency (`vibroimpact.coexisting`)."""
@@ -130,5 +154,112 @@ class Study:
             ("classification", code, low, high),
             lambda: classify(
                 case.oscillator, case.amplitude, grid(low, high), threads=self._threads
+            ),
+        )
+
+    def regular_places(
+        self, code: str, parameters: laboratory.Parameters = "table"
+    ) -> tuple[float, float, float]:
+        """Three frequencies of an S3 rig in Hz (the paper's Figs. 7, 8, 11 and 12).
+
+        The secondary resonance, the valley behind it, and the last one before the forward sweep
+        jumps down: all read off η_a of the forward sweep.
+        """
+        data = self.curves(code, parameters)
+        found = features(data)
+        mine = [p for p in found.peaks if (p.direction, p.curve) == ("forward", "eta_a")]
+        secondary = max((p for p in mine if not p.primary), key=lambda peak: peak.value)
+        primary = next(p for p in mine if p.primary)
+        between = (
+            data["eta_a"]
+            .sel(direction="forward")
+            .sel(frequency=slice(secondary.frequency, primary.frequency))
+        )
+        valley = float(between["frequency"][int(between.values.argmin())])
+        down = [j for j in found.jumps if j.direction == "forward" and not j.upward and j.settled]
+        return secondary.frequency, valley, down[-1].before
+
+    def other_places(self, code: str, low: float = LOW) -> tuple[float, float]:
+        """Two frequencies of an S4 rig in Hz (the paper's Figs. 15 and 16).
+
+        The middle of the widest left hysteresis, and that of the widest range in which the
+        forward sweep does not settle.
+        """
+        data = self.curves(code, low=low)
+        found = features(data)
+        left = max(
+            (h for h in found.hysteresis if h.side == "left"), key=lambda one: one.high - one.low
+        )
+        wild = max(
+            (r for r in found.unsettled if r.direction == "forward"), key=lambda one: one.holds
+        )
+
+        def middle(first: float, last: float) -> float:
+            held = data["frequency"].values
+            held = held[(held >= first) & (held <= last)]
+            return float(held[len(held) // 2])
+
+        return middle(left.low, left.high), middle(wild.low, wild.high)
+
+    def mirror_image(
+        self, code: str, frequency: float, direction: Literal["forward", "backward"]
+    ) -> xr.Dataset:
+        """The steady motion from the mirror image of where `motion` ends."""
+        case = laboratory.case(code)
+        excitation = Harmonic(case.amplitude, frequency)
+
+        def make() -> xr.Dataset:
+            motion = self.motion(code, frequency, direction)
+            # Half a cycle turns the forcing round, and with it the mirror image's phase.
+            end = as_state(simulate(case.oscillator, excitation, 0.5, motion, 0))
+            image = State(
+                -end.displacement,
+                -end.velocity,
+                -(end.left_bumper or 0.0),
+                -(end.right_bumper or 0.0),
+                contact=-(end.contact or 0),
+            )
+            return steady(case.oscillator, excitation, image)
+
+        return self._once(("mirror image", code, frequency, direction), make)
+
+    def antisymmetric_branch(self, code: str, low: float, high: float) -> xr.Dataset:
+        """The branch, stable or not, of the motion that settles from rest at `high`."""
+        case = laboratory.case(code)
+        return self._once(
+            ("antisymmetric branch", code, low, high),
+            lambda: branch(case.oscillator, Harmonic(case.amplitude, high), low=low, high=high),
+        )
+
+    def antisymmetric_orbit(
+        self, code: str, frequency: float, low: float, high: float
+    ) -> xr.Dataset:
+        """The orbit of `antisymmetric_branch` at one frequency between its ends."""
+        case = laboratory.case(code)
+
+        def make() -> xr.Dataset:
+            along = self.antisymmetric_branch(code, low, high)
+            nearest = int(np.abs(along["frequency"].values - frequency).argmin())
+            guess = along["section"].isel(point=nearest)
+            return orbit(case.oscillator, Harmonic(case.amplitude, frequency), guess)
+
+        return self._once(("antisymmetric orbit", code, frequency, low, high), make)
+
+    def scenarios(self) -> dict[str, str]:
+        """The scenario of each of the 48 tests, over the range of the tests."""
+        return {
+            case.code: self.classification(case.code).scenario for case in laboratory.campaign()
+        }
+
+    def map(self) -> xr.Dataset:
+        """Scenarios over λ and δ0 at ξ = 0.15 and τ = 0.01 (the paper's Fig. 21)."""
+        return self._once(
+            "map",
+            lambda: scenario_map(
+                ("stiffness_ratio", np.geomspace(0.5, 100.0, MAP_NODES[0])),
+                ("gap_ratio", np.linspace(0.0, 1.0, MAP_NODES[1])),
+                step=MAP_STEP,
+                refine=1,
+                threads=self._threads,
             ),
         )

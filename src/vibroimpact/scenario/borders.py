@@ -81,7 +81,7 @@ def _beside(data: xr.Dataset, along: str, other: str) -> list[tuple[float, float
     """Nodes with jumps whose neighbours along an axis have none, one for each other value."""
     scenarios = data["scenario"].transpose(other, along).values
     jumping = np.isin(scenarios, [Scenario.S2, Scenario.S3])
-    smooth = np.isin(scenarios, [Scenario.S6])
+    smooth = np.isin(scenarios, [Scenario.S6, Scenario.UNCLASSIFIED])
     found = []
     for row, at in enumerate(data[other].values):
         values = data[along].values

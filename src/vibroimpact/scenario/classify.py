@@ -79,7 +79,7 @@ def classify(
         Peak base acceleration A in m/s², greater than 0; or text such as ``"0.05 g"``.
     frequencies
         The frequencies to hold in Hz, rising. None for steps of a hundredth of the natural
-        frequency from 0.4 times it to where no bumper can be hit any more.
+        frequency from 0.4 times it to beyond where the primary resonance can lie.
     thresholds
         Where one scenario ends and the next begins; see `Thresholds`.
     max_cycles, threads, progress

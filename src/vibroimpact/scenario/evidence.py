@@ -61,8 +61,6 @@ class Evidence(NamedTuple):
     """Lowest and highest frequency (Hz)."""
     contact: tuple[float, float] | None
     """Lowest and highest frequency at which a bumper is hit (Hz); None in free flight."""
-    contact_from_the_first: bool
-    """Whether it is hit at the lowest frequency already."""
     attached: bool
     """Whether all bumpers touch the mass at rest."""
     gap_ratio: float
@@ -231,7 +229,6 @@ def _one(
         contact=(float(frequency[touched[0]]), float(frequency[touched[-1]]))
         if len(touched)
         else None,
-        contact_from_the_first=bool(len(touched)) and touched[0] == 0,
         attached=bool(gaps) and not any(gaps.values()),
         gap_ratio=min(gaps.values(), default=math.inf) / float(free.max()),
         penetration=max(

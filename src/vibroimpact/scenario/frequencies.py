@@ -22,7 +22,7 @@ ROUND = 0.5
 
 
 def highest(oscillator: Oscillator, amplitude: float) -> float:
-    """Frequency over the natural one above which no steady motion hits the bumpers.
+    """Frequency over the natural one below which the primary resonance lies.
 
     Two bounds, the lower one counts, with a margin, rounded up to a multiple of `ROUND`:
 
@@ -31,8 +31,8 @@ def highest(oscillator: Oscillator, amplitude: float) -> float:
       supplies at most M A √(mean of u̇²/2) of power, the isolator alone takes C (mean of u̇²):
       f ≤ M A/(2√2 C (G_R + G_L)). With one bumper the mean of u is not on the bumper's side,
       for that only pushes: the mass travels 2 G at least, and G takes the place of the sum.
-    - Stiffness. Nothing is stiffer than isolator and bumper in contact all the time:
-      f ≤ f0 √(1 + λ), which damping only lowers.
+    - Stiffness. Nothing is stiffer than isolator and bumper in contact all the time, whose
+      resonance lies at f0 √(1 + λ); damping and flights lower it.
     """
     bumpers = [b for b in (oscillator.right, oscillator.left) if b is not None]
     if not bumpers:

@@ -1,0 +1,114 @@
+"""The scenario of each laboratory test, as in the paper's Fig. 14."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Rectangle
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.style import SCENARIOS
+from vibroimpact.model import laboratory
+from vibroimpact.scenario.kinds import Scenario
+
+_PER_GRAVITY = 1e2 / 9.80665
+
+
+def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> tuple[Axes, ...]:
+    """Draw the scenarios of laboratory tests: a panel an acceleration, gaps against bumpers.
+
+    Parameters
+    ----------
+    found
+        Scenario (``"S0"`` to ``"S6"`` or ``"unclassified"``) by case code, such as
+        ``"B2-G1-A3"``; tests that are missing are left blank.
+    title
+        Title of the figure.
+
+    Returns
+    -------
+    tuple of Axes
+        One an acceleration, rising; ``axes[0].figure`` is the figure.
+
+    Raises
+    ------
+    InputError
+        If a code is none of the laboratory's tests, or a scenario is another one.
+    """
+    known = {case.code for case in laboratory.campaign()}
+    for code, scenario in found.items():
+        if code not in known:
+            raise InputError(f"found: {code!r} is no laboratory test; B1-G1-A1 to B4-G4-A3 are")
+        if scenario not in SCENARIOS:
+            raise InputError(
+                f"found[{code}]: {scenario!r}; one of {', '.join(SCENARIOS)} is accepted"
+            )
+    bumpers, gaps = list(laboratory.BUMPERS), list(laboratory.GAPS)
+    figure = Figure(figsize=(9.6, 4.0), layout="constrained")
+    axes = figure.subplots(1, len(laboratory.ACCELERATIONS), sharey=True)
+    for ax, (name, value) in zip(axes, laboratory.ACCELERATIONS.items(), strict=True):
+        for i, gap in enumerate(gaps):
+            for j, bumper in enumerate(bumpers):
+                _cell(ax, i, j, found.get(f"{bumper}-{gap}-{name}"))
+        ax.set_xlim(0, len(gaps))
+        ax.set_ylim(0, len(bumpers))
+        ax.set_aspect("equal")
+        millimetres = [f"{gap}\n{1e3 * laboratory.GAPS[gap]:g}" for gap in gaps]
+        ax.set_xticks([i + 0.5 for i in range(len(gaps))], millimetres)
+        ax.set_yticks(
+            [j + 0.5 for j in range(len(bumpers))],
+            [f"{b}  {1e-3 * laboratory.BUMPERS[b]:g}" for b in bumpers],
+        )
+        ax.tick_params(length=0)
+        ax.set_title(f"{name}: {_PER_GRAVITY * value:.0f} % of gravity", fontsize="medium")
+        ax.set_xlabel("total gap $G$ (mm)")
+    axes[0].set_ylabel("bumper stiffness $K_j$ (kN/m)")
+    if title:
+        figure.suptitle(title)
+    figure.legend(
+        handles=[
+            Patch(
+                facecolor=SCENARIOS[s.label].colour,
+                edgecolor=SCENARIOS[s.label].line,
+                hatch=SCENARIOS[s.label].hatch,
+                linewidth=0.0,
+                label=f"{s.label}: {s.meaning}",
+            )
+            for s in Scenario
+            if s.label in found.values()
+        ],
+        loc="outside lower center",
+        ncols=3,
+        frameon=False,
+        fontsize="small",
+        handlelength=2.4,
+        handleheight=1.2,
+    )
+    return tuple(axes)
+
+
+def _cell(ax: Axes, column: int, row: int, scenario: str | None) -> None:
+    look = SCENARIOS[scenario] if scenario else None
+    ax.add_patch(
+        Rectangle(
+            (column, row),
+            1,
+            1,
+            facecolor=look.colour if look else "white",
+            edgecolor=look.line if look else "0.6",
+            hatch=look.hatch if look else "",
+            linewidth=0.8,
+        )
+    )
+    if scenario:
+        ax.text(
+            column + 0.5,
+            row + 0.5,
+            scenario,
+            ha="center",
+            va="center",
+            fontweight="bold",
+            bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "linewidth": 0.0},
+        )

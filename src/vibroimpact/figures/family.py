@@ -1,0 +1,240 @@
+"""Resonance curves of several rigs in one panel, as in the paper's Figs. 3, 5, 6, 19 and 20."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal, NamedTuple, get_args
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import FancyArrowPatch
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.style import FREE, LEGEND, SWEEPS
+from vibroimpact.response.resonance import features
+
+Quantity = Literal["eta_a", "eta_d", "acceleration_excursion", "displacement_excursion"]
+
+
+class _Shown(NamedTuple):
+    """Factor to the unit, label, and the curve of free flight with what normalises it."""
+
+    factor: float
+    label: str
+    free: str
+    normalised: bool
+
+
+_QUANTITIES = {
+    "eta_a": _Shown(
+        1.0,
+        "normalised excursion of\nabsolute acceleration $\\eta_a$ (–)",
+        "free_acceleration_excursion",
+        True,
+    ),
+    "eta_d": _Shown(
+        1.0,
+        "normalised excursion of\nrelative displacement $\\eta_d$ (–)",
+        "free_displacement_excursion",
+        True,
+    ),
+    "acceleration_excursion": _Shown(
+        1.0,
+        "excursion of absolute\nacceleration $E_a$ (m/s²)",
+        "free_acceleration_excursion",
+        False,
+    ),
+    "displacement_excursion": _Shown(
+        1e3,
+        "excursion of relative\ndisplacement $E_d$ (mm)",
+        "free_displacement_excursion",
+        False,
+    ),
+}
+
+_COLOURS = ("#1f4fbf", "#c05a00", "#00795c", "#b0006d", "#7a3e9d", "#8c6d1f")
+_MARKERS = "os^Dv*P<X>phd"
+_LARGER = {"*": 1.45, "P": 1.2, "X": 1.2, "p": 1.2, "h": 1.2}
+_MARKS = 16
+"""Marks on a curve."""
+_LEAST_ARROW = 0.03
+"""Least height of a jump that gets an arrow, as a share of the panel's: a shorter one would be
+all head."""
+
+
+def resonance_family(
+    data: xr.Dataset,
+    ax: Axes | None = None,
+    *,
+    quantity: Quantity = "eta_d",
+    labels: Mapping[str, str] | None = None,
+    colours: Mapping[str, str] | None = None,
+    free: bool = True,
+    legend: bool = True,
+    title: str | None = None,
+) -> Axes:
+    """Draw one quantity of several rigs against the excitation frequency.
+
+    Each rig has its colour and its marker. The forward sweep is solid and carries the markers,
+    the backward sweep is dashed; arrows show where a sweep jumps.
+
+    Parameters
+    ----------
+    data
+        Dataset of `vibroimpact.sweeps`.
+    ax
+        Axes to draw on. None makes a new figure.
+    quantity
+        ``"eta_a"``, ``"eta_d"``, ``"acceleration_excursion"`` or ``"displacement_excursion"``.
+    labels
+        Text of the legend by name of a rig; otherwise its name.
+    colours
+        Colour by name of a rig; otherwise in turn.
+    free
+        Whether free flight is drawn, if it is the same for all rigs.
+    legend
+        Whether there is a legend, to the right of the axes. `family_legend` gives its entries.
+    title
+        Title of a new figure.
+
+    Returns
+    -------
+    Axes
+        ``.figure`` is the figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of sweeps of several rigs, the quantity is another one, or a
+        label or a colour is for no rig.
+    """
+    if not isinstance(data, xr.Dataset) or not {"rig", "direction", "frequency"} <= set(data.dims):
+        raise InputError("data: these are no sweeps of rigs; a dataset of sweeps is accepted")
+    if quantity not in get_args(Quantity):
+        accepted = ", ".join(get_args(Quantity))
+        raise InputError(f"quantity: {quantity!r}; one of {accepted} is accepted")
+    names = [str(name) for name in data["rig"].values]
+    for field, given in (("labels", labels), ("colours", colours)):
+        for name in given or {}:
+            if name not in names:
+                raise InputError(f"{field}: {name!r} is no rig; {', '.join(names)} are accepted")
+    ax = axes_or_new(ax, (8.4, 5.0), title)
+    factor, label, flight, normalised = _QUANTITIES[quantity]
+    frequency = data["frequency"].values
+    ax.set_xlim(frequency[0], frequency[-1])
+    references = factor * data[flight].values
+    if normalised:
+        references = references / references.max(axis=1, keepdims=True)
+    values = factor * data[quantity].transpose("rig", "direction", "frequency").values
+    highest = max(np.nanmax(values, initial=0.0), references.max() if free else 0.0)
+    ax.set_ylim(0.0, 1.06 * (highest or 1.0))
+    if free and np.allclose(references, references[0], rtol=1e-9):
+        ax.plot(
+            frequency,
+            references[0],
+            color=FREE.colour,
+            linestyle=FREE.dashes,
+            linewidth=FREE.width,
+            label=FREE.label,
+            zorder=2,
+        )
+    for i, name in enumerate(names):
+        look = _look(i, (colours or {}).get(name))
+        _curves(
+            ax, data.isel(rig=i, drop=True), quantity, factor, look, (labels or {}).get(name, name)
+        )
+    ax.set_xlabel("excitation frequency $f$ (Hz)")
+    ax.set_ylabel(label)
+    if legend:
+        ax.legend(
+            handles=family_legend(ax),
+            loc="upper left",
+            bbox_to_anchor=(1.01, 1.0),
+            frameon=False,
+            fontsize=LEGEND["fontsize"],
+            borderaxespad=0.0,
+        )
+    return ax
+
+
+def family_legend(ax: Axes) -> list[Artist]:
+    """Entries for the curves of a `resonance_family`: the rigs in order, then the directions."""
+    rigs = [line for line in ax.lines if not str(line.get_label()).startswith("_")]
+    dashes = [
+        Line2D([], [], color="0.3", linestyle=look.dashes, linewidth=1.2, label=look.label)
+        for direction, look in SWEEPS.items()
+        if any(line.get_gid() == direction for line in ax.lines)
+    ]
+    flight = [line for line in rigs if line.get_label() == FREE.label]
+    return [*(line for line in rigs if line not in flight), *dashes, *flight]
+
+
+def _look(i: int, colour: str | None) -> dict[str, Any]:
+    marker = _MARKERS[i % len(_MARKERS)]
+    return {
+        "color": colour or _COLOURS[i % len(_COLOURS)],
+        "marker": marker,
+        "markersize": 4.2 * _LARGER.get(marker, 1.0),
+        # Filled and open in turn: neighbours differ although their markers are small.
+        "markerfacecolor": "white" if i % 2 else colour or _COLOURS[i % len(_COLOURS)],
+        "markeredgewidth": 0.9,
+        "first": i,
+    }
+
+
+def _curves(
+    ax: Axes, one: xr.Dataset, quantity: str, factor: float, look: dict[str, Any], label: str
+) -> None:
+    """Draw both directions of one rig, parted where they jump, with arrows in between."""
+    frequency = one["frequency"].values
+    jumps = [jump for jump in features(one).jumps if jump.settled]
+    top = ax.get_ylim()[1]
+    every = max(1, len(frequency) // _MARKS)
+    # The markers of the rigs stand at different frequencies.
+    first = (look["first"] * every * 3 // 7) % every
+    for direction, how in SWEEPS.items():
+        if direction not in one["direction"].values:
+            continue
+        values = factor * one[quantity].sel(direction=direction).values
+        mine = [jump for jump in jumps if jump.direction == direction]
+        cuts = np.searchsorted(frequency, sorted(max(j.before, j.after) for j in mine))
+        forward = direction == "forward"
+        ax.plot(
+            np.insert(frequency, cuts, np.nan),
+            np.insert(values, cuts, np.nan),
+            color=look["color"],
+            linestyle=how.dashes,
+            linewidth=1.1 if forward else 0.9,
+            marker=look["marker"] if forward else "",
+            markersize=look["markersize"],
+            markerfacecolor=look["markerfacecolor"],
+            markeredgewidth=look["markeredgewidth"],
+            markevery=(first, every),
+            label=label if forward or len(one["direction"]) == 1 else "_",
+            gid=direction,
+            zorder=3.5 if forward else 3,
+        )
+        for jump in mine:
+            start, end = (
+                values[np.searchsorted(frequency, at)] for at in (jump.before, jump.after)
+            )
+            if abs(end - start) < _LEAST_ARROW * top:
+                continue
+            ax.add_patch(
+                FancyArrowPatch(
+                    (jump.frequency, start),
+                    (jump.frequency, end),
+                    arrowstyle="-|>",
+                    mutation_scale=6.0,
+                    shrinkA=0.0,
+                    shrinkB=0.0,
+                    linewidth=0.8,
+                    linestyle="-" if forward else (0, (3, 1.5)),
+                    color=look["color"],
+                    zorder=4,
+                )
+            )

@@ -1,0 +1,66 @@
+"""One feature of the nodes of a map, such as how many ranges of chaotic motions each has."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.plane import node_edges, plane_axes
+
+_MOST = 12
+"""Counts up to this have a colour each."""
+
+
+def feature_map(
+    data: xr.Dataset, name: str, ax: Axes | None = None, *, title: str | None = None
+) -> Axes:
+    """Draw one feature of a map of scenarios: light where it is small, dark where it is large.
+
+    Parameters
+    ----------
+    data
+        Dataset of `vibroimpact.scenario_map`. Nodes that were not computed are left white.
+    name
+        A feature, such as ``"chaotic_count"`` or ``"extent"``.
+    ax
+        Axes to draw on. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no map, or has no such feature.
+    """
+    if "scenario" not in data or data["scenario"].ndim != 2:
+        raise InputError("data: this is no map; a dataset of scenario_map is accepted")
+    known = [str(n) for n in data.data_vars if n not in ("scenario", "level")]
+    if name not in known:
+        raise InputError(f"name: {name!r}; one of {', '.join(known)} is accepted")
+    ax = axes_or_new(ax, (6.4, 4.6), title)
+    second, first = (str(dim) for dim in data["scenario"].dims)
+    counted = name.endswith("_count")
+    values = np.ma.masked_where(data["level"].values < 0, data[name].values)
+    colours = colormaps["YlGnBu"]
+    norm = None
+    if counted and values.max() <= _MOST:
+        norm = BoundaryNorm(np.arange(-0.5, max(int(values.max()), 1) + 1.0), colours.N)
+    mesh = ax.pcolormesh(
+        node_edges(data[first]),
+        node_edges(data[second]),
+        values,
+        cmap=colours,
+        norm=norm,
+        rasterized=True,
+    )
+    plane_axes(ax, data[first], data[second])
+    bar = ax.figure.colorbar(mesh, ax=ax, label=f"{data[name].attrs['long_name']} (–)")
+    if norm is not None:
+        bar.set_ticks(list(range(int(values.max()) + 1)))
+        bar.ax.minorticks_off()
+    return ax

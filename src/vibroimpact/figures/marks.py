@@ -1,0 +1,63 @@
+"""Frequencies that are looked at more closely, marked in resonance curves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import to_si
+from vibroimpact.model.units import FREQUENCY
+
+_ROOM = 0.08
+"""Height of the names, as a share of the panel's."""
+
+
+def frequency_marks(axes: Any, frequencies: Mapping[str, float | str]) -> None:
+    """Mark frequencies by vertical dotted lines, with their names at the top of each panel.
+
+    The vertical axes are made a little longer, so that the names stand clear of the curves.
+
+    Parameters
+    ----------
+    axes
+        Axes, or several, whose horizontal axis is the frequency in Hz.
+    frequencies
+        In Hz, by name.
+
+    Raises
+    ------
+    InputError
+        If a frequency cannot be used, or lies outside an axis.
+    """
+    panels = list(np.ravel(axes))
+    values = {
+        name: to_si(given, FREQUENCY, f"frequencies[{name!r}]", above=0.0)
+        for name, given in frequencies.items()
+    }
+    for name, value in values.items():
+        for ax in panels:
+            low, high = ax.get_xlim()
+            if not low <= value <= high:
+                raise InputError(
+                    f"frequencies[{name!r}]: {value:g} Hz is not on the axis; "
+                    f"{low:.4g} to {high:.4g} Hz is accepted"
+                )
+    for ax in panels:
+        bottom, top = ax.get_ylim()
+        ax.set_ylim(bottom, top + _ROOM * (top - bottom))
+        for name, value in values.items():
+            ax.axvline(value, color="0.25", linestyle=":", linewidth=1.1, zorder=1.5)
+            ax.text(
+                value,
+                0.985,
+                name,
+                transform=ax.get_xaxis_transform(),
+                ha="center",
+                va="top",
+                fontsize="small",
+                bbox={"boxstyle": "circle,pad=0.15", "facecolor": "white", "linewidth": 0.6},
+                zorder=8,
+            )

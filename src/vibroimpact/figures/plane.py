@@ -1,0 +1,50 @@
+"""The plane of two parameters that maps are drawn in."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter
+from numpy.typing import NDArray
+
+from vibroimpact.figures.branches import axis_unit
+from vibroimpact.scenario.axes import Axis
+
+_SYMBOLS = {
+    "stiffness_ratio": "$\\lambda$",
+    "gap_ratio": "$\\delta_0$",
+    "relaxation_time": "$\\tau$",
+    "damping_ratio": "$\\xi$",
+}
+
+
+def node_edges(values: xr.DataArray) -> NDArray[np.float64]:
+    """Borders half-way between nodes, in the axis's unit; the first and last node end the range."""
+    nodes = axis_unit(values)[0] * values.values
+    low, high = nodes[:-1], nodes[1:]
+    middle = np.sqrt(low * high) if logarithmic(values) else 0.5 * (low + high)
+    return np.concatenate([nodes[:1], middle, nodes[-1:]])
+
+
+def logarithmic(values: xr.DataArray) -> bool:
+    """Whether the nodes have one ratio."""
+    return Axis(str(values.name), values.values).logarithmic
+
+
+def plane_axes(ax: Axes, x: xr.DataArray, y: xr.DataArray) -> None:
+    """Scale, limit and label axes for the nodes of a map."""
+    for axis, values in ((ax.xaxis, x), (ax.yaxis, y)):
+        factor, unit = axis_unit(values)
+        name = str(values.name)
+        symbol = f" {_SYMBOLS[name]}" if name in _SYMBOLS else ""
+        if logarithmic(values):
+            ax.set(**{f"{axis.axis_name}scale": "log"})
+            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ends = factor * values.values[[0, -1]]
+        ax.set(
+            **{
+                f"{axis.axis_name}lim": tuple(ends),
+                f"{axis.axis_name}label": f"{values.attrs['long_name']}{symbol} ({unit})",
+            }
+        )

@@ -1,0 +1,53 @@
+"""Table 1: the dimensionless parameters of the campaign, computed and printed."""
+
+from __future__ import annotations
+
+from vibroimpact.model import laboratory
+from vibroimpact.paper.item import Item, Table
+from vibroimpact.paper.study import Study
+
+_NAMES = (*laboratory.GAPS, *laboratory.BUMPERS)
+
+PRINTED: dict[str, dict[str, float]] = {
+    "A1": dict(zip(_NAMES, (0.47, 0.62, 0.78, 0.93, 2.9, 15.0, 20.0, 67.8), strict=True)),
+    "A2": dict(zip(_NAMES, (0.30, 0.40, 0.49, 0.59, 3.5, 17.8, 23.7, 80.1), strict=True)),
+    "A3": dict(zip(_NAMES, (0.22, 0.29, 0.36, 0.43, 3.8, 19.4, 25.9, 87.5), strict=True)),
+}
+"""What the paper prints: δ by gap and λ by bumper, for each acceleration."""
+
+
+def computed() -> dict[str, dict[str, float]]:
+    """The same from the rig's parameters, not rounded."""
+    found = laboratory.table_1()
+    return {a: found.gap[a] | found.stiffness_ratio[a] for a in laboratory.ACCELERATIONS}
+
+
+def written(name: str, value: float) -> str:
+    """A value with the digits that the paper prints: gaps two, stiffness ratios one."""
+    return f"{value:.2f}" if name in laboratory.GAPS else f"{value:.1f}"
+
+
+def table(study: Study) -> Table:
+    """For each acceleration a row of computed and one of printed values."""
+    head = tuple(f"δ {n}" if n in laboratory.GAPS else f"λ {n}" for n in _NAMES)
+    rows = [
+        (a, source, *(written(n, values[a][n]) for n in _NAMES))
+        for a in laboratory.ACCELERATIONS
+        for source, values in (("computed", computed()), ("printed", PRINTED))
+    ]
+    return Table(("acceleration", "values", *head), tuple(rows))
+
+
+ITEM = Item(
+    key="table1",
+    title="Table 1: dimensionless gaps and stiffness ratios",
+    caption=(
+        "Dimensionless gap δ = G/(2 u_max), with u_max the largest displacement of free flight at "
+        "any frequency, and stiffness ratio λ of bumper to isolator, for the three table "
+        "accelerations. Each computed row, rounded to the digits that the paper gives, stands "
+        "above the printed one. The text defines δ as the sum of both sides, but the printed "
+        "numbers are those of one side. Both parameters change with the acceleration although "
+        "gaps and bumpers do not, for the isolator softens."
+    ),
+    table=table,
+)

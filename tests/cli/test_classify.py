@@ -1,0 +1,91 @@
+"""``vibroimpact classify``."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import vibroimpact as vi
+
+COMMAND = "classify"
+
+
+def test_text(run, tmp_path):
+    code, out, errors = run("B3-10mm-A3")
+    assert (code, errors) == (0, "")
+    assert "S4: secondary resonances with left hysteresis or not regular" in out
+    for line in ("right hysteresis 1.9–3.3 Hz", "left hysteresis 0.674–0.729 Hz"):
+        assert line in out
+    assert "Confidence 100%" in out
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {
+        "B3-10mm-A3-scenario.nc",
+        "B3-10mm-A3-scenario.png",
+    }
+    data = vi.load(tmp_path / "out/B3-10mm-A3-scenario.nc")
+    assert data["frequency"].values[0] == pytest.approx(0.4 * 1.1004, rel=1e-3)
+
+
+def test_json(run, tmp_path):
+    words = ("B2-G1-A3", "--from", "0.5Hz", "--to", "5Hz", "--step", "0.01Hz", "--json")
+    code, out, _ = run(*words, "--figure", "pdf")
+    assert code == 0
+    facts = json.loads(out)
+    case = vi.laboratory.case("B2-G1-A3")
+    alone = vi.classify(case.oscillator, case.amplitude, [k / 100 for k in range(50, 501)])
+    assert facts["scenario"] == alone.scenario == "S3"
+    assert "; ".join(facts["evidence"]) == alone.evidence
+    assert facts["confidence"] == alone.confidence
+    assert facts["thresholds"] == {
+        "prominence": 0.02,
+        "extent": 0.08,
+        "touch": 0.1,
+        "deformation": 0.1,
+    }
+    assert facts["features"]["hysteresis"][-1]["side"] == "right"
+    assert facts["features"]["folds"] == list(alone.features.folds)
+    assert (tmp_path / facts["files"]["figure"]).suffix == ".pdf"
+
+
+def test_thresholds_and_what_they_change(run):
+    code, out, _ = run("B2-G4-A1", "--touch", "0.05", "--json")
+    assert code == 0
+    facts = json.loads(out)
+    assert facts["scenario"] == "S2"
+    assert facts["alternatives"] == [{"threshold": "touch", "value": 0.1, "scenario": "S1"}]
+    assert facts["confidence"] == pytest.approx(7 / 8)
+    _, out, _ = run("B2-G4-A1")
+    assert "S1: grazing" in out
+    assert "with --touch 0.05: S2" in out
+
+
+def test_changed_rig(run):
+    """One bumper alone, and none."""
+    code, out, _ = run("B2-G1-A3", "--no-left", "--json")
+    assert code == 0
+    assert json.loads(out)["scenario"] in ("S2", "S3", "S4", "unclassified")
+    _, out, _ = run("B2-Ginf-A3", "--json")
+    facts = json.loads(out)
+    assert facts["scenario"] == "S0"
+    assert facts["features"]["gap_ratio"] is None  # infinite
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (["--touch", "5"], "--touch: 5.0; a number greater than 0 and at most 1 is accepted"),
+        (["--extent", "0"], "--extent: 0.0"),
+        (["--extent", "wide"], "--extent"),
+        (["--from", "6Hz", "--to", "5Hz"], "--from"),
+        (["--from", "1Hz", "--to", "1.02Hz", "--step", "0.01Hz"], "at least 4 are accepted"),
+        (["--step", "0Hz"], "--step"),
+        (["--gap", "15 kg"], "--gap"),
+    ],
+)
+def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):
+    code, out, errors = run("B2-G1-A3", *words)
+    assert (code, out) == (2, "")
+    assert errors.startswith("vibroimpact: error: ")
+    assert errors.count("\n") == 1
+    assert named in errors
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,135 @@
+"""``vibroimpact map``."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from vibroimpact.cli.map import _axis
+
+COMMAND = "map"
+WORDS = ("--x", "stiffness-ratio", "1:64:log:4", "--y", "gap-ratio", "0.2:1:3", "--step", "0.02")
+NAME = "B3-10mm-A3-stiffness-ratio-gap-ratio-map"
+
+
+def test_text_and_files(run, tmp_path):
+    code, out, errors = run(*WORDS, "--refine", "1")
+    assert (code, errors) == (0, "")
+    assert "7 × 5 nodes" in out
+    assert "primary resonance with right hysteresis" in out
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {
+        f"{NAME}.zarr",
+        f"{NAME}.png",
+        f".{NAME}.zarr.lock",
+    }
+    data = xr.open_zarr(tmp_path / f"out/{NAME}.zarr", consolidated=False)
+    np.testing.assert_allclose(data["stiffness_ratio"], np.geomspace(1, 64, 7))
+    np.testing.assert_allclose(data["gap_ratio"], np.linspace(0.2, 1, 5))
+
+
+def test_json_and_again(run, tmp_path):
+    first, again = (json.loads(run(*WORDS, "--refine", "0", "--json")[1]) for _ in range(2))
+    assert first == again
+    assert (first["nodes"], first["computed"]) == (12, 12)
+    assert sum(first["shares"].values()) == pytest.approx(1.0)
+    data = xr.open_zarr(tmp_path / first["files"]["data"], consolidated=False)
+    for name, share in first["shares"].items():
+        number = data["scenario"].attrs["flag_meanings"].split().index(name)
+        assert float((data["scenario"] == number).mean()) == pytest.approx(share)
+    for point in first["border"]:
+        assert 1.0 < point["stiffness_ratio"] < 4.0
+
+
+def test_without_the_border(run):
+    facts = json.loads(run(*WORDS, "--refine", "0", "--no-border", "--json")[1])
+    assert facts["border"] == []
+
+
+def test_physical_axes_of_a_case(run, tmp_path):
+    words = ("--x", "gap", "5mm:15mm:3", "--y", "bumper-stiffness", "100kN/m:1MN/m:log:3")
+    code, out, _ = run("B2-G1-A3", *words, "--refine", "0", "--step", "0.02", "--json")
+    assert code == 0
+    data = xr.open_zarr(tmp_path / json.loads(out)["files"]["data"], consolidated=False)
+    np.testing.assert_allclose(data["gap"], [0.005, 0.01, 0.015])
+    np.testing.assert_allclose(data["bumper_stiffness"], [1e5, 10**5.5, 1e6])
+
+
+def test_a_command_that_was_killed_goes_on(tmp_path, told):
+    program = "import sys; from vibroimpact.cli import main; sys.exit(main(sys.argv[1:]))"
+    words = [sys.executable, "-c", program, "map", *WORDS, "--refine", "2", "-o", "killed"]
+    child = subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.DEVNULL)
+    waited = time.monotonic()
+    while child.poll() is None and time.monotonic() - waited < 60.0:
+        if (tmp_path / f"killed/{NAME}.zarr").exists():
+            time.sleep(0.3)
+            os.kill(child.pid, signal.SIGKILL)
+            break
+        time.sleep(0.01)
+    assert child.wait() == -signal.SIGKILL
+    folder = tmp_path / "whole"
+    folder.mkdir()
+    again = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
+    assert again.returncode == 0, again.stderr
+    whole = json.loads(told(folder, *WORDS, "--refine", "2", "--json")[1])
+    first = xr.open_zarr(tmp_path / f"killed/{NAME}.zarr", consolidated=False).load()
+    second = xr.open_zarr(folder / whole["files"]["data"], consolidated=False).load()
+    xr.testing.assert_identical(first, second)
+
+
+def test_another_map_in_the_same_place_is_refused(run):
+    assert run(*WORDS, "--refine", "0")[0] == 0
+    code, out, errors = run(*WORDS, "--refine", "1")
+    assert (code, out) == (2, "")
+    assert "--output: " in errors
+    assert "holds another map: refine differ" in errors
+    assert run(*WORDS, "--refine", "1", "--name", "finer")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("0:1:3", [0.0, 0.5, 1.0]),
+        ("0.01:1:log:3", [0.01, 0.1, 1.0]),
+        ("0.1:0.2", np.linspace(0.1, 0.2, 21)),
+    ],
+)
+def test_ranges(text, expected):
+    name, values = _axis("--x", "gap-ratio", text)
+    assert name == "gap_ratio"
+    np.testing.assert_allclose(values, expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (["--x", "gip", "0:1"], "--x: 'gip'; one of gap, amplitude, bumper-stiffness"),
+        (["--x", "gap", "0:1"], "--y: 'gap_ratio' does not go with 'gap'"),
+        (["--x", "gap-ratio", "0:1"], "--y: 'gap_ratio' is that of x"),
+        (["--x", "stiffness-ratio", "1"], "--x: '1'; a range LOW:HIGH[:log][:NODES] is accepted"),
+        (["--x", "stiffness-ratio", "1:2:lag"], "--x: 'lag' nodes"),
+        (["--x", "stiffness-ratio", "1:2:1"], "--x: '1' nodes"),
+        (["--x", "stiffness-ratio", "2:1"], "--x: 2 is not below 1"),
+        (["--x", "stiffness-ratio", "0:1"], "--x"),
+        (["--x", "damping-ratio", "0.1:0.9"], "a damping ratio of 0.9"),
+        (["--x", "stiffness-ratio", "1:2", "--refine", "-1"], "--refine: -1"),
+        (["--x", "stiffness-ratio", "1:2:999999", "--refine", "4"], "nodes; at most"),
+        (["--x", "stiffness-ratio", "1:2", "--step", "0"], "--step"),
+        (["--x", "stiffness-ratio", "1:2", "--extent", "7"], "--extent: 7.0"),
+        (["B2-Ginf-A3"], "base: there is no bumper"),
+    ],
+)
+def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):
+    code, out, errors = run(*words)
+    assert (code, out) == (2, "")
+    assert errors.startswith("vibroimpact: error: ")
+    assert errors.count("\n") == 1
+    assert named in errors
+    assert list(tmp_path.iterdir()) == []

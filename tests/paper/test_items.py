@@ -1,0 +1,137 @@
+"""The report's figures and tables: all are there, and each draws."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from vibroimpact.paper import fig15, table1
+from vibroimpact.paper.fig07 import CODE
+from vibroimpact.paper.items import ITEMS
+from vibroimpact.paper.study import GAPS, Study
+
+STUDY = Study(threads=2)
+DRAWN = [item for item in ITEMS if item.draw is not None]
+
+
+@cache
+def drawn(key: str) -> Figure:
+    (item,) = (item for item in DRAWN if item.key == key)
+    return item.draw(STUDY)
+
+
+def outer(ax) -> tuple[bool, bool]:
+    """Whether the axes stand in the lowest row and in the first column of their grid."""
+    place = ax.get_subplotspec()
+    return place.is_last_row(), place.is_first_col()
+
+
+def test_keys_are_unique_and_in_order():
+    keys = [item.key for item in ITEMS]
+    assert len(set(keys)) == len(keys)
+    figures = [key for key in keys if key.startswith("fig")]
+    assert figures == sorted(figures)
+    assert {f"fig{k:02}" for k in (*range(3, 14), *range(15, 21))} <= set(figures)
+    assert "table1" in keys
+
+
+def test_captions_stand_alone():
+    for item in ITEMS:
+        assert item.title.startswith(("Fig. ", "Table ")), item.key
+        assert 100 < len(item.caption) < 800, item.key
+        assert (item.draw is None) != (item.table is None), item.key
+
+
+@pytest.mark.parametrize("key", [item.key for item in DRAWN])
+def test_draws(key):
+    figure = drawn(key)
+    assert figure.get_layout_engine() is not None
+    figure.draw_without_rendering()
+    assert figure.axes
+    for ax in figure.axes:
+        assert any(len(line.get_xdata()) > 2 for line in ax.lines) or ax.collections
+        last, first = outer(ax)
+        if last:
+            assert "(" in ax.get_xlabel(), ax
+        if first:
+            assert "(" in ax.get_ylabel(), ax
+        for line in ax.lines:
+            assert np.isfinite(np.asarray(line.get_ydata(), dtype=float)).any()
+
+    # Nothing is cut off.
+    box = figure.get_tightbbox(FigureCanvasAgg(figure).get_renderer())
+    width, height = figure.get_size_inches()
+    assert min(box.x0, box.y0) >= -0.02
+    assert box.x1 <= width + 0.02
+    assert box.y1 <= height + 0.02
+
+
+class TestTable1:
+    def test_computed_as_printed(self):
+        for acceleration, printed in table1.PRINTED.items():
+            for name, value in printed.items():
+                computed = table1.computed()[acceleration][name]
+                assert table1.written(name, computed) == table1.written(name, value)
+
+    def test_24_numbers_beside_24(self):
+        table = table1.ITEM.table(STUDY)
+        assert len(table.rows) == 6
+        assert {len(row) for row in table.rows} == {len(table.head)} == {10}
+        for computed, printed in zip(table.rows[::2], table.rows[1::2], strict=True):
+            assert (computed[1], printed[1]) == ("computed", "printed")
+            assert computed[2:] == printed[2:]
+
+
+class TestPlaces:
+    """Frequencies that are read off the curves."""
+
+    @pytest.mark.parametrize("parameters", ["table", "identified"])
+    def test_regular(self, parameters):
+        peak, valley, last = STUDY.regular_places(CODE, parameters)
+        curve = STUDY.curves(CODE, parameters)["eta_a"].sel(direction="forward")
+        at = [int(np.abs(curve["frequency"].values - f).argmin()) for f in (peak, valley, last)]
+        value = curve.values
+        assert value[at[0]] > max(value[at[0] - 1], value[at[0] + 1])
+        assert value[at[1]] < min(value[at[1] - 1], value[at[1] + 1])
+        assert value[at[2]] > 10 * value[at[2] + 1]
+
+    def test_other(self):
+        left, wild = STUDY.other_places(fig15.CODE, fig15.LOW)
+        assert left == pytest.approx(0.70, abs=0.021)
+        assert wild == pytest.approx(1.06, abs=0.021)
+
+
+def test_the_mirrored_pair():
+    _, wild = STUDY.other_places(fig15.CODE, fig15.LOW)
+    one = STUDY.motion(fig15.CODE, wild, "forward")
+    other = STUDY.mirror_image(fig15.CODE, wild, "forward")
+    assert one["motion"].item() == other["motion"].item() == "chaotic"
+    # Chaotic motions repeat neither themselves nor each other, but their averages do.
+    assert float(one["eccentricity"]) == pytest.approx(-float(other["eccentricity"]), rel=0.05)
+    between = STUDY.antisymmetric_orbit(fig15.CODE, wild, *fig15.BRANCH)
+    assert bool(between["antisymmetric"])
+    assert int(between["stable"]) == 0
+    assert float(between["displacement_excursion"]) < float(one["displacement_excursion"])
+
+
+def test_the_branch_meets_the_sweeps_where_it_is_stable():
+    branch = STUDY.antisymmetric_branch(fig15.CODE, *fig15.BRANCH)
+    data = STUDY.curves(fig15.CODE, low=fig15.LOW).sel(direction="forward")
+    for end in (0, -1):
+        frequency = float(branch["frequency"][end])
+        swept = data["displacement_excursion"].sel(frequency=frequency, method="nearest")
+        assert float(branch["displacement_excursion"][end]) == pytest.approx(float(swept), rel=1e-6)
+
+
+def test_curves_of_the_gaps_are_named_in_order():
+    (legend,) = drawn("fig19").legends
+    names = [text.get_text() for text in legend.get_texts()]
+    assert names[0] == "0 mm, S5"
+    assert names[len(GAPS) - 1] == "no bumpers, S0"
+    assert len({line.get_marker() for line in drawn("fig19").axes[0].lines} - {"", "None"}) == len(
+        GAPS
+    )

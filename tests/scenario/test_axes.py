@@ -1,0 +1,102 @@
+"""Axes of maps, and the rigs at their nodes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.scenario.axes import Axis, Base, axis, check_pair
+
+CASE = vi.laboratory.case("B2-G1-A3")
+BASE = Base(CASE.oscillator, CASE.amplitude)
+
+
+def test_physical_parameters():
+    """Of a bumper's stiffness C_j/K_j is kept, as the paper assumes (Section 7)."""
+    rig = BASE.rig({"bumper_stiffness": 680e3, "gap": 9e-3})
+    assert rig.amplitude == CASE.amplitude
+    for side in (rig.oscillator.right, rig.oscillator.left):
+        assert side.stiffness == 680e3
+        assert side.gap == 9e-3
+        ratio = CASE.oscillator.right.damping / CASE.oscillator.right.stiffness
+        assert side.damping / side.stiffness == pytest.approx(ratio, rel=1e-14)
+    assert BASE.rig({"amplitude": 0.3}) == vi.Rig(CASE.oscillator, 0.3)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("stiffness_ratio", 3.0),
+        ("gap_ratio", 0.7),
+        ("relaxation_time", 0.02),
+        ("damping_ratio", 0.05),
+    ],
+)
+def test_dimensionless_parameters_one_at_a_time(name, value):
+    before = vi.to_dimensionless(*BASE)
+    rig = BASE.rig({name: value})
+    after = vi.to_dimensionless(*rig)
+    assert rig.oscillator.mass == CASE.oscillator.mass
+    assert rig.oscillator.isolator.stiffness == CASE.oscillator.isolator.stiffness
+    own = {"gap_ratio": "gap"}.get(name, name)
+    for group in ("right", "left"):
+        for field in ("stiffness_ratio", "gap", "relaxation_time"):
+            expected = value if field == own else getattr(getattr(before, group), field)
+            assert getattr(getattr(after, group), field) == pytest.approx(expected, rel=1e-12)
+    expected = value if own == "damping_ratio" else before.damping_ratio
+    assert after.damping_ratio == pytest.approx(expected, rel=1e-12)
+
+
+def test_sides_keep_what_is_their_own():
+    oscillator = CASE.oscillator.replace(left=None)
+    rig = Base(oscillator, CASE.amplitude).rig({"gap_ratio": 0.5, "stiffness_ratio": 2.0})
+    assert rig.oscillator.left is None
+    assert rig.oscillator.right.stiffness == pytest.approx(2.0 * oscillator.isolator.stiffness)
+
+
+def test_logarithmic_axes_are_refined_geometrically():
+    assert Axis("stiffness_ratio", np.geomspace(0.5, 100, 9)).logarithmic
+    assert not Axis("stiffness_ratio", np.linspace(0.5, 100, 9)).logarithmic
+    assert not Axis("gap_ratio", np.linspace(0.0, 1.0, 9)).logarithmic
+    fine = Axis("stiffness_ratio", np.array([1.0, 4.0, 16.0])).refined(1)
+    np.testing.assert_allclose(fine.values, [1, 2, 4, 8, 16])
+    fine = Axis("gap_ratio", np.array([0.0, 0.5, 1.0])).refined(2)
+    np.testing.assert_allclose(fine.values, np.linspace(0, 1, 9))
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("gap", "is no axis"),
+        (("gap",), "is no axis"),
+        (("gip", [1, 2]), "'gip'; one of gap, amplitude"),
+        (("gap", "1:2"), "is no list of values"),
+        (("gap", [0.01]), "1 values given; at least two are accepted"),
+        (("gap", [0.01, 0.01]), r"x\[1\]: 0.01 follows 0.01; rising values are accepted"),
+        (("gap", [-0.01, 0.01]), r"x\[0\]"),
+        (("stiffness_ratio", [0.0, 1.0]), r"x\[0\]"),
+        (("gap", [0.01, "2 kg"]), r"x\[1\].*is a mass"),
+        (("damping_ratio", [0.1, 0.8]), r"x\[1\].*no resonance peak"),
+    ],
+)
+def test_what_cannot_be_an_axis_is_refused(given, message):
+    with pytest.raises(vi.InputError, match=message):
+        axis(given, "x")
+
+
+def test_text_with_units():
+    np.testing.assert_allclose(axis(("gap", ["5 mm", "0.01 m"]), "x").values, [5e-3, 10e-3])
+
+
+def test_axes_that_do_not_go_together():
+    gap, ratio = axis(("gap", [0, 1]), "x"), axis(("gap_ratio", [0, 1]), "y")
+    with pytest.raises(vi.InputError, match=r"^y: 'gap_ratio' does not go with 'gap'"):
+        check_pair(gap, ratio)
+    with pytest.raises(vi.InputError, match=r"^y: 'gap' is that of x"):
+        check_pair(gap, gap)
+
+
+def test_a_base_without_bumpers_is_refused():
+    with pytest.raises(vi.InputError, match="base: there is no bumper"):
+        Base(CASE.oscillator.without_bumpers(), 0.3).rig({"gap": 1e-3})
