@@ -10,6 +10,7 @@ from benchmarks.machine import load, machine
 from benchmarks.memory import memory
 from benchmarks.motions import motions
 from benchmarks.report import Table, show, write
+from benchmarks.scenarios import scenarios
 from benchmarks.startup import compiling, startup
 from benchmarks.trajectory import many, peers, short_runs, trajectory
 
@@ -46,6 +47,8 @@ def main() -> None:
         add(motions())
     with console.status("branches ..."):
         add(branches())
+    with console.status("scenarios ..."):
+        add(scenarios())
     with console.status("starting and memory ..."):
         add(startup(compiled), memory())
     about.add("load when it ended", f"{load():.1f}")

@@ -42,3 +42,16 @@ def test_study(tmp_path, capsys):
         *(f"moat-wall-sweep.{ending}" for ending in ("nc", "png", "txt")),
         *(f"moat-wall-1.5Hz-history.{ending}" for ending in ("nc", "png")),
     }
+
+
+def test_unexplored_region(tmp_path):
+    script = EXAMPLES / "unexplored_region.py"
+    done = subprocess.run(
+        [sys.executable, "-W", "error", script, tmp_path, "4"], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert "small-gaps: 20 rigs" in done.stdout
+    assert "  S4: " in done.stdout
+    for name in ("small-gaps", "soft-bumpers"):
+        for figure in (f"{name}.png", f"{name}-counts.png"):
+            assert (tmp_path / figure).is_file()

@@ -18,6 +18,7 @@ from vibroimpact.cli.classify import classify
 from vibroimpact.cli.curve import curve
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
+from vibroimpact.cli.paper import paper
 from vibroimpact.cli.simulate import simulate
 from vibroimpact.cli.sweep import sweep
 from vibroimpact.errors import InputError
@@ -91,4 +92,5 @@ def _app() -> App:
     for command in (sweep, motion, branch, curve, simulate, classify):
         app.command(command)
     app.command(scenario_map, name="map")
+    app.command(paper)
     return app

@@ -34,7 +34,7 @@ def classify(
     stop: Annotated[
         str | None,
         _FREQUENCY,
-        Parameter(name="--to", help="Last frequency; where no bumper can be hit any more."),
+        Parameter(name="--to", help="Last frequency; beyond where the primary resonance can lie."),
     ] = None,
     step: Annotated[
         str | None,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from vibroimpact.figures.branches import axis_unit
@@ -40,7 +40,9 @@ def plane_axes(ax: Axes, x: xr.DataArray, y: xr.DataArray) -> None:
         symbol = f" {_SYMBOLS[name]}" if name in _SYMBOLS else ""
         if logarithmic(values):
             ax.set(**{f"{axis.axis_name}scale": "log"})
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
             axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            axis.set_minor_formatter(NullFormatter())
         ends = factor * values.values[[0, -1]]
         ax.set(
             **{

@@ -9,7 +9,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.model import Harmonic, State, laboratory
+from vibroimpact.model import (
+    Harmonic,
+    Oscillator,
+    State,
+    from_dimensionless,
+    laboratory,
+    to_dimensionless,
+)
 from vibroimpact.response.resonance import Features, features
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state
@@ -147,11 +154,17 @@ class Study:
             lambda: coexisting(case.oscillator, Harmonic(case.amplitude, frequency)),
         )
 
-    def classification(self, code: str, low: float = LOW, high: float = HIGH) -> Classification:
+    def classification(
+        self,
+        code: str,
+        low: float = LOW,
+        high: float = HIGH,
+        parameters: laboratory.Parameters = "table",
+    ) -> Classification:
         """The scenario of a case over the range of the tests, with its evidence."""
-        case = laboratory.case(code)
+        case = laboratory.case(code, parameters)
         return self._once(
-            ("classification", code, low, high),
+            ("classification", code, low, high, parameters),
             lambda: classify(
                 case.oscillator, case.amplitude, grid(low, high), threads=self._threads
             ),
@@ -250,6 +263,34 @@ class Study:
         return {
             case.code: self.classification(case.code).scenario for case in laboratory.campaign()
         }
+
+    def scenario_at(self, stiffness_ratio: float, gap: float) -> str:
+        """The scenario at λ and δ of one side, at ξ = 0.15 and τ = 0.01 (as in Fig. 21)."""
+        rig = from_dimensionless(
+            stiffness_ratio, gap, laboratory.RELAXATION_TIME, laboratory.DAMPING_RATIO
+        )
+        return self._once(
+            ("scenario at", stiffness_ratio, gap),
+            lambda: classify(*rig, threads=self._threads).scenario,
+        )
+
+    def twins(self, code: str) -> tuple[xr.Dataset, xr.Dataset]:
+        """Curves of a case, and of a physically different rig with the same ratios.
+
+        Both at the same multiples of their natural frequency.
+        """
+        case = laboratory.case(code)
+        group = to_dimensionless(case.oscillator, case.amplitude)
+        other = group.to_physical(mass=3.0, stiffness=700.0, amplitude=2.0)
+        ratios = np.arange(40, 401, 2) / 100.0
+
+        def curves(rig: Oscillator, amplitude: float) -> xr.Dataset:
+            held = ratios * rig.natural_frequency
+            return sweeps([(rig, amplitude)], held, threads=self._threads).isel(rig=0)
+
+        return self._once(
+            ("twins", code), lambda: (curves(case.oscillator, case.amplitude), curves(*other))
+        )
 
     def map(self) -> xr.Dataset:
         """Scenarios over λ and δ0 at ξ = 0.15 and τ = 0.01 (the paper's Fig. 21)."""

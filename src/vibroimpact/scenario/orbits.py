@@ -16,6 +16,8 @@ from vibroimpact.stability.settled import Settled
 
 KIND_CYCLES = 5000
 """Forcing cycles over which growth tells chaotic from quasi-periodic motions."""
+_LONGER = 20
+"""How many times as long a motion is followed that seems quasi-periodic."""
 _MAX_EVENTS = 10_000
 
 
@@ -48,6 +50,9 @@ def _named(
     state = engine_state(oscillator, start)
     followed = Settled(oscillator, excitation, state, 0, 0, Status.NOT_SETTLED)
     found = judge_wandering(followed, state, cycles, _MAX_EVENTS)[0].motion
+    if found == "quasi-periodic":
+        # A slow transient, or chaos that is slow to show, looks the same for a while.
+        found = judge_wandering(followed, state, _LONGER * cycles, _MAX_EVENTS)[0].motion
     kinds: dict[str, Kind] = {"chaotic": "chaotic", "quasi-periodic": "quasi-periodic"}
     kind = kinds.get(found, "not periodic")
     return item._replace(

@@ -1,0 +1,82 @@
+"""Maps of scenarios: time for ten thousand rigs, what it grows with, and memory."""
+
+import time
+
+import numpy as np
+
+import vibroimpact as vi
+from benchmarks import fresh
+from benchmarks.report import Table, met, targets
+
+_SECONDS = 300.0
+_STUDY = 60.0
+_GROWTH = 64.0
+"""Growth of peak memory (MiB) that is called none, from one block to many: that of the largest
+block, and the allocator's pages."""
+_RATIO, _GAP = (0.5, 100.0), (0.0, 1.0)
+
+
+def mapped(nodes: int, threads: int = 2) -> float:
+    """Seconds for a map over λ and δ0, swept in both directions by hundredths."""
+    begin = time.perf_counter()
+    vi.scenario_map(
+        ("stiffness_ratio", np.geomspace(*_RATIO, nodes)),
+        ("gap_ratio", np.linspace(*_GAP, nodes)),
+        threads=threads,
+    )
+    return time.perf_counter() - begin
+
+
+def peak_memory(nodes: int) -> float:
+    """Peak memory (MiB) of this process after a map."""
+    import resource
+
+    mapped(nodes)
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+
+
+def scenarios() -> Table:
+    """Measure maps of three sizes, and the published study."""
+    table = targets("Scenarios")
+    mapped(3)  # compiles
+    taken = {nodes: mapped(nodes) for nodes in (25, 50, 100)}
+    table.add(
+        "100 × 100 map of (λ, δ0), both directions by 0.01, 2 threads, s",
+        f"{taken[100]:.0f}",
+        f"under {_SECONDS:g} s",
+        met(taken[100] < _SECONDS),
+    )
+    for nodes, seconds in taken.items():
+        table.add(
+            f"{nodes} × {nodes}: ms a rig and thread", f"{2e3 * seconds / nodes**2:.1f}", "", ""
+        )
+    small, large = (
+        float(
+            fresh.python(
+                f"from benchmarks.scenarios import peak_memory; print(peak_memory({nodes}))"
+            ).output
+        )
+        for nodes in (10, 40)
+    )
+    table.add(
+        "peak memory, from a map of 1 block to one of 16, MiB",
+        f"{small:.0f} to {large:.0f}",
+        f"+ {_GROWTH:g} at most",
+        met(large - small < _GROWTH),
+    )
+    done = fresh.python(
+        "import tempfile; from vibroimpact.cli import main\n"
+        "with tempfile.TemporaryDirectory() as folder: main(['paper', '-o', folder])"
+    )
+    table.add(
+        "vibroimpact paper, all figures and claims, s",
+        f"{done.seconds:.0f}",
+        f"under {_STUDY:g} s",
+        met(done.seconds < _STUDY),
+    )
+    table.notes.append(
+        "λ from 0.5 to 100, δ0 from 0 to 1, ξ = 0.15, τ = 0.01. Each rig is swept from 0.4 times "
+        "its natural frequency to beyond its primary resonance, motions that do not settle are "
+        "told chaotic or not, and where a jump might hide the branch of orbits is followed."
+    )
+    return table

@@ -1,0 +1,253 @@
+"""Section 7 and Table 1: dimensionless parameters."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vibroimpact.model import laboratory
+from vibroimpact.model.dimensionless import to_dimensionless
+from vibroimpact.paper import table1
+from vibroimpact.paper.claim import Finding
+from vibroimpact.paper.claims.reading import ACCELERATIONS, BUMPERS, CODES, claim
+from vibroimpact.paper.study import Study
+from vibroimpact.response.peaks import CURVES
+from vibroimpact.response.resonance import UNSETTLED_APART
+
+_GAPS = tuple(laboratory.GAPS)
+_SAME = ("B2-G1-A3", "B2-G2-A2", "B2-G4-A1", "B3-10mm-A3", "B3-0mm-A3", "20kN/m-G3-A1")
+"""A case of each scenario from S1 to S6."""
+
+
+def _printed_again(names: tuple[str, ...]) -> Finding:
+    computed = table1.computed()
+    wrong = [
+        f"{a} {name}: {computed[a][name]:.4g}, printed {printed[name]:g}"
+        for a, printed in table1.PRINTED.items()
+        for name in names
+        if table1.written(name, computed[a][name]) != table1.written(name, printed[name])
+    ]
+    count = len(names) * len(table1.PRINTED)
+    return Finding(
+        not wrong, f"{count - len(wrong)} of {count} agree; {'; '.join(wrong)}".rstrip("; ")
+    )
+
+
+@claim(
+    "table-gaps",
+    "Table 1",
+    "The twelve dimensionless gaps δ of Table 1.",
+    "G/(2 u_max) from mass, equivalent stiffness and ξ = 0.15, to the two digits printed.",
+)
+def table_gaps(study: Study) -> Finding:
+    """Of one side, as the printed numbers are."""
+    return _printed_again(_GAPS)
+
+
+@claim(
+    "table-stiffness-ratios",
+    "Table 1",
+    "The twelve stiffness ratios λ of Table 1.",
+    "K_j/K of each bumper at each acceleration, to the digit printed.",
+)
+def table_ratios(study: Study) -> Finding:
+    """Bumper over isolator."""
+    return _printed_again(BUMPERS)
+
+
+def _of_tests() -> dict[str, tuple[float, float]]:
+    """λ and δ of the tests, from the rigs themselves."""
+    found = {}
+    for code in CODES:
+        case = laboratory.case(code)
+        bumper = to_dimensionless(case.oscillator, case.amplitude).right
+        assert bumper is not None
+        found[code] = (bumper.stiffness_ratio, bumper.gap)
+    return found
+
+
+@claim(
+    "gap-is-of-both-sides",
+    "7",
+    "The dimensionless total gap δ is the sum of both sides.",
+    "δ of Table 1 against G/u_max (both sides) and G/(2 u_max) (one side).",
+)
+def total_gap(study: Study) -> Finding:
+    """The printed numbers are those of one side."""
+    printed = table1.PRINTED["A3"]["G1"]
+    one = table1.computed()["A3"]["G1"]
+    return Finding(
+        abs(2.0 * one - printed) <= 0.005,
+        f"A3-G1: printed {printed:.2f}; both sides {2.0 * one:.3f}, one side {one:.3f}",
+    )
+
+
+@claim(
+    "range-of-gaps",
+    "7",
+    "In the tests δ is larger than 0.22.",
+    "Smallest δ of the 48 tests: at least 0.215, which is printed as 0.22.",
+)
+def range_gaps(study: Study) -> Finding:
+    """To the digits printed."""
+    least = min(gap for _, gap in _of_tests().values())
+    return Finding(least >= 0.215, f"smallest δ {least:.4f}")
+
+
+@claim(
+    "range-of-stiffness-ratios",
+    "7",
+    "In the tests λ lies between about 3 and about 90.",
+    "Smallest and largest λ, to the one digit that the paper gives.",
+)
+def range_ratios(study: Study) -> Finding:
+    """B1-A1 and B4-A3."""
+    tests = {code: ratio for code, (ratio, _) in _of_tests().items()}
+    least, most = min(tests, key=tests.__getitem__), max(tests, key=tests.__getitem__)
+    holds = (f"{tests[least]:.0e}", f"{tests[most]:.0e}") == ("3e+00", "9e+01")
+    ends = least.startswith("B1") and least.endswith("A1") and most[:2] + most[-2:] == "B4A3"
+    return Finding(holds and ends, f"{tests[least]:.2f} to {tests[most]:.1f}")
+
+
+@claim(
+    "parameters-with-acceleration",
+    "7",
+    "With the acceleration λ of each bumper rises and δ of each gap falls.",
+    "λ of the four bumpers and δ of the four gaps at A1, A2, A3.",
+)
+def with_acceleration(study: Study) -> Finding:
+    """For the isolator softens."""
+    values = table1.computed()
+    ratios = np.array([[values[a][b] for a in ACCELERATIONS] for b in BUMPERS])
+    gaps = np.array([[values[a][g] for a in ACCELERATIONS] for g in _GAPS])
+    holds = bool((np.diff(ratios) > 0).all() and (np.diff(gaps) < 0).all())
+    return Finding(
+        holds,
+        f"λ of B2 {ratios[1, 0]:.1f} to {ratios[1, 2]:.1f}; δ of G1 {gaps[0, 0]:.2f} to "
+        f"{gaps[0, 2]:.2f}",
+    )
+
+
+@claim(
+    "middle-bumpers-close",
+    "7, Fig. 21",
+    "B2 and B3 have stiffness ratios close to each other.",
+    "λ of B3 over that of B2, against the ratios of the other neighbours: the smallest.",
+)
+def middle(study: Study) -> Finding:
+    """The same at every acceleration."""
+    values = table1.computed()["A3"]
+    ratios = [values[BUMPERS[k + 1]] / values[BUMPERS[k]] for k in range(3)]
+    told = ", ".join(f"{BUMPERS[k + 1]}/{BUMPERS[k]} {ratios[k]:.2f}" for k in range(3))
+    return Finding(min(ratios) == ratios[1], told)
+
+
+@claim(
+    "only-ratios-matter",
+    "7",
+    "Rigs with the same dimensionless parameters respond alike, whatever their physical ones.",
+    "Curves of a case of each scenario S1 to S6 and of a rig with the same λ, δ, τ and ξ but a "
+    "mass of 3 kg on 700 N/m at 2 m/s², at the same multiples of its natural frequency: to 10⁻⁶ "
+    "where both settle, 10 % elsewhere.",
+)
+def only_ratios(study: Study) -> Finding:
+    """Swept as two physically different rigs."""
+    settled, loose, same = 0.0, 0.0, True
+    for code in _SAME:
+        one, other = study.twins(code)
+        both = (one["motion"].values == "periodic") & (other["motion"].values == "periodic")
+        same &= bool((one["period"].values == other["period"].values)[both].all())
+        for curve in CURVES:
+            differ = np.abs(other[curve].values / one[curve].values - 1.0)
+            settled = max(settled, float(differ[both].max(initial=0.0)))
+            loose = max(loose, float(differ[~both].max(initial=0.0)))
+    return Finding(
+        same and settled < 1e-6 and loose < UNSETTLED_APART,
+        f"at most {settled:.0e} where both settle, {loose:.1%} elsewhere; "
+        f"{len(_SAME)} pairs of rigs",
+    )
+
+
+@claim(
+    "tests-by-scenario",
+    "7, Fig. 21",
+    "Most tests are S2, four are S1, and the rest S3.",
+    "Scenarios of all 48 tests.",
+)
+def counts(study: Study) -> Finding:
+    """Counted."""
+    found = list(study.scenarios().values())
+    told = {s: found.count(s) for s in sorted(set(found))}
+    holds = set(told) == {"S1", "S2", "S3"} and told["S1"] == 4 and told["S2"] > len(CODES) / 2
+    return Finding(holds, ", ".join(f"{s}: {n}" for s, n in told.items()))
+
+
+@claim(
+    "grazing-at-one",
+    "7",
+    "The gap at which the mass grazes depends on the acceleration, but is always δ = 1.",
+    "B2 with δ = 0.99 and 1.01 at the three accelerations: bumpers are hit, and are not; and the "
+    "total gap that is δ = 1.",
+)
+def grazing(study: Study) -> Finding:
+    """A hundredth to both sides, for the sweep's frequencies miss the peak a little."""
+    table = table1.computed()
+    gaps = [1e3 * laboratory.GAPS["G1"] / table[a]["G1"] for a in ACCELERATIONS]
+    hits = []
+    for delta in (0.99, 1.01):
+        codes = tuple(
+            f"B2-{delta * gap:.9g}mm-{a}" for gap, a in zip(gaps, ACCELERATIONS, strict=True)
+        )
+        data = study.family(codes)
+        hit = (data["impacts_right"] > 0).any(["direction", "frequency"])
+        hits.append(hit.values.tolist())
+    return Finding(
+        hits == [[True] * 3, [False] * 3],
+        f"δ = 1 is {', '.join(f'{g:.1f}' for g in gaps)} mm at A1, A2, A3",
+    )
+
+
+def _region(
+    study: Study, ratios: tuple[float, ...], gaps: tuple[float, ...], wanted: str
+) -> Finding:
+    found = {(ratio, gap): study.scenario_at(ratio, gap) for ratio in ratios for gap in gaps}
+    others = [f"λ {r:g}, δ {g:g}: {s}" for (r, g), s in found.items() if s != wanted]
+    told = f"{wanted} at {len(found) - len(others)} of {len(found)} points"
+    return Finding(not others, "; ".join([told, *others]))
+
+
+@claim(
+    "soft-region-is-s6",
+    "7, Fig. 21",
+    "At stiffness ratios below 2 the scenario is S6.",
+    "Scenarios at λ = 0.5, 1, 1.5 and 1.9 with δ = 0.25, 0.5 and 0.75: all S6.",
+)
+def soft_region(study: Study) -> Finding:
+    """At δ above 0.2; below it is the other region without tests."""
+    return _region(study, (0.5, 1.0, 1.5, 1.9), (0.25, 0.5, 0.75), "S6")
+
+
+@claim(
+    "small-gap-region-is-s4",
+    "7, Fig. 21",
+    "At dimensionless gaps below 0.2 the scenario is S4.",
+    "Scenarios at δ = 0.1, 0.15 and 0.19 with λ = 3, 25.9 and 87.5, as wide as the tests': all S4.",
+)
+def small_gap_region(study: Study) -> Finding:
+    """The paper itself leaves open what else is in there."""
+    return _region(study, (3.0, 25.9, 87.5), (0.1, 0.15, 0.19), "S4")
+
+
+CLAIMS = (
+    table_gaps,
+    table_ratios,
+    total_gap,
+    with_acceleration,
+    range_ratios,
+    range_gaps,
+    middle,
+    counts,
+    grazing,
+    soft_region,
+    small_gap_region,
+    only_ratios,
+)

@@ -1,0 +1,169 @@
+"""Section 6: scenario S4, a gap smaller than the tested ones; its left hystereses."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.paper.claim import Finding
+from vibroimpact.paper.claims.reading import (
+    BOTH,
+    AbsentError,
+    claim,
+    impacts,
+    listed,
+    orbits_at,
+    turns,
+)
+from vibroimpact.paper.study import Study
+from vibroimpact.response.resonance import Features, Hysteresis, features
+
+CODE = "B3-10mm-A3"
+START = 0.3
+AROUND = (0.9, 1.4)
+"""Range round the non-regular resonance (Hz)."""
+
+
+def curves(study: Study) -> xr.Dataset:
+    """Sweeps from 0.3 Hz."""
+    return study.curves(CODE, low=START)
+
+
+def found_features(study: Study) -> Features:
+    """What they show."""
+    return features(curves(study))
+
+
+def _left(study: Study) -> list[Hysteresis]:
+    """Left hystereses below 0.9 Hz, by frequency."""
+    return [
+        item
+        for item in found_features(study).hysteresis
+        if item.side == "left" and item.settled and item.high < AROUND[0]
+    ]
+
+
+def places(study: Study) -> tuple[float, float]:
+    """`Study.other_places`, or `AbsentError`."""
+    try:
+        return study.other_places(CODE, START)
+    except ValueError:
+        raise AbsentError(
+            f"{CODE} has no left hysteresis, or no range that does not settle"
+        ) from None
+
+
+@claim(
+    "s4-left-hystereses",
+    "6, Fig. 15",
+    "With a total gap of 10 mm, B3-A3 has several secondary resonances with left hysteresis below "
+    "0.9 Hz.",
+    "Left hystereses (backward above forward) of the sweeps from 0.3 Hz: two or more.",
+)
+def left(study: Study) -> Finding:
+    """From 0.3 Hz, in steps of 0.01 Hz."""
+    found = _left(study)
+    ends = ", ".join(f"{i.ends[0]:.3f} to {i.ends[1]:.3f}" for i in found)
+    return Finding(len(found) >= 2, f"{len(found)}: {ends or 'none'} Hz")
+
+
+@claim(
+    "s4-two-motions",
+    "6, Fig. 16",
+    "In a left hysteresis two periodic motions with impacts coexist, each its own mirror image; "
+    "the larger one is that of the backward sweep.",
+    "The motions that the two sweeps reach in the middle of the widest left hysteresis.",
+)
+def two_motions(study: Study) -> Finding:
+    """At f_I."""
+    place = places(study)[0]
+    forward, backward = (study.motion(CODE, place, way) for way in BOTH)
+    sizes = [1e3 * float(m["displacement_excursion"]) for m in (forward, backward)]
+    holds = sizes[1] > sizes[0] and all(
+        str(m["motion"].item()) == "periodic" and bool(m["antisymmetric"]) and min(impacts(m)) > 0
+        for m in (forward, backward)
+    )
+    return Finding(
+        holds, f"{place:.2f} Hz: excursions forward {sizes[0]:.2f}, backward {sizes[1]:.2f} mm"
+    )
+
+
+@claim(
+    "s4-two-and-one-impact",
+    "6, Fig. 16",
+    "There the mass hits each bumper twice a cycle in the forward sweep, once in the backward one.",
+    "Impacts per forcing cycle and side of both motions.",
+)
+def two_and_one(study: Study) -> Finding:
+    """At f_I."""
+    place = places(study)[0]
+    counts = [impacts(study.motion(CODE, place, way)) for way in BOTH]
+    return Finding(
+        counts == [(2.0, 2.0), (1.0, 1.0)],
+        f"{place:.2f} Hz: forward {listed(counts[0])}, backward {listed(counts[1])} (right, left)",
+    )
+
+
+@claim(
+    "s4-loops",
+    "6, Fig. 16",
+    "Both portraits have inner loops; those of the forward motion cross the bumpers, those of the "
+    "backward one do not reach them.",
+    "Changes of the velocity's sign a cycle (more than 2 is a loop), and impacts a side beyond the "
+    "first one.",
+)
+def loops(study: Study) -> Finding:
+    """A loop that crosses the bumper is a second impact."""
+    place = places(study)[0]
+    both = [study.motion(CODE, place, way, samples=1024) for way in BOTH]
+    counts, more = [turns(m) for m in both], [impacts(m)[0] - 1.0 for m in both]
+    return Finding(
+        min(counts) > 2.5 and more[0] > 0.0 and more[1] == 0.0,
+        f"changes of sign: {listed(counts, '.0f')}; further impacts: {listed(more, '.0f')} "
+        "(forward, backward)",
+    )
+
+
+@claim(
+    "s4-third-motion",
+    "6",
+    "In the left hysteresis a third, unstable motion lies between the two.",
+    "Orbits of the followed branch in the middle of the widest left hysteresis, by stability.",
+)
+def third(study: Study) -> Finding:
+    """Two stable, one unstable."""
+    place, found = places(study)[0], _left(study)
+    widest = max(found, key=lambda item: item.high - item.low)
+    branch = study.antisymmetric_branch(CODE, widest.low - 0.1, widest.high + 0.1)
+    stable, unstable = orbits_at(branch, place + 1e-6)
+    return Finding(
+        (stable, unstable) == (2, 1), f"{stable} stable, {unstable} unstable at {place:.2f} Hz"
+    )
+
+
+@claim(
+    "s4-impacts-with-frequency",
+    "6",
+    "In the left hystereses at lower frequencies there are more impacts a cycle, and always more "
+    "in the forward sweep.",
+    "Impacts a side in the middle of each left hysteresis, from the highest frequency down.",
+)
+def more_impacts(study: Study) -> Finding:
+    """Counted in the sweeps."""
+    data, rows = curves(study), []
+    for item in reversed(_left(study)):
+        inside = data.sel(frequency=slice(item.low - 1e-9, item.high + 1e-9))
+        middle = inside.isel(frequency=inside.sizes["frequency"] // 2)
+        rows.append([float(middle["impacts_right"].sel(direction=way)) for way in BOTH])
+    if len(rows) < 2:
+        raise AbsentError(f"{len(rows)} left hystereses below 0.9 Hz")
+    counts = np.array(rows)
+    holds = bool((np.diff(counts, axis=0) > 0).all() and (counts[:, 0] > counts[:, 1]).all())
+    return Finding(
+        holds,
+        f"forward {listed(counts[:, 0], 'g')}; backward {listed(counts[:, 1], 'g')} impacts a side "
+        "as the frequency falls",
+    )
+
+
+CLAIMS = (left, two_motions, two_and_one, loops, third, more_impacts)

@@ -1,0 +1,204 @@
+"""Section 4.2: how high the resonances are, and how gap, acceleration and bumper change that."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vibroimpact.paper.claim import Finding
+from vibroimpact.paper.claims.reading import (
+    ALONG_ACCELERATION,
+    ALONG_BUMPER,
+    ALONG_GAP,
+    BOTH,
+    FALLING_GAPS,
+    Sequences,
+    backward_less,
+    claim,
+    listed,
+    peak,
+    peak_trend,
+    trend,
+)
+from vibroimpact.paper.study import Study
+from vibroimpact.response.swept import Direction
+
+
+def _maxima(study: Study, pair: str, direction: Direction) -> list[float]:
+    bumper, acceleration = pair.split("-")
+    codes = [f"{bumper}-{gap}-{acceleration}" for gap in FALLING_GAPS]
+    return [peak(study, code, "eta_a", direction).value for code in codes]
+
+
+def _told(forward: list[float], backward: list[float]) -> str:
+    return f"G4 to G1: forward {listed(forward, '.3f')}; backward {listed(backward, '.3f')}"
+
+
+@claim(
+    "bell-in-the-middle",
+    "4.2, Fig. 5",
+    "In B2-A3 the maxima of η_a first rise and then fall as the gap falls from G4 to G1: a bell.",
+    "Maxima of η_a for the four gaps; the largest one of each direction is at G2 or G3.",
+)
+def bell(study: Study) -> Finding:
+    """Both directions."""
+    both = [_maxima(study, "B2-A3", way) for way in BOTH]
+    holds = all(int(np.argmax(values)) in (1, 2) for values in both)
+    return Finding(holds, _told(*both))
+
+
+@claim(
+    "bell-ascending",
+    "4.2, Fig. 5",
+    "In B1-A1, the softest bumper and the smallest acceleration, only the bell's rising side is "
+    "seen as the gap falls.",
+    "Maxima of η_a for the four gaps; each larger than the one before, in both directions.",
+)
+def ascending(study: Study) -> Finding:
+    """Both directions."""
+    both = [_maxima(study, "B1-A1", way) for way in BOTH]
+    return Finding(all((np.diff(values) > 0).all() for values in both), _told(*both))
+
+
+@claim(
+    "bell-descending",
+    "4.2, Fig. 5",
+    "In B4-A3, the stiffest bumper and the largest acceleration, only the bell's falling side is "
+    "seen as the gap falls.",
+    "Maxima of η_a for the four gaps; each smaller than the one before, in both directions.",
+)
+def descending(study: Study) -> Finding:
+    """Both directions."""
+    both = [_maxima(study, "B4-A3", way) for way in BOTH]
+    return Finding(all((np.diff(values) < 0).all() for values in both), _told(*both))
+
+
+def _rise(study: Study, sequences: Sequences, direction: Direction) -> Finding:
+    found = peak_trend(study, sequences, "eta_a", direction, 1)
+    return Finding(found.all_hold, found.told(".2f"))
+
+
+@claim(
+    "acceleration-with-acceleration-forward",
+    "4.2, Fig. 5",
+    "The larger the table acceleration, the higher the forward resonance in η_a.",
+    "Height of the forward resonance from A1 to A3: rises in all 16 pairs of bumper and gap.",
+)
+def with_acceleration(study: Study) -> Finding:
+    """Forward."""
+    return _rise(study, ALONG_ACCELERATION, "forward")
+
+
+@claim(
+    "acceleration-with-acceleration-backward",
+    "4.2, Fig. 5",
+    "The larger the table acceleration, the higher the backward resonance in η_a, to a lesser "
+    "extent.",
+    "Height of the backward resonance from A1 to A3: rises in all 16 pairs, less than forward.",
+)
+def with_acceleration_backward(study: Study) -> Finding:
+    """Backward."""
+    forward, backward = (peak_trend(study, ALONG_ACCELERATION, "eta_a", way, 1) for way in BOTH)
+    example = listed(backward.values["B2-G1"], ".3f")
+    return Finding(
+        backward_less(forward, backward), f"{backward.told('.2f')}; B2-G1: {example} (A1 to A3)"
+    )
+
+
+@claim(
+    "acceleration-with-bumper-forward",
+    "4.2, Fig. 5",
+    "The stiffer the bumper, the higher the forward resonance in η_a.",
+    "Height of the forward resonance from B1 to B4: rises in all 12 pairs of gap and acceleration.",
+)
+def with_bumper(study: Study) -> Finding:
+    """Forward."""
+    return _rise(study, ALONG_BUMPER, "forward")
+
+
+@claim(
+    "acceleration-with-bumper-backward",
+    "4.2, Fig. 5",
+    "The stiffer the bumper, the higher the backward resonance in η_a.",
+    "Height of the backward resonance from B1 to B4: rises in all 12 pairs.",
+)
+def with_bumper_backward(study: Study) -> Finding:
+    """Backward."""
+    return _rise(study, ALONG_BUMPER, "backward")
+
+
+def _fall(study: Study, sequences: Sequences) -> Finding:
+    both = [peak_trend(study, sequences, "eta_d", way, -1) for way in BOTH]
+    return Finding(
+        all(found.all_hold for found in both),
+        f"forward {both[0].told('.2f')}; backward {both[1].told('.2f')}",
+    )
+
+
+@claim(
+    "displacement-with-gap",
+    "4.2, Fig. 6",
+    "The smaller the gap, the lower the resonances in η_d, in both directions.",
+    "Height of the resonance from G4 to G1: falls in all 12 pairs of bumper and acceleration.",
+)
+def displacement_gap(study: Study) -> Finding:
+    """Both directions."""
+    return _fall(study, ALONG_GAP)
+
+
+@claim(
+    "displacement-with-acceleration",
+    "4.2, Fig. 6",
+    "The larger the table acceleration, the lower the resonances in η_d, in both directions.",
+    "Height of the resonance from A1 to A3: falls in all 16 pairs of bumper and gap.",
+)
+def displacement_acceleration(study: Study) -> Finding:
+    """Both directions."""
+    return _fall(study, ALONG_ACCELERATION)
+
+
+@claim(
+    "displacement-with-bumper",
+    "4.2, Fig. 6",
+    "The stiffer the bumper, the lower the resonances in η_d, in both directions.",
+    "Height of the resonance from B1 to B4: falls in all 12 pairs of gap and acceleration.",
+)
+def displacement_bumper(study: Study) -> Finding:
+    """Both directions."""
+    return _fall(study, ALONG_BUMPER)
+
+
+@claim(
+    "directions-closer-with-bumper",
+    "4.2, Fig. 6",
+    "The stiffer the bumper, the smaller the difference of forward and backward resonance in η_d.",
+    "Difference of the two heights from B1 to B4: falls in all 12 pairs of gap and acceleration.",
+)
+def directions_closer(study: Study) -> Finding:
+    """With the softest bumper and a small acceleration the hysteresis is too short for it."""
+
+    def difference(code: str) -> float:
+        forward, backward = (peak(study, code, "eta_d", way).value for way in BOTH)
+        return forward - backward
+
+    found = trend(ALONG_BUMPER, difference, -1)
+    stiff = trend({name: codes[1:] for name, codes in ALONG_BUMPER.items()}, difference, -1)
+    example = listed(found.values["G1-A3"], ".3f")
+    return Finding(
+        found.all_hold,
+        f"{found.told('.3f')}; G1-A3: {example} (B1 to B4); from B2 on it falls in {stiff.held}",
+    )
+
+
+CLAIMS = (
+    bell,
+    ascending,
+    descending,
+    with_acceleration,
+    with_acceleration_backward,
+    with_bumper,
+    with_bumper_backward,
+    displacement_gap,
+    displacement_acceleration,
+    displacement_bumper,
+    directions_closer,
+)

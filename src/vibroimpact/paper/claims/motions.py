@@ -1,0 +1,314 @@
+"""Section 4.3: the motions behind scenarios S1 to S3."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vibroimpact.paper.claim import Finding
+from vibroimpact.paper.claims.reading import (
+    ALMOST_ONE_LINE,
+    BOTH,
+    SYMBOLS,
+    TEST_STEP,
+    apart,
+    claim,
+    contact_span,
+    free,
+    harmonics,
+    higher,
+    impacts,
+    listed,
+    regular_places,
+    secondary,
+    touching,
+)
+from vibroimpact.paper.study import Study
+from vibroimpact.response.peaks import Curve
+
+_S3, _S2, _S1 = "B2-G1-A3", "B2-G2-A2", "B2-G4-A1"
+_LIKE_FREE = 0.1
+"""Largest difference from free flight's maximum of curves that are called similar to it."""
+
+
+@claim(
+    "s3-secondary-without-hysteresis",
+    "4.3, Fig. 7",
+    "B2-G1-A3 shows a right hysteresis at its primary resonance and, at low frequencies, a "
+    "secondary resonance without hysteresis: scenario S3.",
+    "The scenario of its computed curves, its secondary resonances and hystereses.",
+)
+def s3(study: Study) -> Finding:
+    """By the classification."""
+    found = study.classification(_S3)
+    hysteresis = [item.side for item in found.features.hysteresis]
+    resonances = ", ".join(f"{f:.2f} Hz ({p:.0%} prominent)" for f, p in secondary(study, _S3))
+    return Finding(
+        found.scenario == "S3" and hysteresis == ["right"],
+        f"{found.scenario}; secondary resonance {resonances or 'none'}; hystereses: "
+        f"{', '.join(hysteresis) or 'none'}",
+    )
+
+
+@claim(
+    "s3-impacts-from-the-first",
+    "4.3, Fig. 7",
+    "In B2-G1-A3 the bumpers are hit from the lowest frequency of 0.5 Hz on.",
+    "First frequency of the forward sweep with impacts.",
+)
+def s3_contact(study: Study) -> Finding:
+    """From 0.5 Hz."""
+    low, high = contact_span(study, _S3)
+    return Finding(low == 0.5, f"{low:g} to {high:g} Hz")
+
+
+@claim(
+    "s3-coincident-below",
+    "4.3, Fig. 8",
+    "At the secondary resonance and in the valley behind it, forward and backward sweep reach the "
+    "same motion.",
+    "Difference of the two excursions at f_I and f_II, read off the curves.",
+)
+def s3_coincide(study: Study) -> Finding:
+    """To rounding."""
+    first, valley, _ = regular_places(study, _S3)
+    differ = apart(study.campaign().sel(rig=_S3))
+    worst = float(differ.sel(frequency=[first, valley], method="nearest").max())
+    return Finding(
+        worst < 1e-6, f"at most {worst:.1e} at f_I = {first:.2f} and f_II = {valley:.2f} Hz"
+    )
+
+
+@claim(
+    "s3-many-harmonics",
+    "4.3, Fig. 8",
+    "At f_I and f_II the motion has several harmonics, each smaller than the one before.",
+    "Odd harmonics 1 to 9 of the displacement over the first (even ones vanish, for the motion is "
+    "its own mirror image): falling, and the third above 1 %.",
+)
+def s3_harmonics(study: Study) -> Finding:
+    """Exact Fourier coefficients."""
+    told, holds = [], True
+    for name, frequency in zip(("f_I", "f_II"), regular_places(study, _S3), strict=False):
+        odd = harmonics(study.motion(_S3, frequency, "forward"))[:9:2]
+        holds &= bool((np.diff(odd) < 0.0).all()) and odd[1] > 0.01
+        told.append(f"{name}: {listed(100.0 * odd)} %")
+    return Finding(holds, "; ".join(told))
+
+
+@claim(
+    "s3-one-impact-a-side",
+    "4.3, Fig. 8",
+    "At f_I, f_II and f_III (just before the downward jump) the mass hits each bumper once in a "
+    "forcing cycle.",
+    "Impacts per cycle, right and left, of the forward sweep's motion at the three frequencies.",
+)
+def s3_impacts(study: Study) -> Finding:
+    """Of periodic motions."""
+    places = regular_places(study, _S3)
+    found = [study.motion(_S3, f, "forward") for f in places]
+    counts = [impacts(motion) for motion in found]
+    told = "; ".join(
+        f"{f:.2f} Hz: {r:g} and {left:g}" for f, (r, left) in zip(places, counts, strict=True)
+    )
+    return Finding(set(counts) == {(1.0, 1.0)}, told)
+
+
+@claim(
+    "s3-contact-lasts-longer",
+    "4.3, Fig. 8",
+    "From f_I over f_II to f_III each contact takes a larger share of the forcing period.",
+    "Longest contact of the forward sweep's motion over T at the three frequencies: rising.",
+)
+def s3_duration(study: Study) -> Finding:
+    """Contact time over T."""
+    shares = [
+        float(study.motion(_S3, f, "forward")["contact_duration_share"].max())
+        for f in regular_places(study, _S3)
+    ]
+    return Finding(bool((np.diff(shares) > 0).all()), f"{listed(shares, '.3f')} T")
+
+
+@claim(
+    "s3-two-motions",
+    "4.3, Fig. 8",
+    "Just before the downward jump a large motion with impacts and a small one without coexist.",
+    "Excursion and impacts of the motions that the two sweeps reach at f_III.",
+)
+def s3_two(study: Study) -> Finding:
+    """Forward large, backward small."""
+    place = regular_places(study, _S3)[2]
+    large, small = (study.motion(_S3, place, way) for way in BOTH)
+    sizes = [1e3 * float(motion["displacement_excursion"]) for motion in (large, small)]
+    holds = sizes[0] > sizes[1] and min(impacts(large)) > 0 and impacts(small) == (0.0, 0.0)
+    return Finding(
+        holds,
+        f"{place:.2f} Hz: excursions {listed(sizes)} mm, {impacts(large)[0]:g} and "
+        f"{impacts(small)[0]:g} impacts a side",
+    )
+
+
+@claim(
+    "s3-one-predominant-harmonic",
+    "4.3, Fig. 8",
+    "Both motions at f_III are periodic with one predominant harmonic.",
+    "All higher harmonics of the displacement together over the first one: below 10 %.",
+)
+def s3_one_line(study: Study) -> Finding:
+    """Of the displacement."""
+    place = regular_places(study, _S3)[2]
+    both = [study.motion(_S3, place, way) for way in BOTH]
+    shares = [higher(motion) for motion in both]
+    holds = all(str(m["motion"].item()) == "periodic" and int(m["period"]) == 1 for m in both)
+    return Finding(
+        holds and max(shares) < ALMOST_ONE_LINE,
+        f"{shares[0]:.1%} of the large motion, {shares[1]:.1%} of the small one",
+    )
+
+
+@claim(
+    "s3-portraits-become-ellipses",
+    "4.3, Fig. 8",
+    "From the valley to the primary resonance the phase portraits turn into ellipses.",
+    "Higher harmonics of the displacement over the first at five frequencies from f_II to f_III: "
+    "falling throughout, to below 10 %.",
+)
+def s3_ellipses(study: Study) -> Finding:
+    """A single harmonic is an ellipse."""
+    _, valley, last = regular_places(study, _S3)
+    places = [round(float(f), 2) for f in np.linspace(valley, last, 5)]
+    shares = [higher(study.motion(_S3, f, "forward")) for f in places]
+    holds = bool((np.diff(shares) < 0).all()) and shares[-1] < ALMOST_ONE_LINE
+    return Finding(holds, f"{listed([100 * s for s in shares])} % at {listed(places)} Hz")
+
+
+@claim(
+    "s3-one-motion-above",
+    "4.3, Fig. 8",
+    "Above the downward jump there is one motion only, without impacts, the same in both sweeps.",
+    "Contacts and differences of the two directions of B2-G1-A3 above f_III.",
+)
+def s3_above(study: Study) -> Finding:
+    """Free flight."""
+    last = regular_places(study, _S3)[2]
+    above = study.campaign().sel(rig=_S3, frequency=slice(last + 0.005, None))
+    hits, differ = int(touching(above).sum()), float(apart(above).max())
+    return Finding(
+        hits == 0 and differ < 1e-6, f"{hits} holds with impacts; difference at most {differ:.0e}"
+    )
+
+
+@claim(
+    "s3-dissymmetry",
+    "4.3, Fig. 8",
+    "The measured portraits of B2-G1-A3 are not symmetric, for the two gaps differ by accident.",
+    "Nothing: the accidental gaps are not given, and the model's are equal.",
+)
+def dissymmetry(study: Study) -> Finding:
+    """The computed eccentricity is zero."""
+    worst = 1e3 * float(np.abs(study.campaign()["eccentricity"].sel(rig=_S3)).max())
+    return Finding(
+        None,
+        f"with equal gaps the eccentricity is at most {worst:.0e} mm; needed: the measured right "
+        "and left gaps, or the displacement records of this test",
+    )
+
+
+@claim(
+    "s2-primary-only",
+    "4.3, Fig. 9",
+    "B2-G2-A2 shows its primary resonance with right hysteresis and nothing else: scenario S2.",
+    "The scenario of its computed curves and its secondary resonances.",
+)
+def s2(study: Study) -> Finding:
+    """By the classification."""
+    found, others = study.classification(_S2), secondary(study, _S2)
+    ends = [f"{item.ends[0]:.3f} to {item.ends[1]:.3f} Hz" for item in found.features.right]
+    return Finding(
+        found.scenario == "S2" and not others,
+        f"{found.scenario}; {len(others)} secondary resonances; right hysteresis "
+        f"{', '.join(ends) or 'none'}",
+    )
+
+
+@claim(
+    "s2-impact-range",
+    "4.3, Fig. 9",
+    "In B2-G2-A2 the bumpers are hit between about 0.7 and 2 Hz only.",
+    "First and last frequency with impacts of the forward sweep, with the parameters fitted to "
+    "this test: within 0.1 Hz, the step of the tests, of both.",
+)
+def s2_contact(study: Study) -> Finding:
+    """The same with the parameters of all tests is told beside it."""
+    data = study.curves(_S2, "identified").sel(direction="forward")
+    hit = data["frequency"].values[touching(data).values]
+    low, high = (float(hit[0]), float(hit[-1])) if len(hit) else (np.nan, np.nan)
+    table = contact_span(study, _S2)
+    holds = abs(low - 0.7) <= TEST_STEP + 1e-9 and abs(high - 2.0) <= TEST_STEP + 1e-9
+    return Finding(
+        holds,
+        f"{low:.2f} to {high:.2f} Hz; with Table 1's parameters {table[0]:.2f} to "
+        f"{table[1]:.2f} Hz",
+    )
+
+
+@claim(
+    "s2-impacts-later",
+    "4.3, Fig. 9",
+    "In B2-G2-A2, unlike in B2-G1-A3, the bumpers are not hit at the lowest frequency yet.",
+    "First frequency of the forward sweep with impacts, in both tests.",
+)
+def s2_later(study: Study) -> Finding:
+    """The gap is wider, the acceleration smaller."""
+    one, other = contact_span(study, _S2)[0], contact_span(study, _S3)[0]
+    return Finding(one > other == 0.5, f"{one:.2f} Hz, against {other:.2f} Hz in {_S3}")
+
+
+def _like_free(study: Study, curve: Curve) -> Finding:
+    data = study.campaign().sel(rig=_S1)
+    worst = float(np.abs(data[curve] - free(data, curve)).max())
+    most = float(data[curve].max())
+    return Finding(
+        worst <= _LIKE_FREE, f"differs by at most {worst:.3f}; largest {SYMBOLS[curve]} {most:.3f}"
+    )
+
+
+@claim(
+    "s1-displacement-like-free-flight",
+    "4.3, Fig. 10",
+    "In grazing contact, B2-G4-A1, the displacement's curves are close to free flight's.",
+    "Largest difference of η_d from free flight: at most 0.1.",
+)
+def s1_displacement(study: Study) -> Finding:
+    """Hardly pressed in."""
+    return _like_free(study, "eta_d")
+
+
+@claim(
+    "s1-acceleration-like-free-flight",
+    "4.3, Fig. 10",
+    "In grazing contact, B2-G4-A1, the acceleration's curves are close to free flight's.",
+    "Largest difference of η_a from free flight: at most 0.1.",
+)
+def s1_acceleration(study: Study) -> Finding:
+    """A stiff bumper adds much acceleration where it is pressed in a little."""
+    return _like_free(study, "eta_a")
+
+
+CLAIMS = (
+    s3,
+    s3_contact,
+    s3_coincide,
+    s3_harmonics,
+    s3_impacts,
+    s3_ellipses,
+    s3_two,
+    s3_one_line,
+    s3_above,
+    dissymmetry,
+    s3_duration,
+    s2,
+    s2_later,
+    s2_contact,
+    s1_displacement,
+    s1_acceleration,
+)

@@ -1,0 +1,250 @@
+"""How claims are made, and what several of them read off the study."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.model import laboratory
+from vibroimpact.paper.claim import Claim, Finding
+from vibroimpact.paper.study import STEP, Study
+from vibroimpact.response.peaks import Curve, Peak
+from vibroimpact.response.spectrum import spectrum
+from vibroimpact.response.swept import Direction
+
+TEST_STEP = 0.1
+"""Step of the tests' sweeps in Hz: a frequency that the paper gives as "about" may be off by it."""
+ALMOST_ONE_LINE = 0.1
+"""All higher harmonics together over the first one, below which that one is predominant."""
+
+ACCELERATIONS = tuple(laboratory.ACCELERATIONS)
+BUMPERS = tuple(laboratory.BUMPERS)
+FALLING_GAPS = tuple(laboratory.GAPS)[::-1]
+CODES = tuple(f"{b}-{g}-{a}" for a in ACCELERATIONS for b in BUMPERS for g in laboratory.GAPS)
+"""The 48 tests."""
+
+BOTH: tuple[Direction, Direction] = ("forward", "backward")
+
+SYMBOLS: Mapping[Curve, str] = {"eta_a": "η_a", "eta_d": "η_d"}
+
+Array = NDArray[np.float64]
+Sequences = Mapping[str, Sequence[str]]
+"""Cases in the order of one parameter, by what stays the same."""
+
+ALONG_GAP: Sequences = {
+    f"{b}-{a}": [f"{b}-{g}-{a}" for g in FALLING_GAPS] for a in ACCELERATIONS for b in BUMPERS
+}
+ALONG_ACCELERATION: Sequences = {
+    f"{b}-{g}": [f"{b}-{g}-{a}" for a in ACCELERATIONS] for b in BUMPERS for g in laboratory.GAPS
+}
+ALONG_BUMPER: Sequences = {
+    f"{g}-{a}": [f"{b}-{g}-{a}" for b in BUMPERS] for a in ACCELERATIONS for g in laboratory.GAPS
+}
+
+
+class AbsentError(LookupError):
+    """What a statement speaks of does not occur, so that it does not hold."""
+
+
+def claim(
+    key: str, section: str, statement: str, quantity: str
+) -> Callable[[Callable[[Study], Finding]], Claim]:
+    """Make a claim of the function below."""
+
+    def made(find: Callable[[Study], Finding]) -> Claim:
+        def found(study: Study) -> Finding:
+            try:
+                holds, number = find(study)
+            except AbsentError as absent:
+                return Finding(False, str(absent))
+            # Comparisons of arrays give numpy's booleans.
+            return Finding(None if holds is None else bool(holds), number)
+
+        return Claim(key, section, statement, quantity, found)
+
+    return made
+
+
+def peak(study: Study, code: str, curve: Curve, direction: Direction) -> Peak:
+    """The primary resonance of a test."""
+    return next(
+        p
+        for p in study.features(code).peaks
+        if p.primary and (p.curve, p.direction) == (curve, direction)
+    )
+
+
+def jump(study: Study, code: str, direction: Direction) -> float | None:
+    """Frequency of a test's jump at the primary resonance (Hz): forward down, backward up."""
+    return max(
+        (
+            j.frequency
+            for j in study.features(code).jumps
+            if j.direction == direction and j.settled and j.upward == (direction == "backward")
+        ),
+        default=None,
+    )
+
+
+class Trend(NamedTuple):
+    """How a value changes along each of several sequences of cases."""
+
+    held: int
+    """Sequences along which it never turns, and changes by more than the least."""
+    moves: dict[str, float]
+    """The last value less the first one."""
+    values: dict[str, list[float]]
+
+    @property
+    def all_hold(self) -> bool:
+        """Whether there is any sequence, and every one holds."""
+        return bool(self.moves) and self.held == len(self.moves)
+
+    def told(self, digits: str, unit: str = "") -> str:
+        """In words."""
+        low, high = min(self.moves.values()), max(self.moves.values())
+        return (
+            f"{self.held} of {len(self.moves)} sequences; "
+            f"changes {low:+{digits}} to {high:+{digits}}{unit}"
+        )
+
+
+def trend(
+    sequences: Sequences, value: Callable[[str], float | None], sign: int, least: float = 0.0
+) -> Trend:
+    """The trend of a value; `sign` is 1 if it should rise, -1 if it should fall.
+
+    Cases that have no such value are left out, and so are sequences with fewer than two others.
+    """
+    held, moves, kept = 0, {}, {}
+    for name, codes in sequences.items():
+        values = [found for code in codes if (found := value(code)) is not None]
+        if len(values) < 2:
+            continue
+        changes = sign * np.diff(values)
+        moves[name], kept[name] = values[-1] - values[0], values
+        held += bool((changes >= 0.0).all() and changes.sum() > least)
+    if not moves:
+        raise AbsentError("nothing of the kind is found in any test")
+    return Trend(held, moves, kept)
+
+
+def jump_trend(study: Study, sequences: Sequences, direction: Direction) -> Trend:
+    """Trend of the jump's frequency: it has to rise by more than the step of the sweeps."""
+    return trend(sequences, lambda code: jump(study, code, direction), 1, 1.5 * STEP)
+
+
+def peak_trend(
+    study: Study, sequences: Sequences, curve: Curve, direction: Direction, sign: int
+) -> Trend:
+    """Trend of the primary resonance's height."""
+    return trend(sequences, lambda code: peak(study, code, curve, direction).value, sign)
+
+
+def backward_less(forward: Trend, backward: Trend) -> bool:
+    """Whether the backward sweep's value rises in all sequences, and less than the forward one's.
+
+    Of sequences of different length (a test without a jump is left out of both) as of others.
+    """
+    return backward.all_hold and all(
+        abs(move) < abs(forward.moves[name]) for name, move in backward.moves.items()
+    )
+
+
+def touching(data: xr.Dataset) -> xr.DataArray:
+    """Where a sweep's mass hits a bumper."""
+    return (data["impacts_right"] + data["impacts_left"]) > 0.0
+
+
+def contact_span(study: Study, code: str) -> tuple[float, float]:
+    """First and last frequency of the forward sweep at which a bumper is hit (Hz)."""
+    spans = [c for c in study.features(code).contact if c.direction == "forward"]
+    if not spans:
+        raise AbsentError(f"{code} never hits its bumpers")
+    return min(c.low for c in spans), max(c.high for c in spans)
+
+
+def free(data: xr.Dataset, curve: Curve) -> xr.DataArray:
+    """Free flight on the same scale as η_a or η_d."""
+    name = {"eta_a": "free_acceleration_excursion", "eta_d": "free_displacement_excursion"}[curve]
+    return data[name] / data[name].max("frequency")
+
+
+def secondary(study: Study, code: str) -> list[tuple[float, float]]:
+    """Secondary resonances without hysteresis of a test: frequency (Hz), prominence as a share."""
+    found = study.classification(code)
+    return found.features.secondary_resonances(found.thresholds.prominence)
+
+
+def regular_places(
+    study: Study, code: str, parameters: laboratory.Parameters = "table"
+) -> tuple[float, float, float]:
+    """`Study.regular_places`, or `AbsentError`."""
+    try:
+        return study.regular_places(code, parameters)
+    except (ValueError, IndexError, StopIteration):
+        raise AbsentError(f"{code} has no secondary resonance, or no downward jump") from None
+
+
+def impacts(motion: xr.Dataset) -> tuple[float, float]:
+    """Impacts right and left per forcing cycle."""
+    return float(motion["impacts_right"]), float(motion["impacts_left"])
+
+
+def harmonics(motion: xr.Dataset, highest: int = 20) -> Array:
+    """Amplitudes of the displacement's harmonics 1, 2, ... over the first one."""
+    lines = spectrum(motion, highest)
+    whole = lines.sel(order=list(range(1, highest + 1)))["displacement_amplitude"].values
+    shares: Array = whole / whole[0]
+    return shares
+
+
+def higher(motion: xr.Dataset) -> float:
+    """All higher harmonics of the displacement together, over the first one."""
+    return float(np.sqrt((harmonics(motion)[1:] ** 2).sum()))
+
+
+def turns(motion: xr.Dataset) -> float:
+    """Changes of the velocity's sign per forcing cycle."""
+    sign = np.sign(motion["velocity"].values)
+    sign = sign[sign != 0.0]
+    return float((sign[1:] != sign[:-1]).sum()) / float(motion["cycle"][-1] - motion["cycle"][0])
+
+
+def orbits_at(branch: xr.Dataset, frequency: float) -> tuple[int, int]:
+    """Stable and unstable orbits of a branch at a frequency, where it passes by."""
+    along, stable = branch["frequency"].values, branch["stable"].values == 1
+    passes = (along[1:] - frequency) * (along[:-1] - frequency) < 0.0
+    both = stable[1:] & stable[:-1]
+    return int((passes & both).sum()), int((passes & ~both).sum())
+
+
+def apart(data: xr.Dataset) -> xr.DataArray:
+    """How far the two directions of a sweep differ, in η_a or η_d, as a share of the larger."""
+
+    def one(curve: Curve) -> xr.DataArray:
+        eta = data[curve]
+        return (eta.max("direction") - eta.min("direction")) / eta.max("direction")
+
+    return xr.concat([one("eta_a"), one("eta_d")], "curve").max("curve")
+
+
+def span(low: float, high: float, unit: str = "Hz") -> str:
+    """A range in words."""
+    return f"{low:g} to {high:g} {unit}".rstrip()
+
+
+def listed(values: Iterable[float], digits: str = ".3g") -> str:
+    """Values in their order."""
+    return ", ".join(f"{value:{digits}}" for value in values)
+
+
+def runs(frequency: Array, true: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
+    """Ranges of frequency in which something is so."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], true, [False]])))
+    for first, end in edges.reshape(-1, 2):
+        yield float(frequency[first]), float(frequency[end - 1])

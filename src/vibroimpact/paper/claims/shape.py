@@ -1,0 +1,236 @@
+"""Section 4.2: penetration, likeness of curves, and where secondary resonances appear."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from vibroimpact.model import laboratory
+from vibroimpact.paper.claim import Finding
+from vibroimpact.paper.claims.reading import (
+    ACCELERATIONS,
+    ALONG_BUMPER,
+    BUMPERS,
+    CODES,
+    SYMBOLS,
+    AbsentError,
+    claim,
+    contact_span,
+    free,
+    listed,
+    secondary,
+    trend,
+)
+from vibroimpact.paper.study import Study
+from vibroimpact.response.peaks import CURVES, Curve
+
+
+def _penetration(study: Study, code: str, low: float, high: float) -> tuple[float, float]:
+    """Least and largest penetration in a range of the forward sweep (m)."""
+    bumper = laboratory.case(code).oscillator.right
+    assert bumper is not None
+    most = study.campaign()["displacement_max"].sel(rig=code, direction="forward")
+    inside = most.sel(frequency=slice(low, high)) - bumper.gap
+    return float(inside.min()), float(inside.max())
+
+
+@claim(
+    "penetration-with-bumper",
+    "4.2",
+    "The stiffer the bumper, the less deeply the mass presses into it.",
+    "Largest penetration of the forward sweep from B1 to B4: falls in all 12 pairs of gap and "
+    "acceleration.",
+)
+def penetration(study: Study) -> Finding:
+    """Largest over the frequency."""
+    found = trend(ALONG_BUMPER, lambda code: _penetration(study, code, 0.0, 10.0)[1], -1)
+    example = listed([1e3 * value for value in found.values["G1-A3"]], ".2f")
+    return Finding(
+        found.all_hold, f"{found.held} of {len(found.moves)}; G1-A3: {example} mm (B1 to B4)"
+    )
+
+
+@claim(
+    "penetration-independent-of-frequency",
+    "4.2",
+    "The stiffer the bumper, the less the penetration depends on the frequency.",
+    "Range of the penetration over the frequencies at which all four bumpers are hit in the "
+    "forward sweep, from B1 to B4: falls in all 12 pairs of gap and acceleration.",
+)
+def flat(study: Study) -> Finding:
+    """On a range that the four bumpers have in common."""
+
+    def change(code: str) -> float:
+        others = [f"{b}-{code.split('-', 1)[1]}" for b in BUMPERS]
+        spans = [contact_span(study, other) for other in others]
+        low, high = max(s[0] for s in spans), min(s[1] for s in spans)
+        least, most = _penetration(study, code, low, high)
+        return most - least
+
+    found = trend(ALONG_BUMPER, change, -1)
+    example = listed([1e3 * value for value in found.values["G1-A3"]], ".2f")
+    return Finding(
+        found.all_hold, f"{found.held} of {len(found.moves)}; G1-A3: {example} mm (B1 to B4)"
+    )
+
+
+def _distance(study: Study, one: str, other: str) -> float:
+    """Root mean square difference of two tests' curves, both quantities and directions."""
+    data = study.campaign()
+    squares = [((data[c].sel(rig=one) - data[c].sel(rig=other)) ** 2).mean() for c in CURVES]
+    return float(np.sqrt(sum(squares)))
+
+
+@claim(
+    "middle-bumpers-alike",
+    "4.2, Figs. 5 and 6",
+    "Bumpers B2 and B3 behave alike.",
+    "Root mean square difference of the curves for every two bumpers: that of B2 and B3 is the "
+    "smallest of the six in all 12 pairs of gap and acceleration.",
+)
+def alike(study: Study) -> Finding:
+    """Both quantities, both directions."""
+    held, shares = 0, []
+    for codes in ALONG_BUMPER.values():
+        pairs = dict(
+            zip(
+                itertools.combinations(BUMPERS, 2),
+                (_distance(study, *two) for two in itertools.combinations(codes, 2)),
+                strict=True,
+            )
+        )
+        middle = pairs.pop(("B2", "B3"))
+        held += middle < min(pairs.values())
+        shares.append(middle / min(pairs.values()))
+    return Finding(
+        held == len(ALONG_BUMPER),
+        f"smallest in {held} of {len(ALONG_BUMPER)}; {min(shares):.0%} to {max(shares):.0%} of "
+        "the next smallest",
+    )
+
+
+def _from_free(study: Study, curve: Curve) -> dict[str, float]:
+    """Root mean square difference from free flight, by bumper and acceleration."""
+    data = study.campaign()
+    square = ((data[curve] - free(data, curve)) ** 2).mean(["direction", "frequency"])
+    return {
+        f"{b}-{a}": float(np.sqrt(square.sel(rig=[f"{b}-{g}-{a}" for g in laboratory.GAPS]).mean()))
+        for a in ACCELERATIONS
+        for b in BUMPERS
+    }
+
+
+def _told(found: dict[Curve, dict[str, float]], chosen: dict[Curve, str]) -> str:
+    return "; ".join(f"{SYMBOLS[c]}: {name}, {found[c][name]:.3f}" for c, name in chosen.items())
+
+
+@claim(
+    "closest-to-free-flight",
+    "4.2, Figs. 5 and 6",
+    "The softest bumper with the smallest acceleration, B1-A1, stays closest to free flight.",
+    "Root mean square difference from free flight over the four gaps: the smallest of the 12 "
+    "pairs, in η_a and in η_d.",
+)
+def closest(study: Study) -> Finding:
+    """In both quantities."""
+    found = {curve: _from_free(study, curve) for curve in CURVES}
+    least = {curve: min(values, key=values.__getitem__) for curve, values in found.items()}
+    return Finding(set(least.values()) == {"B1-A1"}, _told(found, least))
+
+
+@claim(
+    "furthest-from-free-flight",
+    "4.2, Figs. 5 and 6",
+    "The stiffest bumper with the largest acceleration, B4-A3, departs furthest from free flight.",
+    "Root mean square difference from free flight over the four gaps: the largest of the 12 "
+    "pairs, in η_a and in η_d.",
+)
+def furthest(study: Study) -> Finding:
+    """In both quantities."""
+    found = {curve: _from_free(study, curve) for curve in CURVES}
+    most = {curve: max(values, key=values.__getitem__) for curve, values in found.items()}
+    return Finding(set(most.values()) == {"B4-A3"}, _told(found, most))
+
+
+@claim(
+    "secondary-only-small-gaps-large-accelerations",
+    "4.2 and 8",
+    "Secondary resonances occur for the two larger accelerations with the two smaller gaps only.",
+    "Tests with a secondary resonance without hysteresis (2 % prominent in η_a): none has A1, G3 "
+    "or G4; and A2, A3, G1 and G2 all occur.",
+)
+def secondary_where(study: Study) -> Finding:
+    """By the tests that have one."""
+    found = [code for code in CODES if secondary(study, code)]
+    parts = {part for code in found for part in code.split("-")[1:]}
+    return Finding(parts == {"A2", "A3", "G1", "G2"}, f"{len(found)} tests: {', '.join(found)}")
+
+
+@claim(
+    "secondary-with-all-three",
+    "4.2",
+    "Secondary resonances appear as the gap falls, as the acceleration rises and as the bumper "
+    "gets stiffer.",
+    "A test with a secondary resonance keeps it with the next smaller gap, the next larger "
+    "acceleration and the next stiffer bumper.",
+)
+def secondary_grows(study: Study) -> Finding:
+    """No exception in the grid of tests."""
+    found = {code for code in CODES if secondary(study, code)}
+    lost = []
+    for code in found:
+        b, g, a = code.split("-")
+        for name, part, step in ((b, "B", 1), (g, "G", -1), (a, "A", 1)):
+            neighbour = code.replace(name, f"{part}{int(name[1]) + step}")
+            if neighbour in CODES and neighbour not in found:
+                lost.append(f"{code} but not {neighbour}")
+    return Finding(
+        0 < len(found) < len(CODES) and not lost,
+        "; ".join(lost) or f"no exception among {len(found)} tests",
+    )
+
+
+@claim(
+    "secondary-higher-with-bumper",
+    "8",
+    "The secondary resonances grow as the bumper gets stiffer.",
+    "η_a of the forward sweep's highest secondary resonance from B2 to B4, where all three have "
+    "one: rising.",
+)
+def secondary_higher(study: Study) -> Finding:
+    """Height, not prominence."""
+    told, holds = [], True
+    for pair in ALONG_BUMPER:
+        heights = []
+        for code in (f"{b}-{pair}" for b in BUMPERS[1:]):
+            found = study.classification(code)
+            least = found.thresholds.prominence
+            heights += [
+                max(
+                    (
+                        p.value
+                        for p in found.features.secondary
+                        if p.direction == "forward" and p.prominence >= least * p.value
+                    ),
+                    default=np.nan,
+                )
+            ]
+        if np.isfinite(heights).all():
+            holds &= bool((np.diff(heights) > 0).all())
+            told.append(f"{pair}: {listed(heights, '.3f')}")
+    if not told:
+        raise AbsentError("no pair of gap and acceleration has a secondary resonance with B2 to B4")
+    return Finding(holds, "; ".join(told))
+
+
+CLAIMS = (
+    secondary_where,
+    secondary_grows,
+    secondary_higher,
+    penetration,
+    flat,
+    alike,
+    closest,
+    furthest,
+)

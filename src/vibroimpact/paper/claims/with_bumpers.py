@@ -1,0 +1,249 @@
+"""Section 4.2: what bumpers do to the resonance curves."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from vibroimpact.paper.claim import Finding
+from vibroimpact.paper.claims.reading import (
+    ACCELERATIONS,
+    ALONG_GAP,
+    BOTH,
+    BUMPERS,
+    CODES,
+    FALLING_GAPS,
+    AbsentError,
+    apart,
+    claim,
+    contact_span,
+    free,
+    jump,
+    orbits_at,
+    peak,
+    runs,
+    span,
+    touching,
+    trend,
+)
+from vibroimpact.paper.study import HIGH, LOW, Study
+from vibroimpact.response.peaks import Curve
+from vibroimpact.response.resonance import APART
+
+_EXAMPLE = "B4-G4-A3"
+
+
+@claim(
+    "acceleration-above-1",
+    "4.2, Fig. 5",
+    "Bumpers raise the largest acceleration: η_a reaches more than 1 in every test and direction.",
+    "The smallest of the 96 maxima of η_a (48 tests, two directions).",
+)
+def acceleration(study: Study) -> Finding:
+    """All maxima above 1."""
+    most = study.campaign()["eta_a"].max("frequency")
+    least = float(most.min())
+    code = str(most.min("direction").idxmin("rig").item())
+    return Finding(least > 1.0, f"smallest maximum {least:.3f} ({code})")
+
+
+@claim(
+    "displacement-below-1",
+    "4.2, Fig. 6",
+    "Bumpers limit the displacement: η_d stays below 1 in every test and direction.",
+    "The largest of the 96 maxima of η_d.",
+)
+def displacement(study: Study) -> Finding:
+    """All maxima below 1."""
+    most = study.campaign()["eta_d"].max("frequency")
+    largest = float(most.max())
+    code = str(most.max("direction").idxmax("rig").item())
+    return Finding(largest < 1.0, f"largest maximum {largest:.3f} ({code})")
+
+
+def _forward_higher(study: Study, curve: Curve) -> Finding:
+    pairs = {code: [peak(study, code, curve, way).value for way in BOTH] for code in CODES}
+    equal = [c for c, (f, b) in pairs.items() if abs(f - b) <= 1e-6 * f]
+    higher = [c for c, (f, b) in pairs.items() if f > b and c not in equal]
+    where = f"; equal in {', '.join(equal)}" if equal else ""
+    return Finding(len(higher) == len(CODES), f"higher in {len(higher)} of {len(CODES)}{where}")
+
+
+@claim(
+    "forward-higher-acceleration",
+    "4.2, Fig. 5",
+    "In η_a the resonance of the forward sweep is higher than that of the backward sweep.",
+    "Heights of the primary resonance in both directions; higher in all 48 tests.",
+)
+def forward_higher_acceleration(study: Study) -> Finding:
+    """Equal where the hysteresis begins beyond the peak."""
+    return _forward_higher(study, "eta_a")
+
+
+@claim(
+    "forward-higher-displacement",
+    "4.2, Fig. 6",
+    "In η_d the resonance of the forward sweep is higher than that of the backward sweep.",
+    "Heights of the primary resonance in both directions; higher in all 48 tests.",
+)
+def forward_higher_displacement(study: Study) -> Finding:
+    """Equal where the hysteresis begins beyond the peak."""
+    return _forward_higher(study, "eta_d")
+
+
+@claim(
+    "free-flight-without-impact",
+    "4.2",
+    "Where no bumper is hit, before impacts begin and beyond the jumps, the curves are those of "
+    "free flight.",
+    "Largest difference from free flight at all frequencies without contact, 48 tests.",
+)
+def overlap(study: Study) -> Finding:
+    """To rounding."""
+    data = study.campaign()
+    apart_by = abs(data["eta_d"] / free(data, "eta_d") - 1.0)
+    worst = float(apart_by.where(~touching(data)).max())
+    return Finding(worst < 1e-6, f"at most {worst:.1e} of the excursion")
+
+
+@claim(
+    "hysteresis-of-the-example",
+    "4.2, Fig. 4",
+    "In B4-G4-A3 the forward sweep leaves free flight as impacts begin, rises and jumps down; the "
+    "backward sweep jumps up at a lower frequency: a right hysteresis.",
+    "Jumps of both directions, and whether bumpers are hit on their far sides.",
+)
+def hysteresis(study: Study) -> Finding:
+    """Down into free flight, up out of it."""
+    down, up = (jump(study, _EXAMPLE, way) for way in BOTH)
+    if down is None or up is None:
+        raise AbsentError(f"{_EXAMPLE} does not jump")
+    hit = touching(study.campaign().sel(rig=_EXAMPLE))
+    forward, backward = hit.sel(direction="forward"), hit.sel(direction="backward")
+    middle = {"frequency": slice(up, down)}
+    holds = (
+        up < down
+        and bool(forward.sel(middle).all())
+        and not bool(backward.sel(middle).any())
+        and not bool(hit.sel(frequency=slice(down, None)).any())
+    )
+    return Finding(holds, f"down at {down:.3f} Hz, up at {up:.3f} Hz")
+
+
+@claim(
+    "three-motions",
+    "4.2, Fig. 4",
+    "Between the two jumps three steady motions exist: a large and a small one that are stable, "
+    "and one that is unstable and cannot be measured.",
+    "Orbits of the followed branch of B4-G4-A3 in the middle between its jumps, by stability.",
+)
+def three_motions(study: Study) -> Finding:
+    """Counted on the branch."""
+    down, up = (jump(study, _EXAMPLE, way) for way in BOTH)
+    if down is None or up is None:
+        raise AbsentError(f"{_EXAMPLE} does not jump")
+    branch = study.antisymmetric_branch(_EXAMPLE, LOW, HIGH)
+    middle = 0.5 * (down + up)
+    stable, unstable = orbits_at(branch, middle)
+    return Finding(
+        (stable, unstable) == (2, 1), f"{stable} stable, {unstable} unstable at {middle:.2f} Hz"
+    )
+
+
+@claim(
+    "onset-with-gap",
+    "4.2, Fig. 6",
+    "The smaller the gap, the lower the frequency at which the curve leaves free flight.",
+    "First frequency with impacts of the forward sweep along falling gaps; the sweep begins at "
+    "0.5 Hz, where some tests hit already.",
+)
+def onset(study: Study) -> Finding:
+    """Falls until it reaches the beginning of the sweep."""
+    found = trend(ALONG_GAP, lambda code: contact_span(study, code)[0], -1)
+    strictly = all(
+        later < earlier or later == LOW
+        for values in found.values.values()
+        for earlier, later in pairwise(values)
+    )
+    example = ", ".join(f"{f:.2f}" for f in found.values["B2-A2"])
+    return Finding(found.all_hold and strictly, f"{found.told('.2f', ' Hz')}; B2-A2: {example} Hz")
+
+
+@claim(
+    "larger-than-free-flight",
+    "4.2, Fig. 6",
+    "At some frequencies the displacement with bumpers is larger than without.",
+    "Frequencies at which η_d exceeds free flight's by more than 1 % in the forward sweep.",
+)
+def larger(study: Study) -> Finding:
+    """Above free flight's resonance, on the hardened branch."""
+    data = study.campaign().sel(direction="forward")
+    more = data["eta_d"] > (1.0 + APART) * free(data, "eta_d")
+    count = int(more.any("frequency").sum())
+    example = "B2-G1-A3"
+    found = list(runs(data["frequency"].values, more.sel(rig=example).values))
+    told = ", ".join(span(*ends) for ends in found) or "nowhere"
+    return Finding(count > 0, f"in {count} of {len(CODES)} tests; {example}: {told}")
+
+
+@claim(
+    "fixed-point",
+    "4.2, Fig. 5",
+    "For stiff bumpers and large accelerations, the η_a curves of the four gaps cross near 1 Hz.",
+    "Frequency at which the spread of η_a over G1 to G4, all with impacts, is smallest; within "
+    "0.1 Hz of 1 Hz for B3 and B4 at A2 and A3.",
+)
+def fixed_point(study: Study) -> Finding:
+    """Forward, below the lowest upward jump."""
+    data = study.campaign().sel(direction="forward")
+    parts, holds = [], True
+    for a in ACCELERATIONS[1:]:
+        for b in BUMPERS[2:]:
+            codes = [f"{b}-{g}-{a}" for g in FALLING_GAPS]
+            ends = [up for code in codes if (up := jump(study, code, "backward")) is not None]
+            if not ends:
+                raise AbsentError(f"{b}-{a} does not jump")
+            four = data.sel(rig=codes, frequency=slice(None, min(ends)))
+            eta = four["eta_a"].where(touching(four).all("rig"), drop=True)
+            if not eta.sizes["frequency"]:
+                raise AbsentError(f"{b}-{a}: at no frequency are all bumpers hit")
+            spread = (eta.max("rig") - eta.min("rig")) / eta.mean("rig")
+            at, least = float(spread.idxmin("frequency")), float(spread.min())
+            holds &= abs(at - 1.0) <= 0.1 + 1e-9
+            parts.append(f"{b}-{a} {at:.2f} Hz (spread {least:.1%})")
+    return Finding(holds, ", ".join(parts))
+
+
+@claim(
+    "hysteresis-only-where-it-jumps",
+    "4.2, Fig. 5",
+    "Outside the hysteresis forward and backward curves coincide.",
+    "Largest difference of the two directions outside the hystereses that were found, at "
+    "frequencies where both settled, 48 tests.",
+)
+def coincide(study: Study) -> Finding:
+    """By construction less than what tells two motions apart, and in fact far less."""
+    data = study.campaign()
+    differ = apart(data).where((data["motion"] == "periodic").all("direction"))
+    worst = 0.0
+    for code in CODES:
+        outside = differ.sel(rig=code)
+        for item in study.features(code).hysteresis:
+            f = outside["frequency"]
+            outside = outside.where((f < item.low) | (f > item.high))
+        worst = max(worst, float(outside.max()))
+    return Finding(worst < 1e-6, f"at most {worst:.1e} of the excursion")
+
+
+CLAIMS = (
+    hysteresis,
+    three_motions,
+    coincide,
+    acceleration,
+    forward_higher_acceleration,
+    fixed_point,
+    displacement,
+    forward_higher_displacement,
+    overlap,
+    onset,
+    larger,
+)

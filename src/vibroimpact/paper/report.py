@@ -1,0 +1,224 @@
+"""The report: every figure of the paper computed again, and a verdict on each statement."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from vibroimpact._version import __version__
+from vibroimpact.figures import save_figure
+from vibroimpact.model import GRAVITY, laboratory
+from vibroimpact.paper.claim import Claim, Finding, Verdict
+from vibroimpact.paper.claims.reasons import REASONS
+from vibroimpact.paper.item import Item, Table
+from vibroimpact.paper.study import Study
+from vibroimpact.response.files import write_whole
+from vibroimpact.scenario.kinds import Scenario
+
+Format = Literal["png", "svg"]
+Progress = Callable[[int, int], None]
+
+FIGURES = "figures"
+"""Folder of the images beside the report."""
+_GRAZING = ("Ginf", "no bumpers: free flight")
+
+
+class Shown(NamedTuple):
+    """A figure or table as the report shows it."""
+
+    item: Item
+    image: str | None
+    """Path of the image from the report's folder."""
+    table: Table | None
+
+
+class Judged(NamedTuple):
+    """A statement and what was found."""
+
+    claim: Claim
+    finding: Finding
+
+    @property
+    def reason(self) -> str:
+        """Why it is not reproduced; empty if it is, or if nobody has said why."""
+        lost = self.finding.verdict is Verdict.NOT_REPRODUCED
+        return REASONS.get(self.claim.key, "") if lost else ""
+
+
+class Report(NamedTuple):
+    """All that was computed."""
+
+    shown: tuple[Shown, ...]
+    judged: tuple[Judged, ...]
+    whole: bool
+    """Whether nothing was left out on demand."""
+
+    @property
+    def counts(self) -> dict[Verdict, int]:
+        """Statements by verdict."""
+        verdicts = [one.finding.verdict for one in self.judged]
+        return {verdict: verdicts.count(verdict) for verdict in Verdict}
+
+    def of(self, verdict: Verdict) -> tuple[Judged, ...]:
+        """The statements with a verdict."""
+        return tuple(one for one in self.judged if one.finding.verdict is verdict)
+
+    @property
+    def stem(self) -> str:
+        """Name of the files: a part of the report never replaces the whole one."""
+        return "report" if self.whole else "part"
+
+
+def compute(
+    study: Study,
+    folder: Path,
+    items: Sequence[Item],
+    claims: Sequence[Claim],
+    *,
+    whole: bool = True,
+    figure: Format = "png",
+    progress: Progress | None = None,
+) -> Report:
+    """Judge the claims, draw the items, and write the images.
+
+    Parameters
+    ----------
+    study
+        The computations.
+    folder
+        Existing folder of the report; images go into ``figures`` in it.
+    items, claims
+        What is computed.
+    whole
+        Whether this is all that there is.
+    figure
+        Format of the images.
+    progress
+        Called with the items and claims done, and all of them.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be written.
+    """
+    total = len(items) + len(claims)
+    done = 0
+
+    def step() -> None:
+        nonlocal done
+        done += 1
+        if progress:
+            progress(done, total)
+
+    judged = []
+    for claim in claims:
+        judged.append(Judged(claim, claim.find(study)))
+        step()
+    shown = []
+    for item in items:
+        shown.append(_shown(study, folder, item, figure))
+        step()
+    return Report(tuple(shown), tuple(judged), whole)
+
+
+def _shown(study: Study, folder: Path, item: Item, figure: Format) -> Shown:
+    table = item.table(study) if item.table else None
+    if item.draw is None:
+        return Shown(item, None, table)
+    (folder / FIGURES).mkdir(exist_ok=True)
+    image = f"{FIGURES}/{item.key}.{figure}"
+    save_figure(item.draw(study).axes[0], folder / image)
+    return Shown(item, image, table)
+
+
+def write(report: Report, folder: Path) -> dict[str, Path]:
+    """Write the report as Markdown and as HTML.
+
+    Returns
+    -------
+    dict
+        Their paths, ``"markdown"`` and ``"html"``.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be written.
+    """
+    names = {"markdown": "report.md.jinja", "html": "report.html.jinja"}
+    files = {}
+    for kind, template in names.items():
+        text = _environment().get_template(template).render(report=report, **_facts())
+        path = folder / f"{report.stem}{Path(template).stem.removeprefix('report')}"
+        files[kind] = write_whole(path, _writer(text))
+    return files
+
+
+def _writer(text: str) -> Callable[[Path], None]:
+    def write_text(path: Path) -> None:
+        path.write_text(text, encoding="utf-8")
+
+    return write_text
+
+
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader("vibroimpact.paper", "templates"),
+        autoescape=lambda name: name is not None and name.endswith(".html.jinja"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters["cell"] = _cell
+    environment.filters["row"] = _row
+    return environment
+
+
+def _cell(text: str) -> str:
+    """Text as a Markdown table's cell may hold it, and without accidental emphasis."""
+    plain = " ".join(text.split())
+    for sign in "\\|*_<":
+        plain = plain.replace(sign, f"\\{sign}")
+    return plain
+
+
+def _row(cells: Iterable[str]) -> str:
+    """A row of a Markdown table."""
+    return f"| {' | '.join(_cell(cell) for cell in cells)} |"
+
+
+def _facts() -> dict[str, Any]:
+    """What the introduction tells of the rig, from its parameters."""
+    return {
+        "version": __version__,
+        "Verdict": Verdict,
+        "mass": f"{laboratory.MASS:g} kg",
+        "glossary": (
+            Table(
+                ("bumper", "stiffness"),
+                tuple((b, f"{1e-3 * k:g} kN/m") for b, k in laboratory.BUMPERS.items()),
+            ),
+            Table(
+                ("gap", "both sides together"),
+                (*((g, f"{1e3 * w:g} mm") for g, w in laboratory.GAPS.items()), _GRAZING),
+            ),
+            Table(
+                ("acceleration", "peak of the table's", "isolator's equivalent stiffness"),
+                tuple(
+                    (
+                        a,
+                        f"{x / GRAVITY:.2f} g",
+                        f"{1e-3 * laboratory.ISOLATOR_STIFFNESS[a]:.1f} kN/m",
+                    )
+                    for a, x in laboratory.ACCELERATIONS.items()
+                ),
+            ),
+        ),
+        "scenarios": Table(
+            ("scenario", "what the curves show"),
+            tuple((s.label, s.meaning) for s in Scenario if s is not Scenario.UNCLASSIFIED),
+        ),
+    }

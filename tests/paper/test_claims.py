@@ -1,0 +1,199 @@
+"""The paper's statements: their verdicts, and that a broken computation changes them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+from vibroimpact.model import laboratory
+from vibroimpact.paper import study as study_module
+from vibroimpact.paper.claim import Claim, Finding, Verdict
+from vibroimpact.paper.claims import CLAIMS, families, jumps, left, maxima, motions, with_bumpers
+from vibroimpact.paper.claims.reasons import REASONS
+from vibroimpact.paper.study import Study
+
+NOT_REPRODUCED = {
+    # Where both sweeps pass over one peak, before the hysteresis or without any.
+    "forward-higher-acceleration",
+    "forward-higher-displacement",
+    # The model's upward jump is where free flight reaches the gap, whatever the bumper.
+    "upward-jump-with-bumper",
+    # The bell's top lies at other gaps than measured.
+    "bell-in-the-middle",
+    "bell-descending",
+    # The backward resonance grows less than free flight, by which it is divided.
+    "acceleration-with-acceleration-backward",
+    # The softest bumper's hysteresis is too short to part the directions.
+    "directions-closer-with-bumper",
+    # 2.11 Hz, where 2.10 Hz would do.
+    "s2-impact-range",
+    # η_a reaches 1.40: a stiff bumper needs little penetration for that.
+    "s1-acceleration-like-free-flight",
+    # Chaotic (docs/decisions/0007).
+    "s4-quasi-periodic",
+    # The orbit is unstable.
+    "s4-small-motion-reached",
+    # 5.69 Hz; printed 5.4 Hz.
+    "s5-resonance",
+    # The printed δ is that of one side.
+    "gap-is-of-both-sides",
+    # Jumps begin below λ = 2.
+    "soft-region-is-s6",
+    # S3 towards δ = 0.2.
+    "small-gap-region-is-s4",
+}
+NEEDS_DATA = {
+    "free-softening",
+    "s3-dissymmetry",
+    "fitted-agreement",
+    "fitted-upward-jump",
+    "fitted-portraits",
+}
+OF_THE_TESTS = (*with_bumpers.CLAIMS, *jumps.CLAIMS, *maxima.CLAIMS, *motions.CLAIMS)
+
+
+@pytest.fixture(scope="module")
+def found() -> dict[str, Finding]:
+    study = Study(threads=2)
+    return {claim.key: claim.find(study) for claim in CLAIMS}
+
+
+def test_keys_are_unique():
+    keys = [claim.key for claim in CLAIMS]
+    assert len(set(keys)) == len(keys) == 106
+    assert set(keys) > NOT_REPRODUCED | NEEDS_DATA
+
+
+def test_every_claim_tells_what_decides():
+    for claim in CLAIMS:
+        assert claim.section[0].isdigit() or claim.section == "Table 1", claim.key
+        assert claim.statement.endswith("."), claim.key
+        assert claim.quantity.endswith("."), claim.key
+    assert len({claim.statement for claim in CLAIMS}) == len(CLAIMS)
+
+
+def test_sections_are_in_order():
+    sections = [float(c.section[:3].split(",")[0]) for c in CLAIMS if c.section[0].isdigit()]
+    # What only the conclusions (8) say stands with what it belongs to.
+    kept = [s for s in sections if s < 8]
+    assert kept == sorted(kept)
+
+
+def test_verdicts(found):
+    verdicts = {key: finding.verdict for key, finding in found.items()}
+    lost = {key for key, verdict in verdicts.items() if verdict is Verdict.NOT_REPRODUCED}
+    data = {key for key, verdict in verdicts.items() if verdict is Verdict.NEEDS_DATA}
+    assert lost == NOT_REPRODUCED
+    assert data == NEEDS_DATA
+
+
+def test_numbers(found):
+    for key, finding in found.items():
+        assert finding.holds in (True, False, None), key
+        assert type(finding.holds) in (bool, type(None)), key
+        assert finding.number, key
+        assert "nan" not in finding.number.split(), key
+        if finding.holds is None:
+            assert "needed: " in finding.number, key
+
+
+def test_what_is_not_reproduced_has_a_reason():
+    assert set(REASONS) == NOT_REPRODUCED
+
+
+@pytest.mark.parametrize(
+    ("key", "part"),
+    [
+        ("table-gaps", "12 of 12 agree"),
+        ("table-stiffness-ratios", "12 of 12 agree"),
+        ("hysteresis-of-the-example", "down at 1.985 Hz, up at 1.385 Hz"),
+        ("tests-by-scenario", "S1: 4, S2: 35, S3: 9"),
+        ("s5-resonance", "5.69 Hz"),
+        ("s4-quasi-periodic", "chaotic at 1.06 Hz: largest exponent +0.53"),
+        ("s4-impacts-with-frequency", "forward 2, 3, 4, 5; backward 1, 2, 3, 4"),
+        ("range-of-stiffness-ratios", "2.95 to 87.5"),
+    ],
+)
+def test_deciding_numbers(found, key, part):
+    assert part in found[key].number
+
+
+class TestBroken:
+    """A rig or a sweep that is not the paper's turns verdicts."""
+
+    @staticmethod
+    def turned(found: dict[str, Finding], claims: tuple[Claim, ...]) -> set[str]:
+        study = Study(threads=2)
+        return {c.key for c in claims if c.find(study).verdict is not found[c.key].verdict}
+
+    @staticmethod
+    def mutate(monkeypatch, change: Callable[[vi.Oscillator], vi.Oscillator]) -> None:
+        case = laboratory.case
+
+        def mutated(code: str, parameters: laboratory.Parameters = "table") -> laboratory.Case:
+            true = case(code, parameters)
+            return dataclasses.replace(true, oscillator=change(true.oscillator))
+
+        monkeypatch.setattr(laboratory, "case", mutated)
+
+    def test_bumpers_ten_times_softer(self, monkeypatch, found):
+        def soft(rig: vi.Oscillator) -> vi.Oscillator:
+            if rig.right is None:
+                return rig
+            bumper = rig.right.replace(
+                stiffness=0.1 * rig.right.stiffness, damping=0.1 * rig.right.damping
+            )
+            return rig.replace(right=bumper, left=bumper)
+
+        self.mutate(monkeypatch, soft)
+        turned = self.turned(found, CLAIMS)
+        assert len(turned) >= 30
+        assert {"tests-by-scenario", "s4-left-hystereses", "s3-two-motions"} <= turned
+        assert not turned & NEEDS_DATA
+
+    def test_isolator_damped_a_third_as_much(self, monkeypatch, found):
+        def loose(rig: vi.Oscillator) -> vi.Oscillator:
+            return rig.replace(isolator=rig.isolator.replace(damping=rig.isolator.damping / 3.0))
+
+        self.mutate(monkeypatch, loose)
+        turned = self.turned(found, OF_THE_TESTS)
+        assert len(turned) >= 10
+        assert {"acceleration-with-acceleration-forward", "s2-primary-only"} & turned
+
+    def test_one_gap_wider_the_other_narrower(self, monkeypatch, found):
+        def shifted(rig: vi.Oscillator) -> vi.Oscillator:
+            if rig.right is None:
+                return rig
+            shift = min(0.002, rig.right.gap)
+            return rig.replace(
+                right=rig.right.replace(gap=rig.right.gap + shift),
+                left=rig.left.replace(gap=rig.left.gap - shift),
+            )
+
+        self.mutate(monkeypatch, shifted)
+        turned = self.turned(found, (*families.TESTS, *left.CLAIMS, *motions.CLAIMS))
+        assert len(turned) >= 8
+        assert {"s4-two-motions", "s3-many-harmonics"} <= turned
+
+    def test_directions_mixed_up(self, monkeypatch, found):
+        sweeps = study_module.sweeps
+
+        def swapped(*rest, **named) -> xr.Dataset:
+            data = sweeps(*rest, **named)
+            return data.assign_coords(direction=data["direction"].values[::-1].copy())
+
+        monkeypatch.setattr(study_module, "sweeps", swapped)
+        turned = self.turned(found, OF_THE_TESTS)
+        assert {"hysteresis-of-the-example", "upward-jump-with-gap"} <= turned
+
+    def test_a_feature_that_is_absent_does_not_hold(self):
+        (claim,) = (c for c in CLAIMS if c.key == "three-motions")
+        study = Study(threads=1)
+        free = xr.concat([study.curves("B1-Ginf-A3").assign_coords(rig="B4-G4-A3")], dim="rig")
+        study._made["campaign"] = free
+        finding = claim.find(study)
+        assert finding == Finding(False, "B4-G4-A3 does not jump")
