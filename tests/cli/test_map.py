@@ -17,18 +17,19 @@ from vibroimpact.cli.map import _axis
 
 COMMAND = "map"
 WORDS = ("--x", "stiffness-ratio", "1:64:log:4", "--y", "gap-ratio", "0.2:1:3", "--step", "0.02")
-NAME = "B3-10mm-A3-stiffness-ratio-gap-ratio-map"
+NAME = "published-stiffness-ratio-gap-ratio-map"
 
 
 def test_text_and_files(run, tmp_path):
     code, out, errors = run(*WORDS, "--refine", "1")
     assert (code, errors) == (0, "")
-    assert "7 × 5 nodes" in out
+    assert "4 × 3 nodes, made denser once: " in out
+    assert "of 35 computed" in out
+    assert "held: τ = 0.01, ξ = 0.15" in out
     assert "primary resonance with right hysteresis" in out
     assert {p.name for p in (tmp_path / "out").iterdir()} == {
         f"{NAME}.zarr",
         f"{NAME}.png",
-        f".{NAME}.zarr.lock",
     }
     data = xr.open_zarr(tmp_path / f"out/{NAME}.zarr", consolidated=False)
     np.testing.assert_allclose(data["stiffness_ratio"], np.geomspace(1, 64, 7))
@@ -102,8 +103,8 @@ def test_another_map_in_the_same_place_is_refused(run):
     ],
 )
 def test_ranges(text, expected):
-    name, values = _axis("--x", "gap-ratio", text)
-    assert name == "gap_ratio"
+    name, values, spacing = _axis("--x", "gap-ratio", text)
+    assert (name, spacing) == ("gap_ratio", "log" if "log" in text else "linear")
     np.testing.assert_allclose(values, expected, rtol=1e-12)
 
 
@@ -116,6 +117,7 @@ def test_ranges(text, expected):
         (["--x", "stiffness-ratio", "1"], "--x: '1'; a range LOW:HIGH[:log][:NODES] is accepted"),
         (["--x", "stiffness-ratio", "1:2:lag"], "--x: 'lag' nodes"),
         (["--x", "stiffness-ratio", "1:2:1"], "--x: '1' nodes"),
+        (["--x", "stiffness-ratio", "1:2:²"], "--x: '²' nodes"),
         (["--x", "stiffness-ratio", "2:1"], "--x: 2 is not below 1"),
         (["--x", "stiffness-ratio", "0:1"], "--x"),
         (["--x", "damping-ratio", "0.1:0.9"], "a damping ratio of 0.9"),
@@ -123,7 +125,7 @@ def test_ranges(text, expected):
         (["--x", "stiffness-ratio", "1:2:999999", "--refine", "4"], "nodes; at most"),
         (["--x", "stiffness-ratio", "1:2", "--step", "0"], "--step"),
         (["--x", "stiffness-ratio", "1:2", "--extent", "7"], "--extent: 7.0"),
-        (["B2-Ginf-A3"], "base: there is no bumper"),
+        (["B2-Ginf-A3"], "CASE: there is no bumper"),
     ],
 )
 def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):

@@ -30,7 +30,9 @@ def named(step: int, **thresholds: float) -> dict[str, str]:
     cases = vi.laboratory.campaign()
     data = vi.sweeps(cases, np.arange(50, 501, step) / 100)
     used = Thresholds(**thresholds)
-    found = each_evidence([case.oscillator for case in cases], data, 0.5 * used.prominence)
+    found = each_evidence(
+        [vi.Rig(case.oscillator, case.amplitude) for case in cases], data, 0.5 * used.prominence
+    )
     return {case.code: scenario(one, used).label for case, one in zip(cases, found, strict=True)}
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.scenario.axes import Axis, Base, axis, check_pair
+from vibroimpact.scenario.axes import Base, axis, check_pair, logarithmic
 
 CASE = vi.laboratory.case("B2-G1-A3")
 BASE = Base(CASE.oscillator, CASE.amplitude)
@@ -56,13 +56,19 @@ def test_sides_keep_what_is_their_own():
 
 
 def test_logarithmic_axes_are_refined_geometrically():
-    assert Axis("stiffness_ratio", np.geomspace(0.5, 100, 9)).logarithmic
-    assert not Axis("stiffness_ratio", np.linspace(0.5, 100, 9)).logarithmic
-    assert not Axis("gap_ratio", np.linspace(0.0, 1.0, 9)).logarithmic
-    fine = Axis("stiffness_ratio", np.array([1.0, 4.0, 16.0])).refined(1)
+    assert logarithmic(np.geomspace(0.5, 100, 9))
+    assert logarithmic(np.geomspace(0.5, 100, 9).round(2))
+    assert not logarithmic(np.linspace(0.5, 100, 9))
+    assert not logarithmic(np.linspace(1.0, 1.02, 9))
+    assert not logarithmic(np.linspace(0.0, 1.0, 9))
+    fine = axis(("stiffness_ratio", [1.0, 4.0, 16.0]), "x").refined(1)
     np.testing.assert_allclose(fine.values, [1, 2, 4, 8, 16])
-    fine = Axis("gap_ratio", np.array([0.0, 0.5, 1.0])).refined(2)
+    fine = axis(("gap_ratio", [0.0, 0.5, 1.0]), "x").refined(2)
     np.testing.assert_allclose(fine.values, np.linspace(0, 1, 9))
+    # Of two values only the user knows.
+    for spacing, middle in (("log", 10.0), ("linear", 50.5)):
+        fine = axis(("stiffness_ratio", [1.0, 100.0], spacing), "x").refined(1)
+        assert fine.values[1] == pytest.approx(middle)
 
 
 @pytest.mark.parametrize(
@@ -72,6 +78,8 @@ def test_logarithmic_axes_are_refined_geometrically():
         (("gap",), "is no axis"),
         (("gip", [1, 2]), "'gip'; one of gap, amplitude"),
         (("gap", "1:2"), "is no list of values"),
+        (("gap", [0.01, 0.02], "cubic"), "is no axis"),
+        (("gap_ratio", [0.0, 1.0], "log"), r"x\[0\]: 0 on a logarithmic axis"),
         (("gap", [0.01]), "1 values given; at least two are accepted"),
         (("gap", [0.01, 0.01]), r"x\[1\]: 0.01 follows 0.01; rising values are accepted"),
         (("gap", [-0.01, 0.01]), r"x\[0\]"),

@@ -12,7 +12,7 @@ import vibroimpact as vi
 from vibroimpact.scenario.evidence import evidence
 from vibroimpact.scenario.kinds import Scenario
 from vibroimpact.scenario.thresholds import Thresholds
-from vibroimpact.scenario.verdict import confidence, scenario
+from vibroimpact.scenario.verdict import confidence, primary_jumps, scenario
 
 GRID = np.round(np.arange(0.40, 3.01, 0.01), 10)
 RIG = vi.from_dimensionless(20.0, 0.3, 0.01, 0.15, mass=1.0, stiffness=(2.0 * math.pi) ** 2)
@@ -61,7 +61,7 @@ def made(forward, backward=None, *, touching=None, period=1, uneven=False, depth
 
 def named(data: xr.Dataset, oscillator=RIG.oscillator, **thresholds: float) -> str:
     used = Thresholds(**thresholds)
-    return scenario(evidence(oscillator, data, 0.5 * used.prominence), used).label
+    return scenario(evidence(oscillator, RIG.amplitude, data, 0.5 * used.prominence), used).label
 
 
 def primary() -> tuple[np.ndarray, np.ndarray]:
@@ -70,7 +70,7 @@ def primary() -> tuple[np.ndarray, np.ndarray]:
 
 def test_primary_resonance_alone():
     data = made(*primary())
-    found = evidence(RIG.oscillator, data, 0.01)
+    found = evidence(*RIG, data, 0.01)
     assert [(h.side, h.low, h.high) for h in found.hysteresis] == [("right", 1.61, 2.2)]
     assert found.contact == (0.4, 2.2)
     assert found.gap_ratio == pytest.approx(0.3)
@@ -83,7 +83,7 @@ def test_regular_secondary_resonance():
     forward, backward = primary()
     peak = bump(0.7, 0.05, 0.5)
     data = made(forward + peak, backward + peak)
-    found = evidence(RIG.oscillator, data, 0.01)
+    found = evidence(*RIG, data, 0.01)
     ((frequency, share),) = found.secondary_resonances(0.02)
     assert frequency == pytest.approx(0.7, abs=0.02)
     # Above the higher one of its valleys, which is the one beyond it.
@@ -100,7 +100,7 @@ def test_left_hysteresis_counts_by_its_width():
     forward, backward = primary()
     low = np.where(inside(0.66, 0.75), 0.5, 0.0)
     data = made(forward, backward + low)
-    found = evidence(RIG.oscillator, data, 0.01)
+    found = evidence(*RIG, data, 0.01)
     assert [(h.side, h.low, h.high) for h in found.left] == [("left", 0.66, 0.75)]
     assert found.extent(0.02) == pytest.approx(0.1)
     assert named(data) == "S4"
@@ -125,7 +125,7 @@ def test_irregular_resonance(period, uneven, kind):
         period=np.where(here, period, 1),
         uneven=here & uneven,
     )
-    found = evidence(RIG.oscillator, data, 0.01)
+    found = evidence(*RIG, data, 0.01)
     assert [(i.low, i.high, i.kinds) for i in found.irregular] == [(1.0, 1.2, (kind,))] * 2
     assert found.irregular[0].prominence > 0.1
     assert found.extent(0.02) == pytest.approx(0.2)
@@ -134,8 +134,8 @@ def test_irregular_resonance(period, uneven, kind):
     flat = made(
         forward + valley, backward + valley, period=np.where(here, period, 1), uneven=here & uneven
     )
-    assert len(evidence(RIG.oscillator, flat, 0.01).irregular) == 2
-    assert evidence(RIG.oscillator, flat, 0.01).extent(0.02) == 0.0
+    assert len(evidence(*RIG, flat, 0.01).irregular) == 2
+    assert evidence(*RIG, flat, 0.01).extent(0.02) == 0.0
     assert named(flat) == "S3"  # the valley leaves a regular peak before it
 
 
@@ -143,8 +143,8 @@ def test_a_pair_of_a_rig_that_is_not_symmetric_is_none():
     """There eccentricity tells nothing."""
     oscillator = RIG.oscillator.replace(left=RIG.oscillator.left.replace(gap=1.01 * GAP))
     data = made(*primary(), uneven=inside(1.0, 1.2))
-    assert evidence(oscillator, data, 0.01).irregular == ()
-    assert len(evidence(RIG.oscillator, data, 0.01).irregular) == 2
+    assert evidence(oscillator, RIG.amplitude, data, 0.01).irregular == ()
+    assert len(evidence(*RIG, data, 0.01).irregular) == 2
 
 
 def test_where_contact_begins_is_no_secondary_resonance():
@@ -154,7 +154,7 @@ def test_where_contact_begins_is_no_secondary_resonance():
     peak = np.where(here, 0.3, 0.0)
     touching = np.array([(GRID > 0.985) & (forward > 0.25), (GRID > 0.985) & (backward > 0.25)])
     data = made(forward + peak, backward + peak, touching=touching, period=np.where(here, 0, 1))
-    found = evidence(RIG.oscillator, data, 0.01)
+    found = evidence(*RIG, data, 0.01)
     assert found.onset == ((1.0, 1.2),)
     assert found.irregular == ()
     assert found.secondary == ()
@@ -162,7 +162,7 @@ def test_where_contact_begins_is_no_secondary_resonance():
     # The same with contact all along: a resonance of its own if the curve falls towards it.
     valley = bump(0.85, 0.06, -0.4)
     alone = made(forward + peak + valley, backward + peak + valley, period=np.where(here, 0, 1))
-    assert evidence(RIG.oscillator, alone, 0.01).onset == ()
+    assert evidence(*RIG, alone, 0.01).onset == ()
     assert named(alone) == "S4"
 
 
@@ -176,7 +176,8 @@ def test_no_contact():
 
 
 def test_attached_bumpers():
-    oscillator = vi.from_dimensionless(20.0, 0.0, 0.01, 0.15).oscillator
+    side = RIG.oscillator.right.replace(gap=0.0)
+    oscillator = RIG.oscillator.replace(right=side, left=side)
     smooth = 0.3 + bump(2.0, 0.8, 1.0)
     assert named(made(smooth), oscillator) == "S5"
     assert named(made(*primary()), oscillator) == "S2"  # attached, but it jumps
@@ -206,9 +207,9 @@ def test_a_primary_resonance_that_is_not_regular_is_unclassified():
 def test_one_direction_is_not_enough():
     data = made(*primary())
     with pytest.raises(vi.InputError, match="one forward and backward is accepted"):
-        evidence(RIG.oscillator, data.isel(direction=[0]), 0.01)
+        evidence(*RIG, data.isel(direction=[0]), 0.01)
     with pytest.raises(vi.InputError, match="is not the sweep of one rig"):
-        evidence(RIG.oscillator, data.isel(direction=0), 0.01)
+        evidence(*RIG, data.isel(direction=0), 0.01)
 
 
 def test_every_scenario_has_a_meaning_and_a_label():
@@ -220,3 +221,97 @@ def test_every_scenario_has_a_meaning_and_a_label():
 def test_thresholds_are_shares(value):
     with pytest.raises(vi.InputError, match=r"extent: .*greater than 0 and at most 1 is accepted"):
         Thresholds(extent=value)
+
+
+def test_a_hysteresis_of_motions_that_did_not_settle_is_none():
+    """Two windows of wandering motions differ, too."""
+    forward, backward = primary()
+    wandering = made(forward, backward, period=np.where(inside(1.55, 2.25), 0, 1))
+    found = evidence(*RIG, wandering, 0.01)
+    assert [item.settled for item in found.hysteresis] == [False]
+    assert found.right == ()
+    low = np.where(inside(0.66, 0.75), 0.5, 0.0)
+    data = made(forward, backward + low, period=np.where(inside(0.6, 0.8), 0, 1))
+    assert evidence(*RIG, data, 0.01).left == ()
+
+
+def test_left_hysteresis_where_contact_begins():
+    """It joins the range that is not regular, which has free flight at its foot."""
+    forward, backward = primary()
+    touching = np.array([GRID > 0.985] * 2) & (np.array([forward, backward]) > 0.25)
+    lift = np.where(inside(1.0, 1.2), 0.3, 0.0)
+    more = lift + np.where(inside(1.13, 1.2), 0.3, 0.0)
+    period = np.where(inside(1.0, 1.12), 3, 1)
+    data = made(forward + lift, backward + more, touching=touching, period=period)
+    found = evidence(*RIG, data, 0.01)
+    assert found.onset == ((1.0, 1.2),)
+    assert found.left == ()
+    assert named(data) == "S2"
+
+
+def test_a_regular_peak_where_contact_begins_is_no_secondary_resonance():
+    forward, backward = primary()
+    touching = np.array([GRID > 0.985] * 2) & (np.array([forward, backward]) > 0.25)
+    peak = bump(1.05, 0.04, 0.4)
+    data = made(forward + peak, backward + peak, touching=touching)
+    assert evidence(*RIG, data, 0.01).secondary == ()
+    assert named(data) == "S2"
+
+
+@pytest.mark.parametrize(("share", "pressed"), [(0.999, False), (0.98, True)])
+def test_a_range_that_begins_the_sweep(share, pressed):
+    """Whether contact begins there or below: A/ω0² is 0.2966 of free flight's amplitude."""
+    gap = share / 0.3 * 0.29665 * GAP
+    gap = gap / 0.98 if not pressed else gap
+    side = RIG.oscillator.right.replace(gap=gap)
+    oscillator = RIG.oscillator.replace(right=side, left=side)
+    forward, backward = primary()
+    peak = bump(0.5, 0.05, 0.4)
+    data = made(forward + peak, backward + peak, period=np.where(inside(0.4, 0.6), 3, 1))
+    found = evidence(oscillator, RIG.amplitude, data, 0.01)
+    assert bool(found.irregular) == pressed
+    assert (found.onset == ()) == pressed
+
+
+def test_what_lies_above_the_primary_resonance_does_not_count():
+    forward = np.where(inside(2.5, 2.8), 0.28, slope(2.2))
+    backward = np.where(inside(2.5, 2.8), 0.28, slope(1.6))
+    period = np.where(inside(2.5, 2.8), 0, 1)
+    data = made(forward, backward, touching=True, period=period)
+    found = evidence(*RIG, data, 0.01)
+    assert [item.low for item in found.irregular] == [2.5, 2.5]
+    assert found.extent(0.01) == 0.0
+    assert named(data) == "S2"
+
+
+def test_a_jump_of_one_direction_alone_is_none():
+    """A hysteresis between two frequencies makes both directions jump there."""
+    hidden = evidence(*RIG, made(slope(1.6)), 0.01)
+    assert hidden.hysteresis == ()
+    assert [jump.direction for jump in hidden.jumps] == ["forward", "backward"]
+    assert primary_jumps(hidden)
+    assert not primary_jumps(hidden._replace(jumps=hidden.jumps[:1]))
+
+
+def test_a_resonance_that_has_moved_down_is_not_s6():
+    smooth = 0.3 + bump(0.8, 0.2, 1.0)
+    assert named(made(smooth, touching=smooth > 0.5)) == "unclassified"
+
+
+def test_free_flight_is_that_at_any_frequency():
+    """Of a sweep that does not reach the resonance, too."""
+    data = made(*primary()).sel(frequency=slice(1.4, 3.0))
+    found = evidence(*RIG, data, 0.01)
+    assert found.gap_ratio == pytest.approx(0.3)
+    assert not found.within
+    assert named(data) == "unclassified"
+    assert named(made(*primary()).sel(frequency=slice(0.4, 1.3))) == "unclassified"
+
+
+def test_holds_without_values():
+    data = made(*primary())
+    for name in ("eta_a", "eta_d"):
+        data[name] = data[name].where(data["direction"] == "forward")
+    assert named(data) == "unclassified"
+    nothing = made(*primary(), period=0)
+    assert named(nothing) == "unclassified"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -19,6 +20,7 @@ import vibroimpact as vi
 from vibroimpact.response.variables import VARIABLES
 from vibroimpact.scenario.borders import jump_border
 from vibroimpact.scenario.cell import COUNTS, VALUES
+from vibroimpact.scenario.frequencies import frequencies
 from vibroimpact.scenario.kinds import Scenario
 
 X = ("stiffness_ratio", np.geomspace(1.0, 64.0, 4))
@@ -39,8 +41,7 @@ def test_nodes_are_classified_as_one_by_one():
             rig = vi.from_dimensionless(
                 float(data["stiffness_ratio"][x]), float(data["gap_ratio"][y]), 0.01, 0.15
             )
-            grid = np.arange(0.4, 8.0, step) * rig.oscillator.natural_frequency
-            alone = vi.classify(*rig, grid)
+            alone = vi.classify(*rig, frequencies(*rig, step))
             assert Scenario(int(data["scenario"][y, x])).label == alone.scenario, (x, y)
 
 
@@ -137,7 +138,7 @@ def test_a_finished_map_is_read_and_not_computed(tmp_path):
         X, Y, **OPTIONS, store=tmp_path / "map", progress=lambda *at: told.append(at)
     )
     xr.testing.assert_identical(again.load(), first)
-    assert all(done in (0, total) or done <= total for done, total in told)
+    assert told == []
 
 
 @pytest.mark.parametrize(
@@ -163,11 +164,16 @@ def test_what_is_no_map_is_refused_and_kept(tmp_path):
     (tmp_path / "file").write_text("kept")
     zarr.open_group(tmp_path / "other", mode="w").create_array("a", shape=(2,), dtype="f8")
     for name in ("folder", "file", "other"):
-        with pytest.raises(vi.InputError, match=r"store: .* exists and is no map"):
+        with pytest.raises(
+            vi.InputError, match=r"store: .* exists and is no map, or a damaged one"
+        ):
             vi.scenario_map(X, Y, **OPTIONS, store=tmp_path / name)
     assert (tmp_path / "folder" / "mine").read_text() == "kept"
-    with pytest.raises(vi.InputError, match=r"store: .* cannot be written"):
+    with pytest.raises(vi.InputError, match=r"store: .* cannot be written .*does not exist"):
         vi.scenario_map(X, Y, **OPTIONS, store=tmp_path / "missing" / "map")
+    for store in (3, "a\0b"):
+        with pytest.raises(vi.InputError, match=r"store: .*the path of a folder is accepted"):
+            vi.scenario_map(X, Y, **OPTIONS, store=store)
 
 
 def test_a_store_in_use_is_refused(tmp_path):
@@ -245,3 +251,38 @@ def test_the_border_of_jumps_is_the_cusp_of_the_folds():
 def test_a_map_without_such_a_border():
     data = vi.scenario_map(("damping_ratio", [0.1, 0.2]), ("relaxation_time", [0.01, 0.02]))
     assert jump_border(data).sizes["border_point"] == 0
+
+
+def test_progress_counts_up(tmp_path):
+    told = []
+    vi.scenario_map(X, Y, **OPTIONS, progress=lambda *at: told.append(at))
+    done = [d for d, _ in told]
+    assert done == sorted(done)
+    assert [t for _, t in told] == sorted(t for _, t in told)
+    assert told[-1][0] == told[-1][1] == int((small()["level"] >= 0).sum())
+
+
+def test_a_damaged_store_is_refused(tmp_path):
+    axes = ("stiffness_ratio", [1.0, 2.0]), ("gap_ratio", [0.5, 0.6])
+    vi.scenario_map(*axes, step=0.05, store=tmp_path / "map")
+    shutil.rmtree(tmp_path / "map" / "extent")
+    with pytest.raises(vi.InputError, match="is no map, or a damaged one"):
+        vi.scenario_map(*axes, step=0.05, store=tmp_path / "map")
+
+
+def test_a_link_is_the_folder_that_it_leads_to(tmp_path):
+    """Also for the lock, or two processes could write one map."""
+    (tmp_path / "link").symlink_to(tmp_path / "map", target_is_directory=True)
+    axes = ("stiffness_ratio", [1.0, 2.0]), ("gap_ratio", [0.5, 0.6])
+    refused = []
+
+    def second(done: int, total: int) -> None:
+        if not refused:
+            with pytest.raises(vi.InputError, match="being written by another process") as error:
+                vi.scenario_map(*axes, step=0.05, store=tmp_path / "map")
+            refused.append(error)
+
+    vi.scenario_map(*axes, step=0.05, store=tmp_path / "link", progress=second)
+    assert refused
+    assert (tmp_path / "map" / "zarr.json").is_file()
+    assert {p.name for p in tmp_path.iterdir()} == {"link", "map"}

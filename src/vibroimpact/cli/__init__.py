@@ -38,6 +38,9 @@ For example:
     vibroimpact motion B2-G1-A3 --frequency 2.6Hz
     vibroimpact branch B2-G1-A3
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
+    vibroimpact classify B2-G1-A3
+    vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
+    vibroimpact paper
 
 More about a command: vibroimpact COMMAND --help
 """

@@ -14,11 +14,14 @@ from vibroimpact.cli.options import (
     ThresholdOptions,
     Whole,
 )
+from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     from vibroimpact.model import Oscillator
 
 _FREQUENCIES = Group("Frequencies", sort_key=1)
+LEAST = 4
+"""Frequencies, for curves are looked at."""
 _FREQUENCY = Parameter(group=_FREQUENCIES, allow_leading_hyphen=True)
 
 
@@ -128,7 +131,7 @@ def classify(
         table,
         Text(
             f"Confidence {found.confidence:.0%}: share of the thresholds' variations, each halved "
-            "and each doubled, that leave the scenario the same"
+            "and each doubled, that leave the scenario the same (over these frequencies)"
         ),
         *others,
         Text(),
@@ -161,7 +164,18 @@ def _frequencies(
             ("--from", "--to", "--step"), (start, stop, step), defaults, strict=True
         )
     ]
-    return frequency_grid(*numbers)
+    if not numbers[0] < numbers[1]:
+        raise InputError(
+            f"--from: {numbers[0]:g} Hz is not below --to, {numbers[1]:g} Hz; a rising range is "
+            "accepted"
+        )
+    held = frequency_grid(*numbers)
+    if len(held) < LEAST:
+        raise InputError(
+            f"--step: {numbers[2]:g} Hz makes {len(held)} frequencies; at least {LEAST} are "
+            "accepted"
+        )
+    return held
 
 
 def _plain(value: Any) -> Any:

@@ -24,27 +24,37 @@ if TYPE_CHECKING:
 
 _MAP = Group("Map", sort_key=1)
 _AXIS = Parameter(group=_MAP, allow_leading_hyphen=True)
+_Axis = tuple[str, list[float], str]
+"""Name, values in SI units, and "log" or "linear"."""
 _NODES = 21
 _MOST = 4_000_000
 
 
 def scenario_map(
-    rig: RigName = "B3-10mm-A3",
+    rig: Annotated[RigName | None, Parameter(show_default=False)] = None,
     /,
     *,
     x: Annotated[
         tuple[str, str],
         _AXIS,
         Parameter(
+            negative="",
+            show_default=False,
             help=(
-                "Parameter and range, LOW:HIGH[:log][:NODES]. Physical: gap, amplitude, "
-                "bumper-stiffness; dimensionless: stiffness-ratio, gap-ratio, relaxation-time, "
-                "damping-ratio."
-            )
+                "Parameter and range, NAME LOW:HIGH[:log][:NODES], 21 nodes if none are given. "
+                "Physical: gap, amplitude, bumper-stiffness; dimensionless: stiffness-ratio, "
+                "gap-ratio, relaxation-time, damping-ratio. stiffness-ratio 0.5:100:log."
+            ),
         ),
     ] = ("stiffness-ratio", "0.5:100:log"),
     y: Annotated[
-        tuple[str, str], _AXIS, Parameter(help="The same upwards; of the same sort as x.")
+        tuple[str, str],
+        _AXIS,
+        Parameter(
+            negative="",
+            show_default=False,
+            help="The same upwards, of the same sort as x. gap-ratio 0:1.",
+        ),
     ] = ("gap-ratio", "0:1"),
     refine: Annotated[
         Whole,
@@ -68,7 +78,8 @@ def scenario_map(
 ) -> int:
     """Map the scenarios of a rig over two of its parameters.
 
-    The rig gives all other parameters. The map is written to NAME-X-Y-map.zarr as it is
+    The rig gives all other parameters; without one, they are those of the published rig B3-A3. The
+    map is written to NAME-X-Y-map.zarr as it is
     computed, block by block: stopped at any moment, the same command completes it. Prints the
     share of each scenario; draws NAME-X-Y-map.png.
 
@@ -82,7 +93,9 @@ def scenario_map(
     from vibroimpact.cli.rig import subject
 
     out = output or OutputOptions()
-    what = subject(rig, changes or RigOptions(), out.name)
+    what = subject(rig or "B3-10mm-A3", changes or RigOptions(), out.name)
+    if rig is None and out.name is None:
+        what = what._replace(name="published rig", slug="published")
     axes = _axis("--x", *x), _axis("--y", *y)
     _check(what, axes, refine)
     used = (thresholds or ThresholdOptions()).thresholds()
@@ -98,7 +111,7 @@ def scenario_map(
         from vibroimpact.scenario.borders import jump_border
         from vibroimpact.scenario.map import scenario_map as run
 
-        names = "-".join(name.replace("_", "-") for name, _ in axes)
+        names = "-".join(name.replace("_", "-") for name, *_ in axes)
         stem = folder / f"{what.slug}-{names}-map"
         store = stem.with_name(f"{stem.name}.zarr")
         with progress_bar("mapping") as progress:
@@ -116,7 +129,8 @@ def scenario_map(
             except InputError as error:
                 raise InputError(_as_option(str(error))) from None
         edge = jump_border(data) if border else None
-        ax = draw(data, border=edge, title=what.name)
+        held = _held(what, axes)
+        ax = draw(data, border=edge, title=f"{what.name}: {held}")
         files = {"data": store, "figure": save_figure(ax, f"{stem}.{out.figure}")}
     shares = _shares(data)
     computed = int((data["level"].values >= 0).sum())
@@ -141,12 +155,14 @@ def scenario_map(
     for kind in Scenario:
         if kind.label in shares:
             table.add_row(kind.label, f"{shares[kind.label]:.1%}", kind.meaning)
+    denser = {0: "", 1: ", made denser once"}.get(refine, f", made denser {refine} times")
     text = Together(
-        summary.rig_text(what),
+        Text(what.name, style="bold"),
+        Text(f"held: {held}"),
         Text(),
         Text(
-            f"{data['scenario'].shape[1]} × {data['scenario'].shape[0]} nodes, {computed} of them "
-            "computed; share of the nodes"
+            f"{len(axes[0][1])} × {len(axes[1][1])} nodes{denser}: {computed} of "
+            f"{data['scenario'].size} computed; share of the nodes"
         ),
         table,
         Text(),
@@ -156,7 +172,37 @@ def scenario_map(
     return 0
 
 
-def _axis(option: str, name: str, text: str) -> tuple[str, list[float]]:
+def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
+    """What the map does not vary, in words."""
+    from vibroimpact.model import to_dimensionless
+    from vibroimpact.model.units import ACCELERATION, LENGTH, STIFFNESS, pretty
+    from vibroimpact.scenario.axes import PARAMETERS
+
+    varied = {name for name, *_ in axes}
+    sides = [b for b in (what.oscillator.right, what.oscillator.left) if b is not None]
+    if PARAMETERS[axes[0][0]].physical:
+        quantities = {
+            "gap": ("gap", [pretty(b.gap, LENGTH) for b in sides]),
+            "bumper_stiffness": ("bumpers", [pretty(b.stiffness, STIFFNESS) for b in sides]),
+            "amplitude": ("A =", [pretty(what.amplitude, ACCELERATION)]),
+        }
+    else:
+        group = to_dimensionless(what.oscillator, what.amplitude)
+        halves = [b for b in (group.right, group.left) if b is not None]
+        quantities = {
+            "stiffness_ratio": ("λ =", [f"{b.stiffness_ratio:.4g}" for b in halves]),
+            "gap_ratio": ("δ0 =", [f"{b.gap:.4g}" for b in halves]),
+            "relaxation_time": ("τ =", [f"{b.relaxation_time:.3g}" for b in halves]),
+            "damping_ratio": ("ξ =", [f"{group.damping_ratio:.3g}"]),
+        }
+    return ", ".join(
+        f"{symbol} {' and '.join(dict.fromkeys(values))}"
+        for name, (symbol, values) in quantities.items()
+        if name not in varied
+    )
+
+
+def _axis(option: str, name: str, text: str) -> _Axis:
     """Read ``LOW:HIGH[:log][:NODES]``."""
     from vibroimpact.model import to_si
     from vibroimpact.scenario.axes import PARAMETERS
@@ -182,7 +228,7 @@ def _axis(option: str, name: str, text: str) -> tuple[str, list[float]]:
         raise InputError(f"{option}: {low:g} is not below {high:g}; a rising range is accepted")
     nodes = _NODES
     if rest:
-        if not rest[0].isdigit() or int(rest[0]) < 2:
+        if not (rest[0].isascii() and rest[0].isdecimal()) or int(rest[0]) < 2:
             raise InputError(
                 f"{option}: {rest[0]!r} nodes; a whole number of at least 2 is accepted"
             )
@@ -195,10 +241,10 @@ def _axis(option: str, name: str, text: str) -> tuple[str, list[float]]:
         values = [low * math.exp(share * ratio) for share in shares]
     else:
         values = [low + share * (high - low) for share in shares]
-    return key, [low, *values[1:-1], high]
+    return key, [low, *values[1:-1], high], "log" if logarithmic else "linear"
 
 
-def _check(what: Subject, axes: tuple[tuple[str, list[float]], ...], refine: int) -> None:
+def _check(what: Subject, axes: tuple[_Axis, ...], refine: int) -> None:
     """Refuse what cannot be mapped before anything is written."""
     from vibroimpact.scenario.axes import Base, axis, check_pair
 
@@ -218,9 +264,10 @@ def _check(what: Subject, axes: tuple[tuple[str, list[float]], ...], refine: int
 
 
 def _as_option(message: str) -> str:
-    for field in ("y", "store", "step"):
+    options = {"y": "--y", "step": "--step", "store": "--output", "base": "CASE"}
+    for field, option in options.items():
         if message.startswith(f"{field}:"):
-            return f"--{message}" if field != "store" else message.replace("store", "--output", 1)
+            return message.replace(field, option, 1)
     return message
 
 

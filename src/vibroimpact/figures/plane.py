@@ -9,7 +9,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from vibroimpact.figures.branches import axis_unit
-from vibroimpact.scenario.axes import Axis
+from vibroimpact.scenario.axes import logarithmic
 
 _SYMBOLS = {
     "stiffness_ratio": "$\\lambda$",
@@ -23,13 +23,8 @@ def node_edges(values: xr.DataArray) -> NDArray[np.float64]:
     """Borders half-way between nodes, in the axis's unit; the first and last node end the range."""
     nodes = axis_unit(values)[0] * values.values
     low, high = nodes[:-1], nodes[1:]
-    middle = np.sqrt(low * high) if logarithmic(values) else 0.5 * (low + high)
+    middle = np.sqrt(low * high) if logarithmic(nodes) else 0.5 * (low + high)
     return np.concatenate([nodes[:1], middle, nodes[-1:]])
-
-
-def logarithmic(values: xr.DataArray) -> bool:
-    """Whether the nodes have one ratio."""
-    return Axis(str(values.name), values.values).logarithmic
 
 
 def plane_axes(ax: Axes, x: xr.DataArray, y: xr.DataArray) -> None:
@@ -38,7 +33,7 @@ def plane_axes(ax: Axes, x: xr.DataArray, y: xr.DataArray) -> None:
         factor, unit = axis_unit(values)
         name = str(values.name)
         symbol = f" {_SYMBOLS[name]}" if name in _SYMBOLS else ""
-        if logarithmic(values):
+        if logarithmic(values.values):
             ax.set(**{f"{axis.axis_name}scale": "log"})
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
             axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

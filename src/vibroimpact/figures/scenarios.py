@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -28,6 +29,8 @@ class Mark(NamedTuple):
     marker: str
     x: Sequence[float]
     y: Sequence[float]
+    face: str = "white"
+    """Colour inside."""
 
 
 def scenario_map(
@@ -69,15 +72,14 @@ def scenario_map(
             f"border: it is not in {first} and {second}; that of the same map is accepted"
         )
     ax = axes_or_new(ax, (7.2, 6.4), title)
-    (fx, _), (fy, _) = axis_unit(data[first]), axis_unit(data[second])
-    x, y = fx * data[first].values, fy * data[second].values
+    fx, fy = axis_unit(data[first])[0], axis_unit(data[second])[0]
     edges = [node_edges(data[first]), node_edges(data[second])]
     kinds = data["scenario"].values
     handles: list[Patch | Line2D] = []
     for scenario in Scenario:
         mine = kinds == scenario
         if mine.any():
-            handles.append(_area(ax, (x, y), edges, mine, scenario))
+            handles.append(_area(ax, edges, mine, scenario))
     if (kinds < 0).any():
         handles.append(Patch(facecolor="white", edgecolor="0.6", label="not computed yet"))
     _outlines(ax, edges[0], edges[1], kinds)
@@ -114,12 +116,13 @@ def scenario_map(
             linestyle="",
             marker=mark.marker,
             markersize=5.5,
-            markerfacecolor="white",
+            markerfacecolor=mark.face,
             markeredgecolor="black",
             label=mark.label,
             zorder=6,
         )
-        handles.append(line)
+        if mark.label:
+            handles.append(line)
     plane_axes(ax, data[first], data[second])
     ax.legend(
         handles=handles,
@@ -137,7 +140,6 @@ def scenario_map(
 
 def _area(
     ax: Axes,
-    nodes: tuple[NDArray[np.float64], NDArray[np.float64]],
     edges: list[NDArray[np.float64]],
     mine: NDArray[np.bool_],
     scenario: Scenario,
@@ -151,9 +153,14 @@ def _area(
         rasterized=True,
     )
     if look.hatch:
-        # Half-way between 0 and 1 lies half-way between two nodes, where the colours end, too.
+        # Each node twice, close to both its edges: the hatches end where the colours do.
         hatched = ax.contourf(
-            *nodes, mine, levels=[0.5, 1.5], colors="none", hatches=[look.hatch], zorder=2
+            *(_doubled(edge) for edge in edges),
+            np.kron(mine, np.ones((2, 2))),
+            levels=[0.5, 1.5],
+            colors="none",
+            hatches=[look.hatch],
+            zorder=2,
         )
         hatched.set_edgecolor(look.line)
         hatched.set_linewidth(0.0)
@@ -187,10 +194,19 @@ def _outlines(
     ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64], kinds: NDArray[np.int8]
 ) -> None:
     """Lines between neighbouring nodes of different scenarios."""
-    for row, column in zip(*np.nonzero(kinds[:, 1:] != kinds[:, :-1]), strict=True):
-        ax.plot([x[column + 1]] * 2, y[row : row + 2], color="0.25", linewidth=0.6, zorder=3)
-    for row, column in zip(*np.nonzero(kinds[1:] != kinds[:-1]), strict=True):
-        ax.plot(x[column : column + 2], [y[row + 1]] * 2, color="0.25", linewidth=0.6, zorder=3)
+    across, along = kinds[:, 1:] != kinds[:, :-1], kinds[1:] != kinds[:-1]
+    segments = [[(x[j + 1], y[i]), (x[j + 1], y[i + 1])] for i, j in np.argwhere(across)]
+    segments += [[(x[j], y[i + 1]), (x[j + 1], y[i + 1])] for i, j in np.argwhere(along)]
+    ax.add_collection(
+        LineCollection(segments, color="0.25", linewidth=0.6, zorder=3), autolim=False
+    )
+
+
+def _doubled(edges: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Two places for each node, just within its edges."""
+    inset = 1e-3 * np.diff(edges)
+    places = np.column_stack([edges[:-1] + inset, edges[1:] - inset])
+    return places.ravel()
 
 
 def _deepest(mine: NDArray[np.bool_]) -> tuple[int, int] | None:

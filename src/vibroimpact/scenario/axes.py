@@ -49,14 +49,8 @@ class Axis(NamedTuple):
     name: str
     values: _Array
     """In SI units, rising."""
-
-    @property
-    def logarithmic(self) -> bool:
-        """Whether neighbouring values have one ratio, and not one difference."""
-        if self.values[0] <= 0.0 or len(self.values) < 3:
-            return False
-        steps, ratios = np.diff(self.values), np.diff(np.log(self.values))
-        return bool(np.ptp(ratios) < 1e-6 * ratios.max() and np.ptp(steps) > 1e-6 * steps.max())
+    logarithmic: bool
+    """Whether it is refined by geometric means."""
 
     def refined(self, times: int) -> Axis:
         """With a value half-way between any two, done so many times; the old values stay."""
@@ -67,23 +61,33 @@ class Axis(NamedTuple):
             finer = np.empty(2 * len(values) - 1)
             finer[0::2], finer[1::2] = values, middle
             values = finer
-        return Axis(self.name, values)
+        return self._replace(values=values)
 
 
-def axis(given: object, field: str) -> Axis:
-    """Read an axis: the name of a parameter, and its values.
+def logarithmic(values: _Array) -> bool:
+    """Whether neighbouring values have one ratio, up to rounded digits, and not one difference."""
+    if values[0] <= 0.0 or len(values) < 3:
+        return False
+    steps, ratios = np.diff(values), np.diff(np.log(values))
+    uneven, spread = np.ptp(steps) / steps.max(), np.ptp(ratios) / ratios.max()
+    return bool(spread < 0.05 and spread < 0.1 * uneven)
+
+
+def axis(given: Any, field: str) -> Axis:
+    """Read an axis: the name of a parameter, its values, and "linear" or "log" if it is not clear.
 
     Raises
     ------
     InputError
         If it is no such pair, or a value cannot be used.
     """
-    if not (isinstance(given, tuple | list) and len(given) == 2 and isinstance(given[0], str)):
+    pair = isinstance(given, tuple | list) and len(given) in (2, 3) and isinstance(given[0], str)
+    if not pair or given[2:] not in ((), [], ("log",), ["log"], ("linear",), ["linear"]):
         raise InputError(
             f"{field}: {given!r} is no axis; a pair of a name and values is accepted, such as "
-            '("gap_ratio", [0, 0.5, 1])'
+            '("gap_ratio", [0, 0.5, 1]), and "log" or "linear" behind it'
         )
-    name, values = given
+    name, values = given[:2]
     if name not in PARAMETERS:
         raise InputError(f"{field}: {name!r}; one of {', '.join(PARAMETERS)} is accepted")
     parameter = PARAMETERS[name]
@@ -108,7 +112,10 @@ def axis(given: object, field: str) -> Axis:
             f"{field}[{len(numbers) - 1}]: a damping ratio of {numbers[-1]:g} has no resonance "
             "peak; values below 0.707107 are accepted"
         )
-    return Axis(name, numbers)
+    spaced = given[2] == "log" if len(given) == 3 else logarithmic(numbers)
+    if spaced and numbers[0] <= 0.0:
+        raise InputError(f"{field}[0]: 0 on a logarithmic axis; values above 0 are accepted")
+    return Axis(name, numbers, spaced)
 
 
 def check_pair(x: Axis, y: Axis) -> None:

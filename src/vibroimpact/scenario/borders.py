@@ -98,7 +98,7 @@ def _cusp(rig: Rig, along: str, value: float) -> float | None:
     oscillator, amplitude = rig
     held = frequencies(oscillator, amplitude)
     data = sweep(oscillator, amplitude, held)
-    seen = evidence(oscillator, data, 0.02)
+    seen = evidence(oscillator, amplitude, data, 0.02)
     try:
         orbits = primary_branch(seen, oscillator, amplitude, data)
         if orbits is None:

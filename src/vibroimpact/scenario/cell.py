@@ -15,14 +15,13 @@ from vibroimpact.response.sweep import sweeps
 from vibroimpact.response.swept import Direction
 from vibroimpact.response.threads import Progress
 from vibroimpact.scenario.evidence import Evidence, each_evidence
-from vibroimpact.scenario.frequencies import grid, highest
+from vibroimpact.scenario.frequencies import cycles, grid, highest
 from vibroimpact.scenario.orbits import with_folds, with_kinds
 from vibroimpact.scenario.thresholds import Thresholds
 from vibroimpact.scenario.verdict import confidence, scenario
 
 MAX_CYCLES = 300
-"""Forcing cycles to wait for a steady motion. Those of the published rigs take less; what does
-not settle then, nor keeps closing in, is not periodic."""
+"""Forcing cycles to wait for a steady motion, at least; more where damping is light."""
 WINDOW = 100
 """Forcing cycles over which a motion that did not settle is measured."""
 KIND_CYCLES = 2000
@@ -64,7 +63,7 @@ def classified(
     rigs: Sequence[Rig],
     thresholds: Thresholds,
     step: float,
-    max_cycles: int,
+    max_cycles: int | None,
     progress: Progress | None = None,
 ) -> dict[str, NDArray[Any]]:
     """Sweep some rigs of one natural frequency, on this thread, and name their scenarios.
@@ -75,11 +74,12 @@ def classified(
         ``scenario`` and the names of `VALUES` and `COUNTS`, each an array with a value a rig.
     """
     found: dict[int, Evidence] = {}
-    highs = [highest(*rig) for rig in rigs]
-    for high in dict.fromkeys(highs):
-        mine = [i for i, own in enumerate(highs) if own == high]
+    ways = [_way(rig, max_cycles) for rig in rigs]
+    for way in dict.fromkeys(ways):
+        mine = [i for i, own in enumerate(ways) if own == way]
+        high, waited = way
         held = grid(high, step) * rigs[0].oscillator.natural_frequency
-        seen = _seen([rigs[i] for i in mine], held, thresholds, max_cycles, progress)
+        seen = _seen([rigs[i] for i in mine], held, thresholds, waited, progress)
         found.update(zip(mine, seen, strict=True))
     ordered = [found[i] for i in range(len(rigs))]
     return {
@@ -92,6 +92,12 @@ def classified(
     }
 
 
+def _way(rig: Rig, max_cycles: int | None) -> tuple[float, int]:
+    """Up to which frequency (over the natural one), and how long at most, a rig is swept."""
+    high = highest(*rig)
+    return high, cycles(rig.oscillator, high, MAX_CYCLES) if max_cycles is None else max_cycles
+
+
 def _seen(
     rigs: list[Rig],
     held: NDArray[np.float64],
@@ -102,8 +108,7 @@ def _seen(
     """What the sweeps of some rigs over the same frequencies show."""
     data = sweeps(rigs, held, max_cycles=max_cycles, window=WINDOW, threads=1, progress=progress)
     few = data[["period", "section"]]  # selecting from all variables would take longer
-    oscillators = [rig.oscillator for rig in rigs]
-    for r, found in enumerate(each_evidence(oscillators, data, 0.5 * thresholds.prominence)):
+    for r, found in enumerate(each_evidence(rigs, data, 0.5 * thresholds.prominence)):
         if any(item.not_periodic for item in found.irregular):
             found = with_kinds(found, *rigs[r], few.isel(rig=r, drop=True), KIND_CYCLES)
         if _rests_on_a_jump(found, thresholds):

@@ -13,11 +13,15 @@ from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import sweep
 from vibroimpact.response.threads import Progress
 from vibroimpact.scenario.evidence import Evidence, evidence
+from vibroimpact.scenario.frequencies import cycles, highest
 from vibroimpact.scenario.frequencies import frequencies as default_frequencies
 from vibroimpact.scenario.orbits import with_folds, with_kinds
-from vibroimpact.scenario.thresholds import Thresholds
+from vibroimpact.scenario.thresholds import Thresholds, checked
 from vibroimpact.scenario.verdict import confidence, scenario
 from vibroimpact.scenario.words import in_words
+
+MAX_CYCLES = 2000
+"""Forcing cycles to wait for a steady motion, at least."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,7 @@ def classify(
     frequencies: Iterable[float | str] | None = None,
     *,
     thresholds: Thresholds | None = None,
-    max_cycles: int = 2000,
+    max_cycles: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Classification:
@@ -82,7 +86,10 @@ def classify(
         frequency from 0.4 times it to beyond where the primary resonance can lie.
     thresholds
         Where one scenario ends and the next begins; see `Thresholds`.
-    max_cycles, threads, progress
+    max_cycles
+        Forcing cycles to wait for a steady motion. None for 2000, and more where damping is
+        light.
+    threads, progress
         As in `sweeps`.
 
     Returns
@@ -95,16 +102,18 @@ def classify(
     InputError
         If a value cannot be used.
     """
-    used = thresholds or Thresholds()
+    used = checked(thresholds)
     peak = to_si(amplitude, ACCELERATION, "amplitude", above=0.0)
     held = default_frequencies(oscillator, peak) if frequencies is None else frequencies
+    if max_cycles is None:
+        max_cycles = cycles(oscillator, highest(oscillator, peak), MAX_CYCLES)
     data = sweep(oscillator, peak, held, max_cycles=max_cycles, threads=threads, progress=progress)
     if data.sizes["frequency"] < 4:
         raise InputError(
             f"frequencies: {data.sizes['frequency']} given; at least 4 are accepted, for curves "
             "are looked at"
         )
-    found = evidence(oscillator, data, 0.5 * used.prominence)
+    found = evidence(oscillator, peak, data, 0.5 * used.prominence)
     found = with_folds(with_kinds(found, oscillator, peak, data), oscillator, peak, data)
     named = scenario(found, used)
     others: dict[tuple[str, float], str] = {}

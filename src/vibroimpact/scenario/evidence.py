@@ -10,14 +10,15 @@ resonance, no resonance of its own; it is told apart as the onset.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Oscillator, Rig
+from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, each_swept
@@ -25,6 +26,10 @@ from vibroimpact.response.swept import Array, Direction, Flags, Swept, each_swep
 UNEVEN = 1e-6
 """Eccentricity, as a share of the excursion, that rounding does not explain."""
 
+KNOWN = 0.5
+"""Share of the holds of either direction that must have a value."""
+SETTLED = 0.1
+"""Share of the holds that must have settled: where nothing does, the wait was too short."""
 SAME = 0.15
 """Peaks of the two directions closer than this share of their frequency are one resonance's."""
 
@@ -63,8 +68,14 @@ class Evidence(NamedTuple):
     """Lowest and highest frequency at which a bumper is hit (Hz); None in free flight."""
     attached: bool
     """Whether all bumpers touch the mass at rest."""
+    known: bool
+    """Whether most holds of either direction have values, and some have settled."""
+    within: bool
+    """Whether free flight's resonance lies within the frequencies swept, and the curves do not
+    rise where they end."""
     gap_ratio: float
-    """Smallest gap over the largest amplitude of free flight at the frequencies swept."""
+    """δ0 of the smallest gap: over the largest amplitude of free flight at any frequency (at
+    those swept, where the damping leaves it no peak)."""
     penetration: float
     """Largest penetration over the gap of that side; NaN if the bumpers are attached."""
     resonance: float
@@ -137,7 +148,11 @@ class Evidence(NamedTuple):
             Least prominence of a non-regular resonance, as a share of its height.
         """
         spans = [item.ends for item in self.left]
-        spans += [(item.low, item.high) for item in self.irregular if item.prominence >= prominence]
+        spans += [
+            (item.low, item.high)
+            for item in self.irregular
+            if item.prominence >= prominence and item.low < self.top
+        ]
         total, reached = 0.0, -math.inf
         for low, high in sorted(spans):
             total += max(0.0, high - max(low, reached))
@@ -145,13 +160,15 @@ class Evidence(NamedTuple):
         return total / self.natural_frequency
 
 
-def evidence(oscillator: Oscillator, data: xr.Dataset, prominence: float) -> Evidence:
+def evidence(
+    oscillator: Oscillator, amplitude: float, data: xr.Dataset, prominence: float
+) -> Evidence:
     """What the sweep of one rig shows.
 
     Parameters
     ----------
-    oscillator
-        The rig.
+    oscillator, amplitude
+        The rig and its peak base acceleration (m/s²).
     data
         Dataset of its sweep in both directions.
     prominence
@@ -167,13 +184,12 @@ def evidence(oscillator: Oscillator, data: xr.Dataset, prominence: float) -> Evi
             f"data: a dataset with the dims {dict(data.sizes)} is not the sweep of one rig; "
             "a dataset of sweep is accepted"
         )
-    (found,) = each_evidence([oscillator], data.expand_dims("rig"), prominence)
+    rig = Rig(oscillator, amplitude)
+    (found,) = each_evidence([rig], data.expand_dims("rig"), prominence)
     return found
 
 
-def each_evidence(
-    oscillators: list[Oscillator], data: xr.Dataset, prominence: float
-) -> Iterator[Evidence]:
+def each_evidence(rigs: Sequence[Rig], data: xr.Dataset, prominence: float) -> Iterator[Evidence]:
     """What the sweep of each rig of `sweeps` shows, one after the other."""
     if data.sizes["direction"] != 2:
         raise InputError(
@@ -188,11 +204,11 @@ def each_evidence(
     uneven = np.abs(ordered["eccentricity"].values) > UNEVEN * (
         ordered["displacement_excursion"].values
     )
-    for r, (oscillator, both) in enumerate(zip(oscillators, each_swept(data), strict=True)):
+    for r, (rig, both) in enumerate(zip(rigs, each_swept(data), strict=True)):
         yield _one(
-            oscillator,
+            rig,
             both,
-            uneven[r] & oscillator.symmetric,
+            uneven[r] & rig.oscillator.symmetric,
             free[r],
             float(most[r]),
             float(least[r]),
@@ -201,7 +217,7 @@ def each_evidence(
 
 
 def _one(
-    oscillator: Oscillator,
+    rig: Rig,
     both: Swept,
     uneven: Flags,
     free: Array,
@@ -209,6 +225,7 @@ def _one(
     least: float,
     prominence: float,
 ) -> Evidence:
+    oscillator, amplitude = rig
     frequency = both.frequency
     reached = {"right": most, "left": -least}
     bumpers = {side: b for side in reached if (b := getattr(oscillator, side)) is not None}
@@ -223,6 +240,8 @@ def _one(
         (p for p in found if p.primary and p.curve == "eta_d" and p.direction == "forward"), None
     )
     at = {d: int(np.searchsorted(frequency, p.frequency)) for d, p in primary.items()}
+    beyond = any(p.at_end and p.frequency == frequency[-1] for p in primary.values())
+    top = max((p.frequency for p in found if p.primary), default=math.inf)
     return Evidence(
         natural_frequency=oscillator.natural_frequency,
         swept=(float(frequency[0]), float(frequency[-1])),
@@ -230,20 +249,27 @@ def _one(
         if len(touched)
         else None,
         attached=bool(gaps) and not any(gaps.values()),
-        gap_ratio=min(gaps.values(), default=math.inf) / float(free.max()),
+        known=bool(
+            np.isfinite(both.eta_a).mean(axis=1).min() >= KNOWN and both.settled.mean() >= SETTLED
+        ),
+        within=not beyond and _resonance_within(oscillator, both),
+        gap_ratio=min(gaps.values(), default=math.inf) / _largest(oscillator, amplitude, free),
         penetration=max(
             ((reached[side] - gap) / gap for side, gap in gaps.items() if gap > 0.0),
             default=math.nan,
         ),
         resonance=swing.frequency / float(frequency[np.argmax(free)]) if swing else math.nan,
         primary_regular=all(not irregular[both.directions.index(d), i] for d, i in at.items()),
-        primary_beyond=any(p.at_end and p.frequency == frequency[-1] for p in primary.values()),
+        primary_beyond=beyond,
         jumps=jumps(both),
         hysteresis=apart,
         left=tuple(
             item
             for item in apart
-            if item.side == "left" and item.settled and not _within(item.low, begins)
+            if item.side == "left"
+            and item.settled
+            and item.low < top
+            and not _within(item.low, begins)
         ),
         irregular=tuple(_irregular(both, irregular, uneven, found, begins)),
         onset=begins,
@@ -294,14 +320,31 @@ def _foot_in_contact(both: Swept, k: int, i: int, prominence: float) -> bool:
     Going down from it, the valley is passed where the curve has risen again by `prominence` of
     its height; if it never does, it is where the curve was lowest.
     """
-    curve, height = both.eta_a[k], both.eta_a[k, i]
-    foot = i
-    for j in range(i - 1, -1, -1):
+    curve = both.eta_a[k]
+    known = np.flatnonzero(np.isfinite(curve[: i + 1]))
+    if not len(known):
+        return bool(both.touching[k, i])
+    foot = int(known[-1])
+    height = curve[foot]
+    for j in known[-2::-1]:
         if curve[j] < curve[foot]:
-            foot = j
+            foot = int(j)
         elif curve[j] - curve[foot] > prominence * height:
             break
     return bool(both.touching[k, foot])
+
+
+def _resonance_within(oscillator: Oscillator, both: Swept) -> bool:
+    ratio = math.sqrt(max(0.0, 1.0 - 2.0 * oscillator.damping_ratio**2))
+    at = ratio * oscillator.natural_frequency
+    return bool(at <= both.frequency[-1] and (at == 0.0 or both.frequency[0] <= at))
+
+
+def _largest(oscillator: Oscillator, amplitude: float, free: Array) -> float:
+    """Largest amplitude of free flight (m)."""
+    if 0.0 < oscillator.damping_ratio < math.sqrt(0.5):
+        return peak_displacement(oscillator, amplitude)
+    return float(free.max())
 
 
 def _pressed_at_rest(oscillator: Oscillator, both: Swept, free: Array) -> bool:
@@ -309,8 +352,8 @@ def _pressed_at_rest(oscillator: Oscillator, both: Swept, free: Array) -> bool:
     gaps = [b.gap for b in (oscillator.right, oscillator.left) if b is not None]
     # Free flight's amplitude A/ω0² |H| at the lowest frequency, without its gain |H|.
     ratio = float(both.frequency[0]) / oscillator.natural_frequency
-    gain = 1.0 / math.hypot((1.0 - ratio) * (1.0 + ratio), 2.0 * oscillator.damping_ratio * ratio)
-    return bool(gaps) and float(free[0]) / gain >= min(gaps)
+    inverse = math.hypot((1.0 - ratio) * (1.0 + ratio), 2.0 * oscillator.damping_ratio * ratio)
+    return bool(gaps) and float(free[0]) * inverse >= min(gaps)
 
 
 def _irregular(

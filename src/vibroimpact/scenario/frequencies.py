@@ -17,6 +17,10 @@ STEP = 0.01
 LEAST_HIGH = 1.5
 """Highest frequency over the natural one, at least; free flight's resonance lies below 1."""
 
+CLOSE = 1e-3
+"""Distance from an orbit, over the motion's size, at which a hold sees that it closes in."""
+MOST_CYCLES = 20_000
+"""Of a nearly undamped rig."""
 ROUND = 0.5
 """Rigs that differ little are swept over the same range, many at once."""
 
@@ -29,8 +33,9 @@ def highest(oscillator: Oscillator, amplitude: float) -> float:
     - Energy. A motion of one forcing cycle that reaches both bumpers travels 2 (G_R + G_L) in a
       cycle, so that the mean of its velocity squared is at least (2 f (G_R + G_L))². The base
       supplies at most M A √(mean of u̇²/2) of power, the isolator alone takes C (mean of u̇²):
-      f ≤ M A/(2√2 C (G_R + G_L)). With one bumper the mean of u is not on the bumper's side,
-      for that only pushes: the mass travels 2 G at least, and G takes the place of the sum.
+      f ≤ M A/(2√2 C (G_R + G_L)). A motion that reaches one bumper alone travels 2 G of that
+      side at least, for the mean of u is not on its side: it only pushes. So of a rig whose gaps
+      differ, or that has one bumper, the smallest gap takes the place of the sum.
     - Stiffness. Nothing is stiffer than isolator and bumper in contact all the time, whose
       resonance lies at f0 √(1 + λ); damping and flights lower it.
     """
@@ -38,11 +43,24 @@ def highest(oscillator: Oscillator, amplitude: float) -> float:
     if not bumpers:
         return LEAST_HIGH
     stiffest = max(b.stiffness for b in bumpers) / oscillator.isolator.stiffness
-    travel = sum(b.gap for b in bumpers) * oscillator.isolator.damping
+    gaps = [b.gap for b in bumpers]
+    apart = sum(gaps) if len(gaps) == 2 and gaps[0] == gaps[1] else min(gaps)
+    travel = apart * oscillator.isolator.damping
     supplied = oscillator.mass * amplitude / (2.0 * math.sqrt(2.0))
     energy = supplied / travel / oscillator.natural_frequency if travel > 0.0 else math.inf
     bound = 1.1 * min(math.sqrt(1.0 + stiffest), energy) + 0.1
     return max(LEAST_HIGH, ROUND * math.ceil(bound / ROUND))
+
+
+def cycles(oscillator: Oscillator, high: float, least: int) -> int:
+    """Forcing cycles after which a free transient has decayed enough for a hold to go on waiting.
+
+    At f = `high` f0 it decays by exp(-2πξ/high) a cycle; `CLOSE` is reached after
+    ln(1/CLOSE) high/(2πξ) of them, and twice as many are given.
+    """
+    ratio = oscillator.damping_ratio
+    wanted = 2.0 * math.log(1.0 / CLOSE) * high / (2.0 * math.pi * ratio) if ratio else math.inf
+    return int(min(max(wanted, least), MOST_CYCLES))
 
 
 def frequencies(

@@ -32,7 +32,7 @@ _MEANINGS = {
     Scenario.S0: "free flight",
     Scenario.S1: "grazing",
     Scenario.S2: "primary resonance with right hysteresis",
-    Scenario.S3: "as S2, with a secondary resonance without hysteresis",
+    Scenario.S3: "as S2, with a secondary resonance",
     Scenario.S4: "secondary resonances with left hysteresis or not regular",
     Scenario.S5: "bumpers attached, smooth",
     Scenario.S6: "bent to the right, without jumps",

@@ -19,27 +19,29 @@ from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.threads import Progress, available
 from vibroimpact.response.variables import oscillator_parameters
 from vibroimpact.scenario.axes import Axis, Base, axis, check_pair
-from vibroimpact.scenario.cell import MAX_CYCLES, classified
+from vibroimpact.scenario.cell import classified
 from vibroimpact.scenario.frequencies import STEP
 from vibroimpact.scenario.nodes import UNKNOWN, Nodes, Scenarios
 from vibroimpact.scenario.store import MapStore, map_store
-from vibroimpact.scenario.thresholds import Thresholds
+from vibroimpact.scenario.thresholds import Thresholds, checked
 
 DAMPING_RATIO, RELAXATION_TIME = 0.15, 0.01
 """ξ and τ of the published rig (the paper's Section 7)."""
+MOST_REFINED = 8
+"""Levels of refinement: nodes 256 times as dense as those of the first grid."""
 _FEW = 10
 """Rigs that a thread sweeps at a time, at most."""
 
 
 def scenario_map(
-    x: tuple[str, Any],
-    y: tuple[str, Any],
+    x: tuple[Any, ...],
+    y: tuple[Any, ...],
     base: tuple[Oscillator, float | str] | None = None,
     *,
     step: float = STEP,
     refine: int = 0,
     thresholds: Thresholds | None = None,
-    max_cycles: int = MAX_CYCLES,
+    max_cycles: int | None = None,
     store: Path | str | None = None,
     block: int = 10,
     threads: int | None = None,
@@ -53,7 +55,8 @@ def scenario_map(
         Name and rising values of a parameter. Physical: ``"gap"`` (m, of each side),
         ``"amplitude"`` (m/s²), ``"bumper_stiffness"`` (N/m, at the base's C_j/K_j).
         Dimensionless: ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ,
-        ``"damping_ratio"`` ξ. Both physical or both dimensionless.
+        ``"damping_ratio"`` ξ. Both physical or both dimensionless, and set on both sides alike.
+        ``"log"`` or ``"linear"`` behind the values says how they are refined, if they do not.
     base
         Oscillator and amplitude, for all other parameters. None for ξ = 0.15, τ = 0.01,
         λ = 25.9 and δ0 = 0.5, on two sides.
@@ -66,7 +69,7 @@ def scenario_map(
     thresholds
         See `Thresholds`.
     max_cycles
-        As in `sweeps`.
+        Forcing cycles to wait for a steady motion. None for 300, and more where damping is light.
     store
         Folder for the map as a Zarr group, written block by block. If it holds the same map,
         unfinished, that is completed. None keeps the map in memory.
@@ -94,19 +97,19 @@ def scenario_map(
     first, second = axis(x, "x"), axis(y, "y")
     check_pair(first, second)
     start = _base(base)
-    used = thresholds or Thresholds()
+    used = checked(thresholds)
     settings = {
-        "x": {"name": first.name, "values": first.values.tolist()},
-        "y": {"name": second.name, "values": second.values.tolist()},
+        "x": {"name": first.name, "values": first.values.tolist(), "log": first.logarithmic},
+        "y": {"name": second.name, "values": second.values.tolist(), "log": second.logarithmic},
         "base": {
             "oscillator": oscillator_parameters(start.oscillator),
             "amplitude": start.amplitude,
         },
-        "step": share(step, "step"),
-        "refine": whole(refine, "refine", 0),
+        "step": (fine_step := share(step, "step")),
+        "refine": (refine := _refinement(refine)),
         "thresholds": {name: getattr(used, name) for name in Thresholds.names()},
-        "max_cycles": whole(max_cycles, "max_cycles"),
-        "block": whole(block, "block"),
+        "max_cycles": None if max_cycles is None else whole(max_cycles, "max_cycles"),
+        "block": (block := whole(block, "block")),
     }
     workers = available() if threads is None else whole(threads, "threads")
     fine = first.refined(refine), second.refined(refine)
@@ -120,12 +123,15 @@ def scenario_map(
     )
 
     def compute(rigs: list[Rig], check: Progress) -> dict[str, NDArray[Any]]:
-        return classified(rigs, used, step, max_cycles, check)
+        return classified(rigs, used, fine_step, max_cycles, check)
 
     with map_store(store, fine, plan.chunk, refine + 1, settings) as held:
-        for level in range(refine + 1):
-            _level(plan, held, level, compute, workers, progress)
-        held.inherit(_known(plan, held, refine))
+        if not held.finished():
+            ready = 0
+            for level in range(refine + 1):
+                ready = _level(plan, held, level, compute, workers, progress, ready)
+            held.inherit(_known(plan, held, refine))
+            held.finish()
         data = held.dataset()
     return data.load() if store is None else data
 
@@ -160,10 +166,11 @@ def _level(
     compute: Compute,
     workers: int,
     progress: Progress | None,
-) -> None:
-    """Compute the nodes of one level that are wanted, and pass on to the others what is known."""
+    done: int,
+) -> int:
+    """Compute the nodes of one level that are wanted; return how many are done by then."""
     chosen = plan.nodes.wanted(level, _known(plan, held, level - 1))
-    total, done = int(chosen.sum()), 0
+    total = done + int(chosen.sum())
     for row, column, place in plan.blocks():
         mine = chosen[place]
         if mine.any() and not held.done(level, row, column):
@@ -174,6 +181,7 @@ def _level(
         done += int(mine.sum())
         if progress:
             progress(done, total)
+    return done
 
 
 def _known(plan: _Plan, held: MapStore, level: int) -> Scenarios:
@@ -228,6 +236,13 @@ def _parallel(
 
 class _Stopped(Exception):  # noqa: N818 - nothing went wrong
     """Raised in a thread whose result is not wanted any more."""
+
+
+def _refinement(given: object) -> int:
+    refine = whole(given, "refine", 0)
+    if refine > MOST_REFINED:
+        raise InputError(f"refine: {refine}; a whole number of at most {MOST_REFINED} is accepted")
+    return refine
 
 
 def _base(given: tuple[Oscillator, float | str] | None) -> Base:

@@ -10,11 +10,10 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -42,7 +41,7 @@ class MapStore:
 
     def computed(self) -> tuple[NDArray[np.int8], NDArray[np.int16]]:
         """Scenario at each node, and the level at which it was computed (-1: it was not)."""
-        return np.asarray(self._array("scenario")[:]), np.asarray(self._array("level")[:])
+        return self._read("scenario"), self._read("level")
 
     def write(
         self,
@@ -53,10 +52,9 @@ class MapStore:
     ) -> None:
         """Put what was computed at the chosen nodes of a block, in the order of `np.nonzero`."""
         for name, new in {**values, "level": np.full(chosen.sum(), level)}.items():
-            array = self._array(name)
-            part = np.array(array[block])
+            part = self._read(name, block)
             part[chosen] = new
-            array[block] = part
+            self._array(name)[block] = part
 
     def inherit(self, scenarios: NDArray[np.int8]) -> None:
         """Put the scenarios of all nodes; the levels tell which were computed."""
@@ -64,21 +62,39 @@ class MapStore:
 
     def done(self, level: int, row: int, column: int) -> bool:
         """Whether a block of a level is complete."""
-        return bool(np.asarray(self._array("done")[level, row, column]) == 1)
+        return bool(self._read("done", (level, row, column)) == 1)
 
     def mark(self, level: int, row: int, column: int) -> None:
         """Say that a block of a level is complete."""
         self._array("done")[level, row, column] = 1
 
+    def finished(self) -> bool:
+        """Whether the whole map is there."""
+        return bool(self._group.attrs.get("finished", False))
+
+    def finish(self) -> None:
+        """Say that the whole map is there."""
+        self._group.attrs["finished"] = True
+
     def dataset(self) -> xr.Dataset:
         """The map; values are read when they are used."""
         data: xr.Dataset = xr.open_zarr(self._group.store, consolidated=False, chunks=None)
+        del data.attrs["finished"]
         return data[["scenario", *VALUES, *COUNTS, "level"]]
 
     def _array(self, name: str) -> zarr.Array[Any]:
         array = self._group[name]
         assert isinstance(array, zarr.Array)
         return array
+
+    def _read(self, name: str, where: Any = ...) -> NDArray[Any]:
+        try:
+            return np.array(self._array(name)[where])
+        except (RuntimeError, ValueError) as error:
+            raise InputError(
+                f"store: {self._group.store} is damaged ({name}: {error}); a map that was written "
+                "by this package is accepted"
+            ) from None
 
 
 @contextmanager
@@ -114,54 +130,75 @@ def map_store(
             _make(zarr.open_group(MemoryStore(), mode="w"), axes, chunk, levels, parameters)
         )
         return
-    folder = Path(path)
-    group = _opened(folder, axes, chunk, levels, parameters)
     try:
-        # Beside the store, in which Zarr would take it for an array.
-        with FileLock(folder.with_name(f".{folder.name}.lock")).acquire(timeout=0):
-            yield MapStore(group)
+        folder = Path(path).expanduser().resolve()
+    except (TypeError, ValueError, RuntimeError):
+        raise InputError(f"store: {path!r}; the path of a folder is accepted") from None
+    try:
+        if not folder.parent.is_dir():
+            raise FileNotFoundError(2, "the folder that it lies in does not exist")
+        if folder.is_dir() and (done := _whole(folder, parameters)) is not None:
+            yield done
+            return
+        # Taken first: of two processes that would make the store, one is refused.
+        lock = folder.with_name(f".{folder.name}.lock")
+        with FileLock(lock).acquire(timeout=0):
+            store = MapStore(_opened(folder, axes, chunk, levels, parameters))
+            yield store
+            if store.finished():
+                lock.unlink(missing_ok=True)
     except Timeout:
         raise InputError(
             f"store: {str(folder)!r} is being written by another process; when that has ended, or "
             "another folder, is accepted"
         ) from None
+    except OSError as error:
+        raise InputError(
+            f"store: {str(folder)!r} cannot be written ({error.strerror or error}); a folder "
+            "beside others that you may write to, on a disk with room, is accepted"
+        ) from None
+
+
+def _whole(folder: Path, parameters: dict[str, Any]) -> MapStore | None:
+    """The store if it holds the whole map: to read it takes no lock, and no right to write."""
+    if not any(folder.iterdir()):
+        return None
+    store = MapStore(_checked(folder, parameters, "r"))
+    return store if store.finished() else None
 
 
 def _opened(
     folder: Path, axes: tuple[Axis, Axis], chunk: int, levels: int, parameters: dict[str, Any]
 ) -> zarr.Group:
+    if not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
+        # Made beside it and renamed: the store is there with all its arrays, or not at all.
+        beside = folder.with_name(f".{folder.name}.making")
+        shutil.rmtree(beside, ignore_errors=True)  # one that was killed may have left it
+        _make(zarr.open_group(LocalStore(beside), mode="w"), axes, chunk, levels, parameters)
+        os.replace(beside, folder)
+    return _checked(folder, parameters, "r+")
+
+
+def _checked(folder: Path, parameters: dict[str, Any], mode: Literal["r", "r+"]) -> zarr.Group:
+    """The group in a folder, if it is this map."""
     try:
-        if not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
-            # Made beside it and renamed: the store is there with all its arrays, or not at all.
-            beside = Path(tempfile.mkdtemp(dir=folder.parent, prefix=f".{folder.name}-"))
-            try:
-                group = zarr.open_group(LocalStore(beside), mode="w")
-                _make(group, axes, chunk, levels, parameters)
-                os.replace(beside, folder)
-            finally:
-                shutil.rmtree(beside, ignore_errors=True)
-    except OSError as error:
-        raise InputError(
-            f"store: {str(folder)!r} cannot be written ({error.strerror or error}); a folder "
-            "beside others that you may write to is accepted"
-        ) from None
-    try:
-        group = zarr.open_group(LocalStore(folder), mode="r+")
+        group = zarr.open_group(LocalStore(folder, read_only=mode == "r"), mode=mode)
+        held = group.attrs.asdict()
+        if held.get("created_by") != CREATED_BY:
+            raise ValueError(folder)
+        known = json.loads(str(held["parameters"]))
+        version = held["vibroimpact_version"]
+        missing = {"scenario", "level", "done", *VALUES, *COUNTS} - set(group.array_keys())
+        if missing:
+            raise KeyError(*missing)
     except (OSError, ValueError, KeyError):
         raise InputError(
-            f"store: {str(folder)!r} exists and is no map; a folder that does not exist, or a map "
-            "to be completed, is accepted"
+            f"store: {str(folder)!r} exists and is no map, or a damaged one; a folder that does "
+            "not exist, or a map to be completed, is accepted"
         ) from None
-    held = group.attrs.asdict()
-    if held.get("created_by") != CREATED_BY:
-        raise InputError(
-            f"store: {str(folder)!r} exists and is no map; a folder that does not exist, or a map "
-            "to be completed, is accepted"
-        )
-    known = json.loads(str(held["parameters"]))
     wanted = json.loads(json.dumps(parameters))
     differing = [name for name in wanted if known.get(name) != wanted[name]]
-    if held["vibroimpact_version"] != __version__:
+    if version != __version__:
         differing.append("vibroimpact_version")
     if differing:
         raise InputError(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
+from numbers import Real
 
 from vibroimpact.errors import InputError
 
@@ -45,7 +46,7 @@ class Thresholds:
     def __post_init__(self) -> None:
         for name in self.names():
             value = getattr(self, name)
-            number = isinstance(value, int | float) and not isinstance(value, bool)
+            number = isinstance(value, Real) and not isinstance(value, bool)
             if not (number and math.isfinite(value) and 0.0 < value <= 1.0):
                 raise InputError(
                     f"{name}: {value!r}; a number greater than 0 and at most 1 is accepted"
@@ -61,3 +62,18 @@ class Thresholds:
         for name in self.names():
             for factor in (0.5, 2.0):
                 yield replace(self, **{name: min(1.0, factor * getattr(self, name))})
+
+
+def checked(given: object) -> Thresholds:
+    """The thresholds to use; None is the defaults.
+
+    Raises
+    ------
+    InputError
+        If it is something else.
+    """
+    if given is None:
+        return Thresholds()
+    if not isinstance(given, Thresholds):
+        raise InputError(f"thresholds: {given!r}; a Thresholds, or None, is accepted")
+    return given

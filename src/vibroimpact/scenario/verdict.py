@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from vibroimpact.scenario.evidence import Evidence
 from vibroimpact.scenario.kinds import Scenario
 from vibroimpact.scenario.thresholds import Thresholds
@@ -10,6 +12,8 @@ from vibroimpact.scenario.thresholds import Thresholds
 def scenario(found: Evidence, thresholds: Thresholds) -> Scenario:
     """Name the scenario; the first that fits, in this order.
 
+    0. Unclassified if too little is known; if the resonance lies beyond the frequencies swept,
+       only S4 can be told.
     1. S0: no bumper is hit.
     2. S5: the bumpers touch the mass at rest, and the curves are smooth.
     3. S1: the gap is nearly free flight's amplitude, and the bumpers are hardly deformed.
@@ -24,6 +28,12 @@ def scenario(found: Evidence, thresholds: Thresholds) -> Scenario:
     ]
     extent = found.extent(thresholds.prominence)
     smooth = not (found.jumping or extent or secondary) and found.primary_regular
+    if math.isinf(found.gap_ratio):  # there is no bumper
+        return Scenario.S0
+    if not found.known:
+        return Scenario.UNCLASSIFIED
+    if not found.within:
+        return Scenario.S4 if extent >= thresholds.extent else Scenario.UNCLASSIFIED
     if found.contact is None:
         return Scenario.S0
     if found.attached:

@@ -27,7 +27,12 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
             f"presses in by {found.penetration:.2g} of it"
         )
     sides = [("right", item) for item in found.right] + [("left", item) for item in found.left]
-    parts += [f"{side} hysteresis {_span(*_ends(found, item))}" for side, item in sides]
+    narrow = found.extent(thresholds.prominence) < thresholds.extent
+    parts += [
+        f"{side} hysteresis {_span(*_ends(found, item))}"
+        + (" (too narrow to count)" if side == "left" and narrow else "")
+        for side, item in sides
+    ]
     if not found.right and (hidden := _hidden(found)):
         parts.append(f"right hysteresis {hidden}, between two frequencies")
     parts += _irregular(found, thresholds)
@@ -42,6 +47,10 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
         parts.append(f"resonance at {found.resonance:.3g} times that of free flight")
     if found.primary_beyond:
         parts.append("the primary resonance lies beyond the frequencies swept")
+    elif not found.within:
+        parts.append("free flight's resonance lies beyond the frequencies swept")
+    if not found.known:
+        parts.append("most holds have not settled, or have no value")
     parts.append(f"contact {_span(*found.contact)}")
     return "; ".join(parts)
 
