@@ -35,8 +35,9 @@ def test_claims_and_a_table(run, tmp_path, few):
     ]
     assert "Not reproduced" in lines
     assert "both sides 0.434, one side 0.217" in out
-    assert lines[-3:] == ["Files", "  out/paper/part.md", "  out/paper/part.html"]
-    html = (tmp_path / "out/paper/part.html").read_text(encoding="utf-8")
+    assert lines[-3:] == ["Files", "  out/paper/table1-claims.md", "  out/paper/table1-claims.html"]
+    assert "  inputs: 2 reproduced, 1 not reproduced" in lines
+    html = (tmp_path / "out/paper/table1-claims.html").read_text(encoding="utf-8")
     assert "Table 1" in html
     assert not (tmp_path / "out/paper/figures").exists()
 
@@ -50,6 +51,8 @@ def test_json(run, tmp_path, few):
         "not reproduced": 1,
         "needs the experiment's data": 0,
     }
+    assert facts["kinds"] == {"inputs": facts["verdicts"]}
+    assert {one["kind"] for one in facts["claims"]} == {"inputs"}
     assert [one["key"] for one in facts["claims"]] == [claim.key for claim in few]
     (lost,) = (one for one in facts["claims"] if one["verdict"] == "not reproduced")
     assert lost["section"] == "7"
@@ -65,7 +68,7 @@ def test_a_figure(run, tmp_path):
     assert "Statements" not in out
     image = tmp_path / "out/paper/figures/fig03.svg"
     assert image.read_text(encoding="utf-8").startswith("<?xml")
-    assert "figures/fig03.svg" in (tmp_path / "out/paper/part.md").read_text(encoding="utf-8")
+    assert "figures/fig03.svg" in (tmp_path / "out/paper/fig03.md").read_text(encoding="utf-8")
 
 
 def test_everything(run, tmp_path, few, monkeypatch):

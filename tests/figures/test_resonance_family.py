@@ -66,6 +66,15 @@ class TestFamily:
         assert same_color(of(ax, "B2-G3-A3", "backward").get_color(), "#123456")
         assert not same_color(of(ax, "B2-G1-A3", "backward").get_color(), "#123456")
 
+    def test_markers_by_name(self):
+        part = swept().sel(rig=list(CODES[:2]))
+        one = resonance_family(part)
+        other = resonance_family(part, markers={CODES[0]: 1, CODES[1]: 0})
+        first, second = (of(one, code, "forward").get_marker() for code in CODES[:2])
+        assert [of(other, code, "forward").get_marker() for code in CODES[:2]] == [second, first]
+        with pytest.raises(vi.InputError, match=r"^markers: 'B9' is no rig"):
+            resonance_family(part, markers={"B9": 0})
+
     def test_parted_at_jumps_with_arrows(self):
         ax = resonance_family(swept(), quantity="eta_a")
         assert np.isnan(of(ax, "B2-G1-A3", "forward").get_ydata()).sum() == 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Callable
 
 import pytest
@@ -11,28 +12,39 @@ import xarray as xr
 import vibroimpact as vi
 from vibroimpact.model import laboratory
 from vibroimpact.paper import study as study_module
-from vibroimpact.paper.claim import Claim, Finding, Verdict
-from vibroimpact.paper.claims import CLAIMS, families, jumps, left, maxima, motions, with_bumpers
+from vibroimpact.paper.claim import Claim, Finding, Kind, Verdict
+from vibroimpact.paper.claims import CLAIMS, jumps, left, maxima, motions, named, with_bumpers
 from vibroimpact.paper.claims.reasons import REASONS
 from vibroimpact.paper.study import Study
 
 NOT_REPRODUCED = {
-    # Where both sweeps pass over one peak, before the hysteresis or without any.
+    # Equal, never lower, where both sweeps pass over one peak; mostly grazing tests.
     "forward-higher-acceleration",
     "forward-higher-displacement",
     # The model's upward jump is where free flight reaches the gap, whatever the bumper.
     "upward-jump-with-bumper",
-    # The bell's top lies at other gaps than measured.
+    "jumps-along-stiffness",
+    # The rise of η_d at the jump grows in 5 of 12 and in 4 of 16 sequences only.
+    "upward-jump-fades",
+    # The bell's top lies at other gaps than measured; for B4 the forward maxima rise once.
     "bell-in-the-middle",
     "bell-descending",
     # The backward resonance grows less than free flight, by which it is divided.
     "acceleration-with-acceleration-backward",
     # The softest bumper's hysteresis is too short to part the directions.
     "directions-closer-with-bumper",
-    # 2.11 Hz, where 2.10 Hz would do.
-    "s2-impact-range",
+    # Folds at 0.5604 and 0.5682 Hz: a left hysteresis narrower than any step.
+    "s3-secondary-without-hysteresis",
+    "s3-coincident-below",
     # η_a reaches 1.40: a stiff bumper needs little penetration for that.
     "s1-acceleration-like-free-flight",
+    # Four of the five grazing cases jump, and η_a differs by up to 1.1.
+    "grazing-is-free-flight",
+    # At A2 11 % apart; ξ by up to 12 %, τ by up to 34 %.
+    "fitted-stiffness-as-table",
+    "fitted-damping-as-assumed",
+    # 44 % of the resonance's height over all that does not settle (8 % in its middle).
+    "s4-plateau",
     # Chaotic (docs/decisions/0007).
     "s4-quasi-periodic",
     # The orbit is unstable.
@@ -64,7 +76,7 @@ def found() -> dict[str, Finding]:
 
 def test_keys_are_unique():
     keys = [claim.key for claim in CLAIMS]
-    assert len(set(keys)) == len(keys) == 106
+    assert len(set(keys)) == len(keys) == 111
     assert set(keys) > NOT_REPRODUCED | NEEDS_DATA
 
 
@@ -101,6 +113,26 @@ def test_numbers(found):
             assert "needed: " in finding.number, key
 
 
+def test_rounding_is_told_in_words(found):
+    for key, finding in found.items():
+        assert not re.search(r"e-\d\d|0e\+00", finding.number), key
+
+
+def test_kinds():
+    kinds = {claim.key: claim.kind for claim in CLAIMS}
+    assert {kinds[key] for key in NEEDS_DATA} == {Kind.COMPUTED}
+    for key in ("tests-at-a1", "scenarios-along-gap", "fitted-scenarios", "no-secondary-for-g3-a1"):
+        assert kinds[key] is Kind.RULES
+    for key in ("table-gaps", "free-trend", "fitted-stiffness-as-table"):
+        assert kinds[key] is Kind.INPUTS
+    by_construction = {key for key, kind in kinds.items() if kind is Kind.CONSTRUCTION}
+    assert by_construction == {
+        "free-flight-without-impact",
+        "only-ratios-matter",
+        "grazing-at-one",
+    }
+
+
 def test_what_is_not_reproduced_has_a_reason():
     assert set(REASONS) == NOT_REPRODUCED
 
@@ -108,6 +140,18 @@ def test_what_is_not_reproduced_has_a_reason():
 @pytest.mark.parametrize(
     ("key", "part"),
     [
+        ("grazing-is-free-flight", "B4-G4-A1 η_a 1.09, η_d 0.07, jumps 1.325 and 1.295 Hz"),
+        ("s3-secondary-without-hysteresis", "left hysteresis 0.5604 to 0.5682 Hz (0.008 Hz wide)"),
+        ("upward-jump-fades", "along the gap 5 of 12 sequences"),
+        ("upward-jump-fades", "along the acceleration 4 of 16 sequences"),
+        ("jumps-along-stiffness", "up 1.365 to 1.365 Hz"),
+        ("no-secondary-for-g3-a1", "10000kN/m-G3-A1 31% at 1.10 Hz"),
+        ("secondary-only-small-gaps-large-accelerations", "B4-G2-A1 16% at 1.00 Hz, B4-G4-A2"),
+        ("s2-impact-range", "fitted parameters 0.8 to 2.1 Hz, those of Table 1 0.6 to 2.0 Hz"),
+        ("s4-pair-settles", "changes of sign 4, then 2"),
+        ("fitted-stiffness-as-table", "31.9 against 28.7 kN/m (+11%)"),
+        ("tests-at-a2-a3", "where B1-G1-A3 is S2; from 0.44 Hz it is S3"),
+        ("s4-left-hystereses", "4 from 0.3 Hz (2 of them from 0.44 Hz)"),
         ("table-gaps", "12 of 12 agree"),
         ("table-stiffness-ratios", "12 of 12 agree"),
         ("hysteresis-of-the-example", "down at 1.985 Hz, up at 1.385 Hz"),
@@ -175,7 +219,7 @@ class TestBroken:
             )
 
         self.mutate(monkeypatch, shifted)
-        turned = self.turned(found, (*families.TESTS, *left.CLAIMS, *motions.CLAIMS))
+        turned = self.turned(found, (*named.CLAIMS, *left.CLAIMS, *motions.CLAIMS))
         assert len(turned) >= 8
         assert {"s4-two-motions", "s3-many-harmonics"} <= turned
 

@@ -9,6 +9,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.paper import fig15, table1
 from vibroimpact.paper.fig07 import CODE
 from vibroimpact.paper.items import ITEMS
@@ -53,14 +54,16 @@ def test_draws(key):
     figure.draw_without_rendering()
     assert figure.axes
     for ax in figure.axes:
-        assert any(len(line.get_xdata()) > 2 for line in ax.lines) or ax.collections
+        assert any(len(line.get_xdata()) > 2 for line in ax.lines) or (ax.collections or ax.patches)
         last, first = outer(ax)
         if last:
             assert "(" in ax.get_xlabel(), ax
         if first:
             assert "(" in ax.get_ylabel(), ax
         for line in ax.lines:
-            assert np.isfinite(np.asarray(line.get_ydata(), dtype=float)).any()
+            values = np.asarray(line.get_ydata(), dtype=float)
+            # Fig. 21 has symbols for its legend only.
+            assert np.isfinite(values).any() or (key == "fig21" and not values.size)
 
     # Nothing is cut off.
     box = figure.get_tightbbox(FigureCanvasAgg(figure).get_renderer())
@@ -125,6 +128,19 @@ def test_the_branch_meets_the_sweeps_where_it_is_stable():
         frequency = float(branch["frequency"][end])
         swept = data["displacement_excursion"].sel(frequency=frequency, method="nearest")
         assert float(branch["displacement_excursion"][end]) == pytest.approx(float(swept), rel=1e-6)
+
+
+def test_symbols_of_the_map_have_the_colour_of_their_own_scenario():
+    (ax,) = drawn("fig21").axes
+    filled = {}
+    for line in ax.lines:
+        if line.get_linestyle() == "None" and len(line.get_xdata()):
+            colour = line.get_markerfacecolor()
+            filled[colour] = filled.get(colour, 0) + len(line.get_xdata())
+    named = list(STUDY.scenarios().values())
+    assert filled == {SCENARIOS[s].line: named.count(s) for s in set(named)}
+    texts = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert sum(text.startswith("tests with") for text in texts) == 4
 
 
 def test_curves_of_the_gaps_are_named_in_order():

@@ -69,7 +69,7 @@ ITEMS = (
 def stub(claim: Claim, number: int) -> Claim:
     """A claim that needs no computation; the verdicts take turns."""
     holds = (True, False, None)[number % 3]
-    return claim._replace(find=lambda study: Finding(holds, f"x < {number} & y | {number} Hz"))
+    return claim._replace(find=lambda study: Finding(holds, f"X < {number} & y | {number} Hz"))
 
 
 @pytest.fixture
@@ -103,11 +103,14 @@ def test_html(made, tmp_path):
     for claim in CLAIMS:
         assert claim.statement in page.text
         assert claim.quantity in page.text
-    assert "x < 4 & y | 4 Hz" in page.text
+    assert "X < 4 & y | 4 Hz" in page.text
     assert "A line that falls, with 1 < 2 & more." in page.text
     # Nothing is fetched from elsewhere.
     assert "http" not in source
     assert "<script" not in source
+    linked = page.attributes("a", "href")
+    for one in report.judged:
+        assert (f"#{one.claim.key}" in linked) == (one.finding.holds is not True)
     count = sum(one.finding.verdict is Verdict.NOT_REPRODUCED for one in report.judged)
     assert source.count('<td class="verdict no">not reproduced</td>') == count + 1  # the summary
 
@@ -118,13 +121,16 @@ def test_markdown(made, tmp_path):
     assert "![Fig. 90: a line](figures/fig90.png)" in lines
     assert "| name | a \\< b \\| c |" in lines
     assert "| second | x \\| y |" in lines
-    head = lines.index("| section | statement | what was computed | verdict | number |")
+    head = lines.index(
+        "| no. | section | statement | what was computed | kind | verdict | number |"
+    )
     rows = lines[head + 2 : head + 2 + len(CLAIMS)]
     for one, row in zip(report.judged, rows, strict=True):
         cells = [cell.strip() for cell in row.replace("\\|", "/").strip("|").split("|")]
-        assert len(cells) == 5
-        assert cells[0] == one.claim.section
-        assert cells[3] == one.finding.verdict
+        assert len(cells) == 7
+        assert cells[0] == f'<a id="{one.claim.key}"></a>{one.place}'
+        assert cells[1] == one.claim.section
+        assert cells[4:6] == [one.claim.kind, one.finding.verdict]
     # Tables are not broken by empty lines, and stand apart from what is before them.
     for before, line in pairwise(lines):
         if line.startswith("| ---"):
@@ -132,7 +138,12 @@ def test_markdown(made, tmp_path):
         if line.startswith("#"):
             assert not before
     for verdict, count in report.counts.items():
-        assert f"| {verdict} | {count} |" in lines
+        by_kind = [counts[verdict] for counts in report.kinds.values()]
+        assert sum(by_kind) == count
+        assert f"| {' | '.join(map(str, (verdict, *by_kind, count)))} |" in lines
+    for one in (*report.of(Verdict.NOT_REPRODUCED), *report.of(Verdict.NEEDS_DATA)):
+        start = f"- [Statement {one.place}](#{one.claim.key}) "
+        assert any(line.startswith(start) for line in lines)
 
 
 def test_reasons_only_where_not_reproduced(made):
@@ -148,9 +159,9 @@ def test_a_part_does_not_replace_the_whole(made, tmp_path):
     _, files = made
     before = files["html"].read_bytes()
     part = compute(Study(), tmp_path, ITEMS[:1], (), whole=False, figure="svg")
-    assert write(part, tmp_path)["html"] == tmp_path / "part.html"
+    assert write(part, tmp_path)["html"] == tmp_path / "fig90.html"
     assert files["html"].read_bytes() == before
-    page = Page((tmp_path / "part.html").read_text(encoding="utf-8"))
+    page = Page((tmp_path / "fig90.html").read_text(encoding="utf-8"))
     assert page.attributes("img", "src") == ["figures/fig90.svg"]
     assert "part of the report" in page.text
     assert "Not reproduced" not in page.text

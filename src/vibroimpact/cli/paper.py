@@ -28,7 +28,7 @@ def paper(
         Parameter(
             help=(
                 "A part: keys of figures and tables such as fig15 or table1, and 'claims', "
-                "separated by commas. It is written to part.md and part.html."
+                "separated by commas. It is written to files of these names: fig15.md, fig15.html."
             ),
             allow_leading_hyphen=True,
         ),
@@ -62,7 +62,8 @@ def paper(
 
     Writes report.md and report.html: all figures and tables that the model can compute, and the
     paper's testable statements, each with what was computed, the deciding numbers and a verdict:
-    reproduced, not reproduced, or not to be told without the experiment's data. The images go
+    reproduced, not reproduced, or not to be told without the experiment's data. They are counted by
+    kind, for some outcomes were open and others follow from the rules or the inputs. The images go
     into the folder "figures" beside them. A statement that is not reproduced is no error.
 
     For example:
@@ -122,12 +123,17 @@ def chosen(
 def _facts(found: Report, files: dict[str, Path]) -> dict[str, Any]:
     return {
         "verdicts": {str(verdict): count for verdict, count in found.counts.items()},
+        "kinds": {
+            str(kind): {str(verdict): count for verdict, count in counts.items()}
+            for kind, counts in found.kinds.items()
+        },
         "claims": [
             {
                 "key": one.claim.key,
                 "section": one.claim.section,
                 "statement": one.claim.statement,
                 "computed": one.claim.quantity,
+                "kind": str(one.claim.kind),
                 "verdict": str(one.finding.verdict),
                 "number": one.finding.number,
             }
@@ -149,14 +155,18 @@ def _text(found: Report, files: dict[str, Path], images: dict[str, Path]) -> Ren
     if found.judged:
         parts.append(Text(f"Statements of the paper: {len(found.judged)}"))
         parts += [Text(f"  {count:3} {verdict}") for verdict, count in found.counts.items()]
+        parts += [Text(), Text("By kind")]
+        for kind, counts in found.kinds.items():
+            told = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
+            parts.append(Text(f"  {kind}: {told}"))
         lost = found.of(Verdict.NOT_REPRODUCED)
         if lost:
             parts += [Text(), Text("Not reproduced")]
         for one in lost:
-            told = Text(f"{one.claim.key}: {one.claim.statement}")
+            statement = Text(f"{one.claim.key}: {one.claim.statement}")
             number = Text(f"computed: {one.finding.number}")
             parts += [
-                Padding(told, (0, 0, 0, 2), expand=False),
+                Padding(statement, (0, 0, 0, 2), expand=False),
                 Padding(number, (0, 0, 0, 4), expand=False),
             ]
         parts.append(Text())

@@ -57,7 +57,7 @@ _QUANTITIES = {
 }
 
 _COLOURS = ("#1f4fbf", "#c05a00", "#00795c", "#b0006d", "#7a3e9d", "#8c6d1f")
-_MARKERS = "os^Dv*P<X>phd"
+_MARKERS = "os^Dv*P<X>phd8"
 _LARGER = {"*": 1.45, "P": 1.2, "X": 1.2, "p": 1.2, "h": 1.2}
 _MARKS = 16
 """Marks on a curve."""
@@ -73,6 +73,7 @@ def resonance_family(
     quantity: Quantity = "eta_d",
     labels: Mapping[str, str] | None = None,
     colours: Mapping[str, str] | None = None,
+    markers: Mapping[str, int] | None = None,
     free: bool = True,
     legend: bool = True,
     title: str | None = None,
@@ -94,6 +95,9 @@ def resonance_family(
         Text of the legend by name of a rig; otherwise its name.
     colours
         Colour by name of a rig; otherwise in turn.
+    markers
+        Number of the marker by name of a rig, so that a rig looks the same in panels that do not
+        show all of them; otherwise in turn.
     free
         Whether free flight is drawn, if it is the same for all rigs.
     legend
@@ -110,7 +114,7 @@ def resonance_family(
     ------
     InputError
         If the dataset is not that of sweeps of several rigs, the quantity is another one, or a
-        label or a colour is for no rig.
+        label, a colour or a marker is for no rig.
     """
     if not isinstance(data, xr.Dataset) or not {"rig", "direction", "frequency"} <= set(data.dims):
         raise InputError("data: these are no sweeps of rigs; a dataset of sweeps is accepted")
@@ -118,7 +122,7 @@ def resonance_family(
         accepted = ", ".join(get_args(Quantity))
         raise InputError(f"quantity: {quantity!r}; one of {accepted} is accepted")
     names = [str(name) for name in data["rig"].values]
-    for field, given in (("labels", labels), ("colours", colours)):
+    for field, given in (("labels", labels), ("colours", colours), ("markers", markers)):
         for name in given or {}:
             if name not in names:
                 raise InputError(f"{field}: {name!r} is no rig; {', '.join(names)} are accepted")
@@ -143,7 +147,7 @@ def resonance_family(
             zorder=2,
         )
     for i, name in enumerate(names):
-        look = _look(i, (colours or {}).get(name))
+        look = _look((markers or {}).get(name, i), (colours or {}).get(name))
         _curves(
             ax, data.isel(rig=i, drop=True), quantity, factor, look, (labels or {}).get(name, name)
         )

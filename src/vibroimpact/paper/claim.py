@@ -17,6 +17,19 @@ class Verdict(StrEnum):
     NEEDS_DATA = "needs the experiment's data"
 
 
+class Kind(StrEnum):
+    """What a verdict on a statement says."""
+
+    COMPUTED = "computed"
+    """Nothing in the program was chosen with it in view: it might have come out otherwise."""
+    RULES = "set by the rules"
+    """The rules and thresholds that name scenarios were chosen to agree with such statements."""
+    INPUTS = "inputs"
+    """Whether the parameters that the paper gives agree with each other."""
+    CONSTRUCTION = "by construction"
+    """The model's equations leave no other outcome: a test of the program."""
+
+
 class Finding(NamedTuple):
     """What was computed for a statement."""
 
@@ -45,3 +58,4 @@ class Claim(NamedTuple):
     quantity: str
     """What is computed, and what decides."""
     find: Callable[[Study], Finding]
+    kind: Kind = Kind.COMPUTED

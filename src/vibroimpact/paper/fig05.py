@@ -48,13 +48,14 @@ ITEM = Item(
     title="Fig. 5: normalised acceleration of the 48 tests",
     caption=(
         "Excursion of absolute acceleration over the largest one of free flight: a panel for each "
-        "bumper (downwards stiffer) and table acceleration (rightwards stronger), a curve for each "
-        "total gap from 15 mm (G1) to 30 mm (G4). The paper shows measurements; these are the "
-        "same 48 cases computed with the Simplified Nonlinear Model. Smaller gaps, stiffer "
-        "bumpers and stronger shaking move the downward jump (solid arrows) to higher frequencies, "
-        "the upward one (dashed) less, and let secondary resonances appear near 0.6 Hz. "
-        "Soft bumpers and weak shaking leave the curves closest to free flight; the stiff bumper "
-        "B4 makes small irregular peaks where contact begins."
+        "bumper (downwards stiffer) and table acceleration (rightwards stronger), a curve for "
+        "each total gap from 15 mm (G1) to 30 mm (G4). The paper shows measurements; these are "
+        "the same 48 cases computed with the Simplified Nonlinear Model. Smaller gaps, stiffer "
+        "bumpers and stronger shaking move the forward sweep's jumps (solid arrows) to higher "
+        "frequencies, the backward sweep's (dashed arrows) less, and let secondary resonances "
+        "appear near 0.6 Hz, some with a left hysteresis too narrow to be seen here. Soft bumpers "
+        "and weak shaking stay closest to free flight; B4 makes irregular peaks where contact "
+        "begins. The scales differ by row."
     ),
     draw=draw,
 )

@@ -22,7 +22,8 @@ ITEM = Item(
         "Nonlinear Model where the paper shows measurements. Bumpers hold the displacement below "
         "free flight's largest one; the stiffer they are, the flatter is the branch in contact, "
         "because the mass hardly enters the bumper. Above free flight's resonance the contact "
-        "branch lies higher than free flight at the same frequency."
+        "branch lies higher than free flight at the same frequency. Solid arrows are jumps of the "
+        "forward sweep, dashed ones of the backward sweep; the scales differ by row."
     ),
     draw=draw,
 )

@@ -45,7 +45,10 @@ ITEM = Item(
         "pair of motions, mirror images of each other and displaced to one side each, and between "
         "them a smaller antisymmetric orbit, which is unstable. The paper calls the pair "
         "quasi-periodic; computed, it is chaotic: disturbances grow exponentially, and its "
-        "spectrum is continuous between the lines."
+        "spectrum is continuous between the lines. Contacts are bands, in two tiers on the left "
+        "(forward above) and in three on the right (one of the pair, its mirror image, the "
+        "antisymmetric orbit). The pair shares one spectrum: what is seen is the mirror image's, "
+        "drawn over the other."
     ),
     draw=draw,
 )

@@ -15,36 +15,59 @@ from vibroimpact.paper.item import Item
 from vibroimpact.paper.study import GAPS, Study
 
 LOW, HIGH = 0.3, 8.0
+NEAR = (0.3, 2.0)
+"""Range that is magnified: there lie the secondary resonances (Hz)."""
+NOT_NEAR = ("2mm", "5mm")
+"""Gaps left out of it: most of their motions there do not settle, and would hide the others."""
 
 
 def draw(study: Study) -> Figure:
-    """η_a above η_d, a curve for each gap."""
+    """η_a above η_d, a curve for each gap; the whole range, and its lower part magnified."""
     names = {f"B3-{gap}-A3": _name(gap) for gap in GAPS}
     scenarios = {code: study.classification(code, LOW, HIGH).scenario for code in names}
-    return family_of(study.by_gap(), names, scenarios, "total gap, scenario")
+    data = study.by_gap()
+    kept = [code for code in names if code.split("-")[1] not in NOT_NEAR]
+    near = data.sel(rig=kept, frequency=slice(*NEAR))
+    return family_of(data, names, scenarios, "total gap, scenario", near)
 
 
 def family_of(
-    data: xr.Dataset, names: Mapping[str, str], scenarios: Mapping[str, str], heading: str
+    data: xr.Dataset,
+    names: Mapping[str, str],
+    scenarios: Mapping[str, str],
+    heading: str,
+    near: xr.Dataset | None = None,
 ) -> Figure:
-    """Curves of several rigs, coloured by scenario, which the legend names as well."""
-    figure = Figure(figsize=(10.4, 9.6), layout="constrained")
-    axes = figure.subplots(2, 1, sharex=True)
+    """Curves of several rigs, coloured by scenario, which the legend names as well.
+
+    Curves `near` are shown beside them, magnified.
+    """
+    parts = [data] if near is None else [data, near]
+    figure = Figure(figsize=(10.4 if near is None else 14.4, 9.6), layout="constrained")
+    axes = figure.subplots(2, len(parts), sharex="col", squeeze=False)
     quantities: tuple[Quantity, ...] = ("eta_a", "eta_d")
-    for ax, quantity in zip(axes, quantities, strict=True):
-        resonance_family(
-            data,
-            ax,
-            quantity=quantity,
-            labels={code: f"{name}, {scenarios[code]}" for code, name in names.items()},
-            colours={code: SCENARIOS[scenarios[code]].line for code in names},
-            free=False,
-            legend=False,
-        )
-    axes[0].set_xlabel("")
-    figure.align_ylabels()
+    for column, part in enumerate(parts):
+        codes = [code for code in names if code in part["rig"].values]
+        for ax, quantity in zip(axes[:, column], quantities, strict=True):
+            resonance_family(
+                part,
+                ax,
+                quantity=quantity,
+                labels={code: f"{names[code]}, {scenarios[code]}" for code in codes},
+                colours={code: SCENARIOS[scenarios[code]].line for code in codes},
+                markers={code: k for k, code in enumerate(names) if code in codes},
+                free=False,
+                legend=False,
+            )
+            if column:
+                ax.set_ylabel("")
+        axes[0, column].set_xlabel("")
+    if near is not None:
+        axes[0, 0].set_title("whole range", fontsize="medium")
+        axes[0, 1].set_title("{:g} to {:g} Hz".format(*NEAR), fontsize="medium")
+    figure.align_ylabels(axes[:, 0])
     figure.legend(
-        handles=family_legend(axes[0]),
+        handles=family_legend(axes[0, 0]),
         loc="outside right upper",
         frameon=False,
         title=heading,
@@ -67,10 +90,11 @@ ITEM = Item(
     caption=(
         "From the widest gap to none: free flight, then a primary resonance that bends further "
         "and further to the right (S2), secondary resonances below it (S3), left hysteresis and "
-        "motions that are not regular (S4), and at last, without a gap, one smooth resonance (S5). "
-        "Solid lines are forward sweeps, dashed ones backward sweeps, arrows their jumps; colours "
-        "and the legend tell the scenario that the program names. Where the curves of the "
-        "smallest gaps are ragged, below about 2 Hz, many motions do not settle."
+        "motions that are not regular (S4), and at last, without a gap, one smooth resonance "
+        "(S5). Solid lines are forward sweeps, dashed ones backward sweeps, arrows their jumps; "
+        "colours and the legend tell the scenario that the program names. Where the curves of the "
+        "smallest gaps are ragged, below about 2 Hz, many motions do not settle; the magnified "
+        "panels leave out the two smallest gaps above zero for that."
     ),
     draw=draw,
 )

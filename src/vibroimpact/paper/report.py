@@ -11,7 +11,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from vibroimpact._version import __version__
 from vibroimpact.figures import save_figure
 from vibroimpact.model import GRAVITY, laboratory
-from vibroimpact.paper.claim import Claim, Finding, Verdict
+from vibroimpact.paper.claim import Claim, Finding, Kind, Verdict
 from vibroimpact.paper.claims.reasons import REASONS
 from vibroimpact.paper.item import Item, Table
 from vibroimpact.paper.study import Study
@@ -40,6 +40,8 @@ class Judged(NamedTuple):
 
     claim: Claim
     finding: Finding
+    place: int
+    """Its number in the report, from 1."""
 
     @property
     def reason(self) -> str:
@@ -62,14 +64,25 @@ class Report(NamedTuple):
         verdicts = [one.finding.verdict for one in self.judged]
         return {verdict: verdicts.count(verdict) for verdict in Verdict}
 
+    @property
+    def kinds(self) -> dict[Kind, dict[Verdict, int]]:
+        """Statements by kind and verdict; kinds of which there are any."""
+        pairs = [(one.claim.kind, one.finding.verdict) for one in self.judged]
+        return {
+            kind: {verdict: pairs.count((kind, verdict)) for verdict in Verdict}
+            for kind in Kind
+            if any(kind is own for own, _ in pairs)
+        }
+
     def of(self, verdict: Verdict) -> tuple[Judged, ...]:
         """The statements with a verdict."""
         return tuple(one for one in self.judged if one.finding.verdict is verdict)
 
     @property
     def stem(self) -> str:
-        """Name of the files: a part of the report never replaces the whole one."""
-        return "report" if self.whole else "part"
+        """Name of the files: a part is named by what it holds, and replaces no other report."""
+        keys = [one.item.key for one in self.shown] + ["claims"] * bool(self.judged)
+        return "report" if self.whole else "-".join(keys)
 
 
 def compute(
@@ -114,8 +127,8 @@ def compute(
             progress(done, total)
 
     judged = []
-    for claim in claims:
-        judged.append(Judged(claim, claim.find(study)))
+    for place, claim in enumerate(claims, 1):
+        judged.append(Judged(claim, claim.find(study), place))
         step()
     shown = []
     for item in items:
@@ -174,6 +187,7 @@ def _environment() -> Environment:
     )
     environment.filters["cell"] = _cell
     environment.filters["row"] = _row
+    environment.filters["capital"] = _capital
     return environment
 
 
@@ -183,6 +197,11 @@ def _cell(text: str) -> str:
     for sign in "\\|*_<":
         plain = plain.replace(sign, f"\\{sign}")
     return plain
+
+
+def _capital(text: str) -> str:
+    """Text that begins with a capital letter, where that is not a symbol such as η."""
+    return text[:1].upper() + text[1:] if text[:1].isascii() else text
 
 
 def _row(cells: Iterable[str]) -> str:
@@ -195,6 +214,7 @@ def _facts() -> dict[str, Any]:
     return {
         "version": __version__,
         "Verdict": Verdict,
+        "Kind": Kind,
         "mass": f"{laboratory.MASS:g} kg",
         "glossary": (
             Table(

@@ -122,6 +122,14 @@ class Study:
             lambda: sweeps([case], grid(low, high), threads=self._threads).isel(rig=0),
         )
 
+    def tested(self, code: str, parameters: laboratory.Parameters = "table") -> xr.Dataset:
+        """Resonance curves of one case by the frequencies that its test held, 0.1 Hz apart."""
+        case = laboratory.case(code, parameters)
+        return self._once(
+            ("tested", code, parameters),
+            lambda: sweeps([case], case.frequencies, threads=self._threads).isel(rig=0),
+        )
+
     def features(self, code: str) -> Features:
         """Peaks, jumps and hysteresis of one of the 48 tests."""
         return self._once(

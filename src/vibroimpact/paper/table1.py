@@ -44,10 +44,12 @@ ITEM = Item(
     caption=(
         "Dimensionless gap δ = G/(2 u_max), with u_max the largest displacement of free flight at "
         "any frequency, and stiffness ratio λ of bumper to isolator, for the three table "
-        "accelerations. Each computed row, rounded to the digits that the paper gives, stands "
-        "above the printed one. The text defines δ as the sum of both sides, but the printed "
-        "numbers are those of one side. Both parameters change with the acceleration although "
-        "gaps and bumpers do not, for the isolator softens."
+        "accelerations. Of what goes in, the text prints the mass, the gaps and B2; B1, B3, B4 "
+        "and the isolator's stiffness are chosen so that the printed table comes out. Each "
+        "computed row, rounded to the digits that the paper gives, stands above the printed one. "
+        "The text defines δ as the sum of both sides, but the printed numbers are those of one "
+        "side. Both parameters change with the acceleration although gaps and bumpers do not, for "
+        "the isolator softens."
     ),
     table=table,
 )

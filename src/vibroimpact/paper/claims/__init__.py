@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from vibroimpact.paper.claim import Claim
 from vibroimpact.paper.claims import (
+    along_gap,
+    along_stiffness,
     attached,
     dimensionless,
-    families,
     free_flight,
+    grazing,
     identified,
     jumps,
     left,
     maxima,
     motions,
+    named,
     nonregular,
     shape,
     with_bumpers,
@@ -25,12 +28,15 @@ CLAIMS: tuple[Claim, ...] = (
     *maxima.CLAIMS,
     *shape.CLAIMS,
     *motions.CLAIMS,
+    *grazing.TESTS,
     *identified.CLAIMS,
-    *families.TESTS,
+    *named.CLAIMS,
     *left.CLAIMS,
     *nonregular.CLAIMS,
     *attached.CLAIMS,
-    *families.CLAIMS,
+    *grazing.MODEL,
+    *along_gap.CLAIMS,
+    *along_stiffness.CLAIMS,
     *dimensionless.CLAIMS,
 )
 """All of them; keys are unique."""

@@ -8,7 +8,9 @@ import xarray as xr
 from vibroimpact.paper.claim import Finding
 from vibroimpact.paper.claims.reading import (
     ALMOST_ONE_LINE,
+    ROUNDING,
     apart,
+    at_most,
     claim,
     higher,
     impacts,
@@ -24,6 +26,10 @@ _PRINTED = 5.4
 
 def _curves(study: Study) -> xr.Dataset:
     return study.curves(_CODE, low=_LOW, high=_HIGH)
+
+
+def _share(value: float) -> str:
+    return "0 to rounding" if value < ROUNDING else f"{value:.1%}"
 
 
 def _resonance(study: Study) -> float:
@@ -47,14 +53,14 @@ def smooth(study: Study) -> Finding:
     return Finding(
         holds,
         f"{len(found.jumps)} jumps, {len(found.hysteresis)} hystereses, {len(others)} secondary "
-        f"resonances; directions differ by at most {differ:.0e}",
+        f"resonances; difference of the directions {at_most(differ)}",
     )
 
 
 @claim(
     "s5-resonance",
     "6, Fig. 17",
-    "Its resonance has moved up to about 5.4 Hz.",
+    "With the bumpers attached to the mass, the resonance of B3-A3 has moved up to about 5.4 Hz.",
     "Frequency of the largest η_d: 5.4 Hz to the digit printed (5.35 to 5.45 Hz).",
 )
 def resonance(study: Study) -> Finding:
@@ -70,7 +76,8 @@ def resonance(study: Study) -> Finding:
 @claim(
     "s5-one-motion",
     "6, Fig. 18",
-    "At every frequency there is one periodic motion of a single frequency.",
+    "With the bumpers attached, B3-A3 has at every frequency one periodic motion of a single "
+    "frequency.",
     "Settled on one forcing cycle at all frequencies, both directions alike; at 1, 3 and 8 Hz and "
     "at resonance all higher harmonics of the displacement together are below 10 % of the first.",
 )
@@ -91,8 +98,8 @@ def one_motion(study: Study) -> Finding:
 @claim(
     "s5-short-flights",
     "6, Fig. 18",
-    "The mass is nearly always in contact, with one bumper or the other; the flights between are "
-    "very short.",
+    "With the bumpers attached, the mass is nearly always in contact with one or the other; the "
+    "flights between are very short.",
     "At resonance: one contact a side and cycle, and the time between contacts over T: above 0, "
     "below 5 %.",
 )
@@ -111,8 +118,8 @@ def flights(study: Study) -> Finding:
 @claim(
     "s5-recovered-before-met",
     "6, Fig. 18",
-    "The bumper is left when it has recovered almost all its deformation, and the one that is met "
-    "next has recovered long before.",
+    "With the bumpers attached, each is left when it has recovered almost all its deformation, and "
+    "the one that is met next has recovered long before.",
     "Deformation at the end of a contact over the largest one, and that of the other bumper as it "
     "is met over the same: below 10 % and below 1 %.",
 )
@@ -127,7 +134,7 @@ def recovered(study: Study) -> Finding:
     left, met = (np.abs(own[where]).max() / largest for where in (~begins, begins))
     return Finding(
         bool(0.0 < left < 0.1 and met < 0.01),
-        f"left at {left:.1%}, met at {met:.1e} of the largest",
+        f"left at {left:.1%}, met at {_share(met)} of the largest",
     )
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vibroimpact.paper.claim import Finding
-from vibroimpact.paper.claims.reading import ACCELERATIONS, apart, claim, listed
+from vibroimpact.paper.claim import Finding, Kind
+from vibroimpact.paper.claims.reading import ACCELERATIONS, apart, at_most, claim, listed
 from vibroimpact.paper.study import Study
 
 _CODES = tuple(f"B1-Ginf-{a}" for a in ACCELERATIONS)
@@ -23,7 +23,7 @@ def softening(study: Study) -> Finding:
     worst = float(apart(study.family(_CODES)).max())
     return Finding(
         None,
-        f"the linear model's two sweeps differ by at most {worst:.0e}; needed: the measured "
+        f"the linear model's two sweeps differ by {at_most(worst)}; needed: the measured "
         "free-flight sweeps, forward and backward, at the three accelerations",
     )
 
@@ -34,6 +34,7 @@ def softening(study: Study) -> Finding:
     "Without bumpers, larger table accelerations give larger excursions of acceleration and of "
     "displacement, at lower resonance frequencies.",
     "Maxima of both excursions for A1, A2, A3, and the frequencies of the acceleration's.",
+    Kind.INPUTS,
 )
 def larger_and_lower(study: Study) -> Finding:
     """With the equivalent stiffness of each acceleration."""

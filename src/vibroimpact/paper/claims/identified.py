@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from contextlib import suppress
 
-from vibroimpact.paper.claim import Finding
+from vibroimpact.model import laboratory
+from vibroimpact.model.dimensionless import to_dimensionless
+from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import BOTH, AbsentError, claim, regular_places, turns
 from vibroimpact.paper.study import Study
 from vibroimpact.response.resonance import features
 
 _S3, _S2 = "B2-G1-A3", "B2-G2-A2"
+_CLOSE = 0.05
+"""Largest relative difference of parameters that are called the same."""
 
 
 def _jumps(study: Study, code: str) -> str:
@@ -28,6 +32,7 @@ def _jumps(study: Study, code: str) -> str:
     "5, Figs. 11 and 13",
     "With the fitted parameters the model shows S3 for B2-G1-A3 and S2 for B2-G2-A2.",
     "Scenarios of the two computed pairs of curves.",
+    Kind.RULES,
 )
 def scenarios(study: Study) -> Finding:
     """By the classification."""
@@ -103,4 +108,42 @@ def portraits(study: Study) -> Finding:
     )
 
 
-CLAIMS = (scenarios, loops, agreement, upward, portraits)
+@claim(
+    "fitted-stiffness-as-table",
+    "5, Table 1",
+    "The isolator's stiffness fitted to a test is the equivalent stiffness of its acceleration.",
+    "K fitted to B2-G1-A3 and B2-G2-A2 against the K from which Table 1 comes out: within 5 %.",
+    Kind.INPUTS,
+)
+def stiffness(study: Study) -> Finding:
+    """Both describe the isolator at one acceleration."""
+    told, off = [], []
+    for code in (_S3, _S2):
+        fitted = laboratory.IDENTIFIED[code].stiffness
+        table = laboratory.ISOLATOR_STIFFNESS[code[-2:]]
+        off.append(fitted / table - 1.0)
+        told.append(f"{code} {1e-3 * fitted:.1f} against {1e-3 * table:.1f} kN/m ({off[-1]:+.0%})")
+    return Finding(max(map(abs, off)) <= _CLOSE, ", ".join(told))
+
+
+@claim(
+    "fitted-damping-as-assumed",
+    "5, Section 7",
+    "The damping ratio of the isolator is 0.15 and the relaxation time of the bumpers 0.01.",
+    "ξ and τ of the parameters fitted to B2-G1-A3 and B2-G2-A2: within 5 % of both.",
+    Kind.INPUTS,
+)
+def damping(study: Study) -> Finding:
+    """Section 7 assumes what Section 5 fits."""
+    told, off = [], []
+    for code in (_S3, _S2):
+        case = laboratory.case(code, "identified")
+        group = to_dimensionless(case.oscillator, case.amplitude)
+        assert group.right is not None
+        ratio, time = group.damping_ratio, group.right.relaxation_time
+        off += [ratio / laboratory.DAMPING_RATIO - 1.0, time / laboratory.RELAXATION_TIME - 1.0]
+        told.append(f"{code}: ξ {ratio:.3f} ({off[-2]:+.0%}), τ {time:.4f} ({off[-1]:+.0%})")
+    return Finding(max(map(abs, off)) <= _CLOSE, "; ".join(told))
+
+
+CLAIMS = (scenarios, loops, agreement, upward, portraits, stiffness, damping)

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.paper.claim import Finding
+from vibroimpact.paper.claims.named import EDGE_LOW
 from vibroimpact.paper.claims.reading import (
     BOTH,
     AbsentError,
@@ -58,13 +59,19 @@ def places(study: Study) -> tuple[float, float]:
     "6, Fig. 15",
     "With a total gap of 10 mm, B3-A3 has several secondary resonances with left hysteresis below "
     "0.9 Hz.",
-    "Left hystereses (backward above forward) of the sweeps from 0.3 Hz: two or more.",
+    "Left hystereses (backward above forward) of the sweeps from 0.3 Hz in steps of 0.01 Hz: two "
+    "or more. From 0.44 Hz, where `vibroimpact classify` begins, there are fewer.",
 )
 def left(study: Study) -> Finding:
     """From 0.3 Hz, in steps of 0.01 Hz."""
     found = _left(study)
     ends = ", ".join(f"{i.ends[0]:.3f} to {i.ends[1]:.3f}" for i in found)
-    return Finding(len(found) >= 2, f"{len(found)}: {ends or 'none'} Hz")
+    above = sum(item.low >= EDGE_LOW for item in found)
+    return Finding(
+        len(found) >= 2,
+        f"{len(found)} from {START:g} Hz ({above} of them from {EDGE_LOW:g} Hz): {ends or 'none'} "
+        "Hz",
+    )
 
 
 @claim(
@@ -91,7 +98,8 @@ def two_motions(study: Study) -> Finding:
 @claim(
     "s4-two-and-one-impact",
     "6, Fig. 16",
-    "There the mass hits each bumper twice a cycle in the forward sweep, once in the backward one.",
+    "In the widest left hysteresis the mass hits each bumper twice a cycle in the forward sweep, "
+    "once in the backward one.",
     "Impacts per forcing cycle and side of both motions.",
 )
 def two_and_one(study: Study) -> Finding:
@@ -107,8 +115,8 @@ def two_and_one(study: Study) -> Finding:
 @claim(
     "s4-loops",
     "6, Fig. 16",
-    "Both portraits have inner loops; those of the forward motion cross the bumpers, those of the "
-    "backward one do not reach them.",
+    "In the widest left hysteresis both portraits have inner loops; those of the forward motion "
+    "cross the bumpers, those of the backward one do not reach them.",
     "Changes of the velocity's sign a cycle (more than 2 is a loop), and impacts a side beyond the "
     "first one.",
 )
@@ -127,7 +135,7 @@ def loops(study: Study) -> Finding:
 @claim(
     "s4-third-motion",
     "6",
-    "In the left hysteresis a third, unstable motion lies between the two.",
+    "In a left hysteresis a third, unstable motion lies between the two stable ones.",
     "Orbits of the followed branch in the middle of the widest left hysteresis, by stability.",
 )
 def third(study: Study) -> Finding:

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.model import laboratory
-from vibroimpact.paper.claim import Claim, Finding
+from vibroimpact.paper.claim import Claim, Finding, Kind
 from vibroimpact.paper.study import STEP, Study
 from vibroimpact.response.peaks import Curve, Peak
 from vibroimpact.response.spectrum import spectrum
 from vibroimpact.response.swept import Direction
+from vibroimpact.scenario.evidence import SAME
 
 TEST_STEP = 0.1
 """Step of the tests' sweeps in Hz: a frequency that the paper gives as "about" may be off by it."""
+ROUNDING = 1e-9
+"""Largest difference, of numbers about 1, that is told as none."""
 ALMOST_ONE_LINE = 0.1
 """All higher harmonics together over the first one, below which that one is predominant."""
 
@@ -51,7 +54,7 @@ class AbsentError(LookupError):
 
 
 def claim(
-    key: str, section: str, statement: str, quantity: str
+    key: str, section: str, statement: str, quantity: str, kind: Kind = Kind.COMPUTED
 ) -> Callable[[Callable[[Study], Finding]], Claim]:
     """Make a claim of the function below."""
 
@@ -64,7 +67,7 @@ def claim(
             # Comparisons of arrays give numpy's booleans.
             return Finding(None if holds is None else bool(holds), number)
 
-        return Claim(key, section, statement, quantity, found)
+        return Claim(key, section, statement, quantity, found, kind)
 
     return made
 
@@ -180,6 +183,60 @@ def secondary(study: Study, code: str) -> list[tuple[float, float]]:
     return found.features.secondary_resonances(found.thresholds.prominence)
 
 
+def left_folds(study: Study, code: str) -> list[tuple[float, float]]:
+    """Left hystereses below the primary resonance of a test between exact folds (Hz).
+
+    They are those of the followed branch, so that none is too narrow for the sweeps' step; what
+    the sweeps alone show is among them.
+    """
+    found = study.classification(code).features
+    folds = sorted(found.folds or ())
+    below = [fold for fold in folds if fold < found.top]
+    if len(below) < len(folds):
+        below = below[:-1]  # the last is the lower end of the primary hysteresis
+    exact = list(zip(below[-2::-2], below[::-2], strict=False))[::-1]
+    swept = [
+        item.ends
+        for item in found.left
+        if not any(low <= item.ends[1] and item.ends[0] <= high for low, high in exact)
+    ]
+    return sorted([*exact, *swept])
+
+
+def told_left(found: list[tuple[float, float]]) -> str:
+    """Left hystereses in words, with their widths."""
+    told = [f"{low:.4f} to {high:.4f} Hz ({high - low:.3f} Hz wide)" for low, high in found]
+    return f"left hysteresis {', '.join(told)}" if told else "no left hysteresis"
+
+
+def at_onset(study: Study, code: str) -> list[tuple[float, float]]:
+    """Peaks of η_a where contact begins, with free flight at their foot.
+
+    They are the transition onto the primary resonance, not secondary resonances. Frequency (Hz)
+    and prominence as a share, each once.
+    """
+    found = study.classification(code)
+    least = found.thresholds.prominence
+    told: list[tuple[float, float]] = []
+    for one in sorted(found.features.peaks, key=lambda p: -p.prominence / p.value):
+        inside = any(low <= one.frequency <= high for low, high in found.features.onset)
+        if one.primary or one.curve != "eta_a" or not inside or one.prominence < least * one.value:
+            continue
+        if all(abs(one.frequency - known) > SAME * known for known, _ in told):
+            told.append((one.frequency, one.prominence / one.value))
+    return sorted(told)
+
+
+def told_onset(study: Study, codes: Iterable[str]) -> str:
+    """The peaks that are left out because contact begins there, in words."""
+    told = [
+        f"{code} {share:.0%} at {frequency:.2f} Hz"
+        for code in codes
+        for frequency, share in at_onset(study, code)
+    ]
+    return f"left out, for contact begins there: {', '.join(told) or 'none'}"
+
+
 def regular_places(
     study: Study, code: str, parameters: laboratory.Parameters = "table"
 ) -> tuple[float, float, float]:
@@ -195,17 +252,21 @@ def impacts(motion: xr.Dataset) -> tuple[float, float]:
     return float(motion["impacts_right"]), float(motion["impacts_left"])
 
 
-def harmonics(motion: xr.Dataset, highest: int = 20) -> Array:
-    """Amplitudes of the displacement's harmonics 1, 2, ... over the first one."""
+Line = Literal["displacement", "acceleration"]
+LINES: tuple[Line, Line] = ("displacement", "acceleration")
+
+
+def harmonics(motion: xr.Dataset, of: Line = "displacement", highest: int = 20) -> Array:
+    """Amplitudes of the harmonics 1, 2, ... of a quantity over the first one."""
     lines = spectrum(motion, highest)
-    whole = lines.sel(order=list(range(1, highest + 1)))["displacement_amplitude"].values
+    whole = lines.sel(order=list(range(1, highest + 1)))[f"{of}_amplitude"].values
     shares: Array = whole / whole[0]
     return shares
 
 
-def higher(motion: xr.Dataset) -> float:
-    """All higher harmonics of the displacement together, over the first one."""
-    return float(np.sqrt((harmonics(motion)[1:] ** 2).sum()))
+def higher(motion: xr.Dataset, of: Line = "displacement") -> float:
+    """All higher harmonics of a quantity together, over the first one."""
+    return float(np.sqrt((harmonics(motion, of)[1:] ** 2).sum()))
 
 
 def turns(motion: xr.Dataset) -> float:
@@ -236,6 +297,11 @@ def apart(data: xr.Dataset) -> xr.DataArray:
 def span(low: float, high: float, unit: str = "Hz") -> str:
     """A range in words."""
     return f"{low:g} to {high:g} {unit}".rstrip()
+
+
+def at_most(value: float, digits: str = ".1e", unit: str = "") -> str:
+    """A largest difference in words; less than rounding explains is none."""
+    return "0 to rounding" if abs(value) < ROUNDING else f"at most {value:{digits}}{unit}"
 
 
 def listed(values: Iterable[float], digits: str = ".3g") -> str:

@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 
 from vibroimpact.model import laboratory
-from vibroimpact.paper.claim import Finding
+from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import (
     ACCELERATIONS,
     ALONG_BUMPER,
@@ -20,6 +20,7 @@ from vibroimpact.paper.claims.reading import (
     free,
     listed,
     secondary,
+    told_onset,
     trend,
 )
 from vibroimpact.paper.study import Study
@@ -157,14 +158,19 @@ def furthest(study: Study) -> Finding:
     "secondary-only-small-gaps-large-accelerations",
     "4.2 and 8",
     "Secondary resonances occur for the two larger accelerations with the two smaller gaps only.",
-    "Tests with a secondary resonance without hysteresis (2 % prominent in η_a): none has A1, G3 "
-    "or G4; and A2, A3, G1 and G2 all occur.",
+    "Tests with a secondary resonance (2 % prominent in η_a): none has A1, G3 or G4; and A2, A3, "
+    "G1 and G2 all occur. A peak where contact begins, with free flight at its foot, is the onset "
+    "of the primary resonance and left out.",
+    Kind.RULES,
 )
 def secondary_where(study: Study) -> Finding:
     """By the tests that have one."""
     found = [code for code in CODES if secondary(study, code)]
     parts = {part for code in found for part in code.split("-")[1:]}
-    return Finding(parts == {"A2", "A3", "G1", "G2"}, f"{len(found)} tests: {', '.join(found)}")
+    return Finding(
+        parts == {"A2", "A3", "G1", "G2"},
+        f"{len(found)} tests: {', '.join(found)}; {told_onset(study, CODES)}",
+    )
 
 
 @claim(
@@ -174,6 +180,7 @@ def secondary_where(study: Study) -> Finding:
     "gets stiffer.",
     "A test with a secondary resonance keeps it with the next smaller gap, the next larger "
     "acceleration and the next stiffer bumper.",
+    Kind.RULES,
 )
 def secondary_grows(study: Study) -> Finding:
     """No exception in the grid of tests."""

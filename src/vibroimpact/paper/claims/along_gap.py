@@ -1,0 +1,129 @@
+"""Section 6: scenarios and trends of B3-A3 from free flight to no gap at all (Fig. 19)."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.paper.claim import Finding, Kind
+from vibroimpact.paper.claims.reading import BOTH, AbsentError, Array, claim
+from vibroimpact.paper.study import GAPS, Study
+from vibroimpact.response.peaks import Curve
+from vibroimpact.response.resonance import features
+from vibroimpact.response.swept import Direction
+
+_RANGE = (0.3, 8.0)
+_CODES = tuple(f"B3-{gap}-A3" for gap in reversed(GAPS))
+
+
+def jumps_of(data: xr.Dataset) -> dict[str, tuple[float, float]]:
+    """Downward and upward jump at the primary resonance (Hz), by the rigs that have both."""
+    found = {}
+    for code in data["rig"].values:
+        jumps = [j for j in features(data.sel(rig=code, drop=True)).jumps if j.settled]
+        down = [j.frequency for j in jumps if j.direction == "forward" and not j.upward]
+        up = [j.frequency for j in jumps if j.direction == "backward" and j.upward]
+        if down and up:
+            found[str(code)] = max(down), max(up)
+    if len(found) < 2:
+        raise AbsentError("fewer than two of the curves jump")
+    return found
+
+
+@claim(
+    "scenarios-along-gap",
+    "6, Fig. 19",
+    "As the gap of B3-A3 falls from free flight to zero the scenarios follow in the order S0 or "
+    "S1, S2, S3, S4, S5.",
+    "Scenarios for the total gaps from none to 0 mm, from 0.3 to 8 Hz.",
+    Kind.RULES,
+)
+def along_gap(study: Study) -> Finding:
+    """Never back, and none left out."""
+    found = [study.classification(code, *_RANGE).scenario for code in _CODES]
+    told = ", ".join(
+        f"{code.split('-')[1]} {scenario}" for code, scenario in zip(_CODES, found, strict=True)
+    )
+    return Finding(
+        found == sorted(found)
+        and {"S2", "S3", "S4", "S5"} <= set(found) <= {f"S{k}" for k in range(6)},
+        told,
+    )
+
+
+@claim(
+    "jumps-along-gap",
+    "6, Fig. 19",
+    "In the computed family of gaps, too, the jumps move up as the gap falls, the upward one less.",
+    "Frequencies of both jumps of B3-A3 along falling gaps, where there are any: rising, and the "
+    "upward jump by less over the family.",
+)
+def jumps_along_gap(study: Study) -> Finding:
+    """From the widest gap with a jump to the smallest."""
+    found = jumps_of(study.by_gap().sel(rig=list(_CODES)))
+    down, up = np.array(list(found.values())).T
+    told = ", ".join(f"{code.split('-')[1]} {d:.2f} and {u:.2f}" for code, (d, u) in found.items())
+    rising = (np.diff(down) > 0).all() and (np.diff(up) > 0).all()
+    return Finding(rising and np.ptp(up) < np.ptp(down), f"down and up: {told} Hz")
+
+
+def _maxima(study: Study, curve: Curve, direction: Direction) -> tuple[Array, float]:
+    """Largest excursions along falling gaps, and that without a gap, a scenario of its own."""
+    most = study.by_gap()[curve].sel(rig=list(_CODES), direction=direction).max("frequency")
+    return most.values[:-1], float(most[-1])
+
+
+def _gap(k: int) -> str:
+    return _CODES[k].split("-")[1]
+
+
+@claim(
+    "bell-along-gap",
+    "6, Fig. 19",
+    "Over the wider range of gaps the maxima of η_a form a bell, the backward ones to a lesser "
+    "extent.",
+    "Largest η_a of B3-A3 in each direction along gaps that fall to 2 mm: rises to one maximum, "
+    "then falls; and the range of the backward maxima is the smaller one.",
+)
+def bell_along_gap(study: Study) -> Finding:
+    """Both directions."""
+    told, ranges, holds = [], [], True
+    for way in BOTH:
+        values, none = _maxima(study, "eta_a", way)
+        ranges.append(float(np.ptp(values)))
+        changes = np.diff(values)
+        signs = np.sign(changes[np.abs(changes) > 1e-6 * values[1:]])
+        turning = int((np.diff(signs) != 0).sum())
+        holds &= turning == 1 and bool(signs[0] > 0)
+        top = int(values.argmax())
+        told.append(
+            f"{way} {values[0]:.2f} without bumpers, {values[top]:.2f} at {_gap(top)}, "
+            f"{values[-1]:.2f} at {_gap(len(values) - 1)} ({turning} turning point"
+            f"{'' if turning == 1 else 's'}); {none:.2f} without a gap"
+        )
+    return Finding(holds and ranges[1] < ranges[0], "; ".join(told))
+
+
+@claim(
+    "displacement-along-gap",
+    "6, Fig. 19",
+    "Over the wider range of gaps, too, the maxima of η_d fall with the gap.",
+    "Largest η_d of B3-A3 in each direction along gaps that fall to 2 mm: never rises, and falls "
+    "where bumpers are hit.",
+)
+def displacement_along_gap(study: Study) -> Finding:
+    """Both directions."""
+    told, holds = [], True
+    for way in BOTH:
+        values, none = _maxima(study, "eta_d", way)
+        changes, hit = np.diff(values), values[1:] < 1.0 - 1e-6
+        wrong = (changes > 1e-6) | (hit & (changes >= 0.0))
+        holds &= not wrong.any()
+        told.append(
+            f"{way} {values[0]:.2f} to {values[-1]:.3f}, {int(wrong.sum())} exceptions; "
+            f"{none:.3f} without a gap"
+        )
+    return Finding(holds, "; ".join(told))
+
+
+CLAIMS = (along_gap, jumps_along_gap, bell_along_gap, displacement_along_gap)

@@ -1,0 +1,130 @@
+"""Scenario S1: what a mass that only just reaches its bumpers does (Sections 4.3, 6 and 7)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vibroimpact.model import laboratory
+from vibroimpact.paper import table1
+from vibroimpact.paper.claim import Finding, Kind
+from vibroimpact.paper.claims.reading import ACCELERATIONS, SYMBOLS, claim, free, listed
+from vibroimpact.paper.study import Study
+from vibroimpact.response.peaks import CURVES, Curve
+from vibroimpact.response.resonance import features
+
+_CODE = "B2-G4-A1"
+_TESTS = tuple(f"{bumper}-G4-A1" for bumper in laboratory.BUMPERS)
+"""The tests that the paper calls grazing."""
+_COMPUTED = "B3-65mm-A3"
+"""The computed case with a gap next below free flight's amplitude (Fig. 19)."""
+_LIKE_FREE = 0.1
+"""Largest difference from free flight's maximum of curves that are called similar to it."""
+_COINCIDE = 0.01
+"""That of curves that are said to coincide with it."""
+_SHALLOW = 0.1
+"""Largest penetration over the gap of one side of bumpers that are hardly deformed."""
+
+
+def _like_free(study: Study, curve: Curve) -> Finding:
+    data = study.campaign().sel(rig=_CODE)
+    worst = float(np.abs(data[curve] - free(data, curve)).max())
+    most = float(data[curve].max())
+    return Finding(
+        worst <= _LIKE_FREE, f"differs by at most {worst:.3f}; largest {SYMBOLS[curve]} {most:.3f}"
+    )
+
+
+@claim(
+    "s1-displacement-like-free-flight",
+    "4.3, Fig. 10",
+    "In grazing contact, B2-G4-A1, the displacement's curves are close to free flight's.",
+    "Largest difference of η_d from free flight: at most 0.1.",
+)
+def displacement(study: Study) -> Finding:
+    """Hardly pressed in."""
+    return _like_free(study, "eta_d")
+
+
+@claim(
+    "s1-acceleration-like-free-flight",
+    "4.3, Fig. 10",
+    "In grazing contact, B2-G4-A1, the acceleration's curves are close to free flight's.",
+    "Largest difference of η_a from free flight: at most 0.1.",
+)
+def acceleration(study: Study) -> Finding:
+    """A stiff bumper adds much acceleration where it is pressed in a little."""
+    return _like_free(study, "eta_a")
+
+
+@claim(
+    "s1-hardly-deformed",
+    "4.3",
+    "In grazing contact the mass touches the bumpers without deforming them significantly.",
+    "Largest penetration in the four tests with G4 and A1, either direction: at most a tenth of "
+    "the gap of one side, which is also the rules' threshold for grazing.",
+    Kind.RULES,
+)
+def hardly_deformed(study: Study) -> Finding:
+    """In millimetres, for the paper says no number."""
+    gap = 0.5 * laboratory.GAPS["G4"]
+    most = study.campaign()["displacement_max"].max(["direction", "frequency"])
+    deep = [float(most.sel(rig=code)) - gap for code in _TESTS]
+    return Finding(
+        max(deep) <= _SHALLOW * gap,
+        f"{listed([1e3 * d for d in deep], '.2f')} mm (B1 to B4), at most {max(deep) / gap:.1%} of "
+        "the gap of one side",
+    )
+
+
+@claim(
+    "grazing-is-free-flight",
+    "6",
+    "In the Simplified Nonlinear Model the curves of grazing contact (S1) coincide with those of "
+    "free flight (S0), without jumps.",
+    "The four tests with G4 and A1, and B3-A3 with a gap of 65 mm: largest difference of η_a and "
+    "of η_d from free flight, at most 0.01, and no jump.",
+)
+def free_flight(study: Study) -> Finding:
+    """Of the cases that are grazing by the paper and in Fig. 19, not of a gap of just u_max."""
+    told, holds = [], True
+    for code in (*_TESTS, _COMPUTED):
+        data = (study.by_gap() if code == _COMPUTED else study.campaign()).sel(rig=code, drop=True)
+        worst = [float(np.abs(data[c] - free(data, c)).max()) for c in CURVES]
+        jumps = [j for j in features(data).jumps if j.settled]
+        holds &= max(worst) <= _COINCIDE and not jumps
+        ends = "no jump"
+        if jumps:
+            ends = f"jumps {' and '.join(f'{j.frequency:.3f}' for j in jumps)} Hz"
+        told.append(f"{code} η_a {worst[0]:.2f}, η_d {worst[1]:.2f}, {ends}")
+    return Finding(holds, "; ".join(told))
+
+
+@claim(
+    "grazing-at-one",
+    "7",
+    "The gap at which the mass grazes depends on the acceleration, but is always δ = 1.",
+    "B2 with δ = 0.99 and 1.01 at the three accelerations: bumpers are hit, and are not; and the "
+    "total gap that is δ = 1.",
+    Kind.CONSTRUCTION,
+)
+def at_one(study: Study) -> Finding:
+    """A hundredth to both sides, for the sweep's frequencies miss the peak a little."""
+    table = table1.computed()
+    gaps = [1e3 * laboratory.GAPS["G1"] / table[a]["G1"] for a in ACCELERATIONS]
+    hits = []
+    for delta in (0.99, 1.01):
+        codes = tuple(
+            f"B2-{delta * gap:.9g}mm-{a}" for gap, a in zip(gaps, ACCELERATIONS, strict=True)
+        )
+        data = study.family(codes)
+        hit = (data["impacts_right"] > 0).any(["direction", "frequency"])
+        hits.append(hit.values.tolist())
+    return Finding(
+        hits == [[True] * 3, [False] * 3],
+        f"δ = 1 is {', '.join(f'{g:.1f}' for g in gaps)} mm at A1, A2, A3",
+    )
+
+
+TESTS = (displacement, acceleration, hardly_deformed)
+MODEL = (free_flight,)
+DIMENSIONLESS = (at_one,)

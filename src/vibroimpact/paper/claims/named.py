@@ -1,0 +1,100 @@
+"""Section 6 and Fig. 14: which scenario each of the tests is."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vibroimpact.model import laboratory
+from vibroimpact.paper.claim import Finding, Kind
+from vibroimpact.paper.claims.reading import claim, listed
+from vibroimpact.paper.study import HIGH, LOW, Study
+
+EDGE, EDGE_LOW = "B1-G1-A3", 0.44
+"""A test with a peak at the lower edge of the tests' range, and where `classify` begins (Hz)."""
+
+
+def from_below(study: Study) -> str:
+    """What the test at the edge is, from the tests' 0.5 Hz and from where `classify` begins."""
+    there = study.classification(EDGE, EDGE_LOW, HIGH).scenario
+    here = study.scenarios()[EDGE]
+    return f"swept from {LOW:g} Hz, where {EDGE} is {here}; from {EDGE_LOW:g} Hz it is {there}"
+
+
+def _with(found: dict[str, str], scenario: str, acceleration: str) -> list[str]:
+    return [c for c, s in found.items() if s == scenario and c.endswith(acceleration)]
+
+
+@claim(
+    "tests-at-a1",
+    "6, Fig. 14",
+    "At the smallest acceleration the four tests with the largest gap graze (S1), and all others "
+    "are S2.",
+    "Scenarios of the 16 tests at A1.",
+    Kind.RULES,
+)
+def at_a1(study: Study) -> Finding:
+    """Fig. 14's lowest plane."""
+    found = study.scenarios()
+    grazing, rest = _with(found, "S1", "A1"), _with(found, "S2", "A1")
+    holds = {c.split("-")[1] for c in grazing} == {"G4"} and (len(grazing), len(rest)) == (4, 12)
+    return Finding(holds, f"S1: {', '.join(grazing) or 'none'}; S2: {len(rest)} tests")
+
+
+@claim(
+    "tests-at-a2-a3",
+    "6, Fig. 14",
+    "At the two larger accelerations only S2 and S3 occur, and no grazing.",
+    "Scenarios of the 32 tests at A2 and A3.",
+    Kind.RULES,
+)
+def at_a2_a3(study: Study) -> Finding:
+    """Fig. 14's upper planes."""
+    found = [s for c, s in study.scenarios().items() if not c.endswith("A1")]
+    told = ", ".join(f"{s}: {found.count(s)}" for s in sorted(set(found)))
+    return Finding(set(found) == {"S2", "S3"}, f"{told}; {from_below(study)}")
+
+
+@claim(
+    "s3-with-small-gap-and-stiff-bumper",
+    "6, Fig. 14",
+    "S2 turns into S3 as the gap falls and as the bumper gets stiffer.",
+    "At A2 and at A3: a test that is S3 stays so with the next smaller gap and the next stiffer "
+    "bumper; both scenarios occur.",
+    Kind.RULES,
+)
+def transition(study: Study) -> Finding:
+    """No exception."""
+    found = study.scenarios()
+    exceptions, both = [], True
+    for a in ("A2", "A3"):
+        region = _with(found, "S3", a)
+        both &= bool(region) and bool(_with(found, "S2", a))
+        for code in region:
+            b, g, _ = code.split("-")
+            stiffer, narrower = f"B{int(b[1]) + 1}-{g}-{a}", f"{b}-G{int(g[1]) - 1}-{a}"
+            exceptions += [
+                f"{code} but not {other}"
+                for other in (stiffer, narrower)
+                if found.get(other, "S3") != "S3"
+            ]
+    return Finding(both and not exceptions, "; ".join(exceptions) or "no exception")
+
+
+@claim(
+    "s3-region-grows",
+    "6, Fig. 14",
+    "The larger the acceleration, the more tests are S3.",
+    "Tests that are S3 at A1, A2 and A3: rising.",
+    Kind.RULES,
+)
+def region(study: Study) -> Finding:
+    """Counted."""
+    found = study.scenarios()
+    counts = [len(_with(found, "S3", a)) for a in laboratory.ACCELERATIONS]
+    return Finding(
+        bool((np.diff(counts) > 0).all()),
+        f"{listed(counts, 'd')} (A1, A2, A3); {from_below(study)}",
+    )
+
+
+CLAIMS = (at_a1, at_a2_a3, transition, region)
