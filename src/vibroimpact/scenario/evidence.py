@@ -22,6 +22,7 @@ from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, each_swept
+from vibroimpact.scenario.onset import foot_in_contact, onset, within
 
 UNEVEN = 1e-6
 """Eccentricity, as a share of the excursion, that rounding does not explain."""
@@ -234,7 +235,7 @@ def _one(
     apart = hysteresis(both)
     found = peaks(both, prominence=prominence)
     irregular = ~both.settled | (both.period != 1) | uneven
-    begins = _onset(oscillator, both, irregular, apart, free, prominence)
+    begins = onset(oscillator, both, irregular, apart, free, prominence)
     primary = {p.direction: p for p in found if p.primary and p.curve == "eta_a"}
     swing = next(
         (p for p in found if p.primary and p.curve == "eta_d" and p.direction == "forward"), None
@@ -269,7 +270,7 @@ def _one(
             if item.side == "left"
             and item.settled
             and item.low < top
-            and not _within(item.low, begins)
+            and not within(item.low, begins)
         ),
         irregular=tuple(_irregular(both, irregular, uneven, found, begins)),
         onset=begins,
@@ -277,8 +278,8 @@ def _one(
             peak
             for peak in found
             if _regular_secondary(peak, both, irregular, primary)
-            and not _within(peak.frequency, begins)
-            and _foot_in_contact(
+            and not within(peak.frequency, begins)
+            and foot_in_contact(
                 both,
                 both.directions.index(peak.direction),
                 int(np.searchsorted(frequency, peak.frequency)),
@@ -287,51 +288,6 @@ def _one(
         ),
         peaks=found,
     )
-
-
-def _onset(
-    oscillator: Oscillator,
-    both: Swept,
-    irregular: Flags,
-    apart: tuple[Hysteresis, ...],
-    free: Array,
-    prominence: float,
-) -> tuple[tuple[float, float], ...]:
-    """Ranges, not regular or with left hysteresis, that belong to where contact begins."""
-    loose: Flags = np.logical_or.reduce(irregular)
-    for item in apart:
-        if item.side == "left":
-            loose |= (both.frequency >= item.low) & (both.frequency <= item.high)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], loose, [False]]))).reshape(-1, 2)
-    return tuple(
-        (float(both.frequency[first]), float(both.frequency[end - 1]))
-        for first, end in edges
-        if not (
-            _pressed_at_rest(oscillator, both, free)
-            if first == 0
-            else _foot_in_contact(both, 0, int(first), prominence)
-        )
-    )
-
-
-def _foot_in_contact(both: Swept, k: int, i: int, prominence: float) -> bool:
-    """Whether the mass hits a bumper in the valley of η_a below a frequency.
-
-    Going down from it, the valley is passed where the curve has risen again by `prominence` of
-    its height; if it never does, it is where the curve was lowest.
-    """
-    curve = both.eta_a[k]
-    known = np.flatnonzero(np.isfinite(curve[: i + 1]))
-    if not len(known):
-        return bool(both.touching[k, i])
-    foot = int(known[-1])
-    height = curve[foot]
-    for j in known[-2::-1]:
-        if curve[j] < curve[foot]:
-            foot = int(j)
-        elif curve[j] - curve[foot] > prominence * height:
-            break
-    return bool(both.touching[k, foot])
 
 
 def _resonance_within(oscillator: Oscillator, both: Swept) -> bool:
@@ -347,15 +303,6 @@ def _largest(oscillator: Oscillator, amplitude: float, free: Array) -> float:
     return float(free.max())
 
 
-def _pressed_at_rest(oscillator: Oscillator, both: Swept, free: Array) -> bool:
-    """Whether the mass presses a bumper at any low frequency: A/ω0² is larger than a gap."""
-    gaps = [b.gap for b in (oscillator.right, oscillator.left) if b is not None]
-    # Free flight's amplitude A/ω0² |H| at the lowest frequency, without its gain |H|.
-    ratio = float(both.frequency[0]) / oscillator.natural_frequency
-    inverse = math.hypot((1.0 - ratio) * (1.0 + ratio), 2.0 * oscillator.damping_ratio * ratio)
-    return bool(gaps) and float(free[0]) * inverse >= min(gaps)
-
-
 def _irregular(
     both: Swept,
     irregular: Flags,
@@ -368,7 +315,7 @@ def _irregular(
         edges = np.flatnonzero(np.diff(np.concatenate([[False], irregular[k], [False]])))
         for first, end in edges.reshape(-1, 2):
             low, high = float(frequency[first]), float(frequency[end - 1])
-            if _within(low, begins):
+            if within(low, begins):
                 continue
             inside = slice(first, end)
             unsettled = np.flatnonzero(~both.settled[k, inside]) + first
@@ -409,7 +356,3 @@ def _regular_secondary(
         int(np.searchsorted(both.frequency, peak.frequency)),
     )
     return bool(both.touching[k, i] and not irregular[k, i])
-
-
-def _within(frequency: float, spans: tuple[tuple[float, float], ...]) -> bool:
-    return any(low <= frequency <= high for low, high in spans)
