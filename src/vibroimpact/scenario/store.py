@@ -13,14 +13,12 @@ import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import xarray as xr
-import zarr
 from filelock import FileLock, Timeout
 from numpy.typing import NDArray
-from zarr.storage import LocalStore, MemoryStore
 
 from vibroimpact._version import __version__
 from vibroimpact.errors import InputError
@@ -29,6 +27,9 @@ from vibroimpact.scenario.axes import Axis
 from vibroimpact.scenario.cell import COUNTS, VALUES
 from vibroimpact.scenario.kinds import Scenario
 from vibroimpact.scenario.nodes import UNKNOWN
+
+if TYPE_CHECKING:  # it takes long to load: only where a map is made or read
+    import zarr
 
 CREATED_BY = "vibroimpact.scenario_map"
 
@@ -83,6 +84,8 @@ class MapStore:
         return data[["scenario", *VALUES, *COUNTS, "level"]]
 
     def _array(self, name: str) -> zarr.Array[Any]:
+        import zarr
+
         array = self._group[name]
         assert isinstance(array, zarr.Array)
         return array
@@ -126,6 +129,9 @@ def map_store(
         If the folder holds something else, cannot be written to, or is in use.
     """
     if path is None:
+        import zarr
+        from zarr.storage import MemoryStore
+
         yield MapStore(
             _make(zarr.open_group(MemoryStore(), mode="w"), axes, chunk, levels, parameters)
         )
@@ -170,6 +176,9 @@ def _whole(folder: Path, parameters: dict[str, Any]) -> MapStore | None:
 def _opened(
     folder: Path, axes: tuple[Axis, Axis], chunk: int, levels: int, parameters: dict[str, Any]
 ) -> zarr.Group:
+    import zarr
+    from zarr.storage import LocalStore
+
     if not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
         # Made beside it and renamed: the store is there with all its arrays, or not at all.
         beside = folder.with_name(f".{folder.name}.making")
@@ -181,6 +190,9 @@ def _opened(
 
 def _checked(folder: Path, parameters: dict[str, Any], mode: Literal["r", "r+"]) -> zarr.Group:
     """The group in a folder, if it is this map."""
+    import zarr
+    from zarr.storage import LocalStore
+
     try:
         group = zarr.open_group(LocalStore(folder, read_only=mode == "r"), mode=mode)
         held = group.attrs.asdict()
@@ -215,6 +227,8 @@ def _make(
     levels: int,
     parameters: dict[str, Any],
 ) -> zarr.Group:
+    import zarr
+
     x, y = axes
     dims = (y.name, x.name)
     shape = (len(y.values), len(x.values))
