@@ -99,7 +99,7 @@ def test_text_with_units():
 
 def test_axes_that_do_not_go_together():
     gap, ratio = axis(("gap", [0, 1]), "x"), axis(("gap_ratio", [0, 1]), "y")
-    with pytest.raises(vi.InputError, match=r"^y: 'gap_ratio' does not go with 'gap'"):
+    with pytest.raises(vi.InputError, match=r"^y: 'gap_ratio' is 'gap' in other units"):
         check_pair(gap, ratio)
     with pytest.raises(vi.InputError, match=r"^y: 'gap' is that of x"):
         check_pair(gap, gap)
@@ -108,3 +108,19 @@ def test_axes_that_do_not_go_together():
 def test_a_base_without_bumpers_is_refused():
     with pytest.raises(vi.InputError, match="base: there is no bumper"):
         Base(CASE.oscillator.without_bumpers(), 0.3).rig({"gap": 1e-3})
+
+
+def test_a_physical_and_a_dimensionless_parameter():
+    """The physical ones hold as they are: a gap in mm is no other with another damping."""
+    rig = BASE.rig({"gap": 9e-3, "damping_ratio": 0.05})
+    assert rig.oscillator.right.gap == rig.oscillator.left.gap == 9e-3
+    assert rig.oscillator.damping_ratio == pytest.approx(0.05, rel=1e-12)
+    assert rig.oscillator.right.stiffness == pytest.approx(510e3, rel=1e-12)
+    rig = BASE.rig({"amplitude": 0.3, "stiffness_ratio": 5.0})
+    assert rig.amplitude == 0.3
+    assert rig.oscillator.right.gap == CASE.oscillator.right.gap
+    ratio = rig.oscillator.right.stiffness / rig.oscillator.isolator.stiffness
+    assert ratio == pytest.approx(5.0, rel=1e-12)
+    # Here the gap follows the amplitude.
+    rig = BASE.rig({"amplitude": 0.3, "gap_ratio": 0.5})
+    assert vi.to_dimensionless(*rig).right.gap == pytest.approx(0.5, rel=1e-12)

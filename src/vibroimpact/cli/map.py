@@ -53,7 +53,7 @@ def scenario_map(
         Parameter(
             negative="",
             show_default=False,
-            help="The same upwards, of the same sort as x. gap-ratio 0:1.",
+            help="The same upwards. gap-ratio 0:1.",
         ),
     ] = ("gap-ratio", "0:1"),
     refine: Annotated[
@@ -176,15 +176,25 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     """What the map does not vary, in words."""
     from vibroimpact.model import to_dimensionless
     from vibroimpact.model.units import ACCELERATION, LENGTH, STIFFNESS, pretty
-    from vibroimpact.scenario.axes import PARAMETERS
+    from vibroimpact.scenario.axes import ONE_QUANTITY, PARAMETERS
 
     varied = {name for name, *_ in axes}
     sides = [b for b in (what.oscillator.right, what.oscillator.left) if b is not None]
-    if PARAMETERS[axes[0][0]].physical:
+    for pair in ONE_QUANTITY:
+        varied |= pair if varied & pair else set()
+    damping = {
+        "relaxation_time": (
+            "τ =",
+            [f"{what.oscillator.angular_frequency * b.damping / b.stiffness:.3g}" for b in sides],
+        ),
+        "damping_ratio": ("ξ =", [f"{what.oscillator.damping_ratio:.3g}"]),
+    }
+    if any(PARAMETERS[name].physical for name, *_ in axes):
         quantities = {
             "gap": ("gap", [pretty(b.gap, LENGTH) for b in sides]),
             "bumper_stiffness": ("bumpers", [pretty(b.stiffness, STIFFNESS) for b in sides]),
             "amplitude": ("A =", [pretty(what.amplitude, ACCELERATION)]),
+            **damping,
         }
     else:
         group = to_dimensionless(what.oscillator, what.amplitude)
@@ -192,8 +202,7 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
         quantities = {
             "stiffness_ratio": ("λ =", [f"{b.stiffness_ratio:.4g}" for b in halves]),
             "gap_ratio": ("δ0 =", [f"{b.gap:.4g}" for b in halves]),
-            "relaxation_time": ("τ =", [f"{b.relaxation_time:.3g}" for b in halves]),
-            "damping_ratio": ("ξ =", [f"{group.damping_ratio:.3g}"]),
+            **damping,
         }
     return ", ".join(
         f"{symbol} {' and '.join(dict.fromkeys(values))}"

@@ -42,6 +42,9 @@ PARAMETERS: Mapping[str, Parameter] = {
 }
 """By name; lengths and stiffnesses are those of each side."""
 
+ONE_QUANTITY = ({"gap", "gap_ratio"}, {"bumper_stiffness", "stiffness_ratio"})
+"""Pairs that say the same."""
+
 
 class Axis(NamedTuple):
     """Values of one parameter."""
@@ -119,7 +122,7 @@ def axis(given: Any, field: str) -> Axis:
 
 
 def check_pair(x: Axis, y: Axis) -> None:
-    """Refuse two axes of one parameter, or of a physical and a dimensionless one.
+    """Refuse two axes of one parameter, or of one quantity.
 
     Raises
     ------
@@ -128,11 +131,9 @@ def check_pair(x: Axis, y: Axis) -> None:
     """
     if x.name == y.name:
         raise InputError(f"y: {y.name!r} is that of x; another parameter is accepted")
-    if PARAMETERS[x.name].physical != PARAMETERS[y.name].physical:
-        other = [n for n, p in PARAMETERS.items() if p.physical == PARAMETERS[x.name].physical]
+    if {x.name, y.name} in ONE_QUANTITY:
         raise InputError(
-            f"y: {y.name!r} does not go with {x.name!r}: one is physical, one dimensionless; "
-            f"one of {', '.join(n for n in other if n != x.name)} is accepted"
+            f"y: {y.name!r} is {x.name!r} in other units; another parameter is accepted"
         )
 
 
@@ -147,8 +148,8 @@ class Base(NamedTuple):
         """The rig at a node.
 
         Physical parameters are set on both sides; of the bumpers' damping the relaxation time
-        C_j/K_j is kept. Dimensionless ones are set among the base's own dimensionless
-        parameters, at its mass, isolator stiffness and amplitude.
+        C_j/K_j is kept. Dimensionless ones are set at the base's mass, isolator stiffness and
+        amplitude: between dimensionless ones the gap ratio is kept, beside a physical one the gap.
 
         Raises
         ------
@@ -157,9 +158,19 @@ class Base(NamedTuple):
         """
         if not self.oscillator.right and not self.oscillator.left:
             raise InputError("base: there is no bumper; a rig with one or two is accepted")
-        if all(PARAMETERS[name].physical for name in values):
-            return self._physical(values)
-        return self._dimensionless(values)
+        physical = {name for name in values if PARAMETERS[name].physical}
+        rig = self._physical(values) if physical else Rig(self.oscillator, self.amplitude)
+        if len(physical) == len(values):
+            return rig
+        scaled = Base(*rig)._dimensionless(values)
+        if not physical or "gap_ratio" in values:
+            return scaled
+        sides = {}
+        for side in ("right", "left"):
+            bumper = getattr(scaled.oscillator, side)
+            if bumper is not None:
+                sides[side] = bumper.replace(gap=getattr(rig.oscillator, side).gap)
+        return Rig(scaled.oscillator.replace(**sides), scaled.amplitude)
 
     def _physical(self, values: Mapping[str, float]) -> Rig:
         changes = {}

@@ -55,7 +55,8 @@ def scenario_map(
         Name and rising values of a parameter. Physical: ``"gap"`` (m, of each side),
         ``"amplitude"`` (m/s²), ``"bumper_stiffness"`` (N/m, at the base's C_j/K_j).
         Dimensionless: ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ,
-        ``"damping_ratio"`` ξ. Both physical or both dimensionless, and set on both sides alike.
+        ``"damping_ratio"`` ξ. They are set on both sides alike. Between dimensionless ones δ0
+        is kept where it is not varied, beside a physical one the gap.
         ``"log"`` or ``"linear"`` behind the values says how they are refined, if they do not.
     base
         Oscillator and amplitude, for all other parameters. None for ξ = 0.15, τ = 0.01,
