@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Group, Parameter
 
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from vibroimpact.model import Oscillator
 
 _FREQUENCIES = Group("Frequencies", sort_key=1)
-LEAST = 4
-"""Frequencies, for curves are looked at."""
 _FREQUENCY = Parameter(group=_FREQUENCIES, allow_leading_hyphen=True)
 
 
@@ -114,7 +112,7 @@ def classify(
             for (name, value), other in found.alternatives.items()
         ],
         "thresholds": {name: getattr(used, name) for name in used.names()},
-        "features": _plain(found.features._asdict()),
+        "features": found.features,
         "files": files,
     }
     table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
@@ -154,6 +152,7 @@ def _frequencies(
     from vibroimpact.cli.grid import frequency_grid
     from vibroimpact.model import to_si
     from vibroimpact.model.units import FREQUENCY
+    from vibroimpact.scenario.classify import LEAST
     from vibroimpact.scenario.frequencies import LOW, STEP, highest
 
     natural = oscillator.natural_frequency
@@ -176,14 +175,3 @@ def _frequencies(
             "accepted"
         )
     return held
-
-
-def _plain(value: Any) -> Any:
-    """Named tuples as mappings, all the way down."""
-    if hasattr(value, "_asdict"):
-        return {key: _plain(item) for key, item in value._asdict().items()}
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    return value

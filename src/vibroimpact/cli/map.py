@@ -78,10 +78,10 @@ def scenario_map(
 ) -> int:
     """Map the scenarios of a rig over two of its parameters.
 
-    The rig gives all other parameters; without one, they are those of the published rig B3-A3. The
-    map is written to NAME-X-Y-map.zarr as it is
-    computed, block by block: stopped at any moment, the same command completes it. Prints the
-    share of each scenario; draws NAME-X-Y-map.png.
+    The rig gives all other parameters; without one, they are those of the published rig B3-A3.
+    The map is written to NAME-X-Y-map.zarr as it is computed, block by block: stopped at any
+    moment, the same command completes it. Prints the share of each scenario; draws
+    NAME-X-Y-map.png.
 
     For example:
 
@@ -109,6 +109,7 @@ def scenario_map(
         from vibroimpact.figures import save_figure
         from vibroimpact.figures import scenario_map as draw
         from vibroimpact.scenario.borders import jump_border
+        from vibroimpact.scenario.kinds import Scenario
         from vibroimpact.scenario.map import scenario_map as run
 
         names = "-".join(name.replace("_", "-") for name, *_ in axes)
@@ -150,8 +151,6 @@ def scenario_map(
         "files": files,
     }
     table = Table(box=None, pad_edge=False, padding=(0, 2), show_header=False)
-    from vibroimpact.scenario.kinds import Scenario
-
     for kind in Scenario:
         if kind.label in shares:
             table.add_row(kind.label, f"{shares[kind.label]:.1%}", kind.meaning)

@@ -106,7 +106,9 @@ def warn(message: str) -> None:
 
 
 def _plain(value: Any) -> Any:
-    """Return what JSON can hold: no NaN, no infinity, no tuples with names."""
+    """Return what JSON can hold: no NaN, no infinity; tuples with names become mappings."""
+    if hasattr(value, "_asdict"):
+        value = value._asdict()
     if isinstance(value, dict):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

@@ -52,13 +52,24 @@ def swept(data: xr.Dataset) -> Swept:
     InputError
         If the dataset is not that of a sweep of one rig.
     """
+    (one,) = each_swept(as_rigs(data))
+    return one
+
+
+def as_rigs(data: xr.Dataset) -> xr.Dataset:
+    """The sweep of one rig as one of `sweeps`.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a sweep of one rig.
+    """
     if set(data.get("eta_a", xr.DataArray()).dims) != {"direction", "frequency"}:
         raise InputError(
             f"data: a dataset with the dims {dict(data.sizes)} is not the sweep of one rig; "
             "a dataset of sweep is accepted, or one rig of sweeps, such as data.isel(rig=0)"
         )
-    (one,) = each_swept(data.expand_dims("rig"))
-    return one
+    return data.expand_dims("rig")
 
 
 def each_swept(data: xr.Dataset) -> Iterator[Swept]:

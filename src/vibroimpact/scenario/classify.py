@@ -17,11 +17,13 @@ from vibroimpact.scenario.frequencies import cycles, highest
 from vibroimpact.scenario.frequencies import frequencies as default_frequencies
 from vibroimpact.scenario.orbits import with_folds, with_kinds
 from vibroimpact.scenario.thresholds import Thresholds, checked
-from vibroimpact.scenario.verdict import confidence, scenario
+from vibroimpact.scenario.verdict import alternatives, confidence, scenario
 from vibroimpact.scenario.words import in_words
 
 MAX_CYCLES = 2000
 """Forcing cycles to wait for a steady motion, at least."""
+LEAST = 4
+"""Frequencies, for curves are looked at."""
 
 
 @dataclass(frozen=True)
@@ -108,20 +110,19 @@ def classify(
     if max_cycles is None:
         max_cycles = cycles(oscillator, highest(oscillator, peak), MAX_CYCLES)
     data = sweep(oscillator, peak, held, max_cycles=max_cycles, threads=threads, progress=progress)
-    if data.sizes["frequency"] < 4:
+    if data.sizes["frequency"] < LEAST:
         raise InputError(
-            f"frequencies: {data.sizes['frequency']} given; at least 4 are accepted, for curves "
-            "are looked at"
+            f"frequencies: {data.sizes['frequency']} given; at least {LEAST} are accepted, for "
+            "curves are looked at"
         )
     found = evidence(oscillator, peak, data, 0.5 * used.prominence)
     found = with_folds(with_kinds(found, oscillator, peak, data), oscillator, peak, data)
-    named = scenario(found, used)
-    others: dict[tuple[str, float], str] = {}
-    for name in Thresholds.names():
-        for other in used.variations():
-            value = getattr(other, name)
-            if value != getattr(used, name) and (there := scenario(found, other)) is not named:
-                others[name, value] = there.label
     return Classification(
-        named.label, confidence(found, used), in_words(found, used), others, found, used, data
+        scenario(found, used).label,
+        confidence(found, used),
+        in_words(found, used),
+        {varied: other.label for varied, other in alternatives(found, used).items()},
+        found,
+        used,
+        data,
     )

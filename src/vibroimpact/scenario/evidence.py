@@ -21,7 +21,7 @@ from vibroimpact.model import Oscillator, Rig
 from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
-from vibroimpact.response.swept import Array, Direction, Flags, Swept, each_swept
+from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs, each_swept
 from vibroimpact.scenario.onset import foot_in_contact, onset, within
 
 UNEVEN = 1e-6
@@ -180,13 +180,7 @@ def evidence(
     InputError
         If the dataset is not that of the sweep of one rig in both directions.
     """
-    if set(data.get("eta_a", xr.DataArray()).dims) != {"direction", "frequency"}:
-        raise InputError(
-            f"data: a dataset with the dims {dict(data.sizes)} is not the sweep of one rig; "
-            "a dataset of sweep is accepted"
-        )
-    rig = Rig(oscillator, amplitude)
-    (found,) = each_evidence([rig], data.expand_dims("rig"), prominence)
+    (found,) = each_evidence([Rig(oscillator, amplitude)], as_rigs(data), prominence)
     return found
 
 

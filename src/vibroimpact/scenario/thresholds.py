@@ -57,11 +57,11 @@ class Thresholds:
         """Names of the thresholds."""
         return tuple(field.name for field in fields(cls))
 
-    def variations(self) -> Iterator[Thresholds]:
-        """Each threshold halved and doubled in turn, the others as they are."""
+    def variations(self) -> Iterator[tuple[str, Thresholds]]:
+        """Each threshold halved and doubled in turn, the others as they are, with its name."""
         for name in self.names():
             for factor in (0.5, 2.0):
-                yield replace(self, **{name: min(1.0, factor * getattr(self, name))})
+                yield name, replace(self, **{name: min(1.0, factor * getattr(self, name))})
 
 
 def checked(given: object) -> Thresholds:

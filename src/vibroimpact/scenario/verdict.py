@@ -72,12 +72,20 @@ def primary_jumps(found: Evidence) -> bool:
     return len(down) == 2
 
 
+def alternatives(found: Evidence, thresholds: Thresholds) -> dict[tuple[str, float], Scenario]:
+    """The variations of the thresholds that give another scenario, by threshold and its value."""
+    named = scenario(found, thresholds)
+    return {
+        (name, getattr(other, name)): there
+        for name, other in thresholds.variations()
+        if (there := scenario(found, other)) is not named
+    }
+
+
 def confidence(found: Evidence, thresholds: Thresholds) -> float:
     """Share of the threshold's variations (each halved, each doubled) with the same scenario.
 
     1 says that no threshold matters by a factor of two; it says nothing of what lies outside
     the frequencies that were swept.
     """
-    named = scenario(found, thresholds)
-    same = [scenario(found, other) is named for other in thresholds.variations()]
-    return sum(same) / len(same)
+    return 1.0 - len(alternatives(found, thresholds)) / len(list(thresholds.variations()))

@@ -19,16 +19,15 @@ from vibroimpact.paper.claims.reading import (
     harmonics,
     higher,
     impacts,
-    jump,
     left_folds,
     listed,
-    orbits_at,
     regular_places,
     secondary,
+    three_between_jumps,
     told_left,
     touching,
 )
-from vibroimpact.paper.study import HIGH, LOW, Study
+from vibroimpact.paper.study import Study
 
 _S3, _S2 = "B2-G1-A3", "B2-G2-A2"
 _SETS: dict[laboratory.Parameters, str] = {
@@ -285,14 +284,7 @@ def s2_contact(study: Study) -> Finding:
 )
 def s2_three(study: Study) -> Finding:
     """Counted on the branch."""
-    down, up = (jump(study, _S2, way) for way in BOTH)
-    if down is None or up is None:
-        raise AbsentError(f"{_S2} does not jump")
-    middle = 0.5 * (down + up)
-    stable, unstable = orbits_at(study.antisymmetric_branch(_S2, LOW, HIGH), middle)
-    return Finding(
-        (stable, unstable) == (2, 1), f"{stable} stable, {unstable} unstable at {middle:.2f} Hz"
-    )
+    return three_between_jumps(study, _S2)
 
 
 @claim(

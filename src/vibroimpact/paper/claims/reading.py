@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.model import laboratory
 from vibroimpact.paper.claim import Claim, Finding, Kind
-from vibroimpact.paper.study import STEP, Study
+from vibroimpact.paper.study import HIGH, LOW, STEP, Study
 from vibroimpact.response.peaks import Curve, Peak
 from vibroimpact.response.spectrum import spectrum
 from vibroimpact.response.swept import Direction
@@ -91,6 +91,14 @@ def jump(study: Study, code: str, direction: Direction) -> float | None:
         ),
         default=None,
     )
+
+
+def both_jumps(study: Study, code: str) -> tuple[float, float]:
+    """Frequencies of the downward and the upward jump (Hz), or `AbsentError`."""
+    down, up = (jump(study, code, way) for way in BOTH)
+    if down is None or up is None:
+        raise AbsentError(f"{code} does not jump")
+    return down, up
 
 
 class Trend(NamedTuple):
@@ -282,6 +290,15 @@ def orbits_at(branch: xr.Dataset, frequency: float) -> tuple[int, int]:
     passes = (along[1:] - frequency) * (along[:-1] - frequency) < 0.0
     both = stable[1:] & stable[:-1]
     return int((passes & both).sum()), int((passes & ~both).sum())
+
+
+def three_between_jumps(study: Study, code: str) -> Finding:
+    """Whether half-way between a test's jumps there are two stable orbits and an unstable one."""
+    middle = 0.5 * sum(both_jumps(study, code))
+    stable, unstable = orbits_at(study.antisymmetric_branch(code, LOW, HIGH), middle)
+    return Finding(
+        (stable, unstable) == (2, 1), f"{stable} stable, {unstable} unstable at {middle:.2f} Hz"
+    )
 
 
 def apart(data: xr.Dataset) -> xr.DataArray:

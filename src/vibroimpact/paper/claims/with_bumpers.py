@@ -16,18 +16,19 @@ from vibroimpact.paper.claims.reading import (
     AbsentError,
     apart,
     at_most,
+    both_jumps,
     claim,
     contact_span,
     free,
     jump,
-    orbits_at,
     peak,
     runs,
     span,
+    three_between_jumps,
     touching,
     trend,
 )
-from vibroimpact.paper.study import HIGH, LOW, STEP, Study
+from vibroimpact.paper.study import LOW, STEP, Study
 from vibroimpact.response.peaks import Curve
 from vibroimpact.response.resonance import APART
 
@@ -125,9 +126,7 @@ def overlap(study: Study) -> Finding:
 )
 def hysteresis(study: Study) -> Finding:
     """Down into free flight, up out of it."""
-    down, up = (jump(study, _EXAMPLE, way) for way in BOTH)
-    if down is None or up is None:
-        raise AbsentError(f"{_EXAMPLE} does not jump")
+    down, up = both_jumps(study, _EXAMPLE)
     hit = touching(study.campaign().sel(rig=_EXAMPLE))
     forward, backward = hit.sel(direction="forward"), hit.sel(direction="backward")
     middle = {"frequency": slice(up, down)}
@@ -149,15 +148,7 @@ def hysteresis(study: Study) -> Finding:
 )
 def three_motions(study: Study) -> Finding:
     """Counted on the branch."""
-    down, up = (jump(study, _EXAMPLE, way) for way in BOTH)
-    if down is None or up is None:
-        raise AbsentError(f"{_EXAMPLE} does not jump")
-    branch = study.antisymmetric_branch(_EXAMPLE, LOW, HIGH)
-    middle = 0.5 * (down + up)
-    stable, unstable = orbits_at(branch, middle)
-    return Finding(
-        (stable, unstable) == (2, 1), f"{stable} stable, {unstable} unstable at {middle:.2f} Hz"
-    )
+    return three_between_jumps(study, _EXAMPLE)
 
 
 @claim(
