@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 from pathlib import Path
@@ -9,8 +10,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from rich.console import Console
 
 import vibroimpact as vi
+from vibroimpact.cli import verdict
 
 COMMAND = "motion"
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -374,3 +377,14 @@ def test_an_output_that_is_a_file_is_refused_and_kept(run, tmp_path):
     assert errors.startswith("vibroimpact: error: --output: 'taken' cannot be written to")
     assert errors.count("\n") == 1
     assert (tmp_path / "taken").read_text() == "kept"
+
+
+def test_a_motion_without_dissipation_is_neutral():
+    """Steady flight on an undamped isolator: its disturbances neither grow nor decay."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0))
+    shaken = vi.Harmonic(1.0, 2.0 / math.tau)
+    flight = vi.steady(rig, shaken, vi.State(0.0, 2.0 / 3.0), samples=8)
+    assert int(flight["stable"]) == -1
+    console = Console(width=100, file=io.StringIO())
+    console.print(verdict.text({shaken.frequency: {"rest": flight}}))
+    assert "rest: periodic, period 1, neutral" in console.file.getvalue()

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import pydoc
 from typing import Annotated
 
 import pytest
@@ -165,6 +166,15 @@ def test_what_is_no_table_at_all():
 def test_a_mistake_below_a_constructor_has_its_path():
     with pytest.raises(InputError, match=r"^right\.gap: -1 is less than 0"):
         Oscillator(1.0, ISOLATOR, {"stiffness": 1, "damping": 0, "gap": -1})
+
+
+@pytest.mark.parametrize("model", [Bumper, Oscillator, State])
+def test_help_shows_the_model_and_not_pydantic(model):
+    text = pydoc.plain(pydoc.render_doc(model))
+    assert "Parameters" in text
+    assert "replace(" in text
+    assert "pydantic" not in text.lower()
+    assert text.count("\n") < 150
 
 
 def test_no_pydantic_traceback_hangs_on_the_error():

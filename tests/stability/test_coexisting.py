@@ -81,7 +81,9 @@ def test_frequencies_of_the_sweeps():
     assert [m.attrs["starts"] for m in found] == ["rest, forward branch, backward branch"]
 
 
-@pytest.mark.parametrize("wrong", [{"random": -1}, {"random": 1.5}, {"frequencies": []}])
+@pytest.mark.parametrize(
+    "wrong", [{"random": -1}, {"random": 1.5}, {"frequencies": []}, {"starts": [vi.State(0.01)]}]
+)
 def test_refused(wrong):
     case = vi.laboratory.case("B2-G1-A3")
     with pytest.raises(vi.InputError, match=next(iter(wrong))):

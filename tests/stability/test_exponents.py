@@ -106,6 +106,7 @@ def test_a_motion_that_is_given_up():
         {"threads": 0},
         {"frequencies": [-1.0]},
         {"rigs": []},
+        {"rigs": [vi.laboratory.case("B2-G1-A3").oscillator]},
     ],
 )
 def test_refused(wrong):

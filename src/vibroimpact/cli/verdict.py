@@ -35,6 +35,8 @@ _SCALARS = (
     "mirror_pair",
 )
 
+_STABILITY = {1: "stable", 0: "unstable", -1: "neutral (disturbances neither grow nor decay)"}
+
 Found = dict[float, dict[str, xr.Dataset]]
 """Motions by name, by frequency."""
 
@@ -81,7 +83,7 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
     kind = data["motion"].item()
     words = [f"{kind}, period {int(data['period'])}" if kind == "periodic" else kind]
     if kind == "periodic":
-        words.append("stable" if int(data["stable"]) else "unstable")
+        words.append(_STABILITY[int(data["stable"])])
     words.append("antisymmetric" if bool(data["antisymmetric"]) else "not antisymmetric")
     if "mirror_pair" in data and bool(data["mirror_pair"]):
         words.append("its mirror image is another motion")

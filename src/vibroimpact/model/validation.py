@@ -67,7 +67,27 @@ def constructor(init: _Init) -> _Init:
     return init
 
 
-class Model(BaseModel):
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)  # pydantic has no public name for it
+
+
+class _Listed(ModelMetaclass):
+    """Lists what is the model's own: ``help`` shows that, and not a page of pydantic."""
+
+    def __dir__(cls) -> list[str]:  # noqa: N805
+        own = {
+            name
+            for base in cls.__mro__
+            if isinstance(base, _Listed)
+            for name in vars(base)
+            if not name.startswith(("_", "model_"))
+        }
+        return sorted(own)
+
+
+class Model(BaseModel, metaclass=_Listed):
     """Base of the immutable model objects.
 
     Objects compare and hash by value. ``repr`` is the exact constructor call in SI units;

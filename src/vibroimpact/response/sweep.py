@@ -18,13 +18,15 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State, to_si
 from vibroimpact.model.counts import share, whole
-from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY
+from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY, shown
 from vibroimpact.response.free_flight import check_bounded, free_flight_excursions
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.threads import Progress, run
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 
 DIRECTIONS = ("forward", "backward")
+
+_RIGS = "laboratory cases, `Rig`s or pairs (oscillator, amplitude) are accepted"
 
 
 class SweptRig(Protocol):
@@ -247,16 +249,23 @@ def named_rigs(rigs: Any) -> tuple[list[str], list[tuple[Oscillator, float]]]:
     if isinstance(rigs, Mapping):
         names = [str(name) for name in rigs]
         items = list(rigs.values())
-    else:
+    elif isinstance(rigs, Iterable) and not isinstance(rigs, str | Oscillator):
         items = list(rigs)
         names = [getattr(item, "code", str(i)) for i, item in enumerate(items)]
+    else:
+        raise InputError(f"rigs: {shown(rigs)} is no list; a list or a mapping of {_RIGS}")
     if not items:
         raise InputError("rigs: the list is empty; at least one rig is accepted")
     pairs = []
     for name, item in zip(names, items, strict=True):
-        oscillator, amplitude = (
-            item if isinstance(item, tuple) else (item.oscillator, item.amplitude)
-        )
+        try:
+            oscillator, amplitude = (
+                item if isinstance(item, tuple) else (item.oscillator, item.amplitude)
+            )
+        except (AttributeError, ValueError):
+            oscillator, amplitude = None, None
+        if not isinstance(oscillator, Oscillator):
+            raise InputError(f"rigs[{name}]: {shown(item)} is no rig; {_RIGS}")
         where = "amplitude" if len(items) == 1 else f"rigs[{name}].amplitude"
         pairs.append((oscillator, to_si(amplitude, ACCELERATION, where, above=0.0)))
     return names, pairs

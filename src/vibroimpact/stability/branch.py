@@ -266,7 +266,7 @@ def as_dataset(
     data = xr.Dataset(variables, coordinates)
     data.attrs["parameter"] = name
     for i, one in enumerate(followed):
-        prefix = "" if len(followed) == 1 else f"branch_{i}_"
+        prefix = f"branch_{i}_" if created == "resonance_diagram" else ""
         data.attrs[f"{prefix}ended_low"], data.attrs[f"{prefix}ended_high"] = one.ended
         data.attrs[f"{prefix}closed"] = int(one.closed)
     return describe(

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.response.start import as_state, engine_rig, state_from
@@ -52,7 +53,7 @@ def coexisting(
     excitation: Harmonic,
     *,
     frequencies: Iterable[float | str] | None = None,
-    starts: Mapping[str, State] | None = None,
+    starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
     random: int = 12,
     seed: int = 0,
     samples: int = 256,
@@ -99,6 +100,11 @@ def coexisting(
         If a value cannot be used.
     """
     random = whole(random, "random", 0)
+    if not isinstance(starts or {}, Mapping):
+        raise InputError(
+            f"starts: {type(starts).__name__} is no mapping; states by name are accepted, such as "
+            '{"mine": State(0.01, 0.0)}'
+        )
     kept: list[_Kept] = []
     given_up: dict[Status, tuple[State, list[str]]] = {}
     options = (samples, window, exponent_cycles, max_events)
