@@ -26,5 +26,5 @@ for jump in features(data).jumps:
     print(f"{jump.direction} sweep jumps {way} between {jump.before:g} and {jump.after:g} Hz")
 
 axes = resonance_curves(data, title=case.code)
-print(save_figure(axes[0], folder / f"{case.slug}-sweep.png"))
+print(save_figure(axes, folder / f"{case.slug}-sweep.png"))
 print(vi.save(data, folder / f"{case.slug}-sweep.nc"))

@@ -27,4 +27,4 @@ for code, frequency in (("B2-G1-A3", 2.6), ("B3-10mm-A3", 1.06)):
             print(f"  contact with up to {float(force) / 1e3:.2f} kN, {float(lost):.2f} J lost")
 
 axes = motion_page(columns, title="Kinds of motion")
-print(save_figure(axes[0, 0], folder / "kinds-of-motion.png"))
+print(save_figure(axes, folder / "kinds-of-motion.png"))

@@ -509,7 +509,10 @@ def test_page_has_a_column_a_frequency_and_a_row_a_figure():
     assert made.shape == (5, 2)
     assert len({ax.figure for ax in made.flat}) == 1
     assert made[0, 0].figure.get_suptitle() == "A3"
-    assert [ax.get_title() for ax in made[0]] == ["2 Hz", "2.8 Hz"]
+    assert [ax.get_title() for ax in made[0]] == [
+        "2 Hz\nforward branch: period 1\nbackward branch: period 1",
+        "2.8 Hz\nperiod 2",
+    ]
     for row, ylabel in zip(
         made, ("velocity", "amplitude", "displacement", "acceleration", "velocity"), strict=True
     ):
@@ -554,6 +557,33 @@ def test_page_has_one_legend_below():
     assert {"right contact", "left contact", "peak in contact"} < set(texts)
     alone = motion_page({"free": bare()})[0, 0].figure.legends[0]
     assert [text.get_text() for text in alone.get_texts()] == ["motion"]
+
+
+def tripled() -> xr.Dataset:
+    """Three cycles of a motion of period one, called a motion of period three."""
+    data = vi.simulate(CASE.oscillator, SHAKEN, 3, hitting(), samples=64)
+    return vi.contacts(data).merge(data.assign(period=3), combine_attrs="override")
+
+
+def test_page_shows_whole_periods_and_fits_the_paper():
+    made = motion_page({"three": tripled(), "two": doubled(), "both": both()})
+    assert [ax.get_xlim()[1] for ax in made[2]] == [3.0, 2.0, 2.0]
+    assert motion_page({"all": {"a": tripled(), "b": doubled()}})[2, 0].get_xlim() == (0.0, 6.0)
+    assert time_history(doubled())[0].get_xlim() == (0.0, 4.0)
+    assert time_history(hitting())[0].get_xlim() == (0.0, 3.0)
+    assert clearances(tripled())[0].get_xlim() == (0.0, 3.0)
+    for count in (1, 2, 3, 6):
+        drawn = motion_page({str(i): hitting() for i in range(count)})
+        short, long = sorted(drawn[0, 0].figure.get_size_inches())
+        assert short <= 210 / 25.4
+        assert long <= 297 / 25.4
+
+
+def test_page_says_of_what_kind_each_motion_is():
+    titles = [ax.get_title() for ax in motion_page({"1.06 Hz": chaotic(), "cut": transient()})[0]]
+    assert titles == ["1.06 Hz\nchaotic", "cut"]
+    named = motion_page({"2 Hz, forward branch": {"forward branch": hitting()}})
+    assert named[0, 0].get_title() == "2 Hz, forward branch\nperiod 1"
 
 
 def test_page_of_motions_that_do_not_repeat():

@@ -218,7 +218,7 @@ def _columns(found: dict[float, dict[str, xr.Dataset]]) -> dict[str, dict[str, x
         return {f"{hertz:.6g} Hz": motions for hertz, motions in found.items()}
     (hertz, motions), *_ = found.items()
     return {
-        f"{hertz:.6g} Hz, {name}\n{data['motion'].item()}": {name: data}
+        f"{hertz:.6g} Hz, {name}": {name: data}
         for name, data in list(motions.items())[:MOST_COLUMNS]
     }
 

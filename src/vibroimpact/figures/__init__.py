@@ -1,8 +1,8 @@
 """Datasets in, matplotlib Axes out: a figure a file.
 
 Nothing else in the package imports matplotlib, and nothing here touches pyplot's global state:
-without given axes a figure is made on a `matplotlib.figure.Figure` of its own, which the
-returned axes carry as ``.figure``.
+without given axes a figure is made of its own, which the returned axes carry as ``.figure``.
+A notebook shows what is returned; `save_figure` writes it to a file.
 """
 
 from vibroimpact.figures.branches import bifurcation_diagram

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.inline import Panels, new_axes
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model import laboratory
 from vibroimpact.scenario.kinds import Scenario
@@ -16,7 +16,7 @@ from vibroimpact.scenario.kinds import Scenario
 _PER_GRAVITY = 1e2 / 9.80665
 
 
-def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> tuple[Axes, ...]:
+def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Panels:
     """Draw the scenarios of laboratory tests: a panel an acceleration, gaps against bumpers.
 
     Parameters
@@ -46,8 +46,9 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> tup
                 f"found[{code}]: {scenario!r}; one of {', '.join(SCENARIOS)} is accepted"
             )
     bumpers, gaps = list(laboratory.BUMPERS), list(laboratory.GAPS)
-    figure = Figure(figsize=(9.6, 4.0), layout="constrained")
-    axes = figure.subplots(1, len(laboratory.ACCELERATIONS), sharey=True)
+    axes = Panels(new_axes(1, len(laboratory.ACCELERATIONS), (9.6, 4.0), sharey=True)[0])
+    figure = axes[0].get_figure(root=True)
+    assert figure is not None
     for ax, (name, value) in zip(axes, laboratory.ACCELERATIONS.items(), strict=True):
         for i, gap in enumerate(gaps):
             for j, bumper in enumerate(bumpers):
@@ -86,7 +87,7 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> tup
         handlelength=2.4,
         handleheight=1.2,
     )
-    return tuple(axes)
+    return axes
 
 
 def _cell(ax: Axes, column: int, row: int, scenario: str | None) -> None:

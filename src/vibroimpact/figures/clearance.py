@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import Shown, check_cycles, named, shown
+from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.motions import Shown, cycles_shown, named, shown
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
 
 _LINES: dict[str, Any] = {
@@ -26,10 +25,10 @@ def clearances(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     axes: Any = None,
     *,
-    cycles: float = 2.0,
+    cycles: float | None = None,
     zoom: float | None = None,
     title: str | None = None,
-) -> tuple[Axes, Axes]:
+) -> Panels:
     """Draw the clearances G_R and G_L (eq. 4) against t/T, and magnified near zero.
 
     Parameters
@@ -39,7 +38,7 @@ def clearances(
     axes
         Two Axes: the whole, and the magnified part. None makes a new figure.
     cycles
-        How many forcing cycles are shown.
+        How many forcing cycles are shown. None for two, or as many more as make whole periods.
     zoom
         Length of the magnified part in forcing cycles, about the shortest flight. None for five
         times as long as that.
@@ -51,18 +50,19 @@ def clearances(
     InputError
         If a dataset is not that of a motion with samples and bumpers, or `zoom` is not positive.
     """
-    check_cycles(cycles)
-    curves = shown(named(motions), cycles)
+    given_motions = named(motions)
+    curves = shown(given_motions, cycles_shown(given_motions, cycles, 2))
     if not any(curve.gaps for curve in curves):
         raise InputError("motions: there is no bumper; a motion of a rig with one is accepted")
     if zoom is not None and not 0.0 < zoom < math.inf:
         raise InputError(f"zoom: {zoom!r}; a number of cycles greater than 0 is accepted")
     if axes is None:
-        axes = Figure(figsize=(7.2, 5.4), layout="constrained").subplots(2, 1)
+        axes = new_axes(2, 1, (7.2, 5.4))[:, 0]
         if title:
             axes[0].figure.suptitle(title)
-    whole, near = panels(axes, 2, "the whole and the magnified part", (0.0, 0.0), None)
-    for ax in (whole, near):
+    given = panels(axes, 2, "the whole and the magnified part", (0.0, 0.0), None)
+    whole, near = given
+    for ax in given:
         for curve in curves:
             for side in curve.gaps:
                 ax.plot(
@@ -87,7 +87,7 @@ def clearances(
     near.set_xlabel("time in forcing cycles $t/T$ (–)")
     whole.axvspan(*near.get_xlim(), color=SHADE, zorder=0)
     whole.legend(ncols=4, **LEGEND)
-    return whole, near
+    return given
 
 
 def _label(curve: Shown, side: str, motions: int) -> str:

@@ -12,7 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from vibroimpact.figures.motions import SIDES, Shown, check_cycles, gap_lines, named, shown
+from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.motions import SIDES, Shown, cycles_shown, gap_lines, named, shown
 from vibroimpact.figures.style import EDGE, LEGEND, panels
 
 
@@ -36,9 +37,9 @@ def time_history(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     axes: Any = None,
     *,
-    cycles: float = 3.0,
+    cycles: float | None = None,
     title: str | None = None,
-) -> tuple[Axes, Axes, Axes]:
+) -> Panels:
     """Draw displacement, absolute acceleration and relative velocity against t/T.
 
     Contacts are bands between their exact times (the left bumper's hatched), with a dot at each
@@ -55,7 +56,7 @@ def time_history(
         Three Axes. None makes a new figure.
     cycles
         How many forcing cycles are shown: the last ones of a simulation; a periodic motion is
-        repeated.
+        repeated. None for three, or as many more as make whole periods.
     title
         Title of a new figure.
 
@@ -70,14 +71,13 @@ def time_history(
         If a dataset is not that of a motion with samples, or there are not three axes.
     """
     given_motions = named(motions)
-    check_cycles(cycles)
-    curves = shown(given_motions, cycles)
+    curves = shown(given_motions, cycles_shown(given_motions, cycles, 3))
     given = panels(axes, 3, "displacement, acceleration and velocity", (7.2, 7.6), title)
     for ax, panel in zip(given, PANELS, strict=True):
         history_panel(ax, curves, panel)
     given[2].set_xlabel("time in forcing cycles $t/T$ (–)")
     given[0].legend(handles=history_legend(curves), ncols=4, **LEGEND)
-    return given[0], given[1], given[2]
+    return given
 
 
 def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:

@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.inline import new_axes
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import phases, recorded
@@ -20,6 +20,9 @@ from vibroimpact.response.phases import phases, recorded
 _Array = NDArray[np.float64]
 
 SIDES = {1: "right", -1: "left"}
+
+MOST_CYCLES = 12
+"""Forcing cycles of a time history in which a contact can still be told from the next."""
 
 
 class Shown(NamedTuple):
@@ -58,10 +61,28 @@ def named(motions: xr.Dataset | Mapping[str, xr.Dataset]) -> dict[str, xr.Datase
     return given
 
 
-def check_cycles(cycles: float) -> None:
-    """Raise an `InputError` unless it is a number greater than 0."""
-    if not 0.0 < cycles < math.inf:
-        raise InputError(f"cycles: {cycles!r}; a number greater than 0 is accepted")
+def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: int) -> float:
+    """Forcing cycles to show: those asked for, or whole periods of each periodic motion.
+
+    These are at least `least`; where the common period is longer than `MOST_CYCLES`, they are
+    whole periods of the longest one.
+
+    Raises
+    ------
+    InputError
+        If those asked for are no number greater than 0.
+    """
+    if cycles is not None:
+        if not 0.0 < cycles < math.inf:
+            raise InputError(f"cycles: {cycles!r}; a number greater than 0 is accepted")
+        return cycles
+    periods = [
+        round(origin.cycles) for origin in map(recorded, motions.values()) if origin.periodic
+    ]
+    shared = math.lcm(*periods)
+    if shared > MOST_CYCLES:
+        shared = max(periods)
+    return float(shared * math.ceil(least / shared))
 
 
 def looks(names: list[str]) -> list[Look]:
@@ -90,7 +111,7 @@ def axes_or_new(ax: Axes | None, size: tuple[float, float], title: str | None) -
     """The given axes, or those of a new figure."""
     if ax is not None:
         return ax
-    made = Figure(figsize=size, layout="constrained").subplots()
+    made: Axes = new_axes(1, 1, size)[0, 0]
     if title:
         # Above the legend, which is above the axes.
         made.figure.suptitle(title, fontsize="medium")

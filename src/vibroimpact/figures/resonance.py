@@ -13,6 +13,7 @@ from matplotlib.patches import FancyArrowPatch, Patch
 from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
+from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, curve_style, panels
 from vibroimpact.response.peaks import Curve
 from vibroimpact.response.resonance import Features, Jump, features
@@ -46,7 +47,7 @@ def resonance_curves(
     *,
     found: Features | None = None,
     title: str | None = None,
-) -> tuple[Axes, Axes]:
+) -> Panels:
     """Draw η_a and η_d against the excitation frequency.
 
     Forward sweep red and solid with dots, backward blue and dashed with squares, free flight
@@ -75,14 +76,15 @@ def resonance_curves(
         If the dataset is not that of a sweep of one rig, or there are not two axes.
     """
     found = features(data) if found is None else found
-    upper, lower = panels(axes, 2, "η_a and η_d", (7.2, 6.8), title)
-    for ax, (curve, free, label) in zip((upper, lower), _PANELS, strict=True):
+    given = panels(axes, 2, "η_a and η_d", (7.2, 6.8), title)
+    for ax, (curve, free, label) in zip(given, _PANELS, strict=True):
         _panel(ax, data, found, curve, free)
         ax.set_ylabel(label)
+    upper, lower = given
     lower.set_xlabel("excitation frequency $f$ (Hz)")
     entries = _legend(data, found)
     upper.legend(handles=entries, ncols=2 if len(entries) <= 4 else 3, **LEGEND)
-    return upper, lower
+    return given
 
 
 def _panel(ax: Axes, data: xr.Dataset, found: Features, curve: Curve, free: str) -> None:

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
+from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.inline import Panels, new_axes
 from vibroimpact.response.files import write_whole
 
 FORMATS = ("png", "pdf", "svg")
@@ -113,7 +114,7 @@ def curve_style(look: Look, points: int, marks: int = 45) -> dict[str, Any]:
 
 def panels(
     axes: Any, count: int, what: str, size: tuple[float, float], title: str | None
-) -> tuple[Axes, ...]:
+) -> Panels:
     """Return the given axes, or those of a new figure: panels one below the other.
 
     Raises
@@ -122,28 +123,36 @@ def panels(
         If axes are given, but not as many as there are panels.
     """
     if axes is None:
-        figure = Figure(figsize=size, layout="constrained")
-        made = figure.subplots(count, 1, sharex=True, squeeze=False)
+        made = new_axes(count, 1, size, sharex=True)
+        figure = made[0, 0].figure
         figure.align_ylabels()
         if title:
             figure.suptitle(title)
-        return tuple(made[:, 0])
-    given = tuple(np.ravel(axes))
+        return Panels(made[:, 0])
+    given = Panels(np.ravel(axes))
     if len(given) != count:
         raise InputError(f"axes: {len(given)} given; {count} are accepted, for {what}")
     return given
 
 
-def save_figure(axes: Axes, path: Path | str) -> Path:
-    """Write the figure of some axes to a PNG, PDF or SVG file.
+def save_figure(drawn: Any, path: Path | str) -> Path:
+    """Write a figure to a PNG, PDF or SVG file.
 
-    The same data make the same file, to the byte: it holds no date and no version.
+    The same data make the same file, to the byte: it holds no date and no version. The text of
+    an SVG file is text, which can be searched and edited.
+
+    Parameters
+    ----------
+    drawn
+        What a function of this package returned: Axes, or several; or a Figure.
+    path
+        The file.
 
     Raises
     ------
     InputError
-        If the file's ending is another one, or the file cannot be written; a file that was
-        there is then as it was.
+        If it is no figure, the file's ending is another one, or the file cannot be written; a
+        file that was there is then as it was.
     """
     import matplotlib
 
@@ -157,10 +166,11 @@ def save_figure(axes: Axes, path: Path | str) -> Path:
         raise InputError(
             f"figure: {str(path)!r}; a name that ends in {', '.join(FORMATS)} is accepted"
         )
-    figure = axes.get_figure(root=True)
-    assert figure is not None  # axes without one have been removed from it
+    first = drawn if isinstance(drawn, Figure) else next(iter(np.ravel(drawn)), None)
+    if not isinstance(first, Artist) or (figure := first.get_figure(root=True)) is None:
+        raise InputError(f"figure: {drawn!r} is none; axes or a figure are accepted")
     # SVG marks its parts with random names unless it is given a seed.
-    with matplotlib.rc_context({"svg.hashsalt": "vibroimpact"}):
+    with matplotlib.rc_context({"svg.hashsalt": "vibroimpact", "svg.fonttype": "none"}):
         return write_whole(
             path,
             lambda beside: figure.savefig(beside, format=kind, dpi=200, metadata=blank[kind]),

@@ -143,7 +143,7 @@ def _shown(study: Study, folder: Path, item: Item, figure: Format) -> Shown:
         return Shown(item, None, table)
     (folder / FIGURES).mkdir(exist_ok=True)
     image = f"{FIGURES}/{item.key}.{figure}"
-    save_figure(item.draw(study).axes[0], folder / image)
+    save_figure(item.draw(study), folder / image)
     return Shown(item, image, table)
 
 
