@@ -17,9 +17,6 @@ if TYPE_CHECKING:
 _MOTION = Group("Motion", sort_key=1)
 _WITH_UNITS = Parameter(group=_MOTION, allow_leading_hyphen=True)
 
-MOST_SAMPLES = 20_000_000
-"""About 3 GB of data."""
-
 
 def simulate(
     rig: RigName,
@@ -128,6 +125,7 @@ def _given(
     """
     from vibroimpact.cli.study import SimulateTable
     from vibroimpact.model import Harmonic, State, to_si
+    from vibroimpact.model.counts import check_samples
     from vibroimpact.model.units import FREQUENCY, LENGTH, VELOCITY
 
     table = what.study.simulate if what.study else SimulateTable()
@@ -145,11 +143,7 @@ def _given(
         samples = table.samples if table.samples is not None else 256
     if samples < 1:
         raise InputError(f"--samples: {samples}; a whole number of at least 1 is accepted")
-    if cycles * samples > MOST_SAMPLES:
-        raise InputError(
-            f"--cycles: {cycles:g} cycles of {samples} samples are more than {MOST_SAMPLES} "
-            "samples in all; fewer cycles or fewer samples per cycle are accepted"
-        )
+    check_samples(cycles, samples, "--cycles")
     u, v = table.displacement, table.velocity
     if displacement is not None:
         u = to_si(displacement, LENGTH, "--displacement")

@@ -6,6 +6,24 @@ from numbers import Integral
 
 from vibroimpact.errors import InputError
 
+MOST_SAMPLES = 20_000_000
+"""Samples of one record: about 3 GB."""
+
+
+def check_samples(cycles: float, samples: int, field: str) -> None:
+    """Refuse a record that no memory holds.
+
+    Raises
+    ------
+    InputError
+        If there are more than `MOST_SAMPLES` in all.
+    """
+    if cycles * samples > MOST_SAMPLES:
+        raise InputError(
+            f"{field}: {cycles:g} cycles of {samples} samples are more than {MOST_SAMPLES} samples "
+            "in all; fewer cycles or fewer samples per cycle are accepted"
+        )
+
 
 def whole(value: object, field: str, least: int = 1) -> int:
     """Read a whole number, numpy's included.

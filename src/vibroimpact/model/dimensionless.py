@@ -19,6 +19,7 @@ from typing import Annotated, NamedTuple, TypeAlias
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.oscillator import Bumper, Isolator, Oscillator
+from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
@@ -204,13 +205,14 @@ def from_dimensionless(
     return group.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude)
 
 
+@takes_rig
 def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensionless:
     """Return the dimensionless parameters of an oscillator under a base acceleration.
 
     Parameters
     ----------
     oscillator
-        The oscillator.
+        The oscillator; or a laboratory case or its code, and then the amplitude may be left out.
     amplitude
         Peak base acceleration A in m/s², or text with units; it scales the gaps.
 

@@ -138,19 +138,10 @@ _ALSO_NAMED: dict[tuple[tuple[str, int], ...], str] = {
     (("kelvin", 1),): "a temperature",
 }
 _NAMES: dict[tuple[tuple[str, int], ...], str] = _ALSO_NAMED | {
+    # Every quantity that this module names.
     q.base: q.phrase
-    for q in (
-        LENGTH,
-        MASS,
-        STIFFNESS,
-        DAMPING,
-        ACCELERATION,
-        FREQUENCY,
-        TIME,
-        VELOCITY,
-        ANGLE,
-        DIMENSIONLESS,
-    )
+    for q in tuple(globals().values())
+    if isinstance(q, Quantity)
 }
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
@@ -330,6 +321,12 @@ def _number(value: Any, quantity: Quantity) -> float:
     if hasattr(value, "to_base_units") and isinstance(
         getattr(value, "magnitude", None), numbers.Real | Decimal
     ):
+        if quantity is ACCELERATION and value.dimensionality == {"[mass]": 1}:
+            # Of a text the g is read as gravity; pint itself has made a gram of it.
+            raise _RefusalError(
+                "is a mass (pint's g is the gram); gravity is its standard_gravity, or the g of a "
+                'text such as "0.05 g"'
+            )
         return _from_pint(value, quantity)
     raise _RefusalError("is not a number")
 

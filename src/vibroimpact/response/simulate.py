@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, State, to_si
-from vibroimpact.model.counts import whole
+from vibroimpact.model.counts import check_samples, whole
+from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import DIMENSIONLESS
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
@@ -22,6 +23,7 @@ from vibroimpact.response.variables import COMPONENTS, describe, oscillator_para
 _EVENTS_AT_ONCE = 20_000
 
 
+@takes_rig
 def simulate(
     oscillator: Oscillator,
     excitation: Harmonic,
@@ -36,7 +38,7 @@ def simulate(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it.
+        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
     cycles
         How long, in forcing cycles, greater than 0; the last may be incomplete.
     start
@@ -63,6 +65,7 @@ def simulate(
     """
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
     samples, max_events = whole(samples, "samples", 0), whole(max_events, "max_events")
+    check_samples(length, samples, "cycles")
     check_bounded(oscillator, excitation.frequency, "frequency")
     state = as_state(start)
     phase = excitation.phase if state.phase is None else state.phase
@@ -97,7 +100,7 @@ def simulate(
         # The cycle that was given up is left out; its events until then are kept.
         finished = max(at - 1, 0)
         warnings.warn(
-            f"simulate stopped in cycle {finished}: {status.advice}", RuntimeWarning, stacklevel=2
+            f"simulate stopped in cycle {finished}: {status.advice}", RuntimeWarning, stacklevel=3
         )
         out = out[: finished * samples]
         length = float(finished)

@@ -7,7 +7,7 @@ then the next one begins from the state and the phase that were reached.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -18,7 +18,8 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State, to_si
 from vibroimpact.model.counts import share, whole
-from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY, shown
+from vibroimpact.model.rigs import AnyRig, as_rig, is_rig, rig_name, takes_rig
+from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY
 from vibroimpact.response.free_flight import check_bounded, free_flight_excursions
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.threads import Progress, run
@@ -26,34 +27,29 @@ from vibroimpact.response.variables import COMPONENTS, describe, oscillator_para
 
 DIRECTIONS = ("forward", "backward")
 
-_RIGS = "laboratory cases, `Rig`s or pairs (oscillator, amplitude) are accepted"
 
-
-class SweptRig(Protocol):
-    """Anything with an oscillator and an amplitude: a `Rig`, a laboratory `Case`."""
-
-    @property
-    def oscillator(self) -> Oscillator:
-        """The oscillator."""
-
-    @property
-    def amplitude(self) -> float:
-        """Peak base acceleration A in m/s²."""
-
-
+@takes_rig
 def sweep(
     oscillator: Oscillator,
     amplitude: float | str,
     frequencies: Iterable[float | str],
     directions: Sequence[str] = DIRECTIONS,
-    **options: Any,
+    *,
+    start: State | xr.DataArray | xr.Dataset | None = None,
+    phase: float | str = 0.0,
+    tolerance: float = 1e-12,
+    max_cycles: int = 2000,
+    window: int = 500,
+    max_events: int = 10_000,
+    threads: int | None = None,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Sweep the frequency up and down, holding each one until the motion is steady.
 
     Parameters
     ----------
     oscillator
-        What vibrates.
+        What vibrates; or a laboratory case or its code, and then the amplitude may be left out.
     amplitude
         Peak base acceleration A in m/s², greater than 0, the same at all frequencies; or
         text such as ``"0.05 g"``.
@@ -61,7 +57,7 @@ def sweep(
         The frequencies to hold in Hz, rising; or text such as ``"2.5 Hz"``.
     directions
         ``"forward"`` (rising), ``"backward"`` (falling) or both. Each sweep starts afresh.
-    **options
+    start, phase, tolerance, max_cycles, window, max_events, threads, progress
         As in `sweeps`.
 
     Returns
@@ -77,15 +73,26 @@ def sweep(
     InputError
         If a value cannot be used.
     """
-    data = sweeps([(oscillator, amplitude)], frequencies, directions, **options)
+    data = sweeps(
+        [(oscillator, amplitude)],
+        frequencies,
+        directions,
+        start=start,
+        phase=phase,
+        tolerance=tolerance,
+        max_cycles=max_cycles,
+        window=window,
+        max_events=max_events,
+        threads=threads,
+        progress=progress,
+    )
     data = data.isel(rig=0, drop=True)
     data.attrs["created_by"] = "vibroimpact.sweep"
     return data
 
 
 def sweeps(
-    rigs: Sequence[SweptRig | tuple[Oscillator, float | str]]
-    | Mapping[str, SweptRig | tuple[Oscillator, float | str]],
+    rigs: Sequence[AnyRig] | Mapping[str, AnyRig] | AnyRig,
     frequencies: Iterable[float | str],
     directions: Sequence[str] = DIRECTIONS,
     *,
@@ -103,8 +110,8 @@ def sweeps(
     Parameters
     ----------
     rigs
-        Laboratory cases, `Rig`s or (oscillator, amplitude) pairs; as a mapping, its keys
-        name the rigs.
+        Laboratory cases or their codes, `Rig`s or (oscillator, amplitude) pairs; as a mapping,
+        its keys name the rigs.
     frequencies, directions
         As in `sweep`.
     start
@@ -249,23 +256,15 @@ def named_rigs(rigs: Any) -> tuple[list[str], list[tuple[Oscillator, float]]]:
     if isinstance(rigs, Mapping):
         names = [str(name) for name in rigs]
         items = list(rigs.values())
-    elif isinstance(rigs, Iterable) and not isinstance(rigs, str | Oscillator):
-        items = list(rigs)
-        names = [getattr(item, "code", str(i)) for i, item in enumerate(items)]
     else:
-        raise InputError(f"rigs: {shown(rigs)} is no list; a list or a mapping of {_RIGS}")
+        one = not isinstance(rigs, Iterable) or is_rig(rigs)
+        items = [as_rig(rigs, "rigs")] if one else list(rigs)
+        names = [rig_name(item, str(i)) for i, item in enumerate([rigs] if one else items)]
     if not items:
         raise InputError("rigs: the list is empty; at least one rig is accepted")
     pairs = []
     for name, item in zip(names, items, strict=True):
-        try:
-            oscillator, amplitude = (
-                item if isinstance(item, tuple) else (item.oscillator, item.amplitude)
-            )
-        except (AttributeError, ValueError):
-            oscillator, amplitude = None, None
-        if not isinstance(oscillator, Oscillator):
-            raise InputError(f"rigs[{name}]: {shown(item)} is no rig; {_RIGS}")
+        oscillator, amplitude = as_rig(item, f"rigs[{name}]")
         where = "amplitude" if len(items) == 1 else f"rigs[{name}].amplitude"
         pairs.append((oscillator, to_si(amplitude, ACCELERATION, where, above=0.0)))
     return names, pairs

@@ -9,6 +9,7 @@ import xarray as xr
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, to_si
+from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import sweep
 from vibroimpact.response.threads import Progress
@@ -61,6 +62,7 @@ class Classification:
         return f"{self.scenario} ({self.confidence:.0%}): {self.evidence}"
 
 
+@takes_rig
 def classify(
     oscillator: Oscillator,
     amplitude: float | str,
@@ -80,7 +82,7 @@ def classify(
     Parameters
     ----------
     oscillator
-        What vibrates.
+        What vibrates; or a laboratory case or its code, and then the amplitude may be left out.
     amplitude
         Peak base acceleration A in m/s², greater than 0; or text such as ``"0.05 g"``.
     frequencies

@@ -13,8 +13,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Rig, from_dimensionless, to_si
+from vibroimpact.model import Rig, from_dimensionless, to_si
 from vibroimpact.model.counts import share, whole
+from vibroimpact.model.rigs import AnyRig, as_rig
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.threads import Progress, available
 from vibroimpact.response.variables import oscillator_parameters
@@ -36,7 +37,7 @@ _FEW = 10
 def scenario_map(
     x: tuple[Any, ...],
     y: tuple[Any, ...],
-    base: tuple[Oscillator, float | str] | None = None,
+    base: AnyRig | None = None,
     *,
     step: float = STEP,
     refine: int = 0,
@@ -59,7 +60,8 @@ def scenario_map(
         is kept where it is not varied, beside a physical one the gap.
         ``"log"`` or ``"linear"`` behind the values says how they are refined, if they do not.
     base
-        Oscillator and amplitude, for all other parameters. None for ξ = 0.15, τ = 0.01,
+        A laboratory case or its code, a `Rig` or a pair of oscillator and amplitude, for all other
+        parameters. None for ξ = 0.15, τ = 0.01,
         λ = 25.9 and δ0 = 0.5, on two sides.
     step
         Step of the sweeps, as a share of the natural frequency.
@@ -246,11 +248,8 @@ def _refinement(given: object) -> int:
     return refine
 
 
-def _base(given: tuple[Oscillator, float | str] | None) -> Base:
+def _base(given: AnyRig | None) -> Base:
     if given is None:
         return Base(*from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO))
-    if not (isinstance(given, tuple) and len(given) == 2 and isinstance(given[0], Oscillator)):
-        raise InputError(
-            f"base: {given!r} is no rig; a pair of an oscillator and an amplitude is accepted"
-        )
-    return Base(given[0], to_si(given[1], ACCELERATION, "base[1]", above=0.0))
+    oscillator, amplitude = as_rig(given, "base")
+    return Base(oscillator, to_si(amplitude, ACCELERATION, "base[1]", above=0.0))

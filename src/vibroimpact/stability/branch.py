@@ -16,6 +16,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
+from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.start import as_state
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability import bifurcations
@@ -41,6 +42,7 @@ class Followed(NamedTuple):
     closed: bool
 
 
+@takes_rig
 def branch(
     oscillator: Oscillator,
     excitation: Harmonic,
@@ -62,7 +64,8 @@ def branch(
     Parameters
     ----------
     oscillator, excitation
-        The rig and the forcing of the first orbit.
+        The rig and the forcing of the first orbit; or a laboratory case or its code, and a
+        frequency.
     start
         A state near that orbit, at the excitation's phase; None for where the motion from rest
         settles.

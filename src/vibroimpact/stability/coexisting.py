@@ -15,6 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
+from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.start import as_state, engine_rig, state_from
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
 from vibroimpact.response.variables import describe, motion_parameters
@@ -48,6 +49,7 @@ class _Kept(NamedTuple):
     mirrored_starts: list[str]
 
 
+@takes_rig
 def coexisting(
     oscillator: Oscillator,
     excitation: Harmonic,
@@ -72,7 +74,7 @@ def coexisting(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it.
+        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
     frequencies
         Frequencies of the sweeps in Hz, rising; those below the excitation's are held going up,
         those above going down. None for steps of a hundredth of the natural frequency from 0.3

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.counts import whole
+from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability.bifurcations import (
     BREAKING,
@@ -50,6 +51,7 @@ _TURNED = 1.0  # rad, by which the section is moved
 _PARAMETERS = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
 
 
+@takes_rig
 def bifurcation_curve(
     oscillator: Oscillator,
     excitation: Harmonic,
@@ -67,7 +69,7 @@ def bifurcation_curve(
     ----------
     oscillator, excitation
         The rig and the forcing for which the bifurcation was found; the first parameter may have
-        any value.
+        any value. Or a laboratory case or its code, and a frequency.
     start
         One bifurcation of a dataset of `branch` or `resonance_diagram` along the first
         parameter: ``data.isel(bifurcation=i)``.

@@ -14,6 +14,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State, to_si
 from vibroimpact.model.counts import whole
+from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import DIRECTIONS, sweep
 from vibroimpact.response.threads import Progress
@@ -33,6 +34,7 @@ _SAME = 1e-6
 _CLOSE = 0.1
 
 
+@takes_rig
 def resonance_diagram(
     oscillator: Oscillator,
     amplitude: float | str,
@@ -54,7 +56,7 @@ def resonance_diagram(
     Parameters
     ----------
     oscillator
-        What vibrates.
+        What vibrates; or a laboratory case or its code, and then the amplitude may be left out.
     amplitude
         Peak base acceleration A in m/s².
     low, high

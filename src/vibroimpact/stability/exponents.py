@@ -9,12 +9,13 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.engine import lyapunov
-from vibroimpact.model import Oscillator, State, to_si
+from vibroimpact.model import State, to_si
 from vibroimpact.model.counts import whole
+from vibroimpact.model.rigs import AnyRig
 from vibroimpact.model.units import ANGLE
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, engine_rig, engine_state
-from vibroimpact.response.sweep import SweptRig, check_frequencies, named_rigs
+from vibroimpact.response.sweep import check_frequencies, named_rigs
 from vibroimpact.response.threads import Progress, run
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.stability.kind import averages
@@ -24,8 +25,7 @@ DISCARD = 100
 
 
 def lyapunov_exponents(
-    rigs: Sequence[SweptRig | tuple[Oscillator, float | str]]
-    | Mapping[str, SweptRig | tuple[Oscillator, float | str]],
+    rigs: Sequence[AnyRig] | Mapping[str, AnyRig] | AnyRig,
     frequencies: Iterable[float | str],
     cycles: int = 1000,
     *,
@@ -46,8 +46,8 @@ def lyapunov_exponents(
     Parameters
     ----------
     rigs
-        Laboratory cases, `Rig`s or (oscillator, amplitude) pairs; as a mapping, its keys name
-        the rigs.
+        Laboratory cases or their codes, `Rig`s or (oscillator, amplitude) pairs; as a mapping, its
+        keys name the rigs.
     frequencies
         Excitation frequencies in Hz, rising.
     cycles

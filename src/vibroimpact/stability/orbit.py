@@ -8,6 +8,7 @@ from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
+from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.variables import describe, motion_parameters
 from vibroimpact.stability.branch import first_orbit
 from vibroimpact.stability.family import family
@@ -16,6 +17,7 @@ from vibroimpact.stability.settled import Settled
 from vibroimpact.stability.steady import describe_motion
 
 
+@takes_rig
 def orbit(
     oscillator: Oscillator,
     excitation: Harmonic,
@@ -31,7 +33,7 @@ def orbit(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it.
+        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
     guess
         A state near the orbit's, at the excitation's phase; None for where the motion from rest
         settles.

@@ -14,7 +14,8 @@ from vibroimpact.engine import measure
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
-from vibroimpact.model.counts import whole
+from vibroimpact.model.counts import check_samples, whole
+from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import measured, phases, recorded, relaxation_loss
 from vibroimpact.response.simulate import simulate
@@ -31,12 +32,11 @@ ANTISYMMETRIC = 1e-8
 """Distance from the own mirror image, over the motion's size, below which they are one."""
 NEUTRAL = 1e-9
 """Logarithm of the largest multiplier below which an orbit is neither stable nor unstable."""
-MOST_SAMPLES = 20_000_000
-"""Samples of a record: about 3 GB."""
 MOST_CYCLES = 5_000_000
 """Cycles over which exponents are averaged: about 0.3 GB."""
 
 
+@takes_rig
 def steady(
     oscillator: Oscillator,
     excitation: Harmonic,
@@ -54,7 +54,7 @@ def steady(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it.
+        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
     start
         Where the motion starts; None is rest.
     samples
@@ -85,13 +85,11 @@ def steady(
     samples, window = whole(samples, "samples"), whole(window, "window")
     max_cycles, max_events = whole(max_cycles, "max_cycles"), whole(max_events, "max_events")
     exponent_cycles = whole(exponent_cycles, "exponent_cycles")
-    for field, value, most in (
-        ("window", window * samples, MOST_SAMPLES),
-        ("exponent_cycles", exponent_cycles, MOST_CYCLES),
-    ):
-        if value > most:
-            told = f"{value} samples in all" if field == "window" else f"{value} cycles"
-            raise InputError(f"{field}: {told}; at most {most} are accepted")
+    check_samples(window, samples, "window")
+    if exponent_cycles > MOST_CYCLES:
+        raise InputError(
+            f"exponent_cycles: {exponent_cycles} cycles; at most {MOST_CYCLES} are accepted"
+        )
     found = settle(oscillator, excitation, as_state(start), tolerance, max_cycles, max_events)
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
         return _given_up(found, samples, max_events)

@@ -1,0 +1,190 @@
+"""What a function takes where it asks for a rig: one idea, used by all public functions.
+
+A rig is an oscillator and the peak acceleration that shakes it. Functions ask for the two one
+after the other; whatever carries both may stand in their place: a laboratory case, its code as
+text, a `Rig` or a pair. `takes_rig` teaches that to a function, `as_rig` reads one item of a list.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, Protocol, TypeAlias, TypeVar, cast
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.excitation import Harmonic
+from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.units import ACCELERATION, accepted, shown, to_si
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+_ACCEPTED = (
+    'a laboratory case or its code, such as "B2-G1-A3", a `Rig` or a pair (oscillator, amplitude) is '
+    "accepted"
+)
+
+
+class _Given(NamedTuple):
+    oscillator: Oscillator
+    amplitude: float | str
+
+
+class WithAmplitude(Protocol):
+    """Anything with an oscillator and an amplitude: a `Rig`, a laboratory `Case`."""
+
+    @property
+    def oscillator(self) -> Oscillator:
+        """The oscillator."""
+
+    @property
+    def amplitude(self) -> float:
+        """Peak base acceleration A in m/s²."""
+
+
+AnyRig: TypeAlias = WithAmplitude | tuple[Oscillator, float | str] | str
+"""A laboratory case, its code, a `Rig` or a pair (oscillator, amplitude)."""
+
+
+def as_rig(value: Any, where: str = "oscillator", otherwise: str = "") -> _Given:
+    """Read a rig: a laboratory case, its code, a `Rig` or a pair (oscillator, amplitude).
+
+    The amplitude is as it was given; whoever uses it reads it.
+
+    Raises
+    ------
+    InputError
+        If it is none of these, or there is no such case; the line begins with `where`, and names
+        what is accepted `otherwise`.
+    """
+    why = ""
+    if isinstance(value, str):
+        from vibroimpact.model import laboratory  # which itself needs what is here
+
+        try:
+            value = laboratory.case(value)
+        except InputError as error:
+            why = f" ({error})"
+    if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], Oscillator):
+        return _Given(*value)
+    if isinstance(getattr(value, "oscillator", None), Oscillator) and hasattr(value, "amplitude"):
+        return _Given(value.oscillator, value.amplitude)
+    raise InputError(f"{where}: {shown(value)} is no rig; {otherwise}{_ACCEPTED}{why}")
+
+
+def takes_rig(function: _Function) -> _Function:
+    """Let a function of an oscillator and an amplitude, or an excitation, take a case as well.
+
+    Where its first argument carries the amplitude, the amplitude may be left out, and an
+    excitation may be a frequency alone::
+
+        sweep("B2-G1-A3", frequencies)    simulate(case, "2 Hz", 100)
+
+    What is neither a rig nor an excitation is refused before the function sees it.
+    """
+    signature = inspect.signature(function)
+    first, second = list(signature.parameters)[:2]
+    example = f"{function.__name__}({', '.join(list(signature.parameters)[:3])}, ...)"
+
+    @functools.wraps(function)
+    def with_rig(*args: Any, **kwargs: Any) -> Any:
+        if not args and first in kwargs:
+            args = (kwargs.pop(first),)
+        if not args:
+            return function(**kwargs)  # Python says what is missing
+        rig, *rest = args
+        amplitude: float | str | None = None
+        if not isinstance(rig, Oscillator):
+            try:
+                rig, amplitude = as_rig(rig, first, "an oscillator, ")
+            except InputError as error:
+                if any(
+                    not isinstance(other, str) and is_rig(other)
+                    for other in (*rest, *kwargs.values())
+                ):
+                    raise InputError(
+                        f"{first}: {shown(rig)} stands where the rig is expected, and a rig "
+                        f"behind it: the two are swapped; {example} is accepted"
+                    ) from error
+                raise
+            if second == "amplitude" and not _told(signature, rig, rest, kwargs):
+                rest = [amplitude, *rest]
+        if second in kwargs:
+            kwargs[second] = _second(second, kwargs[second], amplitude)
+        elif rest:
+            rest[0] = _second(second, rest[0], amplitude)
+        return function(rig, *rest, **kwargs)
+
+    return cast(_Function, with_rig)
+
+
+def _told(
+    signature: inspect.Signature, rig: Oscillator, rest: list[Any], kwargs: Mapping[str, Any]
+) -> bool:
+    """Whether the amplitude is among the arguments behind a case.
+
+    It is if it is named, or if a single value stands in its place and nothing that the function
+    needs is missing then.
+    """
+    if "amplitude" in kwargs:
+        return True
+    if not rest or _is_list(rest[0]):
+        return False
+    try:
+        signature.bind(rig, *rest, **kwargs)
+    except TypeError:
+        return False
+    return True
+
+
+def _second(name: str, value: Any, amplitude: float | str | None) -> Any:
+    """The amplitude or the excitation, refused where it is something else."""
+    if name == "amplitude":
+        if _is_list(value):
+            raise InputError(
+                f"amplitude: {shown(value)} is a list; {accepted(ACCELERATION, above=0.0)}, and "
+                "lists, such as that of the frequencies, behind it"
+            )
+        return value
+    if isinstance(value, Harmonic):
+        return value
+    if amplitude is not None and _is_number(value):
+        return Harmonic(to_si(amplitude, ACCELERATION, "amplitude"), value)
+    alone = "" if amplitude is not None else " (beside a laboratory case a frequency is enough)"
+    raise InputError(
+        f"{name}: {shown(value)} is no excitation; Harmonic(amplitude, frequency) is accepted, "
+        f'such as Harmonic("0.05 g", "2 Hz"){alone}'
+    )
+
+
+def is_rig(value: object) -> bool:
+    """Whether something is one rig, or a text that should name one, rather than several."""
+    pair = isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], Oscillator)
+    carries = isinstance(getattr(value, "oscillator", None), Oscillator)
+    return pair or carries or isinstance(value, Oscillator | str)
+
+
+def rig_name(value: Any, otherwise: str) -> str:
+    """The code of a laboratory case; `otherwise` of a rig without one."""
+    if isinstance(value, str):
+        from vibroimpact.model import laboratory
+
+        with contextlib.suppress(InputError):
+            return laboratory.case(value).code
+        return value
+    return str(getattr(value, "code", otherwise))
+
+
+def _is_number(value: object) -> bool:
+    """Whether it may be one number: also a text or a quantity with a unit."""
+    return not (value is None or _is_list(value) or callable(value))
+
+
+def _is_list(value: object) -> bool:
+    """Whether it holds several values; a numpy scalar and a quantity do not."""
+    if getattr(value, "ndim", None) == 0 or isinstance(value, str):
+        return False
+    if hasattr(value, "magnitude"):
+        return _is_list(value.magnitude)
+    return hasattr(value, "__len__") or hasattr(value, "__next__")
