@@ -5,7 +5,7 @@ A mass on an isolator between two bumpers, shaken by its base::
     import vibroimpact as vi
 
     case = vi.laboratory.case("B2-G1-A3")
-    curves = vi.sweep(case.oscillator, case.amplitude, case.frequencies)
+    curves = vi.sweep(case, case.frequencies)
 
 Names are loaded when first used, so that importing the package takes no time.
 """

@@ -21,8 +21,8 @@ from vibroimpact.model.units import ACCELERATION, accepted, shown, to_si
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 _ACCEPTED = (
-    'a laboratory case or its code, such as "B2-G1-A3", a `Rig` or a pair (oscillator, amplitude) is '
-    "accepted"
+    'a laboratory case or its code, such as "B2-G1-A3", a `Rig` or a pair (oscillator, amplitude) '
+    "is accepted"
 )
 
 
