@@ -78,6 +78,30 @@ def test_new_bumpers_need_all_three_values():
         changed(CASE.replace(left=None), RigOptions(left_gap="9mm", left_stiffness="5"))
 
 
+WALL = vi.RigidStop(0.8, 0.01)
+
+
+def test_options_of_bumpers_pass_rigid_stops_by():
+    mixed = CASE.replace(left=WALL)
+    made = changed(mixed, RigOptions(gap="-9mm", bumper_stiffness="1MN/m"))
+    assert made.left == WALL.replace(gap=-9e-3)
+    assert made.right == CASE.right.replace(gap=-9e-3, stiffness=1e6)
+    assert changed(mixed, RigOptions(left_gap="3mm")).left.gap == 3e-3
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"bumper_damping": "5"}, "--bumper-damping: given, but every stop is rigid; it needs"),
+        ({"left_stiffness": "5"}, "--left-stiffness: given, but the left stop is RigidStop"),
+    ],
+)
+def test_rigid_stops_have_no_stiffness(options, message):
+    walls = CASE.replace(right=WALL, left=WALL)
+    with pytest.raises(vi.InputError, match=message):
+        changed(walls, RigOptions(**options))
+
+
 def test_gravity():
     assert subject("B2-G1-A3", RigOptions(amplitude="0.04 g")).amplitude == 0.392266
 
@@ -89,8 +113,8 @@ def test_gravity():
         ({"mass": "5m"}, "--mass: '5m' is a length; a mass"),
         ({"stiffness": "nan"}, "--stiffness: 'nan' is not finite"),
         ({"damping": "-1"}, "--damping: '-1' is less than 0"),
-        ({"gap": "15 kg"}, "--gap: '15 kg' is a mass; a length of at least 0 is accepted"),
-        ({"right_gap": "-1mm"}, "--right-gap: '-1mm' is less than 0"),
+        ({"gap": "15 kg"}, "--gap: '15 kg' is a mass; a length is accepted"),
+        ({"right_damping": "-1"}, "--right-damping: '-1' is less than 0"),
         ({"bumper_stiffness": "0"}, "--bumper-stiffness: '0' is not greater than 0"),
         ({"amplitude": "0g"}, "--amplitude: '0g' is not greater than 0"),
         ({"amplitude": "5 kg"}, "--amplitude: '5 kg' is a mass"),

@@ -39,6 +39,12 @@ def test_own_oscillator(write):
     assert what[:2] == ("wall", "wall")
 
 
+def test_a_rigid_stop_is_named_by_its_kind(write):
+    wall = 'left = { kind = "rigid", restitution = 0.8, gap = "-2 mm" }\n'
+    path = write(RIG + wall + "[excitation]\namplitude = 1\n")
+    assert subject(str(path), RigOptions()).oscillator.left == vi.RigidStop(0.8, -0.002)
+
+
 def test_case_with_changes(write):
     path = write('name = "my wall"\ncase = "B2-G1-A3"\nparameters = "identified"\n')
     what = subject(str(path), RigOptions(gap="9mm"))
@@ -81,7 +87,11 @@ def test_a_study_needs_no_ending(write):
         (RIG.replace("gap", "gapp"), r"oscillator.right.gapp: unknown key; .*perhaps gap is"),
         (
             RIG.replace("7.5 mm", "15 kg"),
-            r"oscillator.right.gap: '15 kg' is a mass; a length of at least 0 is accepted",
+            r"oscillator.right.gap: '15 kg' is a mass; a length is accepted",
+        ),
+        (
+            RIG + 'left = { kind = "hertz" }',
+            r"oscillator.left.kind: 'hertz' is unknown; 'kelvin-voigt' or 'rigid' is accepted",
         ),
         (RIG.replace("550", "-550"), r"oscillator.mass: '-550 kg' is not greater than 0"),
         (RIG.replace("900", "nan"), r"oscillator.right.damping: nan is not finite"),

@@ -14,9 +14,11 @@ from vibroimpact.model import (
     Bumper,
     Dimensionless,
     DimensionlessBumper,
+    DimensionlessRigidStop,
     Isolator,
     Oscillator,
     Rig,
+    RigidStop,
     dimensionless,
     from_dimensionless,
     peak_displacement,
@@ -131,7 +133,7 @@ def test_without_excitation_a_gap_has_no_scale():
         ((-1.0, 0.5, 0.01, 0.15), r"^right\.stiffness_ratio: -1.0 is not greater than 0"),
         ((0.0, 0.5, 0.01, 0.15), r"^right\.stiffness_ratio: 0.0 is not greater than 0"),
         (((1.0, 0.0), 0.5, 0.01, 0.15), r"^left\.stiffness_ratio: 0.0 is not greater than 0"),
-        ((1.0, -0.5, 0.01, 0.15), r"^right\.gap: -0.5 is less than 0"),
+        ((1.0, "1 m", 0.01, 0.15), r"^right\.gap: '1 m' is a length"),
         ((1.0, 0.5, -0.01, 0.15), r"^right\.relaxation_time: -0.01 is less than 0"),
         ((1.0, 0.5, 0.01, -0.15), r"^damping_ratio: -0.15 is less than 0"),
         ((1.0, 0.5, 0.01, math.nan), r"^damping_ratio: nan is not finite"),
@@ -192,3 +194,16 @@ def test_physical_to_dimensionless_and_back(isolator, xi, right, left, mass, amp
 
 def test_examples_of_the_docstrings():
     assert doctest.testmod(dimensionless).failed == 0
+
+
+def test_rigid_stops_and_preloads():
+    oscillator = Oscillator(4.0, Isolator(100.0, 2.0), RigidStop(0.7, 0.3), Bumper(50.0, 1.0, -0.1))
+    group = to_dimensionless(oscillator, 2.0)
+    peak = peak_displacement(oscillator, 2.0)
+    assert group.right == DimensionlessRigidStop(0.7, 0.3 / peak)
+    assert group.right.stiffness_ratio == math.inf
+    assert group.left.gap == -0.1 / peak
+    back, amplitude = group.to_physical(mass=4.0, stiffness=100.0, amplitude=2.0)
+    assert amplitude == 2.0
+    assert same_side(back.right, oscillator.right)
+    assert same_side(back.left, oscillator.left)

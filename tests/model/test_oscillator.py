@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Isolator, Oscillator
+from vibroimpact.model import Bumper, Isolator, Oscillator, RigidStop
 
 ISOLATOR = Isolator(26800.0, 1100.0)
 RIGHT = Bumper(510e3, 900.0, 0.0075)
@@ -49,14 +49,50 @@ def test_a_mass_or_a_stiffness_is_positive_and_finite(bad):
 
 
 @pytest.mark.parametrize("bad", [-1e-300, math.nan, -math.inf, "-1", True, None, "1 K"])
-def test_a_damping_or_a_gap_is_not_negative(bad):
-    for make in (
-        lambda: Isolator(1.0, bad),
-        lambda: Bumper(1.0, bad, 0.0),
-        lambda: Bumper(1.0, 0.0, bad),
-    ):
-        with pytest.raises(InputError, match=r"^(damping|gap): .* of at least 0 is accepted"):
+def test_a_damping_is_not_negative(bad):
+    for make in (lambda: Isolator(1.0, bad), lambda: Bumper(1.0, bad, 0.0)):
+        with pytest.raises(InputError, match=r"^damping: .* of at least 0 is accepted"):
             make()
+
+
+@pytest.mark.parametrize("bad", [math.nan, -math.inf, "", True, None, "1 K"])
+def test_a_gap_is_finite(bad):
+    for make in (lambda: Bumper(1.0, 0.0, bad), lambda: RigidStop(1.0, bad)):
+        with pytest.raises(InputError, match=r"^gap: .* a length is accepted"):
+            make()
+
+
+def test_a_gap_may_be_negative():
+    assert Bumper(1.0, 0.0, "-2 mm").gap == -0.002
+    assert RigidStop(0.5, "-2 mm").gap == -0.002
+
+
+@pytest.mark.parametrize("bad", [-0.1, 1.1, math.nan, True, None, "1 m"])
+def test_a_restitution_lies_between_0_and_1(bad):
+    with pytest.raises(InputError, match=r"^restitution: .* from 0 to 1 is accepted"):
+        RigidStop(bad, 0.0)
+
+
+@pytest.mark.parametrize(("right", "left"), [(0.0, 0.0), (-0.001, 0.001), (0.002, -0.003)])
+def test_two_rigid_stops_need_room(right, left):
+    with pytest.raises(InputError, match=r"right.gap: .* leave no room .* greater than 0 is acc"):
+        Oscillator(1.0, ISOLATOR, RigidStop(0.5, right), RigidStop(0.5, left))
+    # A bumper gives way.
+    Oscillator(1.0, ISOLATOR, RigidStop(0.5, right), Bumper(1.0, 0.0, left))
+
+
+def test_stops_are_those_that_are_there():
+    wall = RigidStop(0.5, 0.01)
+    assert Oscillator(550.0, ISOLATOR, RIGHT, wall).stops == (RIGHT, wall)
+    assert Oscillator(550.0, ISOLATOR, None, wall).stops == (wall,)
+    assert Oscillator(550.0, ISOLATOR).stops == ()
+
+
+def test_a_symmetric_rig_has_equal_stops_of_one_kind():
+    wall = RigidStop(0.5, 0.01)
+    assert Oscillator(550.0, ISOLATOR, wall, wall).symmetric
+    assert not Oscillator(550.0, ISOLATOR, wall, RIGHT).symmetric
+    assert Oscillator(550.0, ISOLATOR, wall, RIGHT).mirrored().left == wall
 
 
 def test_zero_damping_and_zero_gap_are_ordinary():

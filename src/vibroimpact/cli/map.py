@@ -176,9 +176,10 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     from vibroimpact.model import to_dimensionless
     from vibroimpact.model.units import ACCELERATION, LENGTH, STIFFNESS, pretty
     from vibroimpact.scenario.axes import ONE_QUANTITY, PARAMETERS
+    from vibroimpact.scenario.bumpers import bumpers
 
     varied = {name for name, *_ in axes}
-    sides = [b for b in (what.oscillator.right, what.oscillator.left) if b is not None]
+    sides = bumpers(what.oscillator).values()
     for pair in ONE_QUANTITY:
         varied |= pair if varied & pair else set()
     damping = {

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.study import Study, read_study
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Isolator, Model, Oscillator, laboratory, to_si
+from vibroimpact.model import Bumper, Isolator, Model, Oscillator, Stop, laboratory, to_si
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.model.validation import Accepts
 
@@ -112,6 +112,12 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
         raise InputError(
             f"{_flag(option)}: given with --no-right and --no-left; it needs a bumper on some side"
         )
+    for field in shared:
+        if not any(_has(getattr(oscillator, side), field) for side in targets):
+            raise InputError(
+                f"{_flag(_SHARED[field])}: given, but every stop is rigid; it needs a bumper "
+                "on some side"
+            )
     for side in removed:
         own = {
             field: _value(Bumper, field, f"{side}_{field}", options)
@@ -123,14 +129,25 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
                 f"{_flag(f'{side}_{next(iter(own))}')}: given with --no-{side}; "
                 "one of them is accepted"
             )
-        values = {**(shared if side in targets else {}), **own}
-        bumper: Bumper | None = None if removed[side] else getattr(oscillator, side)
+        bumper: Stop | None = None if removed[side] else getattr(oscillator, side)
+        for field in own:
+            if not _has(bumper, field):
+                raise InputError(
+                    f"{_flag(f'{side}_{field}')}: given, but the {side} stop is {bumper}; "
+                    "it needs a bumper there"
+                )
+        values = {f: v for f, v in shared.items() if side in targets and _has(bumper, f)} | own
         if bumper is not None:
             bumper = bumper.replace(**values)
         elif values and not removed[side]:
             bumper = _new_bumper(side, values)
         changes[side] = bumper
     return oscillator.replace(**changes)
+
+
+def _has(stop: Stop | None, field: str) -> bool:
+    """Whether a stop has a field, or a new bumper would."""
+    return field in (Bumper if stop is None else type(stop)).model_fields
 
 
 def _new_bumper(side: str, values: dict[str, float]) -> Bumper:

@@ -124,7 +124,7 @@ def _given(
         If there is no frequency, or a value cannot be used.
     """
     from vibroimpact.cli.study import SimulateTable
-    from vibroimpact.model import Harmonic, State, to_si
+    from vibroimpact.model import Harmonic, State, equilibrium, to_si
     from vibroimpact.model.counts import check_samples
     from vibroimpact.model.units import FREQUENCY, LENGTH, VELOCITY
 
@@ -147,6 +147,8 @@ def _given(
     u, v = table.displacement, table.velocity
     if displacement is not None:
         u = to_si(displacement, LENGTH, "--displacement")
+    elif u is None:
+        u = equilibrium(what.oscillator).displacement
     if velocity is not None:
         v = to_si(velocity, VELOCITY, "--velocity")
     phase = what.study.excitation.phase if what.study else 0.0

@@ -84,7 +84,7 @@ class SimulateTable(Model):
     frequency: _Frequency = None
     cycles: Annotated[float | None, Accepts(DIMENSIONLESS, above=0.0, optional=True)] = None
     samples: int | None = None
-    displacement: Annotated[float, Accepts(LENGTH)] = 0.0
+    displacement: Annotated[float | None, Accepts(LENGTH, optional=True)] = None
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
 
 

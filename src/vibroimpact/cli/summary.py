@@ -14,7 +14,7 @@ from rich.text import Text
 from vibroimpact._version import __version__
 from vibroimpact.cli.rig import Subject
 from vibroimpact.errors import InputError
-from vibroimpact.model import GRAVITY, Bumper, Dimensionless, to_dimensionless
+from vibroimpact.model import GRAVITY, Dimensionless, RigidStop, Stop, to_dimensionless
 from vibroimpact.model.units import DAMPING, LENGTH, MASS, STIFFNESS, VELOCITY, pretty
 from vibroimpact.response.resonance import Features, Range
 
@@ -53,11 +53,18 @@ def rig_text(subject: Subject) -> RenderableType:
         f"ξ = {oscillator.damping_ratio:.4g}",
     )
     for side in ("right", "left"):
-        bumper: Bumper | None = getattr(oscillator, side)
+        bumper: Stop | None = getattr(oscillator, side)
         if bumper is None:
             table.add_row(f"{side} bumper", "none", "")
             continue
         group = getattr(scaled, side) if scaled else None
+        if isinstance(bumper, RigidStop):
+            table.add_row(
+                f"{side} stop",
+                f"rigid, e = {bumper.restitution:.4g}, gap {pretty(bumper.gap, LENGTH)}",
+                f"δ0 = {group.gap:.4g}" if group else "",
+            )
+            continue
         table.add_row(
             f"{side} bumper",
             f"K = {pretty(bumper.stiffness, STIFFNESS)}, C = {pretty(bumper.damping, DAMPING)}, "

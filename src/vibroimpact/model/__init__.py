@@ -4,14 +4,19 @@ from vibroimpact.model import laboratory
 from vibroimpact.model.dimensionless import (
     Dimensionless,
     DimensionlessBumper,
+    DimensionlessRigidStop,
+    DimensionlessStop,
     Rig,
     from_dimensionless,
     peak_displacement,
     to_dimensionless,
 )
+from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.model.excitation import Harmonic
-from vibroimpact.model.oscillator import Bumper, Isolator, Oscillator
+from vibroimpact.model.isolators import Isolator
+from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.state import State
+from vibroimpact.model.stops import Bumper, RigidStop, Stop
 from vibroimpact.model.units import GRAVITY, to_si
 from vibroimpact.model.validation import Model, validate
 
@@ -20,12 +25,17 @@ __all__ = [
     "Bumper",
     "Dimensionless",
     "DimensionlessBumper",
+    "DimensionlessRigidStop",
+    "DimensionlessStop",
     "Harmonic",
     "Isolator",
     "Model",
     "Oscillator",
     "Rig",
+    "RigidStop",
     "State",
+    "Stop",
+    "equilibrium",
     "from_dimensionless",
     "laboratory",
     "peak_displacement",

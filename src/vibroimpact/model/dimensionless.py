@@ -1,12 +1,14 @@
 """Physical parameters to dimensionless ones and back (the paper's Section 7).
 
-With ω0 = √(K/M), for the bumper on side j:
+With ω0 = √(K/M), for the stop on side j:
 
 - stiffness ratio λ_j = K_j/K;
 - relaxation time τ_j = ω0 C_j/K_j;
 - gap δ0_j = G0_j/u_max, where u_max = A/(2ξ√(1-ξ²) ω0²) is the largest displacement
   amplitude in free flight, so that δ0_j = 1 just grazes;
 - damping factor ξ = C/(2√(K M)).
+
+A rigid stop is the limit λ_j → ∞; its restitution has no dimension as it is.
 
 The paper's text calls δ the sum of both sides' gaps, but its Table 1 holds the gap of one
 side. Here a gap is always that of one side.
@@ -15,11 +17,14 @@ side. Here a gap is always that of one side.
 from __future__ import annotations
 
 import math
-from typing import Annotated, NamedTuple, TypeAlias
+from typing import Annotated, ClassVar, NamedTuple, TypeAlias
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.oscillator import Bumper, Isolator, Oscillator
+from vibroimpact.model.isolators import Isolator
+from vibroimpact.model.kinds import Kinds, Named
+from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.stops import Bumper, RigidStop, Stop
 from vibroimpact.model.units import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
@@ -41,7 +46,7 @@ class Rig(NamedTuple):
         return f"Rig(oscillator={self.oscillator}, amplitude={self.amplitude:.6g} m/s²)"
 
 
-class DimensionlessBumper(Model):
+class DimensionlessBumper(Named):
     """One bumper in dimensionless parameters.
 
     Parameters
@@ -49,7 +54,7 @@ class DimensionlessBumper(Model):
     stiffness_ratio
         λ_j = K_j/K, greater than 0.
     gap
-        δ0_j = G0_j/u_max, at least 0; 1 is grazing.
+        δ0_j = G0_j/u_max; 1 is grazing, below 0 it is preloaded.
     relaxation_time
         τ_j = ω0 C_j/K_j, at least 0.
 
@@ -59,8 +64,11 @@ class DimensionlessBumper(Model):
         If a value is not finite or lies outside its bounds.
     """
 
+    kind: ClassVar[str] = Bumper.kind
+    usual: ClassVar[bool] = True
+
     stiffness_ratio: Annotated[float, Accepts(DIMENSIONLESS, above=0.0)]
-    gap: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0)]
+    gap: Annotated[float, Accepts(DIMENSIONLESS)]
     relaxation_time: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0)]
 
     @constructor
@@ -68,6 +76,42 @@ class DimensionlessBumper(Model):
         self, stiffness_ratio: float | str, gap: float | str, relaxation_time: float | str
     ) -> None:
         super().__init__(stiffness_ratio=stiffness_ratio, gap=gap, relaxation_time=relaxation_time)
+
+
+class DimensionlessRigidStop(Named):
+    """One rigid stop in dimensionless parameters.
+
+    Parameters
+    ----------
+    restitution
+        e_j, from 0 to 1.
+    gap
+        δ0_j = G0_j/u_max; 1 is grazing.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite or lies outside its bounds.
+    """
+
+    kind: ClassVar[str] = RigidStop.kind
+
+    restitution: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0, maximum=1.0)]
+    gap: Annotated[float, Accepts(DIMENSIONLESS)]
+
+    @constructor
+    def __init__(self, restitution: float | str, gap: float | str) -> None:
+        super().__init__(restitution=restitution, gap=gap)
+
+    @property
+    def stiffness_ratio(self) -> float:
+        """λ_j, infinite."""
+        return math.inf
+
+
+DimensionlessStop: TypeAlias = DimensionlessBumper | DimensionlessRigidStop
+
+_STOPS = Kinds(DimensionlessBumper, DimensionlessRigidStop)
 
 
 class Dimensionless(Model):
@@ -78,7 +122,7 @@ class Dimensionless(Model):
     damping_ratio
         ξ = C/(2√(K M)), at least 0.
     right, left
-        The bumpers, or None for a side without one.
+        The stops, or None for a side without one.
 
     Raises
     ------
@@ -87,15 +131,15 @@ class Dimensionless(Model):
     """
 
     damping_ratio: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0)]
-    right: DimensionlessBumper | None = None
-    left: DimensionlessBumper | None = None
+    right: Annotated[DimensionlessBumper | DimensionlessRigidStop | None, _STOPS] = None
+    left: Annotated[DimensionlessBumper | DimensionlessRigidStop | None, _STOPS] = None
 
     @constructor
     def __init__(
         self,
         damping_ratio: float | str,
-        right: DimensionlessBumper | None = None,
-        left: DimensionlessBumper | None = None,
+        right: DimensionlessStop | None = None,
+        left: DimensionlessStop | None = None,
     ) -> None:
         super().__init__(damping_ratio=damping_ratio, right=right, left=left)
 
@@ -134,16 +178,18 @@ class Dimensionless(Model):
         damping = 2.0 * self.damping_ratio * math.sqrt(k * m)
         free = Oscillator(m, Isolator(k, damping))
 
-        def bumper(side: DimensionlessBumper | None) -> Bumper | None:
+        def stop(side: DimensionlessStop | None) -> Stop | None:
             if side is None:
                 return None
+            # A gap of 0 is 0 at any scale, so it needs no resonance peak.
+            gap = side.gap * _peak(m, k, self.damping_ratio, a) if side.gap else 0.0
+            if isinstance(side, DimensionlessRigidStop):
+                return RigidStop(side.restitution, gap)
             stiffness_j = side.stiffness_ratio * k
             damping_j = side.relaxation_time * stiffness_j / free.angular_frequency
-            # A gap of 0 is 0 at any scale, so it needs no resonance peak.
-            scale = _peak(m, k, self.damping_ratio, a) if side.gap > 0.0 else 0.0
-            return Bumper(stiffness_j, damping_j, side.gap * scale)
+            return Bumper(stiffness_j, damping_j, gap)
 
-        return Rig(free.replace(right=bumper(self.right), left=bumper(self.left)), a)
+        return Rig(free.replace(right=stop(self.right), left=stop(self.left)), a)
 
 
 def from_dimensionless(
@@ -156,7 +202,7 @@ def from_dimensionless(
     stiffness: float | str = 1.0,
     amplitude: float | str = 1.0,
 ) -> Rig:
-    """Return the physical rig with the given dimensionless parameters.
+    """Return the physical rig with bumpers of the given dimensionless parameters.
 
     Parameters
     ----------
@@ -219,7 +265,7 @@ def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensio
     Returns
     -------
     Dimensionless
-        λ, δ0 and τ of each bumper, and ξ.
+        ξ, and of each side λ, δ0 and τ of its bumper, or e and δ0 of its rigid stop.
 
     Raises
     ------
@@ -230,14 +276,14 @@ def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensio
     a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
     k = oscillator.isolator.stiffness
 
-    def side(bumper: Bumper | None) -> DimensionlessBumper | None:
-        if bumper is None:
+    def side(stop: Stop | None) -> DimensionlessStop | None:
+        if stop is None:
             return None
-        return DimensionlessBumper(
-            stiffness_ratio=bumper.stiffness / k,
-            gap=bumper.gap / peak_displacement(oscillator, a) if bumper.gap > 0.0 else 0.0,
-            relaxation_time=oscillator.angular_frequency * bumper.damping / bumper.stiffness,
-        )
+        gap = stop.gap / peak_displacement(oscillator, a) if stop.gap else 0.0
+        if isinstance(stop, RigidStop):
+            return DimensionlessRigidStop(stop.restitution, gap)
+        time = oscillator.angular_frequency * stop.damping / stop.stiffness
+        return DimensionlessBumper(stop.stiffness / k, gap, time)
 
     return Dimensionless(oscillator.damping_ratio, side(oscillator.right), side(oscillator.left))
 
@@ -250,7 +296,7 @@ def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
     Parameters
     ----------
     oscillator
-        The oscillator; its bumpers are left out of account.
+        The oscillator; its stops are left out of account.
     amplitude
         Peak base acceleration A in m/s², or text with units.
 

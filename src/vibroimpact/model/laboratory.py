@@ -20,7 +20,9 @@ from typing import Literal, NamedTuple, TypeAlias
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.dimensionless import peak_displacement
-from vibroimpact.model.oscillator import Bumper, Isolator, Oscillator
+from vibroimpact.model.isolators import Isolator
+from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.stops import Bumper
 from vibroimpact.model.units import (
     ACCELERATION,
     LENGTH,

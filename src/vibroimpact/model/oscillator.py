@@ -1,8 +1,7 @@
-"""The vibrating mass, its isolator and its two bumpers (the paper's Fig. 1).
+"""The vibrating mass, its isolator and its two stops (the paper's Fig. 1).
 
 ``M ü + C u̇ + K u + (contact force) = -M A_t(t)``, with ``u`` the displacement relative to
-the base. A bumper is a massless spring and dashpot in parallel, at its gap from the mass at
-rest; it pushes and never pulls.
+the base. A stop pushes and never pulls.
 """
 
 from __future__ import annotations
@@ -14,64 +13,15 @@ from typing import Annotated, Any, Self
 from pydantic import model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.units import DAMPING, LENGTH, MASS, STIFFNESS
+from vibroimpact.model.isolators import Isolator
+from vibroimpact.model.kinds import Kinds
+from vibroimpact.model.stops import STOPS, Bumper, RigidStop, Stop
+from vibroimpact.model.units import LENGTH, MASS, pretty
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 
-class Isolator(Model):
-    """The linear spring and dashpot that carry the mass (the paper's damper D).
-
-    Parameters
-    ----------
-    stiffness
-        K in N/m, greater than 0; or text such as ``"26.8 kN/m"``.
-    damping
-        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite, has a wrong unit or lies outside its bounds.
-    """
-
-    stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
-    damping: Annotated[float, Accepts(DAMPING, minimum=0.0)]
-
-    @constructor
-    def __init__(self, stiffness: float | str, damping: float | str) -> None:
-        super().__init__(stiffness=stiffness, damping=damping)
-
-
-class Bumper(Model):
-    """A massless deformable stop: spring and dashpot in parallel (Kelvin-Voigt).
-
-    Parameters
-    ----------
-    stiffness
-        K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
-    damping
-        C_j in N s/m, at least 0; or text such as ``"0.9 kN s/m"``.
-    gap
-        G0_j in m, at least 0: the distance from the mass at rest to the bumper at rest; or
-        text such as ``"7.5 mm"``. The total gap of a symmetric rig is twice as large.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite, has a wrong unit or lies outside its bounds.
-    """
-
-    stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
-    damping: Annotated[float, Accepts(DAMPING, minimum=0.0)]
-    gap: Annotated[float, Accepts(LENGTH, minimum=0.0)]
-
-    @constructor
-    def __init__(self, stiffness: float | str, damping: float | str, gap: float | str) -> None:
-        super().__init__(stiffness=stiffness, damping=damping, gap=gap)
-
-
 class Oscillator(Model):
-    """A mass on an isolator, between two bumpers that may differ or be absent.
+    """A mass on an isolator, between two stops that may differ or be absent.
 
     Parameters
     ----------
@@ -80,28 +30,30 @@ class Oscillator(Model):
     isolator
         Its `Isolator`, or a mapping with the isolator's fields.
     right
-        The bumper met at positive displacement, a mapping with its fields, or None.
+        What is met at positive displacement: a `Bumper`, a `RigidStop`, a mapping with the
+        fields of one (with its ``kind`` if it is no bumper), or None.
     left
-        The bumper met at negative displacement, a mapping with its fields, or None.
+        What is met at negative displacement, likewise.
 
     Raises
     ------
     InputError
-        If a value cannot be used; the message has its path, such as ``right.gap``.
+        If a value cannot be used; the message has its path, such as ``right.gap``. If two
+        rigid stops leave the mass no room.
     """
 
     mass: Annotated[float, Accepts(MASS, above=0.0)]
-    isolator: Isolator
-    right: Bumper | None = None
-    left: Bumper | None = None
+    isolator: Annotated[Isolator, Kinds(Isolator)]
+    right: Annotated[Bumper | RigidStop | None, STOPS] = None
+    left: Annotated[Bumper | RigidStop | None, STOPS] = None
 
     @constructor
     def __init__(
         self,
         mass: float | str,
         isolator: Isolator | Mapping[str, Any],
-        right: Bumper | Mapping[str, Any] | None = None,
-        left: Bumper | Mapping[str, Any] | None = None,
+        right: Stop | Mapping[str, Any] | None = None,
+        left: Stop | Mapping[str, Any] | None = None,
     ) -> None:
         super().__init__(mass=mass, isolator=isolator, right=right, left=left)
 
@@ -116,14 +68,30 @@ class Oscillator(Model):
             )
         return self
 
+    @model_validator(mode="after")
+    def _room_between_walls(self) -> Self:
+        if isinstance(self.right, RigidStop) and isinstance(self.left, RigidStop):
+            right, left = self.right.gap, self.left.gap
+            if not right + left > 0.0:
+                raise InputError(
+                    f"right.gap: {pretty(right, LENGTH)} and left.gap: {pretty(left, LENGTH)} "
+                    "leave no room between two rigid stops; a sum greater than 0 is accepted"
+                )
+        return self
+
+    @property
+    def stops(self) -> tuple[Stop, ...]:
+        """The stops that are there, the right one first."""
+        return tuple(stop for stop in (self.right, self.left) if stop is not None)
+
     @property
     def angular_frequency(self) -> float:
-        """Undamped natural angular frequency without bumpers, ω0 = √(K/M), in rad/s."""
+        """Undamped natural angular frequency without stops, ω0 = √(K/M), in rad/s."""
         return math.sqrt(self.isolator.stiffness / self.mass)
 
     @property
     def natural_frequency(self) -> float:
-        """Undamped natural frequency without bumpers, ω0/2π, in Hz."""
+        """Undamped natural frequency without stops, ω0/2π, in Hz."""
         return self.angular_frequency / math.tau
 
     @property
@@ -137,7 +105,7 @@ class Oscillator(Model):
         return self.right == self.left
 
     def mirrored(self) -> Oscillator:
-        """Return the oscillator with its right and left bumpers exchanged."""
+        """Return the oscillator with its right and left stops exchanged."""
         return self.replace(right=self.left, left=self.right)
 
     def without_bumpers(self) -> Oscillator:

@@ -250,15 +250,10 @@ def accepted(
     maximum: float | None = None,
 ) -> str:
     """Say in words what is accepted for a quantity, with an example."""
-    bounds = [
-        f"{words} {bound:g}"
-        for words, bound in (
-            ("greater than", above),
-            ("of at least", minimum),
-            ("of at most", maximum),
-        )
-        if bound is not None
-    ]
+    told = (("greater than", above), ("of at least", minimum), ("of at most", maximum))
+    bounds = [f"{words} {bound:g}" for words, bound in told if bound is not None]
+    if minimum is not None and maximum is not None:
+        bounds = [f"from {minimum:g} to {maximum:g}"]
     sign = "-" if maximum is not None and maximum <= 0 else ""
     number = f"{sign}{quantity.number}"
     example = (

@@ -56,6 +56,16 @@ class Accepts:
         return core_schema.no_info_before_validator_function(self, handler(source))
 
 
+class Choice:
+    """Annotation of a field that takes one of several classes, each known by its kind."""
+
+    classes: Mapping[str, type[BaseModel]]
+
+    def unknown(self, value: object) -> str:
+        """Say what is wrong with a table of no known kind."""
+        raise NotImplementedError
+
+
 def constructor(init: _Init) -> _Init:
     """Mark an ``__init__`` that only names the fields and passes them on.
 
@@ -210,17 +220,22 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> str:
     mistakes.sort(key=lambda mistake: mistake["type"] != "extra_forbidden")
     first = mistakes[0]
     location = first["loc"]
-    path = _path(where, location)
     value = shown(first["input"])
     kind = first["type"]
+    steps, wanted = _along(model, location)
+    holder = _along(model, location[:-1])[1]
+    path = _path(where, steps)
     if kind == "value_error":
         problem = str(first["ctx"]["error"])
     elif kind == "missing":
-        problem = _missing(_model_at(model, location[:-1]), str(location[-1]))
+        problem = _missing(holder, str(location[-1]))
     elif kind == "extra_forbidden":
-        problem = _unknown_key(_model_at(model, location[:-1]), str(location[-1]))
+        problem = _unknown_key(holder, str(location[-1]))
+    elif kind == "union_tag_invalid":
+        choice = _choice(holder, str(location[-1]))
+        assert choice is not None
+        path, problem = f"{path}.kind", choice.unknown(first["input"])
     elif kind in ("model_type", "model_attributes_type"):
-        wanted = _model_at(model, location)
         problem = f"{value} is not a table; {_fields(wanted)} are accepted"
         path = path or wanted.__name__
     else:
@@ -230,9 +245,9 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> str:
     return " ".join(f"{path or model.__name__}: {problem}{more}".split())
 
 
-def _path(where: str, location: tuple[int | str, ...]) -> str:
+def _path(where: str, steps: list[int | str]) -> str:
     path = where
-    for step in location:
+    for step in steps:
         if isinstance(step, int):
             path += f"[{step}]"
         else:
@@ -240,21 +255,35 @@ def _path(where: str, location: tuple[int | str, ...]) -> str:
     return path
 
 
-def _model_at(model: type[BaseModel], location: tuple[int | str, ...]) -> type[BaseModel]:
-    """Find the class of the nested table that a path leads to."""
+def _choice(model: type[BaseModel], name: str) -> Choice | None:
+    """What tells apart the classes that a field takes, if there are several."""
+    field = model.model_fields.get(name)
+    return next((m for m in field.metadata if isinstance(m, Choice)), None) if field else None
+
+
+def _along(
+    model: type[BaseModel], location: tuple[int | str, ...]
+) -> tuple[list[int | str], type[BaseModel]]:
+    """Follow a path of pydantic's: its steps as the user knows them, and the class at its end."""
+    steps = []
+    choice = None
     for step in location:
-        field = model.model_fields.get(str(step))
-        if field is None:
+        if choice is not None:  # pydantic puts the kind between the field and what is in it
+            model, choice = choice.classes[str(step)], None
             continue
-        model = next(
-            (
-                kind
-                for kind in (field.annotation, *get_args(field.annotation))
-                if isinstance(kind, type) and issubclass(kind, BaseModel)
-            ),
-            model,
-        )
-    return model
+        steps.append(step)
+        choice = _choice(model, str(step))
+        field = model.model_fields.get(str(step))
+        if field is not None and choice is None:
+            model = next(
+                (
+                    kind
+                    for kind in (field.annotation, *get_args(field.annotation))
+                    if isinstance(kind, type) and issubclass(kind, BaseModel)
+                ),
+                model,
+            )
+    return steps, model
 
 
 def _fields(model: type[BaseModel]) -> str:

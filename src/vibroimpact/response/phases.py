@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import measure
 from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, State, validate
+from vibroimpact.model import Bumper, Harmonic, Oscillator, State, validate
 from vibroimpact.response.start import engine_rig
 
 _Array = NDArray[np.float64]
@@ -34,8 +34,7 @@ class Recorded(NamedTuple):
     def of_side(self, side: NDArray[np.int64], name: str) -> _Array:
         """A bumper's number for each phase by the bumper pressed; 0 in flight."""
         right, left = (
-            getattr(bumper, name) if bumper else 0.0
-            for bumper in (self.oscillator.right, self.oscillator.left)
+            getattr(stop, name, 0.0) for stop in (self.oscillator.right, self.oscillator.left)
         )
         return np.where(side == 1, right, np.where(side == -1, left, 0.0))
 
@@ -161,7 +160,7 @@ def relaxation_loss(origin: Recorded, parts: Phases) -> _Array:
     lost = np.zeros((len(parts.contact), 2))
     bumpers = (origin.oscillator.right, origin.oscillator.left)
     for i, (side, bumper) in enumerate(zip((1, -1), bumpers, strict=True)):
-        if bumper is not None:
+        if isinstance(bumper, Bumper):
             squares = parts.first[:, 2 + i] ** 2 - parts.last[:, 2 + i] ** 2
             lost[:, i] = np.where(parts.contact != side, 0.5 * bumper.stiffness * squares, 0.0)
     return lost

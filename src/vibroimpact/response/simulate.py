@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, record
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Harmonic, Oscillator, State, to_si
+from vibroimpact.model import Harmonic, Oscillator, State, equilibrium, to_si
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import DIMENSIONLESS
@@ -67,7 +67,7 @@ def simulate(
     samples, max_events = whole(samples, "samples", 0), whole(max_events, "max_events")
     check_samples(length, samples, "cycles")
     check_bounded(oscillator, excitation.frequency, "frequency")
-    state = as_state(start)
+    state = equilibrium(oscillator) if start is None else as_state(start)
     phase = excitation.phase if state.phase is None else state.phase
     vector = engine_state(oscillator, state)
 

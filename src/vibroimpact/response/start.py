@@ -13,15 +13,47 @@ from vibroimpact.engine import batch, hold, record
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Harmonic, Oscillator, State
+from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State
+from vibroimpact.model.units import LENGTH, pretty
 from vibroimpact.response.variables import COMPONENTS
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
 
 
+def followed(oscillator: Oscillator) -> tuple[Bumper | None, Bumper | None]:
+    """The right and the left bumper, if the engine can follow the rig.
+
+    Raises
+    ------
+    InputError
+        If a stop is rigid, or a bumper preloaded.
+    """
+    sides = []
+    for side, stop in (("right", oscillator.right), ("left", oscillator.left)):
+        if isinstance(stop, RigidStop):
+            raise InputError(
+                f"{side}: {stop} cannot be followed by this version; a Bumper is accepted"
+            )
+        if stop is not None and stop.gap < 0.0:
+            raise InputError(
+                f"{side}.gap: {pretty(stop.gap, LENGTH)} is a preload, which cannot be followed by "
+                "this version; a length of at least 0 is accepted"
+            )
+        sides.append(stop)
+    right, left = sides
+    return right, left
+
+
 def engine_rig(oscillator: Oscillator) -> NDArray[np.float64]:
-    """The oscillator as the vector that the engine reads."""
+    """The oscillator as the vector that the engine reads.
+
+    Raises
+    ------
+    InputError
+        If the engine cannot follow it.
+    """
+    right, left = followed(oscillator)
 
     def numbers(bumper: Bumper | None) -> tuple[float, float, float] | None:
         return None if bumper is None else (bumper.stiffness, bumper.damping, bumper.gap)
@@ -30,15 +62,13 @@ def engine_rig(oscillator: Oscillator) -> NDArray[np.float64]:
         oscillator.mass,
         oscillator.isolator.stiffness,
         oscillator.isolator.damping,
-        numbers(oscillator.right),
-        numbers(oscillator.left),
+        numbers(right),
+        numbers(left),
     )
 
 
-def as_state(start: State | xr.DataArray | xr.Dataset | None) -> State:
-    """Accept a `State`, a dataset of `simulate`, or its `final_state`; None is rest."""
-    if start is None:
-        return State()
+def as_state(start: State | xr.DataArray | xr.Dataset) -> State:
+    """Accept a `State`, a dataset of `simulate`, or its `final_state`."""
     if isinstance(start, State):
         return start
     if isinstance(start, xr.Dataset) and "final_state" in start:
@@ -65,13 +95,14 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
         If the mass lies inside a bumper, or is said to touch one that it does not touch.
     """
     u, v = state.displacement, state.velocity
+    right, left = followed(oscillator)
     deformations = [0.0, 0.0]
     contact = FLIGHT
     # Seen from each side in turn: s = +1 towards the right bumper, −1 towards the left one.
     for i, (name, bumper, given, sign) in enumerate(
         (
-            ("right_bumper", oscillator.right, state.right_bumper, 1),
-            ("left_bumper", oscillator.left, state.left_bumper, -1),
+            ("right_bumper", right, state.right_bumper, 1),
+            ("left_bumper", left, state.left_bumper, -1),
         )
     ):
         if bumper is None:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, State, to_si
+from vibroimpact.model import Oscillator, State, equilibrium, to_si
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.rigs import AnyRig, as_rig, is_rig, rig_name, takes_rig
 from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY
@@ -147,8 +147,8 @@ def sweeps(
     grid = check_frequencies(frequencies)
     directions = _directions(directions)
     angle = to_si(phase, ANGLE, "phase")
-    state = as_state(start)
-    if state.phase is not None:
+    state = None if start is None else as_state(start)
+    if state is not None and state.phase is not None:
         angle = state.phase
     tolerance = share(tolerance, "tolerance")
     max_cycles, window = whole(max_cycles, "max_cycles"), whole(window, "window")
@@ -161,7 +161,13 @@ def sweeps(
         for i, frequency in enumerate(grid):
             check_bounded(oscillator, float(frequency), f"frequencies[{i}]")
         free[:, r] = free_flight_excursions(oscillator, amplitude, grid)
-        prepared.append((engine_rig(oscillator), amplitude, engine_state(oscillator, state)))
+        prepared.append(
+            (
+                engine_rig(oscillator),
+                amplitude,
+                engine_state(oscillator, state or equilibrium(oscillator)),
+            )
+        )
 
     shape = (len(pairs), len(directions), len(grid))
     results = np.empty((*shape, hold.RESULTS))

@@ -18,6 +18,7 @@ from vibroimpact.model.units import (
     STIFFNESS,
     Quantity,
 )
+from vibroimpact.scenario.bumpers import bumpers
 
 _Array = NDArray[np.float64]
 
@@ -156,7 +157,7 @@ class Base(NamedTuple):
         InputError
             If there is no bumper to set, or the base has no dimensionless parameters.
         """
-        if not self.oscillator.right and not self.oscillator.left:
+        if not bumpers(self.oscillator, "base"):
             raise InputError("base: there is no bumper; a rig with one or two is accepted")
         physical = {name for name in values if PARAMETERS[name].physical}
         rig = self._physical(values) if physical else Rig(self.oscillator, self.amplitude)
@@ -174,10 +175,7 @@ class Base(NamedTuple):
 
     def _physical(self, values: Mapping[str, float]) -> Rig:
         changes = {}
-        for side in ("right", "left"):
-            bumper = getattr(self.oscillator, side)
-            if bumper is None:
-                continue
+        for side, bumper in bumpers(self.oscillator).items():
             stiffness = values.get("bumper_stiffness", bumper.stiffness)
             changes[side] = bumper.replace(
                 gap=values.get("gap", bumper.gap),

@@ -13,6 +13,7 @@ from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import sweep
 from vibroimpact.response.threads import Progress
+from vibroimpact.scenario.bumpers import bumpers
 from vibroimpact.scenario.evidence import Evidence, evidence
 from vibroimpact.scenario.frequencies import cycles, highest
 from vibroimpact.scenario.frequencies import frequencies as default_frequencies
@@ -107,6 +108,7 @@ def classify(
         If a value cannot be used.
     """
     used = checked(thresholds)
+    bumpers(oscillator)
     peak = to_si(amplitude, ACCELERATION, "amplitude", above=0.0)
     held = default_frequencies(oscillator, peak) if frequencies is None else frequencies
     if max_cycles is None:

@@ -22,6 +22,7 @@ from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs, each_swept
+from vibroimpact.scenario.bumpers import bumpers
 from vibroimpact.scenario.onset import foot_in_contact, onset, within
 
 UNEVEN = 1e-6
@@ -223,8 +224,7 @@ def _one(
     oscillator, amplitude = rig
     frequency = both.frequency
     reached = {"right": most, "left": -least}
-    bumpers = {side: b for side in reached if (b := getattr(oscillator, side)) is not None}
-    gaps = {side: b.gap for side, b in bumpers.items()}
+    gaps = {side: b.gap for side, b in bumpers(oscillator).items()}
     touched = np.flatnonzero(both.touching.any(axis=0))
     apart = hysteresis(both)
     found = peaks(both, prominence=prominence)
@@ -243,7 +243,7 @@ def _one(
         contact=(float(frequency[touched[0]]), float(frequency[touched[-1]]))
         if len(touched)
         else None,
-        attached=bool(gaps) and not any(gaps.values()),
+        attached=bool(gaps) and max(gaps.values()) <= 0.0,
         known=bool(
             np.isfinite(both.eta_a).mean(axis=1).min() >= KNOWN and both.settled.mean() >= SETTLED
         ),

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.model import Oscillator
+from vibroimpact.scenario.bumpers import bumpers
 
 LOW = 0.4
 """Lowest frequency over the natural one: that at which the published tests begin (0.40 to
@@ -39,11 +40,11 @@ def highest(oscillator: Oscillator, amplitude: float) -> float:
     - Stiffness. Nothing is stiffer than isolator and bumper in contact all the time, whose
       resonance lies at f0 √(1 + λ); damping and flights lower it.
     """
-    bumpers = [b for b in (oscillator.right, oscillator.left) if b is not None]
-    if not bumpers:
+    found = bumpers(oscillator).values()
+    if not found:
         return LEAST_HIGH
-    stiffest = max(b.stiffness for b in bumpers) / oscillator.isolator.stiffness
-    gaps = [b.gap for b in bumpers]
+    stiffest = max(b.stiffness for b in found) / oscillator.isolator.stiffness
+    gaps = [b.gap for b in found]
     apart = sum(gaps) if len(gaps) == 2 and gaps[0] == gaps[1] else min(gaps)
     travel = apart * oscillator.isolator.damping
     supplied = oscillator.mass * amplitude / (2.0 * math.sqrt(2.0))

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.engine import lyapunov
-from vibroimpact.model import State, to_si
+from vibroimpact.model import State, equilibrium, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.model.units import ANGLE
@@ -80,8 +80,8 @@ def lyapunov_exponents(
     names, pairs = named_rigs(rigs)
     grid = check_frequencies(frequencies)
     angle = to_si(phase, ANGLE, "phase")
-    state = as_state(start)
-    if state.phase is not None:
+    state = None if start is None else as_state(start)
+    if state is not None and state.phase is not None:
         angle = state.phase
     cycles, transient = whole(cycles, "cycles"), whole(transient, "transient", 0)
     max_events = whole(max_events, "max_events")
@@ -90,7 +90,13 @@ def lyapunov_exponents(
     for oscillator, amplitude in pairs:
         for i, frequency in enumerate(grid):
             check_bounded(oscillator, float(frequency), f"frequencies[{i}]")
-        prepared.append((engine_rig(oscillator), amplitude, engine_state(oscillator, state)))
+        prepared.append(
+            (
+                engine_rig(oscillator),
+                amplitude,
+                engine_state(oscillator, state or equilibrium(oscillator)),
+            )
+        )
 
     shape = (len(pairs), len(grid))
     exponents = np.full((*shape, 2), np.nan)

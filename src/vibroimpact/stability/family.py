@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import section_map
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Harmonic, Oscillator, to_si
+from vibroimpact.model import Bumper, Harmonic, Oscillator, Stop, to_si
 from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.units import (
     ACCELERATION,
@@ -43,11 +43,21 @@ class Parameter(NamedTuple):
     write: Callable[[Oscillator, Harmonic, float], Setting]
 
 
+def _number(stop: Stop, name: str) -> float:
+    """A field of a stop, if it has it."""
+    if name not in type(stop).model_fields:
+        raise InputError(
+            f"parameter: {stop} has no {name}; "
+            f"its {' or '.join(type(stop).model_fields)} is accepted, or a rig with bumpers"
+        )
+    return float(getattr(stop, name))
+
+
 def _bumpers(name: str) -> tuple[Callable[..., float], Callable[..., Setting]]:
     """Read and write a number that both bumpers share."""
 
     def read(rig: Oscillator, shaken: Harmonic) -> float:
-        values = {getattr(b, name) for b in (rig.right, rig.left) if b is not None}
+        values = {_number(stop, name) for stop in rig.stops}
         if len(values) != 1:
             told = "there is no bumper" if not values else f"they are {sorted(values)}"
             raise InputError(
@@ -68,14 +78,14 @@ def _bumpers(name: str) -> tuple[Callable[..., float], Callable[..., Setting]]:
 
 
 def _one_bumper(side: str, name: str) -> tuple[Callable[..., float], Callable[..., Setting]]:
-    def bumper(rig: Oscillator) -> Bumper:
-        found: Bumper | None = getattr(rig, side)
+    def bumper(rig: Oscillator) -> Stop:
+        found: Stop | None = getattr(rig, side)
         if found is None:
             raise InputError(f"parameter: there is no {side} bumper; one that is there is accepted")
         return found
 
     def read(rig: Oscillator, shaken: Harmonic) -> float:
-        return float(getattr(bumper(rig), name))
+        return _number(bumper(rig), name)
 
     def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
         return rig.replace(**{side: bumper(rig).replace(**{name: value})}), shaken
@@ -112,7 +122,7 @@ def _set_stiffness_ratio(rig: Oscillator, shaken: Harmonic, value: float) -> Set
     """λ = K_j/K at a fixed relaxation time C_j/K_j."""
     changed = {}
     for side, bumper in (("right", rig.right), ("left", rig.left)):
-        if bumper is not None:
+        if isinstance(bumper, Bumper):
             stiffness = value * rig.isolator.stiffness
             time = bumper.damping / bumper.stiffness
             changed[side] = bumper.replace(stiffness=stiffness, damping=stiffness * time)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import measure
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model import Harmonic, Oscillator, State, equilibrium
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.contacts import contacts
@@ -90,7 +90,8 @@ def steady(
         raise InputError(
             f"exponent_cycles: {exponent_cycles} cycles; at most {MOST_CYCLES} are accepted"
         )
-    found = settle(oscillator, excitation, as_state(start), tolerance, max_cycles, max_events)
+    state = equilibrium(oscillator) if start is None else as_state(start)
+    found = settle(oscillator, excitation, state, tolerance, max_cycles, max_events)
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
         return _given_up(found, samples, max_events)
     return describe_motion(found, samples, window, exponent_cycles, max_events)

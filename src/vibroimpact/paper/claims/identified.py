@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 
 from vibroimpact.model import laboratory
-from vibroimpact.model.dimensionless import to_dimensionless
+from vibroimpact.model.dimensionless import DimensionlessBumper, to_dimensionless
 from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import BOTH, AbsentError, claim, regular_places, turns
 from vibroimpact.paper.study import Study
@@ -139,7 +139,7 @@ def damping(study: Study) -> Finding:
     for code in (_S3, _S2):
         case = laboratory.case(code, "identified")
         group = to_dimensionless(case.oscillator, case.amplitude)
-        assert group.right is not None
+        assert isinstance(group.right, DimensionlessBumper)
         ratio, time = group.damping_ratio, group.right.relaxation_time
         off += [ratio / laboratory.DAMPING_RATIO - 1.0, time / laboratory.RELAXATION_TIME - 1.0]
         told.append(f"{code}: ξ {ratio:.3f} ({off[-2]:+.0%}), τ {time:.4f} ({off[-1]:+.0%})")

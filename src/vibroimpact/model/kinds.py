@@ -1,0 +1,87 @@
+"""Laws that a study file names by their kind.
+
+A part of a rig may follow one of several laws, each a class of its own. In a table, ``kind``
+says which::
+
+    right = { kind = "rigid", restitution = 0.8, gap = "7.5 mm" }
+
+One law of each part is the usual one and needs no ``kind``. A new law is a class derived from
+`Named`, and one more entry in the `Kinds` of the field that holds it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar, get_args
+
+from pydantic import (
+    GetCoreSchemaHandler,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
+from pydantic_core import CoreSchema, core_schema
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.units import shown
+from vibroimpact.model.validation import Choice, Model, constructor
+
+
+class Named(Model):
+    """A model object whose table has a kind."""
+
+    kind: ClassVar[str]
+    """Its name in a table."""
+    usual: ClassVar[bool] = False
+    """Whether it is what a table without a kind describes."""
+
+    @constructor
+    def __init__(self, /, **values: Any) -> None:
+        super().__init__(**values)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_this_kind(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping) or "kind" not in data:
+            return data
+        if data["kind"] != cls.kind:
+            raise InputError(f"kind: {shown(data['kind'])} is another; {cls.kind!r} is accepted")
+        return {name: value for name, value in data.items() if name != "kind"}
+
+    @model_serializer(mode="wrap")
+    def _with_its_kind(self, fields: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        return fields(self) if self.usual else {"kind": self.kind, **fields(self)}
+
+
+class Kinds(Choice):
+    """Annotation of a field: which classes it takes, told apart by ``kind``.
+
+    ``Annotated[Bumper | RigidStop | None, Kinds(Bumper, RigidStop)]`` is one of the two, or a
+    table of one of the two, or None.
+    """
+
+    def __init__(self, *classes: type[Named]) -> None:
+        self.classes: Mapping[str, type[Named]] = {one.kind: one for one in classes}
+        (self.usual,) = (one.kind for one in classes if one.usual)
+
+    def kind_of(self, value: Any) -> str:
+        """The kind of an object or a table; what is neither passes for the usual one."""
+        if isinstance(value, Mapping):
+            return str(value.get("kind", self.usual))
+        return value.kind if isinstance(value, Named) else self.usual
+
+    def unknown(self, value: Any) -> str:
+        """Say what is wrong with the kind of a table."""
+        names = " or ".join(map(repr, self.classes))
+        kind = value["kind"] if isinstance(value, Mapping) else self.kind_of(value)
+        return f"{shown(kind)} is unknown; {names} is accepted"
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Tell pydantic to choose the class by the kind."""
+        schema: CoreSchema = core_schema.tagged_union_schema(
+            {kind: handler.generate_schema(one) for kind, one in self.classes.items()},
+            self.kind_of,
+        )
+        return core_schema.nullable_schema(schema) if type(None) in get_args(source) else schema

@@ -1,0 +1,132 @@
+"""What the mass can hit: deformable and rigid stops.
+
+A stop pushes and never pulls. Its gap is the distance from the place of the mass at u = 0 to the
+stop at rest: u = gap on the right, u = -gap on the left. Where a gap is negative the stop
+presses the mass away from u = 0.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, ClassVar, Self, TypeAlias
+
+from vibroimpact.model.kinds import Kinds, Named
+from vibroimpact.model.restitution import damping_ratio
+from vibroimpact.model.units import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS, to_si
+from vibroimpact.model.validation import Accepts, constructor
+
+
+class Bumper(Named):
+    """A massless deformable stop: spring and dashpot in parallel (Kelvin-Voigt).
+
+    Its kind, ``"kelvin-voigt"``, need not be named in a table.
+
+    Parameters
+    ----------
+    stiffness
+        K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
+    damping
+        C_j in N s/m, at least 0; or text such as ``"0.9 kN s/m"``.
+    gap
+        G0_j in m: the distance from the mass at u = 0 to the bumper at rest; or text such as
+        ``"7.5 mm"``. The total gap of a symmetric rig is twice as large. Below 0 the bumper is
+        preloaded: at u = 0 it is pressed by that much.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or lies outside its bounds.
+    """
+
+    kind: ClassVar[str] = "kelvin-voigt"
+    usual: ClassVar[bool] = True
+
+    stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+    damping: Annotated[float, Accepts(DAMPING, minimum=0.0)]
+    gap: Annotated[float, Accepts(LENGTH)]
+
+    @constructor
+    def __init__(self, stiffness: float | str, damping: float | str, gap: float | str) -> None:
+        super().__init__(stiffness=stiffness, damping=damping, gap=gap)
+
+    @classmethod
+    def from_restitution(
+        cls,
+        mass: float | str,
+        stiffness: float | str,
+        restitution: float | str,
+        gap: float | str,
+    ) -> Self:
+        """Return the bumper with the dashpot that makes impacts return a given restitution.
+
+        The impact is that of the mass against the bumper at rest while nothing else acts, and
+        ends when the contact force falls to zero. The isolator and the base change the return of
+        a real contact the less, the stiffer the bumper is.
+
+        Parameters
+        ----------
+        mass
+            M in kg, greater than 0; or text such as ``"550 kg"``.
+        stiffness
+            K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
+        restitution
+            Velocity of return over velocity of impact, above 0 and at most 1; 1 needs no dashpot.
+        gap
+            G0_j in m; or text such as ``"7.5 mm"``.
+
+        Returns
+        -------
+        Bumper
+            With C_j = 2 z √(K_j M), z from Schwager and Pöschel, Granular Matter 9 (2007) 465.
+
+        Raises
+        ------
+        InputError
+            If a value is not finite, has a wrong unit or lies outside its bounds.
+
+        Examples
+        --------
+        >>> Bumper.from_restitution("550 kg", "510 kN/m", 1, "7.5 mm").damping
+        0.0
+        """
+        m = to_si(mass, MASS, "mass", above=0.0)
+        k = to_si(stiffness, STIFFNESS, "stiffness", above=0.0)
+        e = to_si(restitution, DIMENSIONLESS, "restitution", above=0.0, maximum=1.0)
+        return cls(k, 2.0 * damping_ratio(e) * math.sqrt(k) * math.sqrt(m), gap)
+
+
+class RigidStop(Named):
+    """A wall that does not give way: the mass rebounds at once, and may come to rest on it.
+
+    The mass that reaches the wall with velocity v towards it leaves with -e v. Where the wall
+    is pressed, e < 1 lets the mass fall ever faster on it again, infinitely often in a finite
+    time; then it rests on the wall until nothing presses it any more.
+
+    Parameters
+    ----------
+    restitution
+        e, from 0 to 1: velocity of return over velocity of impact.
+    gap
+        Distance in m from the mass at u = 0 to the wall; or text such as ``"7.5 mm"``. Below 0
+        the mass rests on the wall, away from u = 0, until it is shaken off.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or lies outside its bounds.
+    """
+
+    kind: ClassVar[str] = "rigid"
+
+    restitution: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0, maximum=1.0)]
+    gap: Annotated[float, Accepts(LENGTH)]
+
+    @constructor
+    def __init__(self, restitution: float | str, gap: float | str) -> None:
+        super().__init__(restitution=restitution, gap=gap)
+
+
+Stop: TypeAlias = Bumper | RigidStop
+"""Whatever the mass can hit."""
+
+STOPS = Kinds(Bumper, RigidStop)

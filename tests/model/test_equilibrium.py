@@ -1,0 +1,67 @@
+"""Where the mass stays while nothing shakes it."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from vibroimpact.model import Bumper, Isolator, Oscillator, RigidStop, State, equilibrium
+
+STIFFNESS = 2.0
+
+
+def at_rest(right=None, left=None):
+    state = equilibrium(Oscillator(1.0, Isolator(STIFFNESS, 0.3), right, left))
+    assert state == State(state.displacement)
+    return state.displacement
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-300, 0.4])
+@pytest.mark.parametrize("stop", [lambda gap: Bumper(5.0, 1.0, gap), lambda gap: RigidStop(1, gap)])
+def test_without_preload_it_is_exactly_zero(gap, stop):
+    for displacement in (at_rest(), at_rest(stop(gap)), at_rest(None, stop(gap))):
+        assert repr(displacement) == "0.0"
+    assert repr(at_rest(stop(gap), Bumper(3.0, 0.0, gap))) == "0.0"
+
+
+def test_one_preloaded_bumper():
+    assert at_rest(Bumper(6.0, 1.0, -0.4)) == pytest.approx(-0.3, rel=1e-15)
+    assert at_rest(None, Bumper(6.0, 1.0, -0.4)) == pytest.approx(0.3, rel=1e-15)
+
+
+def test_equal_preloads_cancel():
+    both = Bumper(6.0, 1.0, -0.4)
+    assert at_rest(both, both) == 0.0
+
+
+def test_a_preloaded_bumper_presses_the_mass_into_the_other_one():
+    # -2 u - 6 (u + 0.4) + 5 (-u - 0.2) = 0
+    assert at_rest(Bumper(6.0, 1.0, -0.4), Bumper(5.0, 0.0, 0.2)) == pytest.approx(-3.4 / 13)
+
+
+def test_rigid_stops_bound_it():
+    assert at_rest(RigidStop(0.5, -0.1)) == -0.1
+    assert at_rest(None, RigidStop(0.5, -0.1)) == 0.1
+    assert at_rest(RigidStop(0.5, -0.1), RigidStop(0.5, 0.2)) == -0.1
+    assert at_rest(Bumper(6.0, 1.0, -0.4), RigidStop(0.5, 0.25)) == -0.25
+    assert at_rest(Bumper(6.0, 1.0, -0.4), RigidStop(0.5, 0.35)) == pytest.approx(-0.3)
+    # The bumper is too soft to hold the mass away from a wall that is pushed into it.
+    assert at_rest(RigidStop(0.5, -0.3), Bumper(0.1, 0.0, 0.2)) == -0.3
+
+
+stiffnesses = st.floats(-6, 6).map(lambda x: 10.0**x)
+gaps = st.floats(-2.0, 2.0)
+stops = st.none() | st.builds(Bumper, stiffnesses, st.just(0.0), gaps)
+
+
+@settings(deadline=None)
+@given(stiffnesses, stops, stops)
+def test_forces_balance(stiffness, right, left):
+    u = equilibrium(Oscillator(1.0, Isolator(stiffness, 0.0), right, left)).displacement
+    forces = [stiffness * u]
+    if right:
+        forces.append(right.stiffness * max(u - right.gap, 0.0))
+    if left:
+        forces.append(-left.stiffness * max(-u - left.gap, 0.0))
+    # A depth is a difference of numbers as large as the gap.
+    allowed = sum(map(abs, forces)) + sum(s.stiffness * abs(s.gap) for s in (right, left) if s)
+    assert abs(sum(forces)) <= 4e-16 * allowed

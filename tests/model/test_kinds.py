@@ -1,0 +1,102 @@
+"""Tables that say which law they describe."""
+
+import pytest
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import (
+    Bumper,
+    Dimensionless,
+    DimensionlessRigidStop,
+    Isolator,
+    Oscillator,
+    RigidStop,
+    validate,
+)
+
+ISOLATOR = {"stiffness": "26.8 kN/m", "damping": "1.1 kN s/m"}
+BUMPER = {"stiffness": 510e3, "damping": 900, "gap": "7.5 mm"}
+WALL = {"kind": "rigid", "restitution": 0.8, "gap": "9 mm"}
+
+
+def rig(**sides):
+    return validate(Oscillator, {"mass": 550, "isolator": ISOLATOR, **sides}, where="rig")
+
+
+def test_a_kind_chooses_the_law():
+    found = rig(right=WALL, left=BUMPER)
+    assert found.right == RigidStop(0.8, 0.009)
+    assert found.left == Bumper(510e3, 900.0, 0.0075)
+    assert Oscillator(550, ISOLATOR, WALL).right == found.right
+
+
+def test_the_usual_kind_may_be_named():
+    assert rig(right={"kind": "kelvin-voigt", **BUMPER}) == rig(right=BUMPER)
+    named = Oscillator(550, {"kind": "linear", **ISOLATOR})
+    assert named.isolator == Isolator(26.8e3, 1.1e3)
+
+
+def test_only_an_unusual_kind_is_written():
+    written = rig(right=WALL, left=BUMPER).model_dump()
+    assert written["right"] == {"kind": "rigid", "restitution": 0.8, "gap": 0.009}
+    assert set(written["left"]) == {"stiffness", "damping", "gap"}
+    assert set(written["isolator"]) == {"stiffness", "damping"}
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        (
+            {"right": {"kind": "hertz", "stiffness": 1}},
+            "rig.right.kind: 'hertz' is unknown; 'kelvin-voigt' or 'rigid' is accepted",
+        ),
+        (
+            {"left": {"kind": 3}},
+            "rig.left.kind: 3 is unknown; 'kelvin-voigt' or 'rigid' is accepted",
+        ),
+        (
+            {"isolator": {"kind": "friction"}},
+            "rig.isolator.kind: 'friction' is unknown; 'linear' is accepted",
+        ),
+        (
+            {"right": {**WALL, "restitution": 2}},
+            "rig.right.restitution: 2 is greater than 1; a dimensionless number from 0 to 1 is "
+            "accepted, such as 0.15",
+        ),
+        (
+            {"right": {**WALL, "gapp": 2}},
+            "rig.right.gapp: unknown key; the fields of RigidStop (restitution, gap) are "
+            "accepted, perhaps gap is meant",
+        ),
+        (
+            {"right": {"kind": "rigid", "gap": 2}},
+            "rig.right.restitution: missing; a dimensionless number from 0 to 1 is accepted, "
+            "such as 0.15",
+        ),
+        (
+            {"right": {"restitution": 0.8, **BUMPER}},
+            "rig.right.restitution: unknown key; the fields of Bumper (stiffness, damping, gap) "
+            "are accepted",
+        ),
+        (
+            {"right": {**BUMPER, "gap": "3 kg"}},
+            "rig.right.gap: '3 kg' is a mass; a length is accepted, such as \"15 mm\" or 0.015 (m)",
+        ),
+    ],
+)
+def test_mistakes_are_named_by_their_path(table, message):
+    with pytest.raises(InputError) as caught:
+        rig(**table)
+    assert str(caught.value) == message
+
+
+def test_a_table_of_another_kind_is_refused():
+    with pytest.raises(InputError, match=r"kind: 'kelvin-voigt' is another; 'rigid' is accepted"):
+        RigidStop.model_validate({**WALL, "kind": "kelvin-voigt"})
+
+
+def test_dimensionless_tables_have_the_same_kinds():
+    group = validate(
+        Dimensionless,
+        {"damping_ratio": 0.1, "right": {"kind": "rigid", "restitution": 1, "gap": 0}},
+    )
+    assert group.right == DimensionlessRigidStop(1.0, 0.0)
