@@ -61,6 +61,20 @@ def test_where_the_cache_cannot_be_written_the_process_compiles_for_itself(tmp_p
     assert NOTICE in run(code, blocked)
 
 
+def test_one_message_a_process(tmp_path: Path) -> None:
+    code = (
+        "from vibroimpact.engine.jit import Entry\n"
+        "for name in 'abc':\n"
+        "    twice = eval('lambda x: 2 * x')\n"
+        "    twice.__name__ = name\n"
+        "    assert Entry(twice, 'f8(f8)')(2.0) == 4.0"
+    )
+    blocked = tmp_path / "file"
+    blocked.write_text("in the way")
+    (line,) = run(code, blocked).splitlines()
+    assert NOTICE in line
+
+
 def test_without_the_compiler_an_entry_is_the_function() -> None:
     code = (
         "from vibroimpact.engine import batch\n"

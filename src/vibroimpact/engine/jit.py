@@ -41,9 +41,10 @@ OPTIONS: dict[str, Any] = {
 }
 
 announce: Callable[[str], None] = lambda text: print(text, file=sys.stderr, flush=True)  # noqa: E731
-"""Called with one line before a compilation that takes seconds."""
+"""Called with one line before the first compilation of a process, which takes seconds."""
 
 _compiling = threading.Lock()
+_announced = threading.Event()
 
 
 def kernel(function: F) -> F:
@@ -117,7 +118,7 @@ class Entry:
 
     def _from_cache(self, directory: Path) -> Callable[..., Any]:
         if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
-            self._say()
+            _say()
         before = config.CACHE_DIR  # type: ignore[attr-defined]
         # Read when the decorator runs.
         config.CACHE_DIR = str(directory)  # type: ignore[attr-defined]
@@ -129,15 +130,19 @@ class Entry:
         return dispatcher  # type: ignore[no-any-return]
 
     def _compile_for_this_process(self) -> None:
-        self._say()
+        _say()
         dispatcher = numba.njit(**OPTIONS)(self.function)
         dispatcher.compile(self.signature)
         self._compiled = dispatcher
 
-    def _say(self) -> None:
+
+def _say() -> None:
+    """Announce once; further parts of the engine compile without a word."""
+    if not _announced.is_set():
+        _announced.set()
         announce(
-            f"vibroimpact: compiling the engine ({self.__name__}), once per installation, "
-            "about 10 s ..."
+            "vibroimpact: compiling the engine, once per installation; each part takes about "
+            "10 s when it is first used ..."
         )
 
 
