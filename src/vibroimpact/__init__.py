@@ -39,6 +39,7 @@ _HOME = {
     "load": "response.files",
     "lyapunov_exponents": "stability.exponents",
     "orbit": "stability.orbit",
+    "progress_bar": "response.progress",
     "resonance_diagram": "stability.diagram",
     "save": "response.files",
     "scenario_map": "scenario.map",
@@ -74,6 +75,7 @@ __all__ = [
     "load",
     "lyapunov_exponents",
     "orbit",
+    "progress_bar",
     "resonance_diagram",
     "save",
     "scenario_map",
@@ -103,6 +105,7 @@ if TYPE_CHECKING:
     )
     from vibroimpact.response.contacts import contacts
     from vibroimpact.response.files import load, save
+    from vibroimpact.response.progress import progress_bar
     from vibroimpact.response.section import impact_section, stroboscopic_section
     from vibroimpact.response.simulate import simulate
     from vibroimpact.response.spectrum import spectrum

@@ -25,7 +25,8 @@ from vibroimpact.model.kinds import Kinds, Named
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
-from vibroimpact.model.units import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS, to_si
+from vibroimpact.model.table import table
+from vibroimpact.model.units import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS, pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 PerSide: TypeAlias = "float | str | tuple[float | str | None, float | str | None] | None"
@@ -44,6 +45,10 @@ class Rig(NamedTuple):
 
     def __str__(self) -> str:
         return f"Rig(oscillator={self.oscillator}, amplitude={self.amplitude:.6g} m/s²)"
+
+    def _repr_html_(self) -> str:
+        shaken = ("amplitude", pretty(self.amplitude, ACCELERATION))
+        return table("Rig", [*self.oscillator.rows(), shaken])
 
 
 class DimensionlessBumper(Named):

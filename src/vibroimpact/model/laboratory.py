@@ -23,6 +23,7 @@ from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.stops import Bumper
+from vibroimpact.model.table import table
 from vibroimpact.model.units import (
     ACCELERATION,
     LENGTH,
@@ -111,6 +112,17 @@ class Case:
             f"amplitude={pretty(self.amplitude, ACCELERATION)}, "
             f"frequencies={self.frequencies[0]:g} to {self.frequencies[-1]:g} Hz, "
             f"parameters={self.parameters})"
+        )
+
+    def _repr_html_(self) -> str:
+        return table(
+            f"Case {self.code}",
+            [
+                *self.oscillator.rows(),
+                ("amplitude", pretty(self.amplitude, ACCELERATION)),
+                ("frequencies", f"{self.frequencies[0]:g} to {self.frequencies[-1]:g} Hz"),
+                ("parameters", self.parameters),
+            ],
         )
 
 

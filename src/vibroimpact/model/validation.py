@@ -8,7 +8,7 @@ nested table of a study file or from a change to an existing object.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
 
@@ -16,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationErro
 from pydantic_core import CoreSchema, core_schema
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.table import table
 from vibroimpact.model.units import Quantity, accepted, pretty, read, shown
 
 _Init = TypeVar("_Init", bound=Callable[..., None])
@@ -177,15 +178,31 @@ class Model(BaseModel, metaclass=_Listed):
         return self.replace(**(update or {}))
 
     def __str__(self) -> str:
-        parts = []
+        parts = [f"{name}={text}" for name, _, text in self._read()]
+        return f"{type(self).__name__}({', '.join(parts)})"
+
+    def _repr_html_(self) -> str:
+        return table(type(self).__name__, self.rows())
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Paths of the fields, such as ``right.gap``, and their values with units."""
+        found = []
+        for name, value, text in self._read():
+            if isinstance(value, Model):
+                found += [(f"{name}.{path}", part) for path, part in value.rows()]
+            else:
+                found.append((name, text))
+        return found
+
+    def _read(self) -> Iterator[tuple[str, Any, str]]:
+        """Each field's name, value, and text for reading."""
         for name, field in type(self).model_fields.items():
             value = getattr(self, name)
             accepts = next((m for m in field.metadata if isinstance(m, Accepts)), None)
             text = (
                 str(value) if value is None or accepts is None else pretty(value, accepts.quantity)
             )
-            parts.append(f"{name}={text}")
-        return f"{type(self).__name__}({', '.join(parts)})"
+            yield name, value, text
 
 
 def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelType:

@@ -1,0 +1,85 @@
+"""Progress that a caller of Python asks for: in a notebook, on a terminal, nowhere else."""
+
+from __future__ import annotations
+
+import io
+import sys
+
+import numpy as np
+
+import vibroimpact as vi
+
+CASE = vi.laboratory.case("B2-G1-A3")
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+class Notebook:
+    """What a notebook's kernel offers: an area of the page that can be written anew."""
+
+    kernel = object()
+
+    def __init__(self):
+        self.shown = []
+
+    def display(self, data, *, raw, display_id):
+        assert raw
+        self.shown.append(data)
+        return self
+
+    def update(self, data, *, raw):
+        assert raw
+        self.shown.append(data)
+
+
+def test_a_terminal_has_one_line_that_is_cleared_at_the_end(monkeypatch):
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    show = vi.progress_bar("sweep", every=0.0)
+    show(1, 4)
+    assert screen.getvalue().split("\r")[-1].startswith("sweep 1/4")
+    show(4, 4)
+    assert "4/4" in screen.getvalue()
+    assert "\n" not in screen.getvalue()
+    assert screen.getvalue().split("\r")[-1].strip() == ""
+
+
+def test_a_notebook_has_one_line_that_stays(monkeypatch):
+    page = Notebook()
+    monkeypatch.setattr("vibroimpact.response.progress._notebook", lambda: page.display)
+    show = vi.progress_bar("sweep", every=0.0)
+    show(1, 4)
+    show(4, 4)
+    first, *_, last = page.shown
+    assert '<progress value="1" max="4">' in first["text/html"]
+    assert first["text/plain"].startswith("sweep 1/4")
+    assert "<progress" not in last["text/html"]
+    assert last["text/plain"].startswith("sweep 4/4")
+
+
+def test_it_writes_seldom(monkeypatch):
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    show = vi.progress_bar("sweep", every=1e9)
+    for done in range(100):
+        show(done, 100)
+    assert screen.getvalue().count("\r") == 1
+
+
+def test_elsewhere_nothing_is_written(monkeypatch):
+    pipe = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", pipe)
+    show = vi.progress_bar("sweep", every=0.0)
+    show(1, 4)
+    show(4, 4)
+    assert pipe.getvalue() == ""
+
+
+def test_functions_that_take_long_take_it(monkeypatch):
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    vi.sweep(CASE, frequencies=np.arange(2.0, 3.0, 0.1), progress=vi.progress_bar("sweep"))
+    assert "sweep" in screen.getvalue()
