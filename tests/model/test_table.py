@@ -41,6 +41,12 @@ def test_rigs_and_cases_show_their_oscillator_and_what_shakes_it():
     assert groups["right.stiffness_ratio"] == "19.399"
 
 
+def test_an_unusual_part_names_its_kind():
+    rigid = CASE.oscillator.replace(right=vi.RigidStop(0.8, "7.5 mm"))
+    assert cells(rigid)["right.kind"] == "rigid"
+    assert "left.kind" not in cells(rigid)
+
+
 def test_text_is_escaped():
     from vibroimpact.model.table import table
 

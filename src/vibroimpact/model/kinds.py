@@ -52,6 +52,10 @@ class Named(Model):
     def _with_its_kind(self, fields: SerializerFunctionWrapHandler) -> dict[str, Any]:
         return fields(self) if self.usual else {"kind": self.kind, **fields(self)}
 
+    def rows(self) -> list[tuple[str, str]]:
+        """As for every part of the model, with its kind first unless it is the usual one."""
+        return super().rows() if self.usual else [("kind", self.kind), *super().rows()]
+
 
 class Kinds(Choice):
     """Annotation of a field: which classes it takes, told apart by ``kind``.
