@@ -11,15 +11,15 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 from numpy.typing import NDArray
+from vibroimpact.engine.evaluate import node, travel
 
 import vibroimpact as vi
 from benchmarks import ours
 from benchmarks.peers.problem import P
-from vibroimpact.engine.evaluate import node, travel
 from vibroimpact.engine.jit import OPTIONS
 from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.motion import FLIGHT, LEFT, NODES, PLAN, RIGHT, SIZE, TABLES, H, build
 from vibroimpact.engine.parameters import SIZE as RIG
-from vibroimpact.engine.phase import FLIGHT, LEFT, NODES, PLAN, RIGHT, SIZE, TABLES, H, build
 
 _Vector = NDArray[np.float64]
 _SETTLED = 200

@@ -7,7 +7,9 @@ import numpy as np
 
 import vibroimpact as vi
 from benchmarks.peers.problem import P, Problem
-from vibroimpact.engine import batch, hold, record
+from vibroimpact.engine import batch
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import rig_vector
 
 # a cos(Ωt) on the right-hand side is a base acceleration A sin(ωt + φ) with A = a, φ = −π/2.
@@ -38,7 +40,7 @@ def engine(periods: int, problem: Problem = P) -> Callable[[], tuple[float, floa
     It is the call that `vi.simulate(..., samples=0)` makes, and returns x and x′ at the end.
     """
     rig, hertz = vector(problem), frequency(problem)
-    state = np.zeros(hold.STATE)
+    state = np.zeros(layout.STATE)
     out = np.empty((0, record.SAMPLE))
     events = np.empty((_MAX_EVENTS + 1, record.EVENT))
 
@@ -57,7 +59,7 @@ def engine(periods: int, problem: Problem = P) -> Callable[[], tuple[float, floa
             out,
             events,
         )
-        return float(state[hold.U]), float(state[hold.V])
+        return float(state[layout.U]), float(state[layout.V])
 
     return call
 

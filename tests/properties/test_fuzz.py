@@ -12,7 +12,9 @@ from collections import Counter
 
 import numpy as np
 
-from vibroimpact.engine import batch, hold, record
+from vibroimpact.engine import batch
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.status import Status
 
@@ -47,7 +49,7 @@ def random_rig(rng: np.random.Generator) -> dict[str, object]:
 def faults(case: dict[str, object]) -> tuple[Status, list[str]]:
     """Run one rig from rest; say what is wrong with its motion."""
     right, left = case["right"], case["left"]
-    state = np.zeros(hold.STATE)
+    state = np.zeros(layout.STATE)
     out = np.full((CYCLES * SAMPLES + 1, record.SAMPLE), np.nan)
     events = np.empty((MAX_EVENTS * (CYCLES + 1) + 1, record.EVENT))
     _, _, outcome = batch.trajectory(

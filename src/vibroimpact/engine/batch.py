@@ -13,34 +13,30 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.hold import (
-    AGE,
-    FRESH,
-    LEFT_BUMPER,
-    MODE,
     NOT_FINITE,
     OUTCOME,
-    RIGHT_BUMPER,
     STOPPED,
     TOO_MANY_EVENTS,
     TOO_MUCH_WORK,
-    U,
-    V,
     hold,
 )
 from vibroimpact.engine.jit import Vector, entry, kernel
+from vibroimpact.engine.linear.advance import too_much_work
+from vibroimpact.engine.linear.pieces import acceleration
+from vibroimpact.engine.linear.tables import PLAN, build
+from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.phase import PLAN, build
-from vibroimpact.engine.record import (
+from vibroimpact.engine.motion import LEFT, RIGHT, finite, pack, unpacked
+from vibroimpact.engine.observe import UNOBSERVED
+from vibroimpact.engine.observers.record import (
     ACCELERATION,
     CONTACT,
     DISPLACEMENT,
     LEFT_FACE,
     RIGHT_FACE,
     VELOCITY,
-    record_cycle,
-    seen,
+    Record,
 )
-from vibroimpact.engine.trajectory import cycle, too_much_work
 
 
 @entry("void(f8[::1], f8, f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])")
@@ -96,18 +92,21 @@ def _sweep(
     states: Vector,
     progress: NDArray[np.int64],
 ) -> None:
-    s, c = math.sin(phase), math.cos(phase)
+    clock = (math.sin(phase), math.cos(phase))
+    motion = unpacked(state, clock)
     for i in range(len(frequencies)):
         if progress[1] != 0:
             results[i:, OUTCOME] = STOPPED
-            return
-        hold(plan, state, amplitude, frequencies[i], s, c, options, results[i])
-        states[i] = state
+            break
+        motion = hold(plan, motion, amplitude, frequencies[i], clock, options, results[i])
+        pack(motion, states[i])
         progress[0] += 1
         outcome = results[i, OUTCOME]
         if outcome in (TOO_MANY_EVENTS, TOO_MUCH_WORK, NOT_FINITE):
             # Nothing sound to carry on: start the next frequency from rest.
             state[:] = 0.0
+            motion = unpacked(state, clock)
+    pack(motion, state)
 
 
 @entry("UniTuple(i8, 3)(f8[::1], f8, f8, f8, f8[::1], f8, f8, i8, i8, f8[:, ::1], f8[:, ::1])")
@@ -179,59 +178,44 @@ def _trajectory(
     build(plan, amplitude, 2.0 * math.pi * frequency)
     if too_much_work(plan, period):
         return start, 0, TOO_MUCH_WORK
-    s, c = math.sin(phase), math.cos(phase)
-    mode, fresh = int(state[MODE]), int(state[FRESH])
-    u, v = state[U], state[V]
-    right, left, age = state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE]
+    clock = (math.sin(phase), math.cos(phase))
+    motion = unpacked(state, clock)
     number = start
     count = 0
     outcome = 0
     while number < cycles and outcome == 0 and count + max_events < len(events):
         # A cycle that is given up leaves the state of its section.
-        section = (mode, fresh, u, v, right, left, age)
+        section = motion
         share = min(1.0, cycles - number)
         length = share * period
         if samples == 0 and share == 1.0 and len(events) == max_events + 1:
             # Nothing is written down: the fast loop.
-            here, mode, fresh, u, v, right, left, age, _, _ = cycle(
-                plan, mode, fresh, u, v, right, left, age, s, c, period, max_events
-            )
-            complete = here <= max_events
+            here, motion, _ = cycle(plan, section, clock, length, max_events, UNOBSERVED)
         else:
             n = int(math.ceil(share * samples - 1e-9))  # noqa: RUF046 (a float to numba)
-            at = (number - start) * samples
-            complete, mode, fresh, u, v, right, left, age, count = record_cycle(
-                plan,
-                mode,
-                fresh,
-                u,
-                v,
-                right,
-                left,
-                age,
-                s,
-                c,
-                length,
+            notes = Record(
+                out[(number - start) * samples :],
                 period / samples if samples else 0.0,
                 n,
-                number,
-                max_events,
-                out[at : at + n],
+                0,
                 events,
                 count,
+                count + max_events,
+                number,
             )
-        if not complete:
+            here, motion, notes = cycle(plan, section, clock, length, max_events, notes)
+            count = notes.written
+        if here > max_events:
             outcome = TOO_MANY_EVENTS
-            mode, fresh, u, v, right, left, age = section
-        elif not (abs(u) < 1e200 and abs(v) < 1e200):
+            motion = section
+        elif not finite(motion):
             outcome = NOT_FINITE
         number += 1
     if number >= cycles and samples and outcome == 0:
         last = out[len(out) - 1]
-        last[DISPLACEMENT], last[VELOCITY] = u, v
-        last[ACCELERATION] = seen(plan, mode, u, v, right, left)
-        last[RIGHT_FACE], last[LEFT_FACE] = right, -left
-        last[CONTACT] = 1.0 if mode == 1 else (-1.0 if mode == 2 else 0.0)
-    state[MODE], state[FRESH], state[U], state[V] = mode, fresh, u, v
-    state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE] = right, left, age
+        last[DISPLACEMENT], last[VELOCITY] = motion.u, motion.v
+        last[ACCELERATION] = acceleration(plan, motion)
+        last[RIGHT_FACE], last[LEFT_FACE] = motion.right, -motion.left
+        last[CONTACT] = 1.0 if motion.mode == RIGHT else (-1.0 if motion.mode == LEFT else 0.0)
+    pack(motion, state)
     return number, count, outcome

@@ -13,11 +13,14 @@ import math
 import numpy as np
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.extremes import stretch_extremes
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.phase import DETACHED, FLIGHT, LIMIT, RIGHT, build
+from vibroimpact.engine.linear.advance import too_much_work
+from vibroimpact.engine.linear.tables import build
+from vibroimpact.engine.loop import cycle
+from vibroimpact.engine.motion import Clock, Motion, aged, finite
+from vibroimpact.engine.observe import UNOBSERVED
+from vibroimpact.engine.observers.extremes import Extremes
 from vibroimpact.engine.status import Status
-from vibroimpact.engine.trajectory import advance, cycle, too_much_work
 
 LONGEST = 16
 """Longest period, in forcing cycles, that is recognised."""
@@ -36,10 +39,6 @@ _RECENT = 0.2  # share of the cycles so far in which it must have come twice as 
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME = range(9)
 RESULTS = 9
 
-# A state as a vector, between holds.
-MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, AGE = range(7)
-STATE = 7
-
 DONE = int(Status.DONE)
 NOT_SETTLED = int(Status.NOT_SETTLED)
 TOO_MANY_EVENTS = int(Status.TOO_MANY_EVENTS)
@@ -51,93 +50,47 @@ STOPPED = int(Status.STOPPED)
 @kernel
 def measure(
     plan: Vector,
-    state: Vector,
-    s: float,
-    c: float,
+    motion: Motion,
+    clock: Clock,
     period: float,
     cycles: int,
     max_events: int,
     result: Vector,
-) -> int:
+) -> tuple[int, Motion]:
     """Follow `cycles` forcing cycles and write their exact extremes and contact counts."""
-    mode, fresh = int(state[MODE]), int(state[FRESH])
-    u, v = state[U], state[V]
-    right, left, age = state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE]
-    u_least, u_most = math.inf, -math.inf
-    a_least, a_most = math.inf, -math.inf
-    hits_r = 0
-    hits_l = 0
+    notes = Extremes(math.inf, -math.inf, math.inf, -math.inf, 0, 0)
     outcome = DONE
     done = 0
     while done < cycles and outcome == DONE:
-        t = 0.0
-        events = 0
-        sine, cosine = s, c
-        section = (mode, fresh, u, v, right, left, age)
-        while True:
-            was, before, old = mode, (u, v, sine, cosine, right, left), age
-            event, step, mode, fresh, u, v, sine, cosine, right, left, age = advance(
-                plan, mode, fresh, u, v, sine, cosine, right, left, period - t, age
-            )
-            bu, bv, bs, bc, br, bl = before
-            if was == FLIGHT:
-                x0, x1, a0, a1 = stretch_extremes(plan, was, bu, bv, bs, bc, step, old)
-            elif was == RIGHT:
-                x0, x1, a0, a1 = stretch_extremes(plan, was, br, bv, bs, bc, step, old)
-                gap = plan[par.BUMPER + par.GAP]
-                x0, x1 = gap + x0, gap + x1
-            else:
-                x1, x0, a1, a0 = stretch_extremes(plan, was, bl, -bv, -bs, -bc, step, old)
-                gap = plan[par.BUMPER + par.WIDTH + par.GAP]
-                x0, x1, a0, a1 = -(gap + x0), -(gap + x1), -a0, -a1
-            u_least, u_most = min(u_least, x0), max(u_most, x1)
-            a_least, a_most = min(a_least, a0), max(a_most, a1)
-            if event == LIMIT:
-                break
-            t += step
-            events += 1
-            if event != DETACHED:
-                if event == RIGHT:
-                    hits_r += 1
-                else:
-                    hits_l += 1
-            if events > max_events:
-                outcome = TOO_MANY_EVENTS
-                break
-            if t >= period:
-                break
-        if outcome != DONE:  # a cycle that is given up leaves the state of its section
-            mode, fresh, u, v, right, left, age = section
+        section = motion
+        events, motion, notes = cycle(plan, section, clock, period, max_events, notes)
+        if events > max_events:  # a cycle that is given up leaves the state of its section
+            outcome = TOO_MANY_EVENTS
+            motion = section
         done += 1
-    state[MODE], state[FRESH], state[U], state[V] = mode, fresh, u, v
-    state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE] = right, left, age
-    result[U_LEAST], result[U_MOST] = u_least, u_most
-    result[A_LEAST], result[A_MOST] = a_least, a_most
-    result[HITS_RIGHT], result[HITS_LEFT] = hits_r / done, hits_l / done
-    return outcome
+    result[U_LEAST], result[U_MOST] = notes.u_least, notes.u_most
+    result[A_LEAST], result[A_MOST] = notes.a_least, notes.a_most
+    result[HITS_RIGHT], result[HITS_LEFT] = notes.hits_right / done, notes.hits_left / done
+    return outcome, motion
 
 
 @kernel
 def settle(
     plan: Vector,
-    state: Vector,
-    s: float,
-    c: float,
+    motion: Motion,
+    clock: Clock,
     period: float,
     tolerance: float,
     max_cycles: int,
     max_events: int,
-) -> tuple[int, int, int]:
+) -> tuple[int, int, int, Motion]:
     """Follow the motion until it repeats itself.
 
     Returns
     -------
-    outcome, n, cycles
+    outcome, n, cycles, motion
         `n` is the period in forcing cycles, 0 if the motion did not settle.
     """
-    mode, fresh = int(state[MODE]), int(state[FRESH])
-    u, v = state[U], state[V]
-    right, left, age = state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE]
     weight = math.sqrt(plan[par.STIFFNESS])
     past = np.zeros((LONGEST, 4))
     block = np.zeros(LONGEST + 1)
@@ -158,17 +111,17 @@ def settle(
         and best <= _CLOSING * scale
     ):
         at = k % LONGEST
-        past[at, 0], past[at, 1], past[at, 2], past[at, 3] = u, v, right, left
-        section = (mode, fresh, u, v, right, left, age)
-        events, mode, fresh, u, v, right, left, age, _, _ = cycle(
-            plan, mode, fresh, u, v, right, left, age, s, c, period, max_events
-        )
+        past[at, 0], past[at, 1] = motion.u, motion.v
+        past[at, 2], past[at, 3] = motion.right, motion.left
+        section = motion
+        events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
+        u, v, right, left = motion.u, motion.v, motion.right, motion.left
         k += 1
         if events > max_events:
             outcome = TOO_MANY_EVENTS
-            mode, fresh, u, v, right, left, age = section
+            motion = section
             break
-        if not (abs(u) < 1e200 and abs(v) < 1e200):
+        if not finite(motion):
             outcome = NOT_FINITE
             break
         size = max(size, weight * abs(u), abs(v))
@@ -236,32 +189,31 @@ def settle(
             recent[i] = block[i] / former[i] if former[i] < math.inf else math.inf
             former[i] = block[i] if i <= longest else math.inf
             block[i] = 0.0
-    state[MODE], state[FRESH], state[U], state[V] = mode, fresh, u, v
-    state[RIGHT_BUMPER], state[LEFT_BUMPER], state[AGE] = right, left, age
-    return outcome, n, k
+    return outcome, n, k, motion
 
 
 @kernel
 def hold(
     plan: Vector,
-    state: Vector,
+    motion: Motion,
     amplitude: float,
     frequency: float,
-    s: float,
-    c: float,
+    clock: Clock,
     options: tuple[float, int, int, int],
     result: Vector,
-) -> None:
-    """Hold one frequency: settle, then measure.
+) -> Motion:
+    """Hold one frequency: settle, then measure; return the motion at the end.
 
     Parameters
     ----------
-    plan, state : ndarray
-        The rig's plan, whose tables are rebuilt here; the state, carried on.
+    plan : ndarray
+        The rig's plan, whose tables are rebuilt here.
+    motion : Motion
+        What is carried on.
     amplitude, frequency : float
         m/s² and Hz.
-    s, c : float
-        Sine and cosine of the forcing phase at the stroboscopic section.
+    clock : Clock
+        The forcing at the stroboscopic section.
     options : tuple
         tolerance, max_cycles, window, max_events.
     result : ndarray, shape (RESULTS,)
@@ -275,11 +227,11 @@ def hold(
     result[PERIOD], result[CYCLES] = 0, 0
     if too_much_work(plan, period):
         result[OUTCOME] = TOO_MUCH_WORK
-        return
-    state[AGE] = 0.0  # the forcing has changed: what had died out is a transient again
-    outcome, n, k = settle(plan, state, s, c, period, tolerance, max_cycles, max_events)
+        return motion
+    motion = aged(motion, 0.0)  # the forcing has changed: what had died out is a transient again
+    outcome, n, k, motion = settle(plan, motion, clock, period, tolerance, max_cycles, max_events)
     if outcome in (DONE, NOT_SETTLED):
-        over = measure(plan, state, s, c, period, n if n else window, max_events, result)
+        over, motion = measure(plan, motion, clock, period, n if n else window, max_events, result)
         k += n if n else window
         if over != DONE:
             outcome = over
@@ -287,3 +239,4 @@ def hold(
             for i in range(RESULTS):
                 result[i] = math.nan
     result[PERIOD], result[CYCLES], result[OUTCOME] = n, k, outcome
+    return motion

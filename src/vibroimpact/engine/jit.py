@@ -60,7 +60,7 @@ def cache_directory() -> Path:
     """
     here = Path(__file__).parent
     digest = hashlib.sha256(str(here).encode())  # numba's index names the folder, too
-    for path in sorted(here.glob("*.py")):
+    for path in sorted(here.rglob("*.py")):
         digest.update(path.read_bytes())
     host = numba.core.registry.cpu_target.target_context.codegen().magic_tuple()
     for part in (numba.__version__, llvmlite.__version__, sys.version, host, OPTIONS):

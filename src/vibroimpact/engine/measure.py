@@ -11,28 +11,28 @@ import math
 import numpy as np
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.evaluate import absolute_acceleration, expand, horner, moved, node
-from vibroimpact.engine.extremes import acceleration_series, series_extremes
 from vibroimpact.engine.jit import Vector, entry, kernel
-from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.phase import (
-    FLIGHT,
-    LEFT,
-    MIDDLE,
-    NODE,
-    NODES,
+from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner
+from vibroimpact.engine.linear.pieces import (
+    accelerated,
+    expanded,
+    expanded_force,
+    following,
+    more,
+    window,
+)
+from vibroimpact.engine.linear.tables import (
     PLAN,
     RATE,
     SCALED_W,
     SIZE,
     TABLES,
-    TAYLOR,
-    TAYLOR_F,
-    VALID_FROM,
-    WIDTH,
     H,
     build,
 )
+from vibroimpact.engine.memory import pointer, workspace
+from vibroimpact.engine.motion import FLIGHT, LEFT
+from vibroimpact.engine.observers.extremes import series_extremes
 
 _X, _W = np.polynomial.legendre.leggauss(12)
 _ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
@@ -54,7 +54,7 @@ def measure_phase(
     plan: Vector, mode: int, x: float, v: float, s: float, c: float, length: float, out: Vector
 ) -> None:
     """Measure one phase from its start; x, v, s, c are mirrored for a left contact."""
-    table = TABLES + SIZE * mode
+    series = workspace()
     x_least, x_most = x, x
     a = absolute_acceleration(plan, mode, x, v)
     a_least, a_most, a_time = a, a, 0.0
@@ -62,46 +62,35 @@ def measure_phase(
     impulse = 0.0
     squares = 0.0
     work = 0.0
-    t = 0.0
-    while t < length:
-        late = table + 3 * SIZE
-        now = late if t >= plan[late + VALID_FROM] else table
-        span = (length - t) * plan[now + RATE]
-        square = plan[now + RATE] * plan[now + RATE]
-        h = plan[now + H]
-        for i in range(NODES):
-            if i >= span:
-                break
-            nx, nv, ns, nc = node(plan, now, i, x, v, s, c)
-            mx, mv, ms, mc = moved(plan, now + MIDDLE, nx, nv, ns, nc)
-            high = min(0.5, span - i - 0.5)
-            width = high + 0.5
-            expand(plan, now + TAYLOR, mx, mv, ms, mc)
+    cursor = window(plan, TABLES + SIZE * mode, length, 0.0, 0.0, x, v, s, c)
+    while more(cursor):
+        h = plan[cursor.table + H]
+        turn = plan[cursor.table + SCALED_W]
+        high, ms, mc = expanded(plan, cursor, series)
+        width = high + 0.5
+        for n in range(len(_WEIGHTS)):
+            y = width * _ABSCISSAE[n] - 0.5
+            _, slope = horner(series, y)
+            rate = slope * plan[cursor.table + RATE]
+            base = ms * math.cos(turn * y) + mc * math.sin(turn * y)
+            squares += _WEIGHTS[n] * width * h * rate * rate
+            work += _WEIGHTS[n] * width * h * rate * base
+        x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
+        unit = accelerated(plan, cursor, series)
+        was_least, was_most = a_least / unit, a_most / unit
+        least, most, at_least, at_most = series_extremes(series, -0.5, high, was_least, was_most)
+        a_least, a_most = least * unit, most * unit
+        if least < was_least and -least > most:
+            a_time = cursor.t + (cursor.i + 0.5 + at_least) * h
+        if most > was_most and most >= -least:
+            a_time = cursor.t + (cursor.i + 0.5 + at_most) * h
+        if mode != FLIGHT:
+            expanded_force(plan, cursor, series)
             for n in range(len(_WEIGHTS)):
-                y = width * _ABSCISSAE[n] - 0.5
-                _, slope = horner(plan, y)
-                rate = slope * plan[now + RATE]
-                angle = plan[now + SCALED_W] * y
-                base = ms * math.cos(angle) + mc * math.sin(angle)
-                squares += _WEIGHTS[n] * width * h * rate * rate
-                work += _WEIGHTS[n] * width * h * rate * base
-            x_least, x_most, _, _ = series_extremes(plan, -0.5, high, x_least, x_most)
-            acceleration_series(plan, now)
-            was_least, was_most = a_least / square, a_most / square
-            least, most, at_least, at_most = series_extremes(plan, -0.5, high, was_least, was_most)
-            a_least, a_most = least * square, most * square
-            if least < was_least and -least > most:
-                a_time = t + (i + 0.5 + at_least) * h
-            if most > was_most and most >= -least:
-                a_time = t + (i + 0.5 + at_most) * h
-            if mode != FLIGHT:
-                expand(plan, now + TAYLOR_F, mx, mv, ms, mc)
-                for n in range(len(_WEIGHTS)):
-                    value, _ = horner(plan, width * _ABSCISSAE[n] - 0.5)
-                    impulse += _WEIGHTS[n] * width * h * value
-                _, force, _, _ = series_extremes(plan, -0.5, high, 0.0, force)
-        x, v, s, c = moved(plan, now + NODE + (NODES - 1) * WIDTH, x, v, s, c)
-        t += NODES * h
+                value, _ = horner(series, width * _ABSCISSAE[n] - 0.5)
+                impulse += _WEIGHTS[n] * width * h * value
+            _, force, _, _ = series_extremes(series, -0.5, high, 0.0, force)
+        cursor = following(plan, cursor)
     if mode == LEFT:
         a_least, a_most = -a_most, -a_least
     out[X_LEAST], out[X_MOST] = x_least, x_most

@@ -8,13 +8,18 @@ negative. A plan goes through a dozen calls a forcing cycle; that was a third of
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
-from numba.core import types
+from numba.core import cgutils, config, types
 from numba.extending import intrinsic, overload
 
 from vibroimpact.engine.jit import Vector
+
+TERMS = 12
+"""Length of a workspace: the coefficients of one long series."""
 
 _DOUBLES = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
 
@@ -26,6 +31,30 @@ def pointer(array: Vector) -> Vector:
     Without the compiler this is the array itself.
     """
     return array
+
+
+@intrinsic
+def _on_the_stack(typing: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        room = cgutils.alloca_once(  # type: ignore[no-untyped-call]
+            builder, ir.ArrayType(ir.DoubleType(), TERMS)
+        )
+        return builder.bitcast(room, ir.DoubleType().as_pointer())
+
+    return _DOUBLES(), build
+
+
+def _on_the_heap() -> Vector:
+    return np.empty(TERMS)
+
+
+workspace: Callable[[], Vector] = (
+    _on_the_heap if config.DISABLE_JIT else _on_the_stack  # type: ignore[attr-defined, assignment]
+)
+"""Room for the TERMS coefficients of a series, on the stack of the kernel that asks.
+
+An intrinsic itself: behind a function it would be gone with that function's frame.
+"""
 
 
 @intrinsic

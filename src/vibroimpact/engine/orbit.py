@@ -6,10 +6,14 @@ import math
 
 import numpy as np
 
-from vibroimpact.engine.hold import DONE, NOT_FINITE, NOT_SETTLED, RESULTS, STATE, measure
+from vibroimpact.engine.hold import DONE, NOT_FINITE, NOT_SETTLED, RESULTS, measure
 from vibroimpact.engine.jit import Vector, entry, kernel
+from vibroimpact.engine.linear.advance import too_much_work
+from vibroimpact.engine.linear.tables import PLAN
+from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.phase import FLIGHT, PLAN
+from vibroimpact.engine.observers.margin import Margin
+from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.section_map import (
     AMPLITUDE,
     CONTACTS_LEFT,
@@ -25,7 +29,6 @@ from vibroimpact.engine.section_map import (
     section_map,
     system_plan,
 )
-from vibroimpact.engine.tangent import DISTURBANCE
 
 _NEWTON_STEPS = 16
 _GOOD = 1e-14  # residual over the scale at which nothing is left to gain
@@ -275,21 +278,66 @@ def measure_orbit(
     still = np.zeros(SYSTEM)
     used = np.empty(SYSTEM)
     system_plan(system, still, 0.0, plan, used)
-    mode, u, v, right, left = placed(
-        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3]
-    )
-    state = np.zeros(STATE)
-    state[0], state[1] = mode, 1.0 if mode != FLIGHT else 0.0
-    state[2], state[3], state[4], state[5] = u, v, right, left
-    outcome = measure(
-        plan,
-        state,
-        math.sin(phase),
-        math.cos(phase),
-        1.0 / used[FREQUENCY],
-        cycles,
-        max_events,
-        result[:RESULTS],
-    )
+    clock = (math.sin(phase), math.cos(phase))
+    motion = placed(plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], clock)
+    period = 1.0 / used[FREQUENCY]
+    outcome, _ = measure(plan, motion, clock, period, cycles, max_events, result[:RESULTS])
     memory[0] = 0.0  # keeps the memory alive until here
     return outcome
+
+
+@kernel
+def _margin(
+    plan: Vector,
+    system: Vector,
+    phase: float,
+    cycles: int,
+    max_events: int,
+    point: Vector,
+    facts: Vector,
+) -> float:
+    period = 1.0 / system[FREQUENCY]
+    if too_much_work(plan, period):
+        return math.nan
+    clock = (math.sin(phase), math.cos(phase))
+    motion = placed(plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], clock)
+    notes = Margin(math.inf)
+    for _ in range(cycles):
+        events, motion, notes = cycle(plan, motion, clock, period, max_events, notes)
+        if events > max_events:
+            return math.nan
+    return notes.least
+
+
+@entry("f8(f8[::1], f8, i8, i8, f8[::1], f8[::1])")
+def grazing_margin(
+    system: Vector, phase: float, cycles: int, max_events: int, point: Vector, facts: Vector
+) -> float:
+    """Signed distance of a motion from grazing (m).
+
+    Parameters
+    ----------
+    system : ndarray, shape (section_map.SYSTEM,)
+        The rig and its forcing.
+    phase : float
+        Of the section, rad.
+    cycles : int
+        Forcing cycles to look at.
+    max_events : int
+        Contacts and detachments in a cycle at which it gives up.
+    point, facts : ndarray
+        The state at the section and its mode, as in `orbit.correct`.
+
+    Returns
+    -------
+    float
+        Positive: the least clearance at which the mass turns back in flight. Negative: the least
+        depth at which it turns back in a contact. The one of least size; NaN if given up.
+    """
+    memory = np.zeros(PLAN)
+    plan = pointer(memory)
+    used = np.empty(SYSTEM)
+    system_plan(system, np.zeros(SYSTEM), 0.0, plan, used)
+    found = _margin(plan, used, phase, cycles, max_events, point, facts)
+    memory[0] = 0.0  # keeps the memory alive until here
+    return found

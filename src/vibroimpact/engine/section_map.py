@@ -12,9 +12,11 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.hold import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT, build
-from vibroimpact.engine.tangent import DISTURBANCE, disturbed_cycle
-from vibroimpact.engine.trajectory import too_much_work
+from vibroimpact.engine.linear.advance import too_much_work
+from vibroimpact.engine.linear.tables import build
+from vibroimpact.engine.loop import cycle
+from vibroimpact.engine.motion import FLIGHT, RIGHT, Clock, Motion, mirrored
+from vibroimpact.engine.observers.tangent import DISTURBANCE, Tangent
 
 # The system vector: the rig (`parameters`), then the forcing.
 AMPLITUDE = par.SIZE
@@ -50,12 +52,11 @@ def system_plan(base: Vector, direction: Vector, p: float, plan: Vector, system:
 
 @kernel
 def placed(
-    plan: Vector, mode: int, u: float, v: float, right: float, left: float
-) -> tuple[int, float, float, float, float]:
+    plan: Vector, mode: int, u: float, v: float, right: float, left: float, clock: Clock
+) -> Motion:
     """The nearest state that can be: no mass inside a bumper, no bumper that pulls.
 
-    Deformations are measured away from the mass, as in `trajectory`. Returns the mode, and the
-    state.
+    Deformations are measured away from the mass.
     """
     right, left = max(right, 0.0), max(left, 0.0)
     found = FLIGHT
@@ -78,7 +79,8 @@ def placed(
             right = deformation
         else:
             left = deformation
-    return found, u, v, right, left
+    fresh = 1 if found != FLIGHT else 0
+    return Motion(found, fresh, u, v, right, left, 0.0, clock)
 
 
 @kernel
@@ -101,43 +103,34 @@ def section_map(
     for i in range(DISTURBANCE):
         if not abs(point[i]) < 1e200:
             return NOT_FINITE
-    mode, u, v, right, left = placed(
-        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3]
-    )
-    point[2], point[3] = right, -left
-    facts[MODE] = mode
+    clock = (math.sin(phase), math.cos(phase))
+    motion = placed(plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], clock)
+    point[2], point[3] = motion.right, -motion.left
+    facts[MODE] = motion.mode
     period = (0.5 if mirror else 1.0) / system[FREQUENCY]
     if too_much_work(plan, period):
         return TOO_MUCH_WORK
     q[:] = 0.0
     for i in range(DISTURBANCE):
         q[i, i] = 1.0
-    if mode != FLIGHT:
-        q[0, 1 + mode] = 1.0
-        q[1 + mode] = 0.0
-    s, c = math.sin(phase), math.cos(phase)
-    fresh = 1 if mode != FLIGHT else 0
-    age = 0.0
+    if motion.mode != FLIGHT:
+        q[0, 1 + motion.mode] = 1.0
+        q[1 + motion.mode] = 0.0
     facts[CONTACTS_RIGHT], facts[CONTACTS_LEFT], facts[DAMPING] = 0.0, 0.0, 0.0
     for _ in range(count):
-        events, mode, fresh, u, v, right, left, age, damping, hits_r, hits_l = disturbed_cycle(
-            plan, mode, fresh, u, v, right, left, age, s, c, period, max_events, q
-        )
+        notes = Tangent(q, 0.0, 0, 0)
+        events, motion, notes = cycle(plan, motion, clock, period, max_events, notes)
         if events > max_events:
             return TOO_MANY_EVENTS
-        facts[DAMPING] += damping
-        facts[CONTACTS_RIGHT] += hits_r
-        facts[CONTACTS_LEFT] += hits_l
+        facts[DAMPING] += notes.damping
+        facts[CONTACTS_RIGHT] += notes.hits_right
+        facts[CONTACTS_LEFT] += notes.hits_left
         if mirror:
-            u, v = -u, -v
-            right, left = left, right
-            mode = LEFT if mode == RIGHT else (RIGHT if mode == LEFT else FLIGHT)
-            if mode == FLIGHT:
-                fresh = LEFT if fresh == RIGHT else (RIGHT if fresh == LEFT else 0)
+            motion = mirrored(motion)
             for i in range(DISTURBANCE):
                 q[i, 0], q[i, 1] = -q[i, 0], -q[i, 1]
                 q[i, 2], q[i, 3] = -q[i, 3], -q[i, 2]
-    image[0], image[1], image[2], image[3] = u, v, right, -left
-    if mode != FLIGHT:
-        facts[MODE] = mode
+    image[0], image[1], image[2], image[3] = motion.u, motion.v, motion.right, -motion.left
+    if motion.mode != FLIGHT:
+        facts[MODE] = motion.mode
     return DONE

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import measure
-from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Harmonic, Oscillator, State, validate
 from vibroimpact.response.start import engine_rig

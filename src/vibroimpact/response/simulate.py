@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, record
+from vibroimpact.engine import batch
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, State, equilibrium, to_si
 from vibroimpact.model.counts import check_samples, whole

@@ -9,9 +9,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold, record
+from vibroimpact.engine import batch
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import rig_vector
-from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State
 from vibroimpact.model.units import LENGTH, pretty
@@ -148,23 +150,23 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
         if state.contact == sign or (state.contact is None and touches and presses):
             contact = RIGHT if sign == 1 else LEFT
         deformations[i] = deformation
-    vector = np.zeros(hold.STATE)
-    vector[hold.MODE] = contact
-    vector[hold.FRESH] = 1.0 if contact != FLIGHT else 0.0
-    vector[hold.U], vector[hold.V] = u, v
-    vector[hold.RIGHT_BUMPER], vector[hold.LEFT_BUMPER] = deformations
+    vector = np.zeros(layout.STATE)
+    vector[layout.MODE] = contact
+    vector[layout.FRESH] = 1.0 if contact != FLIGHT else 0.0
+    vector[layout.U], vector[layout.V] = u, v
+    vector[layout.RIGHT_BUMPER], vector[layout.LEFT_BUMPER] = deformations
     return vector
 
 
 def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
     """Engine states (last axis) as the components of a dataset's state."""
-    mode = vector[..., hold.MODE]
+    mode = vector[..., layout.MODE]
     # At the end of a contact without a dashpot, rounding may leave a deformation below zero.
-    deformations = np.maximum(vector[..., hold.RIGHT_BUMPER : hold.LEFT_BUMPER + 1], 0.0)
+    deformations = np.maximum(vector[..., layout.RIGHT_BUMPER : layout.LEFT_BUMPER + 1], 0.0)
     stacked = np.stack(
         [
-            vector[..., hold.U],
-            vector[..., hold.V],
+            vector[..., layout.U],
+            vector[..., layout.V],
             deformations[..., 0],
             -deformations[..., 1],
             np.broadcast_to(phase % (2.0 * math.pi), mode.shape),

@@ -14,6 +14,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, hold
+from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State, equilibrium, to_si
@@ -171,7 +172,7 @@ def sweeps(
 
     shape = (len(pairs), len(directions), len(grid))
     results = np.empty((*shape, hold.RESULTS))
-    states = np.zeros((*shape, hold.STATE))
+    states = np.zeros((*shape, layout.STATE))
     counter = np.zeros((len(pairs) * len(directions), 2), dtype=np.int64)
 
     def one(task: int) -> None:
@@ -179,7 +180,7 @@ def sweeps(
         rig, amplitude, begin = prepared[r]
         order = slice(None, None, 1 if directions[d] == "forward" else -1)
         found = np.empty((len(grid), hold.RESULTS))
-        reached = np.zeros((len(grid), hold.STATE))
+        reached = np.zeros((len(grid), layout.STATE))
         batch.sweep(
             rig,
             amplitude,

@@ -10,8 +10,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import hold, orbit, section_map
+from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
@@ -127,7 +128,7 @@ def first_orbit(
         found = settle(fam.oscillator, fam.excitation, State(phase=fam.phase))
         vector = found.state
         point = np.array([vector[2], vector[3], vector[4], -vector[5], fam.value])
-        mode = float(vector[hold.MODE])
+        mode = float(vector[layout.MODE])
     else:
         state = as_state(start)
         if state.phase is not None:

@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold, margin, orbit, section_map
-from vibroimpact.engine.phase import FLIGHT
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine import orbit, section_map
+from vibroimpact.engine.motion import FLIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.response.start import moved_on
@@ -219,7 +220,7 @@ def is_fixed(section: Section, found: Orbit, tolerance: float) -> bool:
 def margin_of(found: Orbit) -> float:
     """Scaled distance from grazing: see `engine.margin`."""
     section = found.section
-    value: float = margin.grazing_margin(
+    value: float = orbit.grazing_margin(
         section.family.system(found.value),
         section.family.phase,
         section.period,
@@ -234,10 +235,10 @@ def vector_of(found: Orbit) -> _Array:
     """The state at the section as the engine's vector."""
     mode = float(found.facts[section_map.MODE])
     u, v, right, left = found.point[:4]
-    state = np.zeros(hold.STATE)
-    state[hold.MODE], state[hold.FRESH] = mode, float(mode != FLIGHT)
-    state[hold.U], state[hold.V] = u, v
-    state[hold.RIGHT_BUMPER], state[hold.LEFT_BUMPER] = right, -left
+    state = np.zeros(layout.STATE)
+    state[layout.MODE], state[layout.FRESH] = mode, float(mode != FLIGHT)
+    state[layout.U], state[layout.V] = u, v
+    state[layout.RIGHT_BUMPER], state[layout.LEFT_BUMPER] = right, -left
     return state
 
 
@@ -255,9 +256,9 @@ def seen_at(found: Orbit, phase: float) -> tuple[_Array, float]:
     if ahead > 0.0:
         rig = system[: section_map.AMPLITUDE].copy()
         state = moved_on(rig, here, state, ahead, MAX_EVENTS)
-    right, left = state[hold.RIGHT_BUMPER], -state[hold.LEFT_BUMPER]
-    point = np.array([state[hold.U], state[hold.V], right, left, found.value])
-    return point, float(state[hold.MODE])
+    right, left = state[layout.RIGHT_BUMPER], -state[layout.LEFT_BUMPER]
+    point = np.array([state[layout.U], state[layout.V], right, left, found.value])
+    return point, float(state[layout.MODE])
 
 
 def at_phase(found: Orbit, phase: float) -> Orbit | None:

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, hold
-from vibroimpact.engine.phase import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import share
@@ -65,7 +66,7 @@ def settle(
         1,
         max_events,
         result,
-        reached := np.zeros((1, hold.STATE)),
+        reached := np.zeros((1, layout.STATE)),
         np.zeros(2, dtype=np.int64),
     )
     outcome = Status(int(result[0, hold.OUTCOME]))
@@ -83,13 +84,16 @@ def mirrored(state: _Array) -> _Array:
     """The mirror image of a state of the engine: what moves right moves left."""
     image = state.copy()
     other = {float(FLIGHT): FLIGHT, float(RIGHT): LEFT, float(LEFT): RIGHT}
-    image[hold.MODE] = other[float(state[hold.MODE])]
-    if state[hold.MODE] == FLIGHT:  # then it is the side that was just left
-        image[hold.FRESH] = other[float(state[hold.FRESH])]
-    image[hold.U], image[hold.V] = -state[hold.U], -state[hold.V]
-    image[hold.RIGHT_BUMPER], image[hold.LEFT_BUMPER] = (
-        state[hold.LEFT_BUMPER],
-        state[hold.RIGHT_BUMPER],
+    image[layout.MODE] = other[float(state[layout.MODE])]
+    if state[layout.MODE] == FLIGHT:  # then it is the side that was just left
+        image[layout.FRESH] = other[float(state[layout.FRESH])]
+    image[layout.U], image[layout.V] = (
+        -state[layout.U],
+        -state[layout.V],
+    )
+    image[layout.RIGHT_BUMPER], image[layout.LEFT_BUMPER] = (
+        state[layout.LEFT_BUMPER],
+        state[layout.RIGHT_BUMPER],
     )
     return image
 
@@ -103,14 +107,24 @@ def follow(found: Settled, state: _Array, cycles: float, max_events: int = 10_00
 def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:
     """Largest difference of two states of the engine, as a displacement over `size`."""
     difference = np.abs(one - other)
-    difference[hold.V] /= found.excitation.angular_frequency
-    return float(difference[[hold.U, hold.V, hold.RIGHT_BUMPER, hold.LEFT_BUMPER]].max() / size)
+    difference[layout.V] /= found.excitation.angular_frequency
+    return float(
+        difference[
+            [
+                layout.U,
+                layout.V,
+                layout.RIGHT_BUMPER,
+                layout.LEFT_BUMPER,
+            ]
+        ].max()
+        / size
+    )
 
 
 def reach(found: Settled, state: _Array) -> float:
     """Size of a motion near a state, as a displacement (m); never zero."""
-    speed = abs(float(state[hold.V])) / found.excitation.angular_frequency
-    size = max(abs(float(state[hold.U])), speed)
+    speed = abs(float(state[layout.V])) / found.excitation.angular_frequency
+    size = max(abs(float(state[layout.U])), speed)
     return max(size, 1e-3 * reach_at_rest(found.oscillator, found.excitation), 1e-300)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.phase import (
+from vibroimpact.engine.linear.tables import (
     COSINE,
     FINE,
     FINE_NODE,
@@ -20,7 +20,6 @@ from vibroimpact.engine.phase import (
     SCALED_D,
     SCALED_K,
     SCALED_W,
-    SCRATCH,
     SINE,
     SIZE,
     TABLES,
@@ -28,6 +27,7 @@ from vibroimpact.engine.phase import (
     WIDTH,
     H,
 )
+from vibroimpact.engine.memory import workspace
 
 _RADIUS = 1.0 / 40.0  # steps; how far a short series reaches
 
@@ -88,26 +88,26 @@ def node(
 
 
 @kernel
-def expand(plan: Vector, at: int, x: float, v: float, s: float, c: float) -> None:
-    """Write the long series about a state to the scratch.
+def expand(plan: Vector, at: int, x: float, v: float, s: float, c: float, series: Vector) -> None:
+    """Write the long series about a state.
 
     `at` is where TAYLOR (for x) or TAYLOR_F (for the contact force) of a table begins.
     """
     for n in range(ORDER):
-        plan[SCRATCH + n] = (
+        series[n] = (
             (plan[at + n] * x + plan[at + ORDER + n] * v)
             + (plan[at + 2 * ORDER + n] * s + plan[at + 3 * ORDER + n] * c)
         ) + plan[at + 4 * ORDER + n]
 
 
 @kernel
-def horner(plan: Vector, y: float) -> tuple[float, float]:
-    """Value and slope of the long series in the scratch at y."""
-    p = plan[SCRATCH + ORDER - 1]
+def horner(series: Vector, y: float) -> tuple[float, float]:
+    """Value and slope of a long series at y."""
+    p = series[ORDER - 1]
     p1 = 0.0
     for n in range(ORDER - 2, -1, -1):
         p1 = p1 * y + p
-        p = p * y + plan[SCRATCH + n]
+        p = p * y + series[n]
     return p, p1
 
 
@@ -165,7 +165,8 @@ def travel(
         s, c = turn(s, c, plan[table + SCALED_W] * d)
     else:
         x, v, s, c = moved(plan, table + FINE_NODE + FINE // 2 * WIDTH, x, v, s, c)
-        expand(plan, table + TAYLOR, x, v, s, c)
-        x, v = horner(plan, y - 0.5)
+        series = workspace()
+        expand(plan, table + TAYLOR, x, v, s, c, series)
+        x, v = horner(series, y - 0.5)
         s, c = turn(s, c, plan[table + SCALED_W] * (y - 0.5))
     return x, v * plan[table + RATE], s, c

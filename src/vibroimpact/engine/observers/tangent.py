@@ -15,11 +15,12 @@ happens. A free bumper's δu_j fades as the bumper relaxes, at once without a da
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.phase import FLIGHT, LEFT, LIMIT, RIGHT
-from vibroimpact.engine.trajectory import advance
+from vibroimpact.engine.motion import FLIGHT, LEFT, LIMIT, RIGHT, Motion
+from vibroimpact.engine.observe import observer
 
 DISTURBANCE = 4
 """Components: displacement, velocity, right and left bumper, signed as in the paper (eq. 3)."""
@@ -55,7 +56,7 @@ def disturb(plan: Vector, mode: int, event: int, behind: int, t: float, q: Vecto
     mode : int
         The phase.
     event : int
-        What ended it, as in `trajectory.advance`.
+        What ended it, as in `linear.advance`.
     behind : int
         The phase that follows.
     t : float
@@ -130,51 +131,33 @@ def press_area(mode: int, w: Vector) -> None:
 
 
 @kernel
-def disturbed_cycle(
-    plan: Vector,
-    mode: int,
-    fresh: int,
-    u: float,
-    v: float,
-    right: float,
-    left: float,
-    age: float,
-    s: float,
-    c: float,
-    period: float,
-    max_events: int,
-    q: Vector,
-) -> tuple[int, int, int, float, float, float, float, float, float, int, int]:
-    """One forcing cycle, as `trajectory.cycle`, with disturbances carried along.
+def damping(plan: Vector, mode: int) -> float:
+    """Damping per unit mass in a mode, that of a pressed bumper included (1/s)."""
+    here: float = plan[par.DAMPING]
+    if mode != FLIGHT:
+        here += plan[par.BUMPER + par.WIDTH * (mode - 1) + par.BUMPER_DAMPING]
+    return here
 
-    Returns
-    -------
-    events, mode, fresh, u, v, right, left, age, damping, hits_right, hits_left
-        As `trajectory.cycle`; `damping` is the integral over the cycle of the damping per unit
-        mass, that of a pressed bumper included.
-    """
-    t = 0.0
-    events = 0
-    hits_r = 0
-    hits_l = 0
-    damping = 0.0
-    while True:
-        was = mode
-        event, step, mode, fresh, u, v, s, c, right, left, age = advance(
-            plan, mode, fresh, u, v, s, c, right, left, period - t, age
-        )
-        disturb(plan, was, event, mode, step, q)
-        damping += plan[par.DAMPING] * step
-        if was != FLIGHT:
-            damping += plan[par.BUMPER + par.WIDTH * (was - 1) + par.BUMPER_DAMPING] * step
-        if event == LIMIT:
-            break
-        t += step
-        events += 1
-        if mode == RIGHT:
-            hits_r += 1
-        elif mode == LEFT:
-            hits_l += 1
-        if events > max_events or t >= period:
-            break
-    return events, mode, fresh, u, v, right, left, age, damping, hits_r, hits_l
+
+class Tangent(NamedTuple):
+    """Disturbances carried along, the integral of the damping, contacts begun on each side."""
+
+    disturbances: Vector
+    damping: float
+    hits_right: int
+    hits_left: int
+
+
+@observer(Tangent)
+def tangent(
+    plan: Vector, notes: Tangent, before: Motion, t: float, event: int, step: float, after: Motion
+) -> Tangent:
+    """Carry the disturbances through one stretch."""
+    q, integral, hits_right, hits_left = notes
+    disturb(plan, before.mode, event, after.mode, step, q)
+    return Tangent(
+        q,
+        integral + damping(plan, before.mode) * step,
+        hits_right + (event == RIGHT),
+        hits_left + (event == LEFT),
+    )

@@ -1,7 +1,7 @@
 """The first root of a clearance or contact force on one interval, with certainty.
 
 The function is f(y) = offset + sign·Σ a_n yⁿ + memory·E(rate·(y − start)), y in steps of the
-phase's table, the series a_n in the scratch of the plan, with E(x) = exp(−x), or
+phase's table, with E(x) = exp(−x), or
 E(x) = exp(−x) − 1 + x where f leaves a double root.
 
 From a point p with f > 0 the search tries a width w and does one of three things
@@ -21,9 +21,9 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.evaluate import moved, short_series, turn
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.phase import FINE, FINE_NODE, ORDER, RATE, SCALED_W, SCRATCH, WIDTH
+from vibroimpact.engine.linear.evaluate import moved, short_series, turn
+from vibroimpact.engine.linear.tables import FINE, FINE_NODE, ORDER, RATE, SCALED_W, WIDTH
 
 NONE = 9.0
 """Returned for "no root on the interval"; a root lies in [−1/2, 1/2]."""
@@ -34,21 +34,21 @@ _RADIUS = 1.0 / 40.0  # steps; how far a short series reaches
 
 
 @kernel
-def series(plan: Vector, y: float) -> tuple[float, float, float]:
-    """Value and first two derivatives of the series in the scratch at y."""
+def jet(series: Vector, y: float) -> tuple[float, float, float]:
+    """Value and first two derivatives of a series at y."""
     p = 0.0
     p1 = 0.0
     p2 = 0.0
     for n in range(ORDER - 1, -1, -1):
         p2 = p2 * y + p1
         p1 = p1 * y + p
-        p = p * y + plan[SCRATCH + n]
+        p = p * y + series[n]
     return p, p1, 2.0 * p2
 
 
 @kernel
 def value(
-    plan: Vector,
+    series: Vector,
     offset: float,
     sign: float,
     memory: float,
@@ -58,7 +58,7 @@ def value(
     y: float,
 ) -> tuple[float, float, float]:
     """f, f′ and f″ at y."""
-    p, p1, p2 = series(plan, y)
+    p, p1, p2 = jet(series, y)
     f = offset + sign * p
     f1 = sign * p1
     f2 = sign * p2
@@ -87,19 +87,19 @@ def value(
 
 
 @kernel
-def third_bound(plan: Vector) -> float:
+def third_bound(series: Vector) -> float:
     """Bound on |Σ a_n yⁿ|‴ over |y| ≤ 1/2."""
     bound = 0.0
     power = 1.0
     for n in range(3, ORDER):
-        bound += n * (n - 1) * (n - 2) * abs(plan[SCRATCH + n]) * power
+        bound += n * (n - 1) * (n - 2) * abs(series[n]) * power
         power *= 0.5
     return bound
 
 
 @kernel
 def polish(
-    plan: Vector,
+    series: Vector,
     offset: float,
     sign: float,
     memory: float,
@@ -112,7 +112,7 @@ def polish(
     """The only root between `low` (f > 0) and `high` (f ≤ 0), f falling: Newton, guarded."""
     y = 0.5 * (low + high)
     for _ in range(100):
-        f, f1, _ = value(plan, offset, sign, memory, rate, start, double, y)
+        f, f1, _ = value(series, offset, sign, memory, rate, start, double, y)
         if f == 0.0:
             return y
         if f > 0.0:
@@ -130,7 +130,7 @@ def polish(
 
 @kernel
 def first_root(
-    plan: Vector,
+    series: Vector,
     offset: float,
     sign: float,
     memory: float,
@@ -144,7 +144,7 @@ def first_root(
     `double` says that f and f′ vanish at `low` by construction, with a₀ = a₁ = offset = 0;
     otherwise f(low) ≥ 0 up to rounding, zero included.
     """
-    polynomial = third_bound(plan)
+    polynomial = third_bound(series)
     start = low
     p = low
     width = high - low
@@ -152,7 +152,7 @@ def first_root(
         if p >= high:
             break
         width = min(width, high - p)
-        f, f1, f2 = value(plan, offset, sign, memory, rate, start, double, p)
+        f, f1, f2 = value(series, offset, sign, memory, rate, start, double, p)
         if double and p == start:
             f = 0.0
             f1 = 0.0
@@ -174,9 +174,9 @@ def first_root(
             s1 = f1 + 0.5 * f2 * w
             s2 = f1 + f2 * w + 0.5 * jerk * w * w
             if f1 < 0.0 and s1 < 0.0 and s2 < 0.0:
-                end, _, _ = value(plan, offset, sign, memory, rate, start, double, p + w)
+                end, _, _ = value(series, offset, sign, memory, rate, start, double, p + w)
                 if end <= 0.0:
-                    return polish(plan, offset, sign, memory, rate, start, double, p, p + w)
+                    return polish(series, offset, sign, memory, rate, start, double, p, p + w)
             width = 0.5 * w
             if width < _SMALLEST:
                 break

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import vibroimpact as vi
 from properties.strategies import Motion, examples, motions, simulated
 from vibroimpact.engine import lyapunov
-from vibroimpact.engine.tangent import transition
+from vibroimpact.engine.observers.tangent import transition
 from vibroimpact.response.start import engine_rig, engine_state
 
 COMPONENTS = ("displacement", "velocity", "right_bumper", "left_bumper")

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.crossing import NONE, crossing_guess, first_root, quick_root
-from vibroimpact.engine.evaluate import expand, moved, node, row, travel
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.phase import (
+from vibroimpact.engine.linear.crossing import NONE, crossing_guess, first_root, quick_root
+from vibroimpact.engine.linear.evaluate import expand, moved, node, row, travel
+from vibroimpact.engine.linear.tables import (
     DETACHED,
     FORCE,
     FORCE_0,
@@ -23,7 +23,6 @@ from vibroimpact.engine.phase import (
     SCALED_C,
     SCALED_D,
     SCALED_K,
-    SCRATCH,
     SIZE,
     TABLES,
     TAYLOR_F,
@@ -31,6 +30,7 @@ from vibroimpact.engine.phase import (
     WIDTH,
     H,
 )
+from vibroimpact.engine.memory import workspace
 
 
 @kernel
@@ -69,6 +69,7 @@ def contact(
     damping = plan[at + par.BUMPER_DAMPING]
     early = TABLES + SIZE * side
     late = early + 3 * SIZE
+    series = workspace()
     t = 0.0
     while True:
         table = late if age + t >= plan[late + VALID_FROM] else early
@@ -95,9 +96,9 @@ def contact(
                 # Slow landing: search about the contact point itself, where the force is not
                 # negative by construction and the series has no rounding noise.
                 high = min(0.5, span)
-                expand(plan, table + TAYLOR_F, x, v, s, c)
-                plan[SCRATCH] = max(plan[SCRATCH], 0.0)
-                y = first_root(plan, 0.0, 1.0, 0.0, 0.0, False, 0.0, high)
+                expand(plan, table + TAYLOR_F, x, v, s, c, series)
+                series[0] = max(series[0], 0.0)
+                y = first_root(series, 0.0, 1.0, 0.0, 0.0, False, 0.0, high)
                 if y != NONE:
                     x, v, s, c = travel(plan, table, y, x, v, s, c)
                     return DETACHED, h * y, 0.0 if damping == 0.0 else x, v, s, c
@@ -144,9 +145,9 @@ def contact(
                     break
             if y == NONE:
                 mx, mv, ms, mc = moved(plan, table + MIDDLE, nx, nv, ns, nc)
-                expand(plan, table + TAYLOR_F, mx, mv, ms, mc)
+                expand(plan, table + TAYLOR_F, mx, mv, ms, mc, series)
                 low = max(-0.5, min(clear - i - 0.5, 0.5))
-                y = first_root(plan, 0.0, 1.0, 0.0, 0.0, False, low, min(0.5, span - i - 0.5))
+                y = first_root(series, 0.0, 1.0, 0.0, 0.0, False, low, min(0.5, span - i - 0.5))
                 if y != NONE:
                     y += 0.5
                     ex, ev, es, ec = travel(plan, table, y, nx, nv, ns, nc)

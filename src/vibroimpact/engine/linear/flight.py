@@ -10,10 +10,10 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.crossing import NONE, crossing_guess, first_root, quick_root
-from vibroimpact.engine.evaluate import expand, moved, node, relaxed, row, travel
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.phase import (
+from vibroimpact.engine.linear.crossing import NONE, crossing_guess, first_root, quick_root
+from vibroimpact.engine.linear.evaluate import expand, moved, node, relaxed, row, travel
+from vibroimpact.engine.linear.tables import (
     BAND_0,
     BAND_V,
     BAND_X,
@@ -25,7 +25,6 @@ from vibroimpact.engine.phase import (
     NODES,
     RATE,
     RIGHT,
-    SCRATCH,
     SIZE,
     TABLES,
     TAYLOR,
@@ -33,13 +32,14 @@ from vibroimpact.engine.phase import (
     WIDTH,
     H,
 )
+from vibroimpact.engine.memory import workspace
 
 _WEAK_PULL = 0.45  # theory, section 3.3
 
 
 @kernel
 def search_flight(
-    plan: Vector,
+    series: Vector,
     gap_r: float,
     gap_l: float,
     right: float,
@@ -50,16 +50,16 @@ def search_flight(
     low_l: float,
     high: float,
 ) -> tuple[float, int]:
-    """First contact on an interval whose series is in the scratch: (y, side), or (NONE, LIMIT).
+    """First contact on an interval with this series: (y, side), or (NONE, LIMIT).
 
     The deformations are those at `low` of their side; rates are per step.
     """
     y_r = NONE
     y_l = NONE
     if low_r < high and gap_r < math.inf:
-        y_r = first_root(plan, gap_r, -1.0, right, rate_r, False, low_r, high)
+        y_r = first_root(series, gap_r, -1.0, right, rate_r, False, low_r, high)
     if low_l < high and gap_l < math.inf:
-        y_l = first_root(plan, gap_l, 1.0, left, rate_l, False, low_l, high)
+        y_l = first_root(series, gap_l, 1.0, left, rate_l, False, low_l, high)
     if y_r == NONE and y_l == NONE:
         return NONE, LIMIT
     if y_r <= y_l:
@@ -68,17 +68,17 @@ def search_flight(
 
 
 @kernel
-def leave(plan: Vector, side: int, memory: float, rate: float, high: float) -> float:
+def leave(series: Vector, side: int, memory: float, rate: float, high: float) -> float:
     """Re-contact within [0, high] of a detachment at y = 0, or NONE.
 
-    The series in the scratch is that of the displacement from the detachment, where the
+    The series is that of the displacement from the detachment, where the
     clearance vanishes by construction, and where its slope does too if the bumper has a dashpot.
     """
-    plan[SCRATCH] = 0.0
+    series[0] = 0.0
     sign = -1.0 if side == RIGHT else 1.0
     if memory > 0.0:
-        plan[SCRATCH + 1] = 0.0
-    return first_root(plan, 0.0, sign, memory, rate, memory > 0.0, 0.0, high)
+        series[1] = 0.0
+    return first_root(series, 0.0, sign, memory, rate, memory > 0.0, 0.0, high)
 
 
 @kernel
@@ -119,6 +119,7 @@ def flight(
     gap_r, rate_r = plan[par.BUMPER + par.GAP], plan[par.BUMPER + par.RATE]
     bumper_l = par.BUMPER + par.WIDTH
     gap_l, rate_l = plan[bumper_l + par.GAP], plan[bumper_l + par.RATE]
+    series = workspace()
     t = 0.0
     clear_r = 0.0  # proven free of contact for so many steps from the window's start
     clear_l = 0.0
@@ -134,9 +135,9 @@ def flight(
             # The mass may touch a bumper: about the start itself the series is exact there,
             # and the signs of its coefficients tell a contact from a parting.
             high = min(0.5, span)
-            expand(plan, table + TAYLOR, u, v, s, c)
+            expand(plan, table + TAYLOR, u, v, s, c, series)
             y, side = search_flight(
-                plan, gap_r, gap_l, right, left, rate_r * h, rate_l * h, 0.0, 0.0, high
+                series, gap_r, gap_l, right, left, rate_r * h, rate_l * h, 0.0, 0.0, high
             )
             if y != NONE:
                 u, v, s, c = travel(plan, table, y, u, v, s, c)
@@ -158,17 +159,17 @@ def flight(
                 clear = 2.0 * max(-v if launched == RIGHT else v, 0.0) * h / second
             if clear < 1.0:
                 high = min(0.5, span)
-                expand(plan, table + TAYLOR, u, v, s, c)
+                expand(plan, table + TAYLOR, u, v, s, c, series)
                 # The other bumper may be as near: where both gaps are zero it is.
                 if launched == RIGHT:
                     y, side = search_flight(
-                        plan, math.inf, gap_l, 0.0, left, rate_r * h, rate_l * h, 0.0, 0.0, high
+                        series, math.inf, gap_l, 0.0, left, rate_r * h, rate_l * h, 0.0, 0.0, high
                     )
                 else:
                     y, side = search_flight(
-                        plan, gap_r, math.inf, right, 0.0, rate_r * h, rate_l * h, 0.0, 0.0, high
+                        series, gap_r, math.inf, right, 0.0, rate_r * h, rate_l * h, 0.0, 0.0, high
                     )
-                again = leave(plan, launched, memory, rate, high)
+                again = leave(series, launched, memory, rate, high)
                 if again < y:
                     y, side = again, launched
                 if y != NONE:
@@ -230,13 +231,13 @@ def flight(
                     break
             if y == NONE:
                 mu, mv, ms, mc = moved(plan, table + MIDDLE, nu, nv, ns, nc)
-                expand(plan, table + TAYLOR, mu, mv, ms, mc)
+                expand(plan, table + TAYLOR, mu, mv, ms, mc, series)
                 low_r = max(0.0, clear_r - i)
                 low_l = max(0.0, clear_l - i)
                 # A side is left out where both ends of the interval clear it.
                 near = before if i == j - 1 else row(plan, table + NODE + i * WIDTH, u, v, s, c)
                 y, side = search_flight(
-                    plan,
+                    series,
                     gap_r if max(x, near) > top else math.inf,
                     gap_l if min(x, near) < bottom else math.inf,
                     relaxed(memory_r, rate_r, low_r * h),

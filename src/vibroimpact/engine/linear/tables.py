@@ -19,6 +19,7 @@ import numpy as np
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.memory import TERMS
 
 NODES = 16
 """Intervals in a table; node j is j steps after the table's start."""
@@ -30,7 +31,7 @@ FINE = 32
 """Points in an interval from which a short Taylor series reaches the next one to rounding:
 with a radius of 1/40 step, (0.25/40)^6 / 6! = 8e-17."""
 
-ORDER = 12
+ORDER = TERMS
 """Coefficients of the long series about the middle of an interval, in y = (t − t_middle) / step.
 It covers the interval to rounding: 0.125^12 / 12! = 2e-20."""
 
@@ -79,11 +80,8 @@ TABLES = par.SIZE
 """Where the tables begin in a plan. Two a mode: `mode` from the start of a phase, `mode + 3`
 once its fast part is gone."""
 
-SCRATCH = TABLES + 6 * SIZE
-"""Where the kernels may write: ORDER coefficients of a long series."""
-
-PLAN = SCRATCH + ORDER
-"""Length of a plan: the rig's numbers (`parameters`), the tables for one forcing, scratch.
+PLAN = TABLES + 6 * SIZE
+"""Length of a plan: the rig's numbers (`parameters`), and the tables for one forcing.
 
 One vector holds everything that the kernels read: they pass it on as one argument, and a table
 is the position where it begins.
@@ -94,7 +92,7 @@ _SERIES = ORDER + 6
 
 @kernel
 def _series(
-    h: float, c: float, k: int, d: float, amplitude: float, omega: float, out: Vector
+    h: float, c: float, k: float, d: float, amplitude: float, omega: float, out: Vector
 ) -> None:
     """Taylor coefficients (times hⁿ) of x from each unit state row: out[n, column]."""
     wh = omega * h
@@ -118,7 +116,7 @@ def _series(
 def _late_series(
     h: float,
     c: float,
-    k: int,
+    k: float,
     d: float,
     amplitude: float,
     omega: float,

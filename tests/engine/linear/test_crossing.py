@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vibroimpact.engine.crossing import NONE, first_root
-from vibroimpact.engine.phase import ORDER, PLAN, SCRATCH
+from vibroimpact.engine.linear.crossing import NONE, first_root
+from vibroimpact.engine.linear.tables import ORDER
 
 
 def search(
@@ -24,9 +24,9 @@ def search(
     low: float = -0.5,
     high: float = 0.5,
 ) -> float:
-    plan = np.zeros(PLAN)
-    plan[SCRATCH : SCRATCH + len(coefficients)] = coefficients
-    return first_root(plan, offset, sign, memory, rate, double, low, high)
+    series = np.zeros(ORDER)
+    series[: len(coefficients)] = coefficients
+    return first_root(series, offset, sign, memory, rate, double, low, high)
 
 
 def from_roots(roots: list[float]) -> list[float]:

@@ -1,0 +1,1 @@
+"""The flow of linear laws: closed-form motion from tables, certified events, pieces."""

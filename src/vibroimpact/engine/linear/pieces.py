@@ -1,0 +1,180 @@
+"""A stretch of motion as a sequence of polynomials.
+
+Whatever is asked of a motion between two events — extremes, integrals, samples, turning points —
+is asked of these: on each interval of a table the displacement is a series of TERMS coefficients
+about the interval's middle, in y = (t − t_middle) / step, right to rounding.
+
+    cursor = begin(plan, motion, length)
+    while more(cursor):
+        high = expanded(plan, cursor, series)     # the piece covers −1/2 ≤ y ≤ high
+        ...
+        cursor = following(plan, cursor)
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.evaluate import absolute_acceleration, expand, moved, node
+from vibroimpact.engine.linear.tables import (
+    MIDDLE,
+    NODE,
+    NODES,
+    ORDER,
+    RATE,
+    SCALED_C,
+    SCALED_D,
+    SCALED_K,
+    SIZE,
+    TABLES,
+    TAYLOR,
+    TAYLOR_F,
+    VALID_FROM,
+    WIDTH,
+    H,
+)
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion, coordinates
+
+
+class Cursor(NamedTuple):
+    """Where on a stretch a piece lies.
+
+    A window of NODES intervals of `table` begins `t` seconds behind the stretch's start, with
+    the state x, v, s, c in the mode's own coordinates; the piece is its interval `i`; `span` is
+    how many intervals are left from the window's start.
+    """
+
+    early: int
+    table: int
+    i: int
+    length: float
+    age: float
+    t: float
+    span: float
+    x: float
+    v: float
+    s: float
+    c: float
+
+
+@kernel
+def window(
+    plan: Vector,
+    early: int,
+    length: float,
+    age: float,
+    t: float,
+    x: float,
+    v: float,
+    s: float,
+    c: float,
+) -> Cursor:
+    """The first piece of a window that begins t seconds behind the stretch's start."""
+    late = early + 3 * SIZE
+    table = late if age + t >= plan[late + VALID_FROM] else early
+    span = (length - t) * plan[table + RATE]
+    return Cursor(early, table, 0, length, age, t, span, x, v, s, c)
+
+
+@kernel
+def begin(plan: Vector, motion: Motion, length: float) -> Cursor:
+    """The first piece of the stretch of so many seconds that starts with this motion."""
+    _, x, v, s, c = coordinates(motion)
+    early = TABLES + SIZE * motion.mode
+    return window(plan, early, length, motion.age, 0.0, x, v, s, c)
+
+
+@kernel
+def more(cursor: Cursor) -> bool:
+    """Whether there is a piece here."""
+    return cursor.i < cursor.span
+
+
+@kernel
+def following_window(plan: Vector, cursor: Cursor) -> Cursor:
+    """The first piece of the next window."""
+    early, table, _, length, age, t, _, x, v, s, c = cursor
+    x, v, s, c = moved(plan, table + NODE + (NODES - 1) * WIDTH, x, v, s, c)
+    return window(plan, early, length, age, t + NODES * plan[table + H], x, v, s, c)
+
+
+@kernel
+def following(plan: Vector, cursor: Cursor) -> Cursor:
+    """The next piece."""
+    early, table, i, length, age, t, span, x, v, s, c = cursor
+    if i + 1 < NODES:
+        return Cursor(early, table, i + 1, length, age, t, span, x, v, s, c)
+    return following_window(plan, cursor)
+
+
+@kernel
+def middle(plan: Vector, cursor: Cursor) -> tuple[float, float, float, float]:
+    """The state in the middle of a piece, in the mode's own coordinates."""
+    _, table, i, _, _, _, _, x, v, s, c = cursor
+    x, v, s, c = node(plan, table, i, x, v, s, c)
+    return moved(plan, table + MIDDLE, x, v, s, c)
+
+
+@kernel
+def expanded(plan: Vector, cursor: Cursor, series: Vector) -> tuple[float, float, float]:
+    """Write the series of x; return how far the piece reaches, and the phasor in its middle."""
+    x, v, s, c = middle(plan, cursor)
+    expand(plan, cursor.table + TAYLOR, x, v, s, c, series)
+    return min(0.5, cursor.span - cursor.i - 0.5), s, c
+
+
+@kernel
+def expanded_at_node(plan: Vector, cursor: Cursor, j: int, series: Vector) -> None:
+    """Write the series of x about node j of the window, good for |y| ≤ 1/2.
+
+    Samples need it: just behind an event the coordinate is tiny, and from there it has no noise.
+    """
+    x, v, s, c = node(plan, cursor.table, j, cursor.x, cursor.v, cursor.s, cursor.c)
+    expand(plan, cursor.table + TAYLOR, x, v, s, c, series)
+
+
+@kernel
+def expanded_force(plan: Vector, cursor: Cursor, series: Vector) -> None:
+    """Write the series of the contact force per unit mass."""
+    x, v, s, c = middle(plan, cursor)
+    expand(plan, cursor.table + TAYLOR_F, x, v, s, c, series)
+
+
+@kernel
+def accelerated(plan: Vector, cursor: Cursor, series: Vector) -> float:
+    """Turn the series of x into that of ü + A sin θ = d − k x − c x′; return its unit, 1/step²."""
+    table = cursor.table
+    for n in range(ORDER):
+        after = series[n + 1] * (n + 1) if n + 1 < ORDER else 0.0
+        series[n] = -plan[table + SCALED_K] * series[n] - plan[table + SCALED_C] * after
+    series[0] += plan[table + SCALED_D]
+    rate: float = plan[table + RATE]
+    return rate * rate
+
+
+@kernel
+def displacement(plan: Vector, mode: int, x: float) -> float:
+    """The displacement of the mass from the mode's own coordinate."""
+    if mode == RIGHT:
+        u: float = plan[par.BUMPER + par.GAP] + x
+        return u
+    if mode == LEFT:
+        u = -(plan[par.BUMPER + par.WIDTH + par.GAP] + x)
+        return u
+    return x
+
+
+@kernel
+def acceleration(plan: Vector, motion: Motion) -> float:
+    """Absolute acceleration of the mass, in the direction of u."""
+    sign, x, v, _, _ = coordinates(motion)
+    return sign * absolute_acceleration(plan, motion.mode, x, v)
+
+
+@kernel
+def acceleration_in(plan: Vector, mode: int, motion: Motion) -> float:
+    """Absolute acceleration that the motion would have in another mode, in the direction of u."""
+    _, fresh, u, v, right, left, age, clock = motion
+    return acceleration(plan, Motion(mode, fresh, u, v, right, left, age, clock))

@@ -1,0 +1,135 @@
+"""Exact extremes of displacement and absolute acceleration over a stretch of one phase.
+
+The largest sample is never the maximum. Each piece's series is walked with
+steps on which either the slope or the curvature provably keeps its sign, so that every local
+extreme is found and polished (docs/theory.md, section 4).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.crossing import jet
+from vibroimpact.engine.linear.pieces import (
+    accelerated,
+    acceleration,
+    begin,
+    displacement,
+    expanded,
+    following,
+    more,
+)
+from vibroimpact.engine.linear.tables import ORDER
+from vibroimpact.engine.memory import workspace
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion, coordinates
+from vibroimpact.engine.observe import observer
+
+_SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
+
+
+@kernel
+def series_extremes(
+    series: Vector, low: float, high: float, least: float, most: float
+) -> tuple[float, float, float, float]:
+    """Extend [least, most] by the values of a series over [low, high].
+
+    Returns
+    -------
+    least, most, at_least, at_most
+        The range, and where on the interval its ends lie (`low` where it was as wide before).
+    """
+    at_least = low
+    at_most = low
+    third = 0.0
+    power = 1.0
+    for n in range(3, ORDER):
+        third += n * (n - 1) * (n - 2) * abs(series[n]) * power
+        power *= 0.5
+    p = low
+    width = high - low
+    f, f1, f2 = jet(series, p)
+    least, most = min(least, f), max(most, f)
+    while p < high:
+        width = min(width, high - p)
+        steep = abs(f1) > abs(f2) * width + 0.5 * third * width * width
+        if not (steep or abs(f2) > third * width or width < _SMALLEST):
+            width *= 0.5
+            continue
+        g, g1, g2 = jet(series, p + width)
+        if not steep and f1 * g1 < 0.0:
+            # One critical point: regula falsi kept in its bracket by Newton's slope.
+            a, b = p, p + width
+            y = a - f1 * width / (g1 - f1)
+            for _ in range(60):
+                e, e1, e2 = jet(series, y)
+                if e < least:
+                    least, at_least = e, y
+                if e > most:
+                    most, at_most = e, y
+                if e1 * f1 > 0.0:
+                    a = y
+                else:
+                    b = y
+                new = y - e1 / e2 if e2 != 0.0 else 0.5 * (a + b)
+                if not a < new < b:
+                    new = 0.5 * (a + b)
+                if abs(new - y) < 1e-10:  # the value is then right to 1e-20
+                    break
+                y = new
+        p += width
+        if g < least:
+            least, at_least = g, p
+        if g > most:
+            most, at_most = g, p
+        f1, f2 = g1, g2
+        width *= 4.0
+    return least, most, at_least, at_most
+
+
+class Extremes(NamedTuple):
+    """Range of the displacement (m) and of the absolute acceleration (m/s²), contacts begun."""
+
+    u_least: float
+    u_most: float
+    a_least: float
+    a_most: float
+    hits_right: int
+    hits_left: int
+
+
+@observer(Extremes)
+def extremes(
+    plan: Vector,
+    notes: Extremes,
+    before: Motion,
+    t: float,
+    event: int,
+    step: float,
+    after: Motion,
+) -> Extremes:
+    """Widen the ranges by one stretch. One-sided values at both its ends count."""
+    u_least, u_most, a_least, a_most, hits_right, hits_left = notes
+    series = workspace()
+    sign, x, _, _, _ = coordinates(before)
+    x_least, x_most = x, x
+    a = sign * acceleration(plan, before)
+    least_a, most_a = a, a
+    cursor = begin(plan, before, step)
+    while more(cursor):
+        high, _, _ = expanded(plan, cursor, series)
+        x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
+        unit = accelerated(plan, cursor, series)
+        least, most, _, _ = series_extremes(series, -0.5, high, least_a / unit, most_a / unit)
+        least_a, most_a = least * unit, most * unit
+        cursor = following(plan, cursor)
+    if before.mode == LEFT:
+        x_least, x_most, least_a, most_a = x_most, x_least, -most_a, -least_a
+    return Extremes(
+        min(u_least, displacement(plan, before.mode, x_least)),
+        max(u_most, displacement(plan, before.mode, x_most)),
+        min(a_least, least_a),
+        max(a_most, most_a),
+        hits_right + (event == RIGHT),
+        hits_left + (event == LEFT),
+    )

@@ -1,0 +1,86 @@
+"""How two disturbances of a motion grow: their directions carried on, their sizes summed up."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.motion import LEFT, LIMIT, RIGHT, Motion
+from vibroimpact.engine.observe import observer
+from vibroimpact.engine.observers.tangent import (
+    DISTURBANCE,
+    damping,
+    disturb,
+    disturb_area,
+)
+
+AREA = 6
+"""Components of the area that two disturbances span, see `tangent.disturb_area`."""
+
+_RANGE = 150.0  # twice this may pass between two looks; the square of exp(−300) is a number
+
+
+@kernel
+def normalise(q: Vector, w: Vector, weight: float, mode: int) -> tuple[float, float]:
+    """Bring a disturbance and an area to unit size; return the logarithms of their sizes.
+
+    The norm of a disturbance is weight² (u² + u_R² + u_L²) + v², that of an area the one that
+    belongs to it. A pressed bumper moves with the mass and is left out.
+    """
+    w2 = weight * weight
+    right = 0.0 if mode == RIGHT else 1.0
+    left = 0.0 if mode == LEFT else 1.0
+    length = math.sqrt(
+        (w2 * q[0, 0] ** 2 + q[0, 1] ** 2) + w2 * (right * q[0, 2] ** 2 + left * q[0, 3] ** 2)
+    )
+    area = weight * math.sqrt(
+        (w[0] ** 2 + right * w[3] ** 2 + left * w[4] ** 2)
+        + w2 * (right * w[1] ** 2 + left * w[2] ** 2 + right * left * w[5] ** 2)
+    )
+    for j in range(DISTURBANCE):
+        q[0, j] /= length
+    for j in range(AREA):
+        w[j] /= area
+    return math.log(length), math.log(area)
+
+
+class Growth(NamedTuple):
+    """One disturbance and the area of two, both of unit size after each cycle.
+
+    `first` and `both` are the logarithms of how much they have grown since the section, which
+    comes again at `length` (s); `dissipation` is the integral of the damping; `shrunk` bounds
+    how much they may have shrunk since they were last brought to unit size.
+    """
+
+    disturbance: Vector
+    area: Vector
+    weight: float
+    length: float
+    first: float
+    both: float
+    dissipation: float
+    shrunk: float
+
+
+@observer(Growth)
+def growth(
+    plan: Vector, notes: Growth, before: Motion, t: float, event: int, step: float, after: Motion
+) -> Growth:
+    """Carry both through one stretch."""
+    q, w, weight, length, first, both, dissipation, shrunk = notes
+    here = damping(plan, before.mode)
+    # In pieces over which nothing shrinks below the range of numbers.
+    pieces = 1 + int((here + weight) * step / _RANGE)
+    for piece in range(1, pieces + 1):
+        last = piece == pieces
+        end, behind = (event, after.mode) if last else (LIMIT, before.mode)
+        disturb(plan, before.mode, end, behind, step / pieces, q)
+        disturb_area(plan, before.mode, end, behind, step / pieces, w)
+        shrunk += (here + weight) * step / pieces
+        if shrunk > _RANGE or (last and (event == LIMIT or t + step >= length)):
+            more, more_both = normalise(q, w, weight, behind)
+            first += more
+            both += more_both
+            shrunk = 0.0
+    return Growth(q, w, weight, length, first, both, dissipation + here * step, shrunk)
