@@ -6,9 +6,9 @@ closed forms from tables, this file
 1. expands the linear motion of each phase (flight, or contact with one bumper) in a Taylor
    series of high order, over a step so short that a bound puts the remainder below the wanted
    digits;
-2. finds the first zero of the clearance (flight) or of the contact force (contact) on the step by
-   Descartes' rule of signs in exact integers with bisection (Collins and Akritas), which proves
-   that there is none or isolates it, and then refines it by bracketed Newton steps;
+2. finds the first zero of a clearance or of a contact force on the step by Descartes' rule of signs
+   in exact integers with bisection (Collins and Akritas), which proves that there is none or
+   isolates it, and then refines it by bracketed Newton steps;
 3. changes phase there and goes on.
 
 The model and its signs are those of the paper (Section 2 and equation 5): displacement u of the
@@ -18,19 +18,24 @@ mass relative to the base, deformation u_R >= 0 of the right and u_L <= 0 of the
 - Contact with the right bumper: u_R = u - G_R, and K_R u_R + C_R u_R' joins the left-hand side;
   the left bumper goes on relaxing. Contact with the left bumper mirrors it, u_L = u + G_L.
 - Contact begins when the clearance G_R + u_R - u, or G_L + u - u_L, falls to zero, and ends when
-  the contact force falls to zero.
+  the contact force falls to zero. Where gaps are negative both bumpers may be in contact at once:
+  their forces add, and each comes and goes by its own clearance and force.
+- A rigid stop turns v into -e v where the mass reaches it. Infinitely many impacts in a finite
+  time (chatter.py) end with the mass at rest on the stop. It rests until what presses it there,
+  -(K u + M A_t + force of the other bumper), falls through zero, and leaves with v = v' = 0.
 
 The cost grows with the norm of the phase's matrix times its length: twenty cycles of the paper's
 rig take about a second, contacts that last for thousands of M / C_j take minutes.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
 from typing import NamedTuple
 
 from mpmath import mp, mpf
 
+from reference.chatter import accumulation
 from reference.first_zero import first_zero, polynomial_value
 
 State = tuple[mpf, mpf, mpf, mpf]
@@ -46,20 +51,30 @@ class Stop:
 
 
 @dataclass(frozen=True)
+class Wall:
+    """A rigid stop: restitution from 0 to 1, gap (m)."""
+
+    restitution: float
+    gap: float
+
+
+@dataclass(frozen=True)
 class Rig:
-    """A mass (kg) on an isolator (N/m, N s/m) between two optional bumpers."""
+    """A mass (kg) on an isolator (N/m, N s/m) between two optional stops."""
 
     mass: float
     stiffness: float
     damping: float
-    right: Stop | None = None
-    left: Stop | None = None
+    right: Stop | Wall | None = None
+    left: Stop | Wall | None = None
 
 
 class Event(NamedTuple):
     """A change of phase: its time (s), what happened, and the state there.
 
-    `kind` is 'contact_right', 'detach_right', 'contact_left' or 'detach_left'.
+    `kind` is 'contact_right', 'detach_right', 'impact_right', or the same on the left. On a rigid
+    stop contact and detachment are the beginning and the end of rest. The velocity of an impact is
+    that before it. Of a chatter the first impacts are listed, as many as its limit was found from.
     """
 
     time: mpf
@@ -93,7 +108,7 @@ def integrate(
     Parameters
     ----------
     rig : Rig
-        The mass, its isolator and its bumpers. Floats are taken as the exact binary numbers.
+        The mass, its isolator and its stops. Floats are taken as the exact binary numbers.
     amplitude, frequency, phase : float
         Base acceleration amplitude * sin(2 pi frequency t + phase); m/s^2, Hz, rad.
     start : (u, v, u_R, u_L)
@@ -109,8 +124,8 @@ def integrate(
     Returns
     -------
     Reference
-        States at t = 0, T, ..., cycles * T and all events. A contact that begins at t = 0 is part
-        of the start and no event.
+        States at t = 0, T, ..., cycles * T and all events. A contact or a rest that begins at
+        t = 0 is part of the start and no event.
 
     Raises
     ------
@@ -128,14 +143,21 @@ def integrate(
 
 
 class _Side:
-    """One bumper with its sign: +1 on the right, -1 on the left; `wall` is its rest position."""
+    """One stop with its sign: +1 on the right, -1 on the left; `wall` is its rest position."""
 
-    def __init__(self, name: str, sign: int, stop: Stop) -> None:
-        if not (stop.stiffness > 0 and stop.damping >= 0 and stop.gap >= 0):
-            raise ValueError(f"impossible {name} stop: {stop}")
+    def __init__(self, name: str, sign: int, stop: Stop | Wall) -> None:
         self.name = name
         self.sign = sign
         self.wall = sign * mpf(stop.gap)
+        self.restitution: mpf | None = None
+        self.rate: mpf | None = None
+        if isinstance(stop, Wall):
+            if not 0 <= stop.restitution <= 1:
+                raise ValueError(f"impossible {name} stop: {stop}")
+            self.restitution = mpf(stop.restitution)
+            return
+        if not (stop.stiffness > 0 and stop.damping >= 0):
+            raise ValueError(f"impossible {name} stop: {stop}")
         self.stiffness = mpf(stop.stiffness)
         self.damping = mpf(stop.damping)
         # Relaxation rate; an elastic bumper is back at rest at once and remembers nothing.
@@ -143,7 +165,7 @@ class _Side:
 
 
 class _Run:
-    """A trajectory under way: the state, the bumper in contact, and the time within the cycle."""
+    """A trajectory under way: the state, what is in contact, and the time within the cycle."""
 
     def __init__(
         self,
@@ -164,12 +186,14 @@ class _Run:
         self.order, self.tolerance = order, tolerance
         pairs = (("right", 1, rig.right), ("left", -1, rig.left))
         self.sides = [_Side(name, sign, stop) for name, sign, stop in pairs if stop is not None]
+        self.overlap = sum(side.sign * side.wall for side in self.sides) < 0
         self.u, self.v = mpf(start[0]), mpf(start[1])
         self.bumper = {"right": mpf(start[2]), "left": mpf(start[3])}
         self.factorial, self.size = mp.factorial(order), mpf(0)
         self.elapsed, self.cycles_done = mpf(0), 0
         self.events: list[Event] = []
-        self.contact: _Side | None = None
+        self.pressed: list[_Side] = []
+        self.resting: _Side | None = None
         # How often the clearance or the force that ended the last phase vanishes here, by side.
         self.known_zeros: dict[str, int] = {}
         self.changes_here = 0
@@ -177,16 +201,21 @@ class _Run:
             self._settle(side)
 
     def _settle(self, side: _Side) -> None:
-        """Check the start against one bumper, and undo the rounding of a touching start."""
+        """Check the start against one stop, and undo the rounding of a touching start."""
         depth, bumper = side.sign * (self.u - side.wall), side.sign * self.bumper[side.name]
         if bumper < 0:
             raise ValueError(f"the {side.name} bumper is stretched, not pressed")
         clearance = bumper - depth
         touching = abs(clearance) <= mpf(2) ** -50 * (abs(self.u) + abs(side.wall))
-        if touching and depth >= 0:
+        if side.restitution is not None:
+            if bumper or (clearance < 0 and not touching):
+                raise ValueError(f"the mass is inside the {side.name} stop, or presses it in")
+            if touching:
+                self.u = side.wall
+        elif touching and depth >= 0:
             self.bumper[side.name] = self.u - side.wall
             if side.rate is None and depth > 0:
-                self.contact = side
+                self.pressed.append(side)
         elif clearance < 0:
             raise ValueError(f"the mass is inside the {side.name} bumper")
         elif side.rate is None and bumper > 0:
@@ -206,36 +235,32 @@ class _Run:
         """Go on to the next event, to the end of the step or to the end of the period."""
         longest = self.period - self.elapsed
         while True:
-            step, u, v = self._series(longest)
-            if self.contact is not None:
-                found = [(self._release(u, v), self.contact)]
-                break
-            touches = [(self._touch(side, u, step), side) for side in self.sides]
-            limits = [limit for (_, limit), _ in touches if limit is not None]
+            step, u, v, push = self._series(longest)
+            asked = [(side, *self._next_zero(side, step, u, v, push)) for side in self.sides]
+            limits = [limit for _, _, limit in asked if limit is not None]
             if not limits:
-                found = [(zero, side) for (zero, _), side in touches]
                 break
             longest = min(limits)
-        zeros = [(zero, side) for zero, side in found if zero is not None]
+        zeros = [(zero, side) for side, zero, _ in asked if zero is not None]
         at, side = min(zeros, key=lambda pair: pair[0]) if zeros else (mpf(1), None)
-        self._advance(u, v, step * at, at)
-        self.known_zeros = {}
+        self.u, self.v = polynomial_value(u, at), polynomial_value(v, at)
+        self._pass(step * at)
         if at > 0:
-            self.changes_here = 0
+            self.known_zeros, self.changes_here = {}, 0
         if side is not None:
             self._change_phase(side)
 
     def _coefficients(self) -> tuple[mpf, mpf, mpf]:
-        """(k, c, b) of the phase: u'' + c u' + k u = b - A sin(...)."""
+        """k, c, b of u'' + c u' + k u = b - A sin(...)."""
         stiffness, damping, load = self.stiffness, self.damping, mpf(0)
-        if self.contact is not None:
-            stiffness = stiffness + self.contact.stiffness
-            damping = damping + self.contact.damping
-            load = self.contact.stiffness * self.contact.wall
+        for side in self.pressed:
+            stiffness = stiffness + side.stiffness
+            damping = damping + side.damping
+            load = load + side.stiffness * side.wall
         return stiffness / self.mass, damping / self.mass, load / self.mass
 
-    def _series(self, longest: mpf) -> tuple[mpf, list[mpf], list[mpf]]:
-        """Step and Taylor coefficients of u and v in x = time / step, 0 <= x <= 1.
+    def _series(self, longest: mpf) -> tuple[mpf, list[mpf], list[mpf], list[mpf]]:
+        """Step and Taylor coefficients of u, v and b - A sin(...) in x = time / step, 0 <= x <= 1.
 
         Let z = (s u, v, 8 A / omega sin, 8 A / omega cos) with s = max(sqrt(k), omega): z' = B z,
         and the norm of B is at most s + c + omega / 8. Let z_n be the n-th coefficient of z. What
@@ -255,7 +280,8 @@ class _Run:
         for n in range(self.order):
             weight = step / (n + 1)
             u.append(weight * v[n])
-            v.append(weight * (push[n] - damping * v[n] - stiffness * u[n]))
+            force = push[n] - damping * v[n] - stiffness * u[n]
+            v.append(mpf(0) if self.resting else weight * force)
         forcing = 8 * abs(self.amplitude) / self.omega
         self.size = abs(self.u) + (abs(self.v) + forcing) / scale
         last = scale * abs(u[-1]) + abs(v[-1]) + forcing * turn**self.order / self.factorial
@@ -265,13 +291,25 @@ class _Run:
             powers = [shrink**n for n in range(self.order + 1)]
             u = [value * power for value, power in zip(u, powers, strict=True)]
             v = [value * power for value, power in zip(v, powers, strict=True)]
+            push = [value * power for value, power in zip(push, powers, strict=False)]
             step *= shrink
-        return step, u, v
+        return step, u, v, push
 
-    def _release(self, u: list[mpf], v: list[mpf]) -> mpf | None:
+    def _next_zero(
+        self, side: _Side, step: mpf, u: list[mpf], v: list[mpf], push: list[mpf]
+    ) -> tuple[mpf | None, mpf | None]:
+        """First zero of what ends a phase of one side, or a shorter step on which to ask again."""
+        if side is self.resting:
+            holding = [-side.sign * self._coefficients()[0] * self.u]
+            return self._first_zero(side, holding, [side.sign * value for value in push]), None
+        if side in self.pressed:
+            return self._release(side, u, v), None
+        if self.pressed and not self.overlap:
+            return None, None  # at most where one contact ends, when the other one may begin
+        return self._touch(side, u, step)
+
+    def _release(self, side: _Side, u: list[mpf], v: list[mpf]) -> mpf | None:
         """First zero of the contact force on the step, as a fraction of it."""
-        side = self.contact
-        assert side is not None
         stiffness, damping = side.sign * side.stiffness, side.sign * side.damping
         rest = [-stiffness * side.wall]
         elastic, viscous = [stiffness * value for value in u], [damping * value for value in v]
@@ -311,32 +349,127 @@ class _Run:
             known += 1
         return first_zero(total[known:]) if known < len(total) else None
 
-    def _advance(self, u: list[mpf], v: list[mpf], time: mpf, fraction: mpf) -> None:
-        """Move the state on by a part of the step."""
-        self.u, self.v = polynomial_value(u, fraction), polynomial_value(v, fraction)
+    def _pass(self, time: mpf) -> None:
+        """Let a time pass, in which the mass has moved to where it is now."""
         # The end of the period is a fixed number: the sum of its steps may miss it by a rounding.
         left = self.period - self.elapsed
         self.elapsed = self.period if time >= left else self.elapsed + time
         for side in self.sides:
-            if side is self.contact:
+            if side in self.pressed:
                 self.bumper[side.name] = self.u - side.wall
             else:
                 fade = mpf(0) if side.rate is None else mp.exp(-side.rate * time)
                 self.bumper[side.name] *= fade
 
     def _change_phase(self, side: _Side) -> None:
-        """Begin or end the contact with a bumper, and note it."""
-        began = self.contact is None
-        self.contact = side if began else None
+        """Do what the zero of a clearance or of a force brings with it."""
+        self.changes_here += 1
+        if self.changes_here > 6:
+            raise ArithmeticError(f"contact and flight alternate without end at t = {self.time}")
+        if side is self.resting:
+            # Acceleration, velocity and clearance are zero.
+            self.resting, self.known_zeros[side.name] = None, 3
+            self._note("detach", side)
+        elif side.restitution is not None:
+            self._hit(side)
+        else:
+            self._press_or_part(side)
+
+    @property
+    def time(self) -> mpf:
+        return self.cycles_done * self.period + self.elapsed
+
+    def _note(self, what: str, side: _Side) -> None:
+        if self.time > 0 or what != "contact":
+            self.events.append(Event(self.time, f"{what}_{side.name}", *self.state))
+
+    def _press_or_part(self, side: _Side) -> None:
+        """Begin or end the contact with a bumper."""
+        began = side not in self.pressed
         elastic = side.rate is None
+        if began:
+            self.pressed.append(side)
+        else:
+            self.pressed.remove(side)
         # Detachment from a damped bumper leaves the clearance and its slope zero; an elastic one
         # has no force at contact and no clearance at detachment.
         self.known_zeros[side.name] = int(elastic) if began else 2 - int(elastic)
         self.bumper[side.name] = mpf(0) if elastic and not began else self.u - side.wall
-        time = self.cycles_done * self.period + self.elapsed
-        if time > 0 or not began:
-            kind = f"{'contact' if began else 'detach'}_{side.name}"
-            self.events.append(Event(time, kind, *self.state))
-        self.changes_here += 1
-        if self.changes_here > 4:
-            raise ArithmeticError(f"contact and flight alternate without end at t = {time}")
+        self._note("contact" if began else "detach", side)
+
+    def _hit(self, side: _Side) -> None:
+        """Hit a rigid stop: fly back, or rest there at once, or after a chatter."""
+        e = side.restitution
+        assert e is not None
+        self.u = side.wall
+        if side.sign * self.v > 0:
+            self._note("impact", side)
+            self.v *= -e
+        else:
+            self.v = mpf(0)  # a touching start, or a tangency that rounding takes for a hit
+        self.known_zeros[side.name] = 1 if self.v else 2
+        if not self.v:
+            if self._pressing(side) >= 0:
+                self._rest(side)
+        elif e < 1 and self._chatters(side):
+            start = self.elapsed
+            limit = accumulation(self._impacts(side), e, self.tolerance * self.period)
+            self.elapsed, self.v = start, mpf(0)
+            self._pass(limit)
+            self._rest(side)
+
+    def _rest(self, side: _Side) -> None:
+        self.resting, self.known_zeros[side.name] = side, 0
+        self._note("contact", side)
+
+    def _pressing(self, side: _Side) -> mpf:
+        """Acceleration towards a stop that the mass would have there without velocity."""
+        stiffness, _, load = self._coefficients()
+        base = self.amplitude * mp.sin(self.omega * self.elapsed + self.phase)
+        return side.sign * (load - base - stiffness * side.wall)
+
+    def _chatters(self, side: _Side) -> bool:
+        """Whether impacts on a stop certainly go on until they accumulate, within this period.
+
+        While the acceleration towards the stop stays within a (1 ± d), d = (1 - e)/8, an impact is
+        at most e ((1 + d)/(1 - d))^(1/2) times as fast as the last, which is less than (1 + 7 e)/8
+        for e < 1: so velocities stay below twice the first, distances below 2 w²/a, and all is
+        over before 3 w/(a (1 - e)).
+        """
+        w, a, e = abs(self.v), self._pressing(side), side.restitution
+        assert e is not None
+        if a <= 0:
+            return False
+        longest, farthest = 3 * w / (a * (1 - e)), 2 * w**2 / a
+        stiffness, damping, _ = self._coefficients()
+        drift = abs(self.amplitude) * self.omega * longest
+        if drift + 2 * damping * w + stiffness * farthest > (1 - e) / 8 * a:
+            return False
+        for other in self.sides:
+            if other is side:
+                continue
+            depth = other.sign * (side.wall - other.wall)
+            if other in self.pressed:
+                if other.stiffness * (depth - farthest) <= 2 * other.damping * w:
+                    return False
+            else:
+                memory = other.sign * self.bumper[other.name]
+                fade = mp.exp(-other.rate * longest) if other.rate is not None else 0
+                if memory * fade - depth <= farthest:
+                    return False
+        return self.elapsed + longest < self.period
+
+    def _impacts(self, side: _Side) -> Iterator[mpf]:
+        """Times of the impacts of a chatter, from the one that was, which is at zero."""
+        start = self.elapsed
+        yield mpf(0)
+        while True:
+            step, u, v, _ = self._series(4 * abs(self.v) / self._pressing(side))
+            # The clearance begins at zero: what it is divided by time tells the next impact.
+            at = first_zero([-side.sign * value for value in u[1:]])
+            assert at is not None
+            self.elapsed += step * at
+            self.u, self.v = side.wall, polynomial_value(v, at)
+            self._note("impact", side)
+            self.v *= -side.restitution
+            yield self.elapsed - start
