@@ -165,6 +165,39 @@ def test_marks_differ_and_are_named():
     assert named(bifurcation_diagram(diagram())) == ["stable", "unstable", "fold", "grazing"]
 
 
+def test_a_fold_is_seen_inside_the_grazing_beside_it():
+    ax = bifurcation_diagram(diagram())
+    fold, grazing = marks(ax)["fold"], marks(ax)["grazing"]
+    assert grazing.get_markerfacecolor() == "none"
+    room = grazing.get_markersize() - 2.0 * grazing.get_markeredgewidth()
+    assert fold.get_markersize() < room
+
+
+def test_unstable_mirror_images_are_dashed_where_they_coincide():
+    lines = curves(bifurcation_diagram(several()))
+    dashed = [line for line in lines if line.get_linestyle() == "--"]
+    solid = [line for line in lines if line.get_linestyle() == "-"]
+    assert all(same_color(line.get_gapcolor(), "white") for line in dashed)
+    assert max(d.get_zorder() for d in dashed) < min(s.get_zorder() for s in solid)
+
+
+def test_branches_are_named_by_their_impacts():
+    texts = [text.get_text() for text in bifurcation_diagram(diagram()).texts]
+    assert sorted(texts) == ["1R 1L", "free flight"]
+    several_texts = {text.get_text() for text in bifurcation_diagram(several()).texts}
+    assert {"1R 1L", "3R 2L, period 2"} <= several_texts
+
+
+def test_names_stand_clear_of_marks_and_of_each_other():
+    ax = bifurcation_diagram(several())
+    ax.figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in ax.texts]
+    for i, box in enumerate(boxes):
+        assert not any(box.overlaps(other) for other in boxes[:i])
+        for line in marks(ax).values():
+            assert not any(box.contains(*spot) for spot in ax.transData.transform(points(line)))
+
+
 def test_other_parameters_are_named_with_their_units():
     assert bifurcation_diagram(gaps()).get_xlabel().startswith("gap of each side (")
     data = vi.branch(CASE.oscillator, SHAKEN, parameter="stiffness_ratio", low=10.0, high=30.0)
@@ -261,6 +294,13 @@ def test_curves_of_several_kinds():
     twice = bifurcation_curves({"a": curve("grazing", "gap"), "b": curve("grazing", "gap")})
     assert len(curves(twice)) == 2
     assert named(twice) == ["grazing"]
+
+
+def test_curves_are_called_by_their_names():
+    named_curves = {"tongue": curve("fold", "gap"), "grazing": curve("grazing", "gap")}
+    (text,) = bifurcation_curves(named_curves).texts  # the legend tells the kind
+    assert text.get_text() == "tongue"
+    assert same_color(text.get_color(), curves(bifurcation_curves(named_curves))[0].get_color())
 
 
 # Files, axes, and what is left alone

@@ -611,6 +611,11 @@ def test_a_page_is_the_same_file_every_time(kind, tmp_path):
         assert date not in first
 
 
+def test_the_text_of_an_svg_file_is_text(tmp_path):
+    path = save_figure(phase_portrait(hitting(), title="a title"), tmp_path / "a.svg")
+    assert ">a title</text>" in path.read_text(encoding="utf-8")
+
+
 def test_given_axes_are_drawn_on():
     for draw in (phase_portrait, hysteresis_cycle):
         ax = Figure().subplots()

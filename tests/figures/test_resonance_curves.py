@@ -163,7 +163,12 @@ class TestOtherSweeps:
             marks = lines(ax)["forward sweep, not settled"]
             assert marks.get_linestyle() == "None"
             assert marks.get_marker() == "x"
+            assert marks.get_markersize() > 1.5 * SWEEPS["forward"].size
             x = marks.get_xdata()
+            curve = lines(ax)["forward sweep"]
+            usual = curve.get_xdata()[list(curve.get_markevery())]
+            assert len(usual) > 20
+            assert not set(usual) & set(x)  # what is not settled has no usual mark
             assert (x >= 1.0).all()
             assert (x <= 1.12).all()
             assert np.diff(x).min() >= 0.01

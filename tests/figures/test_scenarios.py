@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 import vibroimpact as vi
@@ -139,3 +140,24 @@ def test_laboratory_tests():
 def test_the_same_map_makes_the_same_file(tmp_path):
     one, two = (save_figure(scenario_map(made()), tmp_path / f"{k}.png") for k in "ab")
     assert one.read_bytes() == two.read_bytes()
+
+
+def test_the_words_beside_a_colour_bar_are_whole():
+    small = vi.scenario_map(
+        ("stiffness_ratio", np.geomspace(1.0, 4.0, 3)), ("gap_ratio", [0.6, 0.7, 0.8]), step=0.05
+    )
+    figure = Figure(figsize=(6.0, 5.0), layout="constrained")
+    names = [str(n) for n in small.data_vars if n not in ("scenario", "level")]
+    longest = sorted(names, key=lambda name: -len(small[name].attrs["long_name"]))
+    axes = list(figure.subplots(2, 2).flat)
+    for name, ax in zip(longest, axes, strict=False):
+        feature_map(small, name, ax)
+    alone = [feature_map(small, name) for name in longest[:4]]
+    for ax in (*axes, *alone):
+        drawn = ax.figure
+        drawn.draw_without_rendering()
+        bar = ax.collections[0].colorbar.ax
+        words = bar.yaxis.label.get_window_extent()
+        assert words.y0 >= 0.0
+        assert words.x1 <= drawn.bbox.x1
+        assert words.height <= 1.1 * bar.get_window_extent().height

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.labels import Names
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND, SWEEPS
 
@@ -33,6 +35,7 @@ class _Mark(NamedTuple):
     marker: str
     colour: str
     filled: bool
+    size: float = 5.0
 
 
 MARKS = {
@@ -40,7 +43,8 @@ MARKS = {
     "symmetry breaking": _Mark("s", "#7a3e9d", True),
     "period doubling": _Mark("^", "#00795c", True),
     "Neimark-Sacker": _Mark("D", "#b0006d", True),
-    "grazing": _Mark("o", "black", False),
+    # A ring around what it falls on: a fold or a period doubling is often a hair away.
+    "grazing": _Mark("o", "black", False, 9.0),
 }
 
 
@@ -53,6 +57,9 @@ def bifurcation_diagram(
     title: str | None = None,
 ) -> Axes:
     """Draw branches of periodic orbits against their parameter.
+
+    Each longer part is named by its impacts in a period: 2R 1L are two on the right bumper and
+    one on the left.
 
     Parameters
     ----------
@@ -97,7 +104,9 @@ def bifurcation_diagram(
             color="black",
             linestyle="-" if stable else (0, (4, 2)),
             linewidth=1.4 if stable else 0.9,
-            zorder=2,
+            # Or the dashes of two mirror images fill each other's gaps.
+            gapcolor=None if stable else "white",
+            zorder=2.5 if stable else 2,
         )
     handles: list[Any] = [
         Line2D([], [], color="black", linewidth=1.4, label="stable"),
@@ -113,8 +122,8 @@ def bifurcation_diagram(
             factor * data[f"bifurcation_{quantity}"].values[mine],
             linestyle="",
             marker=mark.marker,
-            markersize=5.0,
-            markerfacecolor=mark.colour if mark.filled else "white",
+            markersize=mark.size,
+            markerfacecolor=mark.colour if mark.filled else "none",
             markeredgecolor=mark.colour,
             label=kind.replace("-", "–"),
             zorder=4,
@@ -126,7 +135,26 @@ def bifurcation_diagram(
     ax.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
     ax.set_ylabel(label)
     ax.legend(handles=handles, ncols=4, **LEGEND)
+    names = Names(ax)
+    for part, name in _orbits(data):
+        names.write(x[part], y[part], name, "black")
     return ax
+
+
+def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
+    """Runs of points of one branch with the same impacts on each side, and what to call them."""
+    branch, period = data["branch"].values, data["period"].values
+    hits = [
+        np.rint(data[f"impacts_{side}"].values * period).astype(int) for side in ("right", "left")
+    ]
+    found = []
+    changes = np.any([np.diff(part) != 0 for part in (branch, period, *hits)], axis=0)
+    ends = [0, *(np.flatnonzero(changes) + 1), len(branch)]
+    for first, last in itertools.pairwise(ends):
+        right, left, cycles = (int(part[first]) for part in (*hits, period))
+        name = f"{right}R {left}L" if right or left else "free flight"
+        found.append((slice(first, last), f"{name}, period {cycles}" if cycles > 1 else name))
+    return found
 
 
 def axis_unit(values: xr.DataArray) -> tuple[float, str]:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import MARKS, axis_unit
+from vibroimpact.figures.labels import Names
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND
 
@@ -32,7 +33,8 @@ def bifurcation_curves(
     Parameters
     ----------
     curves
-        Dataset of `bifurcation_curve`, or several by name, in the same two parameters.
+        Dataset of `bifurcation_curve`, or several by name, in the same two parameters. Names
+        stand on the curves, unless they are those of the kinds.
     ax
         Axes to draw on. None makes a new figure.
     title
@@ -44,9 +46,10 @@ def bifurcation_curves(
         If a dataset holds no curve, or their parameters differ.
     """
     if isinstance(curves, Mapping) and not isinstance(curves, xr.Dataset):
+        names = [str(name) for name in curves]
         given = list(curves.values())
     else:
-        given = [curves]
+        names, given = [""], [curves]
     if not given or any("other_parameter" not in data.attrs for data in given):
         raise InputError("curves: there is none; a dataset of bifurcation_curve is accepted")
     pairs = {(data.attrs["parameter"], data.attrs["other_parameter"]) for data in given}
@@ -81,4 +84,9 @@ def bifurcation_curves(
     ax.set_xlabel(f"{given[0][first].attrs['long_name']} ({units[0]})")
     ax.set_ylabel(f"{given[0][second].attrs['long_name']} ({units[1]})")
     ax.legend(ncols=4, **LEGEND)
+    written = Names(ax)
+    for name, data in zip(names, given, strict=True):
+        if name not in ("", data.attrs["kind"]):
+            x, y = (k * data[p].values for k, p in zip(scales, (first, second), strict=True))
+            written.write(x, y, name, MARKS[data.attrs["kind"]].colour)
     return ax

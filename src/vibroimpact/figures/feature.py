@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import textwrap
+
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps
@@ -14,6 +16,8 @@ from vibroimpact.figures.plane import node_edges, plane_axes
 
 _MOST = 12
 """Counts up to this have a colour each."""
+_LETTER = 0.62
+"""Width of a letter, in sizes of the text."""
 
 
 def feature_map(
@@ -59,7 +63,10 @@ def feature_map(
         rasterized=True,
     )
     plane_axes(ax, data[first], data[second])
-    bar = ax.figure.colorbar(mesh, ax=ax, label=f"{data[name].attrs['long_name']} (–)")
+    bar = ax.figure.colorbar(mesh, ax=ax)
+    height = 72.0 * ax.get_window_extent().height / ax.figure.dpi
+    letters = int(height / (_LETTER * float(bar.ax.yaxis.label.get_fontsize())))
+    bar.set_label(textwrap.fill(f"{data[name].attrs['long_name']} (–)", max(letters, 12)))
     if norm is not None:
         bar.set_ticks(list(range(int(values.max()) + 1)))
         bar.ax.minorticks_off()

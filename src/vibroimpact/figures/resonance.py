@@ -14,7 +14,7 @@ from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from vibroimpact.figures.inline import Panels
-from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, curve_style, panels
+from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
 from vibroimpact.response.peaks import Curve
 from vibroimpact.response.resonance import Features, Jump, features
 
@@ -37,7 +37,7 @@ _LABELS = {
 }
 _ARROWS_APART = 5.0
 """Least distance in points between a forward and a backward arrow."""
-_MARKS = 90
+_MARKS = 60
 """How many marks of motions that did not settle fit side by side."""
 
 
@@ -120,21 +120,34 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, curve: Curve, free: str)
         look = SWEEPS[direction]
         mine = [jump for jump in jumps if jump.direction == direction]
         x, y = _parted(frequency, one[curve].values, mine)
-        ax.plot(x, y, label=look.label, zorder=3 + layer, **curve_style(look, len(x)))
-        loose = _thinned(frequency, one["motion"].values != "periodic")
+        style = curve_style(look, len(x))
+        wild = one["motion"].values != "periodic"
+        if wild.any():  # its marks would hide the crosses
+            first, every = style["markevery"]
+            hidden = np.isin(x, frequency[wild])
+            style["markevery"] = [i for i in range(first, len(x), every) if not hidden[i]]
+        ax.plot(x, y, label=look.label, zorder=3 + layer, **style)
+        loose = _thinned(frequency, wild)
         if len(loose):
             ax.plot(
                 frequency[loose],
                 one[curve].values[loose],
-                linestyle="none",
-                marker="x" if look.filled else "+",
-                markersize=5.0,
-                markeredgewidth=0.9,
-                color=look.colour,
                 label=f"{look.label}, not settled",
                 zorder=5 + layer,
+                **_loose_style(look),
             )
     _draw_jumps(ax, curve, jumps)
+
+
+def _loose_style(look: Look) -> dict[str, Any]:
+    """Keywords of `Axes.plot`: crosses that can be told apart where one falls on the other."""
+    return {
+        "linestyle": "none",
+        "marker": "x" if look.filled else "+",
+        "markersize": 8.0 if look.filled else 12.0,
+        "markeredgewidth": 1.8,
+        "color": look.colour,
+    }
 
 
 def _parted(
@@ -202,11 +215,8 @@ def _legend(data: xr.Dataset, found: Features) -> list[Artist]:
                 Line2D(
                     [],
                     [],
-                    linestyle="none",
-                    marker="x" if look.filled else "+",
-                    color=look.colour,
-                    markersize=5.0,
                     label=f"{look.label}, not settled",
+                    **_loose_style(look),
                 )
             )
     entries.append(
