@@ -89,7 +89,7 @@ class TestPrimaryResonance:
                 np.testing.assert_array_equal(
                     line.get_ydata()[known], data[curve].sel(direction=direction)
                 )
-            assert lines(ax)["free flight"].get_ydata().max() == 1.0
+            assert 0.99 < lines(ax)["free flight"].get_ydata().max() <= 1.0
 
     def test_arrows_where_the_sweeps_jump(self):
         data = swept("B2-G1-A3", parameters="identified")

@@ -72,11 +72,10 @@ class TestDataset:
         above, below = data["acceleration_max"], data["acceleration_min"]
         xr.testing.assert_equal(data["acceleration_excursion"], above - below)
         for kind, eta in (("displacement", "eta_d"), ("acceleration", "eta_a")):
-            free = data[f"free_{kind}_excursion"]
+            free, largest = (data[f"{name}_{kind}_excursion"] for name in ("free", "largest_free"))
             assert free.dims == ("frequency",)
-            np.testing.assert_allclose(
-                data[eta], data[f"{kind}_excursion"] / free.max(), rtol=1e-15
-            )
+            assert 0.999 * float(largest) < float(free.max()) <= float(largest)
+            np.testing.assert_allclose(data[eta], data[f"{kind}_excursion"] / largest, rtol=1e-15)
         assert (data["motion"] == "periodic").all()
         assert (data["status"] == 0).all()
         assert data["status"].attrs["flag_meanings"].split()[0] == "done"
@@ -85,6 +84,25 @@ class TestDataset:
         for side in ("impacts_right", "impacts_left"):
             per_period = data[side] * data["period"]
             np.testing.assert_array_equal(per_period, per_period.round())
+
+    @pytest.mark.parametrize("damping", [1100.0, 0.0, 30e3])
+    def test_eta_does_not_depend_on_the_range(self, damping: float) -> None:
+        """It is that of the branch, over the largest free flight at any frequency."""
+        case = vi.laboratory.case("B2-G1-A3")
+        isolator = case.oscillator.isolator.replace(damping=damping)
+        rig = case.oscillator.replace(isolator=isolator)
+        wide = vi.sweep(rig, case.amplitude, grid(0.5, 2.5, 0.1), "forward", max_cycles=20)
+        narrow = vi.sweep(rig, case.amplitude, grid(1.9, 2.5, 0.1), "forward", max_cycles=20)
+        for name, size in (("eta_d", "displacement"), ("eta_a", "acceleration")):
+            scales = [(data[name] / data[f"{size}_excursion"]).values for data in (wide, narrow)]
+            np.testing.assert_allclose(np.concatenate(scales, axis=1), scales[0][0, 0], rtol=1e-14)
+        if damping == 1100.0:
+            orbit = vi.branch(rig, vi.Harmonic(case.amplitude, 2.2), low=2.1, high=2.3)
+            i = int(np.argmin(np.abs(orbit["frequency"].values - 2.2)))
+            scale = float(orbit["eta_d"][i] / orbit["displacement_excursion"][i])
+            assert scale == pytest.approx(
+                float((wide["eta_d"] / wide["displacement_excursion"])[0, 0]), rel=1e-14
+            )
 
     def test_many_rigs_share_one_dataset(self) -> None:
         pair = (vi.laboratory.case("B1-G1-A1"), vi.laboratory.case("B2-G1-A3"))

@@ -132,7 +132,7 @@ def resonance_family(
     ax.set_xlim(frequency[0], frequency[-1])
     references = factor * data[flight].values
     if normalised:
-        references = references / references.max(axis=1, keepdims=True)
+        references = references / data[f"largest_{flight}"].values[:, np.newaxis]
     values = factor * data[quantity].transpose("rig", "direction", "frequency").values
     highest = max(np.nanmax(values, initial=0.0), references.max() if free else 0.0)
     ax.set_ylim(0.0, 1.06 * (highest or 1.0))

@@ -89,7 +89,7 @@ def resonance_curves(
 
 def _panel(ax: Axes, data: xr.Dataset, found: Features, curve: Curve, free: str) -> None:
     frequency = data["frequency"].values
-    reference = data[free].values / np.nanmax(data[free].values)
+    reference = data[free].values / data[f"largest_{free}"].values
     values = data[curve].values
     margin = 0.02 * (frequency[-1] - frequency[0]) or 0.05 * frequency[0]
     ax.set_xlim(frequency[0] - margin, frequency[-1] + margin)

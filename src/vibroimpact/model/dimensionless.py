@@ -320,6 +320,39 @@ def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
     return _peak(oscillator.mass, oscillator.isolator.stiffness, oscillator.damping_ratio, a)
 
 
+def largest_free_flight(
+    angular_frequency: float, damping_ratio: float, amplitude: float
+) -> tuple[float, float]:
+    """Return the largest amplitudes in free flight, over all frequencies.
+
+    Of the displacement A/(2ξ√(1-ξ²) ω0²) (see `peak_displacement`), or A/ω0², which it comes
+    close to at low frequencies, if ξ is at least 1/√2. Of the absolute acceleration
+    A √(1 + 4ξ²r²)/√((1 - r²)² + 4ξ²r²) at r² = 2/(1 + √(1 + 8ξ²)).
+
+    Parameters
+    ----------
+    angular_frequency
+        ω0 in rad/s.
+    damping_ratio
+        ξ; with 0 both are infinite.
+    amplitude
+        Peak base acceleration A in m/s².
+
+    Returns
+    -------
+    tuple of float
+        In m and m/s².
+    """
+    xi, static = damping_ratio, amplitude / angular_frequency**2
+    if xi == 0.0:
+        return math.inf, math.inf
+    peaked = xi < math.sqrt(0.5)
+    swing = static / (2.0 * xi * math.sqrt(1.0 - xi**2)) if peaked else static
+    square = 2.0 / (1.0 + math.sqrt(1.0 + 8.0 * xi**2))
+    damped = 4.0 * xi**2 * square
+    return swing, amplitude * math.sqrt((1.0 + damped) / ((1.0 - square) ** 2 + damped))
+
+
 def _peak(mass: float, stiffness: float, damping_ratio: float, amplitude: float) -> float:
     if not 0.0 < damping_ratio < math.sqrt(0.5):
         raise InputError(
@@ -331,8 +364,7 @@ def _peak(mass: float, stiffness: float, damping_ratio: float, amplitude: float)
             "amplitude: 0 moves nothing, so a gap that is not 0 has no scale; "
             "an acceleration greater than 0 is accepted"
         )
-    static = amplitude * mass / stiffness  # A/ω0²
-    peak = static / (2.0 * damping_ratio * math.sqrt(1.0 - damping_ratio**2))
+    peak, _ = largest_free_flight(math.sqrt(stiffness / mass), damping_ratio, amplitude)
     if not 0.0 < peak < math.inf:
         raise InputError(
             f"amplitude: {amplitude:g} m/s² moves a mass of {mass:g} kg on {stiffness:g} N/m by "

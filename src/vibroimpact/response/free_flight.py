@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator
+from vibroimpact.model.dimensionless import largest_free_flight
 
 _RESONANT = 1e-14
 
@@ -33,6 +34,21 @@ def free_flight_excursions(
         raise InputError(unbounded(f"frequencies[{i}]", float(frequencies[i])))
     gain = 2.0 * amplitude / distance
     return gain / oscillator.angular_frequency**2, gain * np.sqrt(1.0 + damping**2)
+
+
+def reference_excursions(
+    angular_frequency: float, damping_ratio: float, amplitude: float
+) -> tuple[float, float]:
+    """Excursions of displacement (m) and absolute acceleration (m/s²) that η is taken over.
+
+    Those of the largest free flight at any frequency, whatever range is swept (the maximum of
+    the paper's free-flight sweep, Section 4). An undamped isolator has none: there they are
+    2A/ω0² and 2A, those under a base acceleration that changes slowly.
+    """
+    if damping_ratio == 0.0:
+        return 2.0 * amplitude / angular_frequency**2, 2.0 * amplitude
+    swing, acceleration = largest_free_flight(angular_frequency, damping_ratio, amplitude)
+    return 2.0 * swing, 2.0 * acceleration
 
 
 def check_bounded(oscillator: Oscillator, frequency: float, field: str) -> None:

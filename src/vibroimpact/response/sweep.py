@@ -21,7 +21,11 @@ from vibroimpact.model import Oscillator, State, equilibrium, to_si
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.rigs import AnyRig, as_rig, is_rig, rig_name, takes_rig
 from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY
-from vibroimpact.response.free_flight import check_bounded, free_flight_excursions
+from vibroimpact.response.free_flight import (
+    check_bounded,
+    free_flight_excursions,
+    reference_excursions,
+)
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.threads import Progress, run
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
@@ -65,7 +69,8 @@ def sweep(
     -------
     xarray.Dataset
         Dims ``direction`` and ``frequency``. ``eta_d`` and ``eta_a`` are the excursions over
-        the maximum, on the same frequencies, of steady free flight (the paper's Section 4).
+        those of the largest free flight at any frequency, whatever range is swept (the paper's
+        Section 4); an undamped isolator has none, and they are taken over 2A/ω0² and 2A.
         ``section`` is the state at the end of each hold; ``status`` and ``motion`` say how
         each hold ended. Values are NaN only where ``status`` says that there is none.
 
@@ -157,11 +162,15 @@ def sweeps(
     threads = None if threads is None else whole(threads, "threads")
 
     free = np.empty((2, len(pairs), len(grid)))
+    largest = np.empty((2, len(pairs)))
     prepared = []
     for r, (oscillator, amplitude) in enumerate(pairs):
         for i, frequency in enumerate(grid):
             check_bounded(oscillator, float(frequency), f"frequencies[{i}]")
         free[:, r] = free_flight_excursions(oscillator, amplitude, grid)
+        largest[:, r] = reference_excursions(
+            oscillator.angular_frequency, oscillator.damping_ratio, amplitude
+        )
         prepared.append(
             (
                 engine_rig(oscillator),
@@ -200,7 +209,7 @@ def sweeps(
 
     batch.sweep.prepare()  # once, before the threads would queue for it
     run(one, counter, len(grid) * len(counter), threads, progress)
-    data = _dataset(results, states, free, angle)
+    data = _dataset(results, states, free, largest, angle)
     data = data.assign_coords(
         rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
     )
@@ -293,13 +302,14 @@ def _dataset(
     results: NDArray[np.float64],
     states: NDArray[np.float64],
     free: NDArray[np.float64],
+    largest: NDArray[np.float64],
     phase: float,
 ) -> xr.Dataset:
     dims = ("rig", "direction", "frequency")
     low, high = results[..., hold.U_LEAST], results[..., hold.U_MOST]
     floor, ceiling = results[..., hold.A_LEAST], results[..., hold.A_MOST]
     excursion, peak = high - low, ceiling - floor
-    reference = free.max(axis=-1)[..., np.newaxis, np.newaxis]
+    reference = largest[..., np.newaxis, np.newaxis]
     period = results[..., hold.PERIOD].astype(np.int64)
     values = {
         "displacement_excursion": excursion,
@@ -322,6 +332,8 @@ def _dataset(
     data["section"] = ((*dims, "component"), components(states, phase))
     data["free_displacement_excursion"] = (("rig", "frequency"), free[0])
     data["free_acceleration_excursion"] = (("rig", "frequency"), free[1])
+    data["largest_free_displacement_excursion"] = ("rig", largest[0])
+    data["largest_free_acceleration_excursion"] = ("rig", largest[1])
     return data
 
 

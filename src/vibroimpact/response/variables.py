@@ -20,6 +20,8 @@ class Variable(NamedTuple):
     comment: str = ""
 
 
+_OVER = "over that of the largest free flight of the same isolator and amplitude at any frequency"
+
 VARIABLES: dict[str, Variable] = {
     # coordinates
     "frequency": Variable("Hz", "excitation frequency"),
@@ -40,12 +42,12 @@ VARIABLES: dict[str, Variable] = {
     "eta_d": Variable(
         "1",
         "normalised excursion of relative displacement",
-        "over the maximum of the free-flight sweep of the same isolator and amplitude",
+        _OVER,
     ),
     "eta_a": Variable(
         "1",
         "normalised excursion of absolute acceleration",
-        "over the maximum of the free-flight sweep of the same isolator and amplitude",
+        _OVER,
     ),
     "displacement_max": Variable("m", "largest relative displacement"),
     "displacement_min": Variable("m", "smallest relative displacement"),
@@ -67,6 +69,12 @@ VARIABLES: dict[str, Variable] = {
     ),
     "free_acceleration_excursion": Variable(
         "m s-2", "excursion of absolute acceleration in steady free flight"
+    ),
+    "largest_free_displacement_excursion": Variable(
+        "m", "largest excursion of relative displacement in free flight at any frequency"
+    ),
+    "largest_free_acceleration_excursion": Variable(
+        "m s-2", "largest excursion of absolute acceleration in free flight at any frequency"
     ),
     "section": Variable(
         "1",

@@ -18,7 +18,7 @@ import xarray as xr
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Rig
-from vibroimpact.model.dimensionless import peak_displacement
+from vibroimpact.model.dimensionless import largest_free_flight
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs, each_swept
@@ -77,7 +77,7 @@ class Evidence(NamedTuple):
     rise where they end."""
     gap_ratio: float
     """δ0 of the smallest gap: over the largest amplitude of free flight at any frequency (at
-    those swept, where the damping leaves it no peak)."""
+    those swept, without damping)."""
     penetration: float
     """Largest penetration over the gap of that side; NaN if the bumpers are attached."""
     resonance: float
@@ -291,10 +291,11 @@ def _resonance_within(oscillator: Oscillator, both: Swept) -> bool:
 
 
 def _largest(oscillator: Oscillator, amplitude: float, free: Array) -> float:
-    """Largest amplitude of free flight (m)."""
-    if 0.0 < oscillator.damping_ratio < math.sqrt(0.5):
-        return peak_displacement(oscillator, amplitude)
-    return float(free.max())
+    """Largest amplitude of free flight (m); without damping that at the frequencies swept."""
+    swing, _ = largest_free_flight(
+        oscillator.angular_frequency, oscillator.damping_ratio, amplitude
+    )
+    return swing if math.isfinite(swing) else float(free.max())
 
 
 def _irregular(

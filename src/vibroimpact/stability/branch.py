@@ -18,6 +18,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.free_flight import reference_excursions
 from vibroimpact.response.start import as_state
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability import bifurcations
@@ -236,7 +237,7 @@ def as_dataset(
     measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
     high, low = measured[:, hold.U_MOST], measured[:, hold.U_LEAST]
     top, bottom = measured[:, hold.A_MOST], measured[:, hold.A_LEAST]
-    free = np.array([_free_peak(one) for one in orbits]).reshape(-1, 2)
+    free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
     multipliers = np.array([one.multipliers for one in orbits]).reshape(-1, 4)
     values = {
         "arclength": [s.arclength for _, s in stations],
@@ -293,7 +294,7 @@ def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
     found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
     multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, 4)
     measured = np.array([_measured(b.orbit) for _, b in found]).reshape(-1, hold.RESULTS)
-    free = np.array([_free_peak(b.orbit) for _, b in found]).reshape(-1, 2)
+    free = np.array([_reference(b.orbit) for _, b in found]).reshape(-1, 2)
     excursion = measured[:, hold.U_MOST] - measured[:, hold.U_LEAST]
     peak = measured[:, hold.A_MOST] - measured[:, hold.A_LEAST]
     values: dict[str, Any] = {
@@ -352,16 +353,9 @@ def _measured(one: Orbit) -> _Array:
     return result
 
 
-def _free_peak(one: Orbit) -> tuple[float, float]:
-    """Largest excursions of displacement and absolute acceleration in free flight."""
+def _reference(one: Orbit) -> tuple[float, float]:
+    """Excursions of displacement and absolute acceleration that η is taken over."""
     system = one.section.family.system(one.value)
-    omega = np.sqrt(system[par.STIFFNESS])
-    xi = system[par.DAMPING] / (2.0 * omega)
-    if not 0.0 < xi < np.sqrt(0.5):
-        return np.nan, np.nan  # no resonance, or no bound
-    amplitude = system[section_map.AMPLITUDE]
-    # |H| of the absolute acceleration is largest at r² = (√(1 + 8ξ²) − 1) / (4ξ²).
-    r2 = (np.sqrt(1.0 + 8.0 * xi * xi) - 1.0) / (4.0 * xi * xi)
-    gain = np.sqrt((1.0 + 4.0 * xi * xi * r2) / ((1.0 - r2) ** 2 + 4.0 * xi * xi * r2))
-    largest = amplitude / (2.0 * xi * np.sqrt(1.0 - xi * xi) * omega**2)
-    return 2.0 * float(largest), 2.0 * float(amplitude * gain)
+    omega = float(np.sqrt(system[par.STIFFNESS]))
+    xi = float(system[par.DAMPING]) / (2.0 * omega)
+    return reference_excursions(omega, xi, float(system[section_map.AMPLITUDE]))

@@ -182,7 +182,7 @@ def contact_span(study: Study, code: str) -> tuple[float, float]:
 def free(data: xr.Dataset, curve: Curve) -> xr.DataArray:
     """Free flight on the same scale as η_a or η_d."""
     name = {"eta_a": "free_acceleration_excursion", "eta_d": "free_displacement_excursion"}[curve]
-    return data[name] / data[name].max("frequency")
+    return data[name] / data[f"largest_{name}"]
 
 
 def secondary(study: Study, code: str) -> list[tuple[float, float]]:
