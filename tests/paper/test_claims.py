@@ -140,7 +140,7 @@ def test_what_is_not_reproduced_has_a_reason():
 @pytest.mark.parametrize(
     ("key", "part"),
     [
-        ("grazing-is-free-flight", "B4-G4-A1 η_a 1.09, η_d 0.07, jumps 1.325 and 1.295 Hz"),
+        ("grazing-is-free-flight", "B4-G4-A1 η_a 1.08, η_d 0.07, jumps 1.325 and 1.295 Hz"),
         ("s3-secondary-without-hysteresis", "left hysteresis 0.5604 to 0.5682 Hz (0.008 Hz wide)"),
         ("upward-jump-fades", "along the gap 5 of 12 sequences"),
         ("upward-jump-fades", "along the acceleration 4 of 16 sequences"),

@@ -330,3 +330,37 @@ def test_an_orbit_has_its_least_period():
     case = vi.laboratory.case("B2-G1-A3")
     data = vi.branch(case.oscillator, vi.Harmonic(case.amplitude, 2.0), low=1.9, high=2.1, period=3)
     assert set(data["period"].values) == {1}
+
+
+def test_a_closed_branch_of_a_longer_period_is_gone_round_once():
+    """After a round it may meet another of the sections of its first orbit."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.04), vi.Bumper(20.0, 0.0, 0.63))
+    data = vi.branch(
+        rig,
+        vi.Harmonic(0.5, 0.091918874526),
+        vi.State(0.342505143, -0.804559204),
+        low="0.5 rad/s",
+        high="2 rad/s",
+        period=4,
+    )
+    assert data.attrs["closed"] == 1
+    assert data.sizes["point"] < 200
+    found = data["bifurcation_value"].values
+    assert len(found) == len(np.unique(np.round(found, 9))) == 8
+
+
+def test_each_orbit_of_a_doubled_period_is_listed_once():
+    """Beyond the doubling in which it is born a branch would show its orbits again."""
+    data = diagram("B4-10mm-A3", 0.4)
+    branches, counts = np.unique(data["branch"], return_counts=True)
+    assert len(branches) < 10
+    assert counts.max() < 1000
+    ended = [data.attrs[f"branch_{i}_ended_{end}"] for i in branches for end in ("low", "high")]
+    assert not any("no orbit could be found" in reason.split(",")[0] for reason in ended)
+    doubled = [i for i in branches if int(data["period"][data["branch"].values == i][0]) == 2]
+    for i in doubled:
+        mine = data["bifurcation_branch"].values == i
+        own = data["bifurcation_value"].values[mine]
+        assert len(own) == len(np.unique(np.round(own, 7)))
+        for end in ("low", "high"):
+            assert "it is born at 1." in data.attrs[f"branch_{i}_ended_{end}"]

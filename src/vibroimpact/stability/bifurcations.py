@@ -16,15 +16,18 @@ import itertools
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.continuation.zero import zero_within
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.orbits import SEEN, Orbit, Section, corrected, evaluated, is_fixed
-from vibroimpact.stability.trace import Station, Trace, bisect
+from vibroimpact.stability.orbits import SEEN, Orbit, corrected, is_fixed
+from vibroimpact.stability.parents import half_plus, parent, slid
+from vibroimpact.stability.trace import Station, solved
 
 _Array = NDArray[np.float64]
 
@@ -36,8 +39,6 @@ GRAZING = "grazing"
 
 _SMALL = 1e-4
 """Of its larger value at the ends of a step, to which a test function must come down."""
-_REACH = 0.02
-"""Of the parameter's range, within which the parent of a branch is sought."""
 _OFF = (1e-3, 3e-4, 1e-4, 3e-3, 1e-2)
 """Scaled distances from a bifurcation at which the branch that is born there is sought."""
 
@@ -53,12 +54,6 @@ class Bifurcation(NamedTuple):
     """Whether the branch turns back here."""
     contacts_behind: tuple[int, int]
     """Contacts on each side per period beyond it; the orbit's own but for a grazing."""
-
-
-def half_plus(orbit: Orbit) -> float:
-    """det(M + I) of an orbit's map: zero where an eigenvalue is −1."""
-    with np.errstate(all="ignore"):  # far from any orbit it may overflow
-        return float(np.linalg.det(orbit.columns + np.eye(4)))
 
 
 def spiral(orbit: Orbit) -> float:
@@ -95,9 +90,9 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
             if kind == NEIMARK and -1.0 in (first, second):
                 continue  # a real pair became complex, or the other way round
             turns = kind == FOLD
-            if turns and (parent := _parent(here, there)) is not None:
+            if turns and (met := parent(here.orbit, there.orbit)) is not None:
                 # The branch turns where it meets that of the motions which it left.
-                kind, orbit = parent
+                kind, orbit = BREAKING if met.section.mirror else DOUBLING, met
                 arclength = 0.5 * (here.arclength + there.arclength)
             else:
                 orbit, arclength = _locate(here, there, function)
@@ -130,65 +125,11 @@ def _locate(
         length = float(chord @ start.tangent)
         if length <= 0.0:
             continue
-        status, orbit, length = bisect(start, length, function)
-        if status is Status.DONE and abs(function(orbit)) <= _SMALL * largest:
-            return orbit, start.arclength + sense * length
+        found = zero_within(start.orbit, length, partial(solved, start), function)
+        if found is not None and abs(function(found[0])) <= _SMALL * largest:
+            return found[0], start.arclength + sense * found[1]
     nearest = min((here, there), key=lambda station: abs(function(station.orbit)))
     return nearest.orbit, nearest.arclength
-
-
-def _parent(here: Station, there: Station) -> tuple[str, Orbit] | None:
-    """The symmetry breaking or period doubling that a branch goes through in a step, if any.
-
-    On its two sides the orbits are each other's images under the simpler map, whose fixed point
-    lies between an orbit and its image.
-    """
-    section = here.orbit.section
-    simpler = section.parent()
-    if simpler is None:
-        return None
-    kind = BREAKING if simpler.mirror else DOUBLING
-    misses = []
-    for station in (here, there):
-        status, other, image = evaluated(
-            simpler, station.orbit.point, station.orbit.facts[section_map.MODE]
-        )
-        if status is not Status.DONE:
-            return None
-        misses.append((image - other.point) / section.scale * SEEN)
-    if misses[0] @ misses[1] >= 0.0:
-        return None
-    nearer, miss = min(
-        zip((here, there), misses, strict=True), key=lambda pair: float(np.linalg.norm(pair[1]))
-    )
-    guess = nearer.orbit.point + 0.5 * miss * section.scale
-    found = _zero(simpler, guess, float(nearer.orbit.facts[section_map.MODE]))
-    return None if found is None else (kind, found)
-
-
-def _zero(section: Section, guess: _Array, mode: float) -> Orbit | None:
-    """The orbit of a map near a point at which an eigenvalue is −1: by secants."""
-    first = float(guess[section_map.PARAMETER])
-    values = [first, first + 1e-6 * section.scale[4]]
-    tests: list[float] = []
-    point = guess.copy()
-    for _ in range(30):
-        point[section_map.PARAMETER] = values[len(tests)]
-        status, found = corrected(section, point, mode)
-        if status is not Status.DONE:
-            return None
-        point = found.point.copy()
-        tests.append(half_plus(found))
-        if len(tests) < 2:
-            continue
-        rise = tests[-1] - tests[-2]
-        step = -tests[-1] * (values[-1] - values[-2]) / rise if rise else 0.0
-        if abs(step) <= 1e-15 * abs(values[-1]):
-            return found
-        if abs(values[-1] + step - first) > _REACH * section.scale[4]:
-            return None
-        values.append(values[-1] + step)
-    return found
 
 
 def own_mirror(orbit: Orbit, tolerance: float) -> bool:
@@ -224,8 +165,8 @@ def born(found: Bifurcation) -> Iterator[Station]:
         if status is not Status.DONE:
             continue
         away = (orbit.point - found.orbit.point) / section.scale * SEEN
-        # It must not have slid back to the orbit that was there before.
-        if 0.3 * distance <= np.linalg.norm(away) <= 30.0 * distance:
+        # It must not have slid back to the orbit that was there before, nor to another such one.
+        if 0.3 * distance <= np.linalg.norm(away) <= 30.0 * distance and not slid(orbit):
             yield Station(orbit, orbit.tangent(normal), 0.0, 0)
             return
 
@@ -246,10 +187,9 @@ def with_critical(stations: list[Station], found: list[Bifurcation]) -> list[Sta
     return whole
 
 
-def joined(backward: Trace, forward: Trace) -> list[Station]:
+def joined(backward: list[Station], forward: list[Station]) -> list[Station]:
     """Both directions of a branch from one orbit as one list, in the sense of the second."""
     turned = [
-        Station(s.orbit, -s.tangent, -s.arclength, -s.piece, s.grazing)
-        for s in reversed(backward.stations)
+        Station(s.orbit, -s.tangent, -s.arclength, -s.piece, s.grazing) for s in reversed(backward)
     ]
-    return turned[:-1] + forward.stations
+    return turned[:-1] + forward

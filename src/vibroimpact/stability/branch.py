@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.continuation import arclength
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
@@ -24,9 +25,16 @@ from vibroimpact.response.variables import COMPONENTS, describe, oscillator_para
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.bifurcations import Bifurcation, own_mirror
 from vibroimpact.stability.family import Family, bounds, family
-from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, Section, corrected, is_fixed
+from vibroimpact.stability.orbits import (
+    HELD,
+    MAX_EVENTS,
+    Orbit,
+    Section,
+    corrected,
+    is_fixed,
+)
 from vibroimpact.stability.settled import settle
-from vibroimpact.stability.trace import Station, follow_branch
+from vibroimpact.stability.trace import CLOSED, Branch, Station
 
 _Array = NDArray[np.float64]
 
@@ -204,23 +212,25 @@ def follow(
     """Follow a branch both ways from an orbit, and find its bifurcations."""
     traces = []
     for sense in (-1.0, 1.0):
-        tangent = first.tangent(np.array([0.0, 0.0, 0.0, 0.0, sense]))
-        trace = follow_branch(Station(first, tangent, 0.0, 0), *span, most_points, progress)
+        start = Station(first, first.tangent(sense * HELD), 0.0, 0)
+        trace = arclength.follow(Branch(start, *span), start, most_points, _told(progress))
         traces.append(trace)
-        if trace.closed:
-            return Followed(
-                trace.stations,
-                list(bifurcations.find(trace.stations)),
-                (trace.ended, trace.ended),
-                True,
-            )
-    stations = bifurcations.joined(*traces)
+        if trace.ended == CLOSED:
+            break
+    if len(traces) == 1:
+        stations = traces[0].points
+    else:
+        stations = bifurcations.joined(traces[0].points, traces[1].points)
     return Followed(
         stations,
         list(bifurcations.find(stations)),
-        (traces[0].ended, traces[1].ended),
-        False,
+        (traces[0].ended, traces[-1].ended),
+        len(traces) == 1,
     )
+
+
+def _told(progress: Progress | None) -> Callable[[Station], None] | None:
+    return None if progress is None else lambda station: progress(station.orbit.value)
 
 
 def as_dataset(

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.bifurcations import FOLD, GRAZING, NEIMARK, half_plus, spiral
+from vibroimpact.stability.bifurcations import FOLD, GRAZING, NEIMARK, spiral
 from vibroimpact.stability.orbits import Orbit, Section, evaluated, margin_of
+from vibroimpact.stability.parents import half_plus
 from vibroimpact.stability.plane import Plane
 
 _Array = NDArray[np.float64]

@@ -26,7 +26,7 @@ from vibroimpact.stability.branch import (
     follow,
 )
 from vibroimpact.stability.family import Family, bounds, family
-from vibroimpact.stability.orbits import SEEN, Orbit, Section, at_phase, corrected, evaluated
+from vibroimpact.stability.orbits import SEEN, Orbit, at_phase, corrected, images
 
 _Array = NDArray[np.float64]
 
@@ -186,7 +186,7 @@ def on_branch(orbit: Orbit, one: Followed) -> bool:
     section = one.stations[0].orbit.section
     if section.period != orbit.section.period or section.mirror != orbit.section.mirror:
         return False
-    images: dict[float, list[_Array]] = {}
+    seen_there: dict[float, list[_Array]] = {}
     scale = section.scale
     for here, there in itertools.pairwise(one.stations):
         phase = here.orbit.section.family.phase
@@ -202,10 +202,12 @@ def on_branch(orbit: Orbit, one: Followed) -> bool:
         )
         guess = here.orbit.point + share * (there.orbit.point - here.orbit.point)
         reach = _CLOSE + np.linalg.norm((there.orbit.point - here.orbit.point) / scale * SEEN)
-        if phase not in images:
+        if phase not in seen_there:
             seen = at_phase(orbit, phase)
-            images[phase] = [] if seen is None else list(_images(seen))
-        near = [z for z in images[phase] if np.linalg.norm((z - guess) / scale * SEEN) <= reach]
+            mirrored = orbit.section.family.symmetric
+            there_too = () if seen is None else images(seen, mirrored=mirrored)
+            seen_there[phase] = [point for point, _ in there_too]
+        near = [z for z in seen_there[phase] if np.linalg.norm((z - guess) / scale * SEEN) <= reach]
         if not near:
             continue
         status, found = corrected(here.orbit.section, guess, here.orbit.facts[section_map.MODE])
@@ -214,20 +216,3 @@ def on_branch(orbit: Orbit, one: Followed) -> bool:
         ):
             return True
     return False
-
-
-def _images(orbit: Orbit) -> Iterator[_Array]:
-    """The sections of an orbit, and of its mirror image."""
-    section = orbit.section
-    point, mode = orbit.point, float(orbit.facts[section_map.MODE])
-    yield point
-    if section.mirror:
-        return
-    half = section.family.symmetric
-    one = Section(section.family, 1, half, section.scale)
-    for _ in range((2 if half else 1) * section.count - 1):
-        status, evaluation, point = evaluated(one, point, mode)
-        if status is not Status.DONE:
-            return
-        mode = float(evaluation.facts[section_map.MODE])
-        yield point

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import orbit, section_map
 from vibroimpact.engine.motion import FLIGHT
@@ -66,6 +68,11 @@ class Section:
     def full(self) -> Section:
         """The same without the mirror: its fixed points include those of the other."""
         return Section(self.family, self.count, False, self.scale)
+
+    def turned(self, phase: float) -> Section:
+        """The same at another forcing phase of the section."""
+        turned = self.family.excitation.replace(phase=phase)
+        return replace(self, family=self.family._replace(excitation=turned))
 
     def times(self, factor: int) -> Section:
         """The map repeated."""
@@ -135,13 +142,7 @@ class Orbit:
 
     def tangent(self, along: _Array) -> _Array:
         """Unit tangent (by `SEEN`) of the branch in scaled components, in the sense of `along`."""
-        bordered = np.vstack([self.jacobian, along * SEEN])
-        try:
-            found: _Array = np.linalg.solve(bordered, HELD)
-        except np.linalg.LinAlgError:
-            found = np.linalg.svd(self.jacobian)[2][-1]
-            found = found if found @ (along * SEEN) >= 0.0 else -found
-        return found / np.linalg.norm(found * SEEN)
+        return unit_tangent(self.jacobian, along, SEEN)
 
     @property
     def setting(self) -> tuple[Oscillator, Harmonic]:
@@ -266,9 +267,25 @@ def at_phase(found: Orbit, phase: float) -> Orbit | None:
     section = found.section
     if phase == section.family.phase:
         return found
-    turned = section.family.excitation.replace(phase=phase)
-    moved = Section(
-        section.family._replace(excitation=turned), section.count, section.mirror, section.scale
-    )
+    moved = section.turned(phase)
     status, there = corrected(moved, *seen_at(found, phase))
     return there if status is Status.DONE else None
+
+
+def images(found: Orbit, *, mirrored: bool) -> Iterator[tuple[_Array, float]]:
+    """Points and modes of an orbit's sections a cycle apart; if `mirrored`, its mirror image's too.
+
+    Of an orbit that is its own mirror image there is one.
+    """
+    section = found.section
+    point, mode = found.point, float(found.facts[section_map.MODE])
+    yield point, mode
+    if section.mirror:
+        return
+    one = Section(section.family, 1, mirrored, section.scale)
+    for _ in range((2 if mirrored else 1) * section.count - 1):
+        status, evaluation, point = evaluated(one, point, mode)
+        if status is not Status.DONE:
+            return
+        mode = float(evaluation.facts[section_map.MODE])
+        yield point, mode
