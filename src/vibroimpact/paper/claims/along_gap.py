@@ -116,7 +116,7 @@ def displacement_along_gap(study: Study) -> Finding:
     told, holds = [], True
     for way in BOTH:
         values, none = _maxima(study, "eta_d", way)
-        changes, hit = np.diff(values), values[1:] < 1.0 - 1e-6
+        changes, hit = np.diff(values), values[1:] < values[0] - 1e-6
         wrong = (changes > 1e-6) | (hit & (changes >= 0.0))
         holds &= not wrong.any()
         told.append(
