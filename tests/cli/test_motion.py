@@ -295,7 +295,7 @@ def test_study(run, tmp_path):
     facts = json.loads(out)
     (motion,) = facts["motions"]
     assert motion["frequency"] == 2.2  # not that of [simulate]: what is typed replaces it
-    assert facts["files"]["data"] == "out/moat-wall-2.2Hz-motion.nc"
+    assert facts["files"]["data"] == "out/moat-wall-left-gap-8mm-2.2Hz-motion.nc"
     data = vi.load(tmp_path / facts["files"]["data"], group="forward_branch")
     rig = json.loads(data.attrs["parameters"])["oscillator"]
     assert rig["left"]["stiffness"] == 100e3

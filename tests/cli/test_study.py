@@ -51,7 +51,7 @@ def test_case_with_changes(write):
     expected = vi.laboratory.case("B2-G1-A3", "identified").oscillator
     assert what.oscillator.isolator == expected.isolator
     assert what.oscillator.right.gap == 9e-3
-    assert what[:2] == ("my wall", "my_wall")
+    assert what[:2] == ("my wall, gap 9 mm", "my_wall-gap-9mm")
     table = subject(str(path), RigOptions(parameters="table"))
     assert table.oscillator == vi.laboratory.case("B2-G1-A3").oscillator
 

@@ -230,6 +230,6 @@ def test_interrupted_while_writing_leaves_the_old_file(run, tmp_path, monkeypatc
         raise KeyboardInterrupt
 
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", interrupted)
-    assert run("sweep", "B2-G1-A3", *COARSE, "--gap", "9mm")[0] == 130
+    assert run("sweep", "B2-G1-A3", *COARSE, "--to", "4Hz")[0] == 130
     assert (tmp_path / "out/B2-G1-A3-sweep.png").read_bytes() == before
     assert len(list((tmp_path / "out").iterdir())) == 3

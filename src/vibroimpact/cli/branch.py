@@ -76,7 +76,6 @@ def branch(
 
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
-        from rich.text import Text
 
         from vibroimpact.cli import summary
         from vibroimpact.cli.bifurcations import facts, text
@@ -89,18 +88,14 @@ def branch(
             else:
                 data, swept = _over_another(what, along, span, frequency, progress), None
         data.attrs["title"] = what.name
-        axes = bifurcation_diagram(data, quantity=quantity, sweep=swept, title=what.name)
+        axes = bifurcation_diagram(data, quantity=quantity, sweep=swept, title=what.title)
         stem = folder / f"{what.slug}-{along.replace('_', '-')}-branches"
         files = {
             "data": save(data, f"{stem}.nc"),
             "figure": save_figure(axes, f"{stem}.{out.figure}"),
         }
-    found = {**summary.rig_facts(what), **facts(data), "files": files}
-    tell(
-        Together(summary.rig_text(what), text(data), Text(), summary.files_text(files)),
-        found,
-        out.json,
-    )
+    found = {**summary.rig_facts(what), **facts(data)}
+    tell(Together(summary.rig_text(what), text(data)), found, folder, files, out.json)
     return 0
 
 

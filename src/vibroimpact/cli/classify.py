@@ -95,7 +95,7 @@ def classify(
         meaning = next(s.meaning for s in Scenario if s.label == found.scenario)
         data = found.sweep
         data.attrs["title"] = what.name
-        axes = resonance_curves(data, title=f"{what.name}: {found.scenario}, {meaning}")
+        axes = resonance_curves(data, title=f"{what.title}: {found.scenario}, {meaning}")
         stem = folder / f"{what.slug}-scenario"
         files = {
             "data": save(data, f"{stem}.nc"),
@@ -113,7 +113,6 @@ def classify(
         ],
         "thresholds": {name: getattr(used, name) for name in used.names()},
         "features": found.features,
-        "files": files,
     }
     table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
     for line in found.evidence.split("; "):
@@ -132,10 +131,8 @@ def classify(
             "and each doubled, that leave the scenario the same (over these frequencies)"
         ),
         *others,
-        Text(),
-        summary.files_text(files),
     )
-    tell(text, facts, out.json)
+    tell(text, facts, folder, files, out.json)
     return 0
 
 

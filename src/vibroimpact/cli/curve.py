@@ -97,7 +97,7 @@ def curve(
                 f"{spans[0][1]}; another kind or range is accepted"
             )
         stem = folder / f"{what.slug}-{bifurcation}-{'-'.join(names).replace('_', '-')}"
-        axes = bifurcation_curves(found, title=f"{what.name}, {kind}")
+        axes = bifurcation_curves(found, title=f"{what.title}, {kind}")
         files = {
             "data": save(found, f"{stem}.nc"),
             "figure": save_figure(axes, f"{stem}.{out.figure}"),
@@ -118,7 +118,6 @@ def curve(
             }
             for data in found.values()
         ],
-        "files": files,
     }
     lines = [Text(f"{len(found)} curve{'s' if len(found) > 1 else ''} of {kind}", style="bold")]
     for name, data in found.items():
@@ -132,8 +131,7 @@ def curve(
             Text(f"    cusp at {names[0]} {float(p):.9g}, {names[1]} {float(q):.9g}")
             for p, q in zip(data["cusp_first"], data["cusp_second"], strict=True)
         ]
-    text = Together(summary.rig_text(what), Text(), *lines, Text(), summary.files_text(files))
-    tell(text, facts, out.json)
+    tell(Together(summary.rig_text(what), Text(), *lines), facts, folder, files, out.json)
     return 0
 
 

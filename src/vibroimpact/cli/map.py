@@ -26,6 +26,7 @@ _MAP = Group("Map", sort_key=1)
 _AXIS = Parameter(group=_MAP, allow_leading_hyphen=True)
 _Axis = tuple[str, list[float], str]
 """Name, values in SI units, and "log" or "linear"."""
+_PUBLISHED = "B3-10mm-A3"
 _NODES = 21
 _MOST = 4_000_000
 
@@ -93,9 +94,12 @@ def scenario_map(
     from vibroimpact.cli.rig import subject
 
     out = output or OutputOptions()
-    what = subject(rig or "B3-10mm-A3", changes or RigOptions(), out.name)
+    what = subject(rig or _PUBLISHED, changes or RigOptions(), out.name)
     if rig is None and out.name is None:
-        what = what._replace(name="published rig", slug="published")
+        what = what._replace(
+            name=what.name.replace(_PUBLISHED, "published rig"),
+            slug=what.slug.replace(_PUBLISHED, "published"),
+        )
     axes = _axis("--x", *x), _axis("--y", *y)
     _check(what, axes, refine)
     used = (thresholds or ThresholdOptions()).thresholds()
@@ -131,7 +135,7 @@ def scenario_map(
                 raise InputError(_as_option(str(error))) from None
         edge = jump_border(data) if border else None
         held = _held(what, axes)
-        ax = draw(data, border=edge, title=f"{what.name}: {held}")
+        ax = draw(data, border=edge, title=f"{what.title}: {held}")
         files = {"data": store, "figure": save_figure(ax, f"{stem}.{out.figure}")}
     shares = _shares(data)
     computed = int((data["level"].values >= 0).sum())
@@ -148,7 +152,6 @@ def scenario_map(
             {axes[0][0]: float(p), axes[1][0]: float(q)}
             for p, q in zip(edge[axes[0][0]].values, edge[axes[1][0]].values, strict=True)
         ],
-        "files": files,
     }
     table = Table(box=None, pad_edge=False, padding=(0, 2), show_header=False)
     for kind in Scenario:
@@ -164,10 +167,8 @@ def scenario_map(
             f"{data['scenario'].size} computed; share of the nodes"
         ),
         table,
-        Text(),
-        summary.files_text(files),
     )
-    tell(text, facts, out.json)
+    tell(text, facts, folder, files, out.json)
     return 0
 
 

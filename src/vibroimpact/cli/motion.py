@@ -82,7 +82,6 @@ def motion(
         import warnings
 
         from rich.console import Group as Together
-        from rich.text import Text
 
         from vibroimpact.cli import summary, verdict
         from vibroimpact.figures import motion_page, save_figure
@@ -105,14 +104,14 @@ def motion(
                 "--frequency: no motion was found; another rig or frequency is accepted"
             )
         stem = folder / f"{what.slug}-{'-'.join(f'{hertz:.10g}Hz' for hertz in found)}-motion"
-        axes = motion_page(_columns(drawn), title=what.name)
+        axes = motion_page(_columns(drawn), title=what.title)
         files = {
             "data": save(_groups(drawn), f"{stem}.nc"),
             "figure": save_figure(axes[0, 0], f"{stem}.{out.figure}"),
         }
-    facts = {**summary.rig_facts(what), "motions": verdict.facts(found), "files": files}
-    text = Together(summary.rig_text(what), verdict.text(found), Text(), summary.files_text(files))
-    tell(text, facts, out.json)
+    facts = {**summary.rig_facts(what), "motions": verdict.facts(found)}
+    text = Together(summary.rig_text(what), verdict.text(found))
+    tell(text, facts, folder, files, out.json)
     return 0
 
 

@@ -10,7 +10,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vibroimpact.errors import InputError
 
@@ -21,8 +21,19 @@ WIDTH = 100
 """Columns of a summary in a file."""
 
 
+class Folder(NamedTuple):
+    """A folder for results."""
+
+    path: Path
+    before: frozenset[Path]
+    """Files that were there before."""
+
+    def __truediv__(self, name: str) -> Path:
+        return self.path / name
+
+
 @contextmanager
-def output_folder(text: str) -> Iterator[Path]:
+def output_folder(text: str) -> Iterator[Folder]:
     """Make a folder and prove that it can be written to, before anything is computed.
 
     If what follows fails, folders made here are removed again unless they hold something.
@@ -50,10 +61,16 @@ def output_folder(text: str) -> Iterator[Path]:
             "a folder that you may write to is accepted"
         ) from None
     try:
-        yield folder
+        yield Folder(folder, frozenset(_files(folder)))
     except BaseException:
         _remove_empty(made)
         raise
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """Files in a folder and one below it."""
+    for pattern in ("*", "*/*"):
+        yield from (path for path in folder.glob(pattern) if path.is_file())
 
 
 def _remove_empty(folders: list[Path]) -> None:
@@ -78,16 +95,32 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
         yield lambda done, total: bar.update(task, completed=done, total=total)
 
 
-def tell(summary: RenderableType, facts: dict[str, Any], as_json: bool) -> None:
-    """Print a summary for people, or the facts in it as JSON and nothing else."""
+def tell(
+    summary: RenderableType,
+    facts: dict[str, Any],
+    folder: Folder,
+    files: dict[str, Path],
+    as_json: bool,
+) -> None:
+    """Print a summary for people, or the facts in it as JSON and nothing else.
+
+    Both end with the files that were written, and say which of them were there before.
+    """
+    replaced = [path for path in files.values() if path in folder.before]
     if as_json:
-        print(json.dumps(_plain(facts), indent=2, allow_nan=False))
+        told = {**facts, "files": files, "replaced": replaced}
+        print(json.dumps(_plain(told), indent=2, allow_nan=False))
         return
-    from rich.console import Console
+    from rich.console import Console, Group
+    from rich.text import Text
+
+    lines = [f"  {path}{' (replaced)' if path in replaced else ''}" for path in files.values()]
+    # A path is never broken.
+    paths = Text("\n".join(["Files", *lines]), no_wrap=True, overflow="ignore")
 
     # A file or a pipe has no width of its own.
     width = None if sys.stdout.isatty() else WIDTH
-    Console(file=sys.stdout, width=width, highlight=False).print(summary)
+    Console(file=sys.stdout, width=width, highlight=False).print(Group(summary, Text(), paths))
 
 
 def write_text(path: Path, summary: RenderableType) -> None:

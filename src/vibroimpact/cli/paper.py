@@ -10,8 +10,6 @@ from vibroimpact.cli.options import COMPUTATION, OUTPUT, Whole
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from rich.console import RenderableType
 
     from vibroimpact.paper.claim import Claim
@@ -87,16 +85,16 @@ def paper(
         with progress_bar("computing the study") as progress:
             found = report.compute(
                 Study(threads),
-                folder,
+                folder.path,
                 items,
                 claims,
                 whole=only is None,
                 figure=figure,
                 progress=progress,
             )
-        files = report.write(found, folder)
+        files = report.write(found, folder.path)
         images = {one.item.key: folder / one.image for one in found.shown if one.image}
-    tell(_text(found, files, images), _facts(found, {**files, **images}), json)
+    tell(_text(found), _facts(found), folder, {**files, **images}, json)
     return 0
 
 
@@ -120,7 +118,7 @@ def chosen(
     return tuple(item for item in items if item.key in keys), claims if _CLAIMS in keys else ()
 
 
-def _facts(found: Report, files: dict[str, Path]) -> dict[str, Any]:
+def _facts(found: Report) -> dict[str, Any]:
     return {
         "verdicts": {str(verdict): count for verdict, count in found.counts.items()},
         "kinds": {
@@ -139,16 +137,14 @@ def _facts(found: Report, files: dict[str, Path]) -> dict[str, Any]:
             }
             for one in found.judged
         ],
-        "files": files,
     }
 
 
-def _text(found: Report, files: dict[str, Path], images: dict[str, Path]) -> RenderableType:
+def _text(found: Report) -> RenderableType:
     from rich.console import Group
     from rich.padding import Padding
     from rich.text import Text
 
-    from vibroimpact.cli.summary import files_text
     from vibroimpact.paper.claim import Verdict
 
     parts: list[RenderableType] = []
@@ -169,5 +165,4 @@ def _text(found: Report, files: dict[str, Path], images: dict[str, Path]) -> Ren
                 Padding(statement, (0, 0, 0, 2), expand=False),
                 Padding(number, (0, 0, 0, 4), expand=False),
             ]
-        parts.append(Text())
-    return Group(*parts, files_text({**files, **images}))
+    return Group(*parts)

@@ -2,81 +2,165 @@
 
 from __future__ import annotations
 
-import re
+import textwrap
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from vibroimpact.cli.changes import changes, joined, slug
 from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.output import warn
 from vibroimpact.cli.study import Study, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Isolator, Model, Oscillator, Stop, laboratory, to_si
-from vibroimpact.model.units import ACCELERATION
+from vibroimpact.model.dimensionless import peak_displacement
+from vibroimpact.model.laboratory import Parameters
+from vibroimpact.model.units import ACCELERATION, LENGTH, pretty
 from vibroimpact.model.validation import Accepts
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
 """Fields of a bumper, and the options that set them on both sides."""
 
 
+_FAR = 100.0
+"""Gap over the largest displacement of free flight from which on it is doubted."""
+
+
 class Subject(NamedTuple):
     """What a command works on."""
 
     name: str
-    """For titles."""
+    """With what the options change."""
     slug: str
     """For file names."""
     oscillator: Oscillator
     amplitude: float
     """Peak base acceleration in m/s²."""
     study: Study | None
+    natural: float
+    """Natural frequency in Hz, without what the options change."""
+
+    @property
+    def title(self) -> str:
+        """The name, in lines that fit above a figure."""
+        return textwrap.fill(self.name, 72)
+
+
+class _Named(NamedTuple):
+    """What a text names, before the options."""
+
+    title: str
+    slug: str
+    oscillator: Oscillator
+    amplitude: float | None
+    study: Study | None
 
 
 def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
     """Return the rig that a case code or the path of a study file names, with changes.
+
+    Parameters
+    ----------
+    text
+        The case code or the path; the ending ``.toml`` may be left out.
+    options
+        What replaces values.
+    name
+        What the files are called, instead of the rig and its changes.
 
     Raises
     ------
     InputError
         If the code or the file cannot be used, or a value of the options.
     """
-    path = Path(text)
-    study = read_study(path) if path.suffix.lower() == ".toml" or path.is_file() else None
-    code = text if study is None else study.case
-    parameters = options.parameters or (study.parameters if study else None)
-    title = name or (study and (study.name or path.stem))
-    amplitude = study.excitation.amplitude if study else None
-    if code is not None:
-        try:
-            case = laboratory.case(code, parameters or "table")
-        except InputError as error:
-            raise InputError(f"study {text!r}: {error}" if study else str(error)) from None
-        oscillator = case.oscillator
-        amplitude = case.amplitude if amplitude is None else amplitude
-        # Two parameter sets of one test are two rigs: neither may overwrite the other's files.
-        set_name = "-identified" if parameters == "identified" else ""
-        slug = _slug(title) if title else case.slug + set_name
-        title = title or case.code + (
-            ", identified parameters" if parameters == "identified" else ""
-        )
-    else:
-        # Study sees to it that there is one.
-        assert study is not None
-        assert study.oscillator is not None
-        if parameters is not None:
-            raise InputError(
-                f"--parameters: {parameters!r}, but {text!r} describes its own oscillator; "
-                "a case has parameter sets"
-            )
-        oscillator = study.oscillator
-        title = title or path.stem
-        slug = _slug(title)
-    if options.amplitude is not None:
-        amplitude = to_si(options.amplitude, ACCELERATION, "--amplitude", above=0.0)
+    found = _named(text, options)
+
+    def rig_of(given: RigOptions) -> tuple[Oscillator, float | None]:
+        amplitude = found.amplitude
+        if given.amplitude is not None:
+            amplitude = to_si(given.amplitude, ACCELERATION, "--amplitude", above=0.0)
+        return changed(found.oscillator, given), amplitude
+
+    oscillator, amplitude = rig_of(options)
     if amplitude is None:
         raise InputError(
             f"study {text!r}: excitation.amplitude: missing; an acceleration greater than 0 is "
             'accepted, such as "0.05 g", there or as --amplitude'
         )
-    return Subject(title, slug, changed(oscillator, options), amplitude, study)
+    made = changes(options, rig_of)
+    what = Subject(
+        ", ".join((name or found.title, *(change.words for change in made))),
+        slug(name) if name else joined(found.slug, made),
+        oscillator,
+        amplitude,
+        found.study,
+        found.oscillator.natural_frequency,
+    )
+    for line in doubts(what.oscillator, what.amplitude):
+        warn(line)
+    return what
+
+
+def _named(text: str, options: RigOptions) -> _Named:
+    """Find the case or the study."""
+    path = Path(text)
+    if path.suffix.lower() == ".toml" or path.is_file():
+        return _of_study(text, read_study(path), options)
+    try:
+        return _of_case(text, options.parameters)
+    except InputError as error:
+        beside = path.with_name(f"{path.name}.toml") if path.name else path
+        if beside.is_file():
+            return _of_study(str(beside), read_study(beside), options)
+        raise InputError(f"{error}; or the path of a study file, NAME.toml") from None
+
+
+def _of_case(code: str, parameters: Parameters | None) -> _Named:
+    case = laboratory.case(code, parameters or "table")
+    if parameters != "identified":
+        return _Named(case.code, case.slug, case.oscillator, case.amplitude, None)
+    # Two parameter sets of one test are two rigs: neither may overwrite the other's files.
+    title, first = f"{case.code}, identified parameters", f"{case.slug}-identified"
+    return _Named(title, first, case.oscillator, case.amplitude, None)
+
+
+def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
+    parameters = options.parameters or study.parameters
+    amplitude = study.excitation.amplitude
+    if study.case is not None:
+        try:
+            found = _of_case(study.case, parameters)
+        except InputError as error:
+            raise InputError(f"study {path!r}: {error}") from None
+        title = study.name or Path(path).stem
+        first = slug(title)
+        if parameters != (study.parameters or (parameters and "table")):
+            title, first = f"{title}, {parameters} parameters", f"{first}-{parameters}"
+        given = found.amplitude if amplitude is None else amplitude
+        return _Named(title, first, found.oscillator, given, study)
+    # Study sees to it that there is one.
+    assert study.oscillator is not None
+    if parameters is not None:
+        raise InputError(
+            f"--parameters: {parameters!r}, but {path!r} describes its own oscillator; "
+            "a case has parameter sets"
+        )
+    title = study.name or Path(path).stem
+    return _Named(title, slug(title), study.oscillator, amplitude, study)
+
+
+def doubts(oscillator: Oscillator, amplitude: float) -> list[str]:
+    """What of a rig is probably not meant, in words: gaps that nothing ever crosses."""
+    try:
+        reach = peak_displacement(oscillator, amplitude)
+    except InputError:  # an undamped isolator has no peak to compare with
+        return []
+    gaps = {b.gap for b in (oscillator.right, oscillator.left) if b is not None}
+    return [
+        f"a gap of {pretty(gap, LENGTH)} is {gap / reach:.3g} times the largest displacement of "
+        f"free flight, {pretty(reach, LENGTH)}; is {pretty(1e-3 * gap, LENGTH)} meant?"
+        for gap in sorted(gaps)
+        if gap > _FAR * reach
+    ]
 
 
 def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
@@ -173,8 +257,3 @@ def _value(model: type[Model], field: str, option: str, options: RigOptions) -> 
 
 def _flag(option: str) -> str:
     return f"--{option.replace('_', '-')}"
-
-
-def _slug(name: str) -> str:
-    """Return the name as a file name: without a slash, a space or a sign outside ASCII."""
-    return re.sub(r"[^A-Za-z0-9.+-]+", "_", name).strip("_.") or "rig"

@@ -69,7 +69,6 @@ def simulate(
         import warnings
 
         from rich.console import Group as Together
-        from rich.text import Text
 
         from vibroimpact.cli import summary
         from vibroimpact.figures import save_figure, time_history
@@ -85,17 +84,15 @@ def simulate(
         if not data.sizes["time"]:
             raise InputError(f"--frequency: no motion was found ({data.attrs['status']})")
         hertz = f"{given.excitation.frequency:.10g}Hz"
-        axes = time_history(data, cycles=shown, title=f"{what.name}, {hertz[:-2]} Hz")
+        axes = time_history(data, cycles=shown, title=f"{what.title}, {hertz[:-2]} Hz")
         stem = folder / f"{what.slug}-{hertz}-history"
         files = {
             "data": save(data, f"{stem}.nc"),
             "figure": save_figure(axes[0], f"{stem}.{out.figure}"),
         }
-    facts = {**summary.rig_facts(what), **summary.motion_facts(data), "files": files}
-    text = Together(
-        summary.rig_text(what), summary.motion_text(facts), Text(), summary.files_text(files)
-    )
-    tell(text, facts, out.json)
+    facts = {**summary.rig_facts(what), **summary.motion_facts(data)}
+    text = Together(summary.rig_text(what), summary.motion_text(facts))
+    tell(text, facts, folder, files, out.json)
     return 0
 
 

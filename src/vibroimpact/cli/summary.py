@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import Any
 
 import xarray as xr
@@ -174,12 +173,6 @@ def motion_text(facts: dict[str, Any]) -> RenderableType:
             f"{contacts['right_per_cycle']:g} right, {contacts['left_per_cycle']:g} left"
         ),
     )
-
-
-def files_text(files: dict[str, Path]) -> RenderableType:
-    """Return the paths of the files written, a line each that is never broken."""
-    lines = [f"  {path}" for path in files.values()]
-    return Text("\n".join(["Files", *lines]), no_wrap=True, overflow="ignore")
 
 
 def _dimensionless(subject: Subject) -> Dimensionless | None:

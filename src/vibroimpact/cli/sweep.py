@@ -84,7 +84,6 @@ def sweep(
 
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
-        from rich.text import Text
 
         from vibroimpact.response import resonance
         from vibroimpact.response.files import save, write_whole
@@ -108,13 +107,13 @@ def sweep(
         # Imported late: whoever waits for numbers need not wait for matplotlib.
         from vibroimpact.figures import resonance_curves, save_figure
 
-        axes = resonance_curves(data, found=found, title=what.name)
+        axes = resonance_curves(data, found=found, title=what.title)
         stem = folder / f"{what.slug}-sweep"
         files = {
             "data": save(data, f"{stem}.nc"),
             "figure": save_figure(axes[0], f"{stem}.{out.figure}"),
             "summary": write_whole(f"{stem}.txt", lambda path: write_text(path, text)),
         }
-    facts = {**summary.rig_facts(what), **summary.sweep_facts(data, found, hints), "files": files}
-    tell(Together(text, Text(), summary.files_text(files)), facts, out.json)
+    facts = {**summary.rig_facts(what), **summary.sweep_facts(data, found, hints)}
+    tell(text, facts, folder, files, out.json)
     return 0

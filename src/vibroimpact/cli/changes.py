@@ -1,0 +1,91 @@
+"""What options change of a rig, for its name: two rigs never share a title or a file unsaid."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Callable
+from dataclasses import fields, replace
+from typing import Any, NamedTuple
+
+from vibroimpact.cli.options import RigOptions
+from vibroimpact.errors import InputError
+from vibroimpact.model import GRAVITY
+from vibroimpact.model.units import (
+    ACCELERATION,
+    DAMPING,
+    LENGTH,
+    MASS,
+    STIFFNESS,
+    pretty,
+    to_si,
+)
+
+_QUANTITIES = {"mass": MASS, "stiffness": STIFFNESS, "damping": DAMPING, "gap": LENGTH}
+"""By the last word of an option's name."""
+
+_LONGEST = 120
+"""Characters of a file name, before what a command adds; disks take 255."""
+
+
+class Change(NamedTuple):
+    """One option that makes the rig another."""
+
+    words: str
+    """For titles, such as "left gap 9 mm"."""
+    slug: str
+    """For file names, such as "left-gap-9mm"."""
+
+
+def changes(options: RigOptions, rig_of: Callable[[RigOptions], Any]) -> tuple[Change, ...]:
+    """The options without which the rig would be another.
+
+    Parameters
+    ----------
+    options
+        As they were given.
+    rig_of
+        The rig with such options, comparable.
+    """
+    wanted = rig_of(options)
+    kept = options
+    # From the last: beside --gap, it is --left-gap that may be superfluous.
+    for field in reversed(fields(RigOptions)):
+        if field.name == "parameters" or getattr(kept, field.name) == field.default:
+            continue
+        without = replace(kept, **{field.name: field.default})
+        try:
+            if rig_of(without) == wanted:
+                kept = without
+        except InputError:  # a new bumper needs all its values
+            pass
+    return tuple(
+        _change(field.name, getattr(kept, field.name))
+        for field in fields(RigOptions)
+        if field.name != "parameters" and getattr(kept, field.name) != field.default
+    )
+
+
+def _change(option: str, value: str | bool) -> Change:
+    flag = option.replace("_", "-")
+    if isinstance(value, bool):
+        return Change(f"{flag.replace('-', ' ')} bumper", flag)
+    if option == "amplitude":
+        text = f"{to_si(value, ACCELERATION, option) / GRAVITY:.6g} g"
+    else:
+        quantity = _QUANTITIES[option.rpartition("_")[2]]
+        text = pretty(to_si(value, quantity, option), quantity)
+    return Change(f"{flag.replace('-', ' ')} {text}", f"{flag}-{slug(text.replace(' ', ''))}")
+
+
+def slug(name: str) -> str:
+    """Return the name as a file name: without a slash, a space or a sign outside ASCII."""
+    return re.sub(r"[^A-Za-z0-9.+-]+", "_", name).strip("_.") or "rig"
+
+
+def joined(first: str, found: tuple[Change, ...]) -> str:
+    """Return the beginning of the files' names of a changed rig."""
+    name = "-".join((first, *(change.slug for change in found)))
+    if len(name) <= _LONGEST:
+        return name
+    return f"{name[:_LONGEST]}-{hashlib.sha256(name.encode()).hexdigest()[:8]}"

@@ -1,0 +1,128 @@
+"""Values that options replace stand in titles, file names and data; replaced files are told."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.rig import subject
+
+COMMAND = "sweep"
+STUDY = """
+[oscillator]
+mass = "550 kg"
+isolator = { stiffness = "26.8 kN/m", damping = "1.1 kN s/m" }
+right = { stiffness = "510 kN/m", damping = 900, gap = "7.5 mm" }
+[excitation]
+amplitude = "0.05 g"
+[sweep]
+frequencies = [1, 2]
+"""
+FEW = ("--frequencies", "1Hz,2Hz")
+
+
+@pytest.mark.parametrize(
+    ("options", "name", "slug"),
+    [
+        ({"gap": "9mm"}, "B2-G1-A3, gap 9 mm", "B2-G1-A3-gap-9mm"),
+        ({"left_gap": "0.009"}, "B2-G1-A3, left gap 9 mm", "B2-G1-A3-left-gap-9mm"),
+        (
+            {"no_right": True, "mass": "600kg"},
+            "B2-G1-A3, mass 600 kg, no right bumper",
+            "B2-G1-A3-mass-600kg-no-right",
+        ),
+        (
+            {"amplitude": "0.04g", "bumper_damping": "1.2 kN s/m"},
+            "B2-G1-A3, amplitude 0.04 g, bumper damping 1.2 kN s/m",
+            "B2-G1-A3-amplitude-0.04g-bumper-damping-1.2kNs_m",
+        ),
+        (
+            {"stiffness": "20 kN/m", "parameters": "identified"},
+            "B2-G1-A3, identified parameters, stiffness 20 kN/m",
+            "B2-G1-A3-identified-stiffness-20kN_m",
+        ),
+        # What is as it was is no change.
+        ({"gap": "7.5 mm", "amplitude": "0.05 g", "mass": "550"}, "B2-G1-A3", "B2-G1-A3"),
+        ({"gap": "9mm", "right_gap": "9mm"}, "B2-G1-A3, gap 9 mm", "B2-G1-A3-gap-9mm"),
+    ],
+)
+def test_a_changed_case_says_so(options, name, slug):
+    assert subject("B2-G1-A3", RigOptions(**options))[:2] == (name, slug)
+
+
+def test_a_name_names_the_files_and_the_title_tells_the_changes():
+    what = subject("B2-G1-A3", RigOptions(gap="9mm"), "mine")
+    assert what[:2] == ("mine, gap 9 mm", "mine")
+
+
+def test_many_changes_make_a_file_name_that_any_disk_takes():
+    options = {
+        name: "123456.789e-3"
+        for name in RigOptions.__dataclass_fields__
+        if not name.startswith(("no_", "parameters"))
+    }
+    what = subject("B2-G1-A3", RigOptions(**options))
+    other = subject("B2-G1-A3", RigOptions(**{**options, "left_gap": "5"}))
+    assert len(what.slug) < 160
+    assert what.slug != other.slug
+
+
+def test_two_gaps_of_a_study_are_two_results(run, tmp_path):
+    (tmp_path / "x.toml").write_text(STUDY)
+    for gap in ("100mm", "200mm"):
+        code, told, _ = run("x.toml", "--gap", gap)
+        assert code == 0
+        assert told.startswith(f"x, gap {gap[:-2]} mm\n")
+        assert "replaced" not in told
+    names = {
+        f"x-gap-{gap}-sweep.{end}" for gap in ("100mm", "200mm") for end in ("nc", "png", "txt")
+    }
+    assert {p.name for p in (tmp_path / "out").iterdir()} == names
+    data = vi.load(tmp_path / "out/x-gap-200mm-sweep.nc")
+    assert data.attrs["title"] == "x, gap 200 mm"
+
+
+def test_the_parameter_set_of_a_study_that_an_option_replaces(tmp_path):
+    path = tmp_path / "fine.toml"
+    path.write_text('case = "B2-G1-A3"')
+    assert subject(str(path), RigOptions(parameters="table"))[:2] == ("fine", "fine")
+    assert subject(str(path), RigOptions(parameters="identified"))[:2] == (
+        "fine, identified parameters",
+        "fine-identified",
+    )
+    path.write_text('case = "B2-G1-A3"\nparameters = "identified"')
+    assert subject(str(path), RigOptions(parameters="identified"))[:2] == ("fine", "fine")
+    assert subject(str(path), RigOptions(parameters="table"))[:2] == (
+        "fine, table parameters",
+        "fine-table",
+    )
+
+
+def test_a_replaced_file_is_told(run, tmp_path):
+    run("B2-G1-A3", *FEW)
+    (tmp_path / "out/B2-G1-A3-sweep.txt").unlink()
+    _, told, _ = run("B2-G1-A3", *FEW)
+    lines = [line.strip() for line in told.splitlines()]
+    assert lines[-3:] == [
+        "out/B2-G1-A3-sweep.nc (replaced)",
+        "out/B2-G1-A3-sweep.png (replaced)",
+        "out/B2-G1-A3-sweep.txt",
+    ]
+    _, told, _ = run("B2-G1-A3", *FEW, "--json")
+    assert json.loads(told)["replaced"] == [f"out/B2-G1-A3-sweep.{e}" for e in ("nc", "png", "txt")]
+    _, told, _ = run("B2-G1-A3", *FEW, "--json", "--gap", "9mm")
+    facts = json.loads(told)
+    assert (facts["name"], facts["replaced"]) == ("B2-G1-A3, gap 9 mm", [])
+
+
+def test_a_gap_in_metres_that_was_meant_in_millimetres(run):
+    code, _, errors = run("B2-G1-A3", *FEW, "--gap", "15")
+    assert code == 0
+    assert errors.startswith("vibroimpact: warning: a gap of 15 m is 434 times the largest disp")
+    assert errors.endswith("is 15 mm meant?\n")
+    assert errors.count("\n") == 1
+    for gap in ("15mm", "1m", "0"):
+        assert run("B2-G1-A3", *FEW, "--gap", gap)[2] == ""
