@@ -75,6 +75,45 @@ def test_tables_of_the_commands(write):
     assert (study.simulate.frequency, study.simulate.velocity) == (2.5, -0.01)
 
 
+def test_the_ending_may_be_left_out(write, monkeypatch, tmp_path):
+    path = write('case = "B2-G1-A3"', "wall.toml")
+    assert subject(str(path.with_suffix("")), RigOptions()).name == "wall"
+    write('case = "B3-G1-A3"', "B2-G1-A3.toml")
+    monkeypatch.chdir(tmp_path)
+    assert subject("wall", RigOptions()).name == "wall"
+    assert subject("B2-G1-A3", RigOptions()).oscillator.right.stiffness == 510e3  # a case first
+    with pytest.raises(vi.InputError, match=r"^case: 'wal' .*study file, NAME.toml"):
+        subject("wal", RigOptions())
+
+
+def test_a_mark_before_the_text(write):
+    path = write("\ufeff" + 'case = "B2-G1-A3"')
+    assert subject(str(path), RigOptions()).oscillator.right.stiffness == 510e3
+
+
+def test_all_unknown_keys_are_named_and_no_class_of_python(write):
+    path = write('case = "B2-G1-A3"\nform = 1\n[sweep]\nstepp = 1\n[simulate]\nfrequncy = 2\n')
+    with pytest.raises(vi.InputError) as caught:
+        read_study(path)
+    told = str(caught.value)
+    for key, meant in (("sweep.stepp", "step"), ("simulate.frequncy", "frequency")):
+        assert f"{key}: unknown key; " in told
+        assert f"perhaps {meant} is meant" in told
+    assert "form: unknown key; " in told
+    for name in ("SweepTable", "SimulateTable", "Study", "ExcitationTable", "Oscillator"):
+        assert name not in told
+    for text in ('case = "B2-G1-A3"\nsweep = 1', 'name = "x"', 'case = "B2-G1-A3"\noscillator = 3'):
+        with pytest.raises(vi.InputError) as caught:
+            read_study(write(text))
+        assert not any(name in str(caught.value) for name in ("SweepTable", "Study", "Oscillator"))
+
+
+def test_numbers_that_count_something(write):
+    for line in ("[sweep]\nmax_cycles = 0", "[simulate]\nsamples = 0"):
+        with pytest.raises(vi.InputError, match=r"(max_cycles|samples): 0 is refused: .* 1"):
+            read_study(write('case = "B2-G1-A3"\n' + line))
+
+
 def test_a_study_needs_no_ending(write):
     assert subject(str(write('case = "B2-G1-A3"', "study")), RigOptions()).name == "study"
 

@@ -6,7 +6,6 @@ A command's module imports what computes only when the command runs, so that
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterable
 
@@ -19,8 +18,10 @@ from vibroimpact.cli.curve import curve
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
 from vibroimpact.cli.paper import paper
+from vibroimpact.cli.refusal import in_words
 from vibroimpact.cli.simulate import simulate
 from vibroimpact.cli.sweep import sweep
+from vibroimpact.cli.terminal import flush, give_up_stdout, take_any_encoding
 from vibroimpact.errors import InputError
 
 _HELP = """
@@ -43,6 +44,8 @@ For example:
     vibroimpact paper
 
 More about a command: vibroimpact COMMAND --help
+
+Exit codes: 0 done, 1 what was found cannot be written, 2 wrong input, 130 interrupted.
 """
 
 
@@ -57,28 +60,32 @@ def main(arguments: Iterable[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit code: 0 done, 2 wrong input, 130 interrupted.
+        Exit code: 0 done, 1 what was found cannot be written, 2 wrong input, 130 interrupted.
     """
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    take_any_encoding()
     try:
-        result = _app()(sys.argv[1:] if arguments is None else list(arguments))
-        sys.stdout.flush()
-    except InputError as error:
-        return _refuse(str(error))
-    except CycloptsError as error:
-        return _refuse(f"{str(error).rstrip('.')}; --help lists what is accepted")
+        result = _app()(words)
+        flush()
+    except (InputError, CycloptsError) as error:
+        return _told(in_words(error, words), 2)
     except KeyboardInterrupt:
         print("vibroimpact: interrupted", file=sys.stderr)
         return 130
     except BrokenPipeError:
         # Whoever read the output has left, as `head` does; the files are written by then.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        give_up_stdout()
         return 0
+    except OSError as error:
+        give_up_stdout()
+        what = "the output" if error.filename is None else repr(error.filename)
+        return _told(f"{what} cannot be written ({error.strerror or error})", 1)
     return result if isinstance(result, int) else 0
 
 
-def _refuse(message: str) -> int:
-    print(f"vibroimpact: error: {' '.join(message.split())}", file=sys.stderr)
-    return 2
+def _told(message: str, code: int) -> int:
+    print(f"vibroimpact: error: {message}", file=sys.stderr)
+    return code
 
 
 def _app() -> App:
@@ -96,4 +103,7 @@ def _app() -> App:
         app.command(command)
     app.command(scenario_map, name="map")
     app.command(paper)
+    app.register_install_completion_command(
+        help="Teach the shell (bash, zsh, fish or PowerShell) to complete commands and options."
+    )
     return app

@@ -119,7 +119,7 @@ def tell(
     paths = Text("\n".join(["Files", *lines]), no_wrap=True, overflow="ignore")
 
     # A file or a pipe has no width of its own.
-    width = None if sys.stdout.isatty() else WIDTH
+    width = None if sys.stdout is None or sys.stdout.isatty() else WIDTH
     Console(file=sys.stdout, width=width, highlight=False).print(Group(summary, Text(), paths))
 
 

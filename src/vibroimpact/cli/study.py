@@ -25,7 +25,7 @@ import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
-from pydantic import create_model, model_validator
+from pydantic import Field, create_model, model_validator
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Model, Oscillator, validate
@@ -52,7 +52,7 @@ class _SweepTable(Model):
     tolerance: Annotated[
         float | None, Accepts(DIMENSIONLESS, above=0.0, maximum=1.0, optional=True)
     ] = None
-    max_cycles: int | None = None
+    max_cycles: Annotated[int | None, Field(ge=1)] = None
 
     @property
     def start(self) -> float | None:
@@ -83,7 +83,7 @@ class SimulateTable(Model):
 
     frequency: _Frequency = None
     cycles: Annotated[float | None, Accepts(DIMENSIONLESS, above=0.0, optional=True)] = None
-    samples: int | None = None
+    samples: Annotated[int | None, Field(ge=1)] = None
     displacement: Annotated[float | None, Accepts(LENGTH, optional=True)] = None
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
 
@@ -122,7 +122,8 @@ def read_study(path: Path) -> Study:
         the line names the file and the path of the key in it.
     """
     try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        # Some editors put a mark before the text, which "-sig" leaves out.
+        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise InputError(
             f"study: {str(path)!r} cannot be read ({error.strerror or error}); "

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
-from pydantic_core import CoreSchema, core_schema
+from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.table import table
@@ -231,19 +231,26 @@ def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelTy
 
 
 def _explain(error: ValidationError, model: type[BaseModel], where: str) -> str:
-    """Put the first mistake that pydantic found into one line."""
+    """Put what pydantic found into one line: all unknown keys, or else the first mistake."""
     mistakes = error.errors(include_url=False)
     # A misspelt key is also a missing one; the misspelling is what the user must see.
-    mistakes.sort(key=lambda mistake: mistake["type"] != "extra_forbidden")
-    first = mistakes[0]
-    location = first["loc"]
-    value = shown(first["input"])
-    kind = first["type"]
+    unknown = [mistake for mistake in mistakes if mistake["type"] == "extra_forbidden"]
+    told = unknown or mistakes[:1]
+    rest = len(mistakes) - len(told)
+    more = f" ({rest} more to correct)" if rest else ""
+    lines = "; ".join(_mistake(mistake, model, where) for mistake in told)
+    return " ".join(f"{lines}{more}".split())
+
+
+def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
+    location = mistake["loc"]
+    value = shown(mistake["input"])
+    kind = mistake["type"]
     steps, wanted = _along(model, location)
     holder = _along(model, location[:-1])[1]
     path = _path(where, steps)
     if kind == "value_error":
-        problem = str(first["ctx"]["error"])
+        problem = str(mistake["ctx"]["error"])
     elif kind == "missing":
         problem = _missing(holder, str(location[-1]))
     elif kind == "extra_forbidden":
@@ -251,15 +258,13 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> str:
     elif kind == "union_tag_invalid":
         choice = _choice(holder, str(location[-1]))
         assert choice is not None
-        path, problem = f"{path}.kind", choice.unknown(first["input"])
+        path, problem = f"{path}.kind", choice.unknown(mistake["input"])
     elif kind in ("model_type", "model_attributes_type"):
-        problem = f"{value} is not a table; {_fields(wanted)} are accepted"
-        path = path or wanted.__name__
+        problem = f"{value} is not a table; a table with {_fields(wanted)} is accepted"
     else:
-        message = first["msg"]
+        message = mistake["msg"]
         problem = f"{value} is refused: {message[:1].lower()}{message[1:]}"
-    more = f" ({len(mistakes) - 1} more to correct)" if len(mistakes) > 1 else ""
-    return " ".join(f"{path or model.__name__}: {problem}{more}".split())
+    return f"{path}: {problem}" if path else problem
 
 
 def _path(where: str, steps: list[int | str]) -> str:
@@ -304,7 +309,8 @@ def _along(
 
 
 def _fields(model: type[BaseModel]) -> str:
-    return f"the fields of {model.__name__} ({', '.join(model.model_fields)})"
+    *names, last = model.model_fields
+    return f"{', '.join(names)} and {last}" if names else last
 
 
 def _missing(model: type[BaseModel], name: str) -> str:

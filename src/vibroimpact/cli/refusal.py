@@ -1,0 +1,52 @@
+"""Errors in the words of the command line: its options, and what the shell did to the words."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from cyclopts import CycloptsError
+from cyclopts.exceptions import UnusedCliTokensError
+
+_FIELD = re.compile(r"([a-z_]+)(?=(\[\d+\])?: )")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_UNIT = re.compile(r"[A-Za-zµ°]+(\^?-?[²³]|\^-?\d|[23])?([*/·][A-Za-z]+(\^?-?\d|[²³])?)*")
+
+
+def in_words(error: Exception, words: Sequence[str]) -> str:
+    """Say in one line what is wrong with the words of a command line."""
+    if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
+        count = len(error.unused_tokens)
+        said = " ".join(error.unused_tokens)
+        told = f"{said!r} {f'are {count} words' if count > 1 else 'is one word'} too many"
+    else:
+        told = str(error).rstrip(".")
+    if isinstance(error, CycloptsError):
+        told += "; --help lists what is accepted"
+    return " ".join((_as_option(told, words) + _quoting(words)).split())
+
+
+def _as_option(message: str, words: Sequence[str]) -> str:
+    """Name a field as the option that was written: max_cycles is --max-cycles."""
+    field = _FIELD.match(message)
+    if field is None:
+        return message
+    option = f"--{field[1].replace('_', '-')}"
+    written = any(word == option or word.startswith(f"{option}=") for word in words)
+    return option + message[field.end(1) :] if written else message
+
+
+def _quoting(words: Sequence[str]) -> str:
+    """A hint where the shell has cut a value with a unit into words."""
+    for i, option in enumerate(words[:-2]):
+        if not (option.startswith("--") and _NUMBER.fullmatch(words[i + 1])):
+            continue
+        unit = []
+        for word in words[i + 2 :]:
+            if not _UNIT.fullmatch(word):
+                break
+            unit.append(word)
+        if unit:
+            value = " ".join((words[i + 1], *unit))
+            return f'; a value with blanks needs quotes, as {option} "{value}"'
+    return ""

@@ -1,0 +1,69 @@
+"""Where words go: terminals and pipes of any encoding, disks that are full."""
+
+from __future__ import annotations
+
+import codecs
+import os
+import sys
+from contextlib import suppress
+
+_PLAIN = {
+    "η": "eta",
+    "λ": "lambda",
+    "δ": "delta",
+    "ξ": "xi",
+    "τ": "tau",
+    "φ": "phi",
+    "ω": "omega",
+    "π": "pi",
+    "µ": "u",
+    "\u0307": "'",
+    "²": "^2",
+    "³": "^3",
+    "±": "+-",
+    "×": "x",
+    "·": " ",
+    "√": "sqrt",
+    "∞": "inf",
+    "°": "deg",
+    "→": "->",
+    "≤": "<=",
+    "≥": ">=",
+    "–": "-",
+    "—": "-",
+    "−": "-",
+    "…": "...",
+    "‘": "'",
+    "’": "'",
+    "“": '"',
+    "”": '"',
+    "é": "e",
+    "á": "a",
+}
+"""What is written where an encoding lacks a sign."""
+
+
+def _plainly(error: UnicodeError) -> tuple[str, int]:
+    assert isinstance(error, UnicodeEncodeError)
+    signs = error.object[error.start : error.end]
+    return "".join(_PLAIN.get(sign, "?") for sign in signs), error.end
+
+
+def take_any_encoding() -> None:
+    """Let stdout and stderr write what their encoding lacks in plain letters."""
+    codecs.register_error("vibroimpact.plain", _plainly)
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="vibroimpact.plain")
+
+
+def flush() -> None:
+    """Write out what is held back; where that fails, it fails here and not at the exit."""
+    if sys.stdout is not None:  # it may be closed
+        sys.stdout.flush()
+
+
+def give_up_stdout() -> None:
+    """Throw away what is held back, for whoever should read it cannot."""
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,0 +1,57 @@
+"""Terminals, pipes and disks as they are: narrow, without Unicode, full."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+PROGRAM = [sys.executable, "-m", "vibroimpact"]
+FEW = ["sweep", "B2-G1-A3", "--frequencies", "1Hz,2Hz,3Hz"]
+
+
+def program(tmp_path, words, **options):
+    environment = {**os.environ, **options.pop("environment", {})}
+    return subprocess.run(
+        [*PROGRAM, *words], cwd=tmp_path, capture_output=True, env=environment, **options
+    )
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
+def test_any_encoding(tmp_path, encoding):
+    environment = {"PYTHONIOENCODING": encoding}
+    for words in (FEW, ["--help"], ["sweep", "--help"]):
+        done = program(tmp_path, words, environment=environment)
+        told, errors = done.stdout.decode(encoding), done.stderr.decode(encoding)
+        assert done.returncode == 0, errors
+        assert "Traceback" not in errors
+        if words is FEW and encoding == "ascii":
+            assert "eta_a" in told
+            assert "A = 0.4903325 m/s^2 = 0.05 g" in told
+            assert "lambda = 19.4, delta0 = 0.2169, tau = 0.01" in told
+            assert "?" not in told
+    wrong = program(tmp_path, ["sweep", "B2-Gη-A3"], environment=environment)
+    assert (wrong.returncode, b"Traceback" in wrong.stderr) == (2, False)
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no full disk at hand")
+@pytest.mark.parametrize(
+    "words", [FEW, [*FEW, "--json"], ["--help"], ["--version"], ["sweep", "--help"]]
+)
+def test_a_full_disk_behind_stdout(tmp_path, words):
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [*PROGRAM, *words], cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True
+        )
+    lines = [line for line in done.stderr.splitlines() if "compiling" not in line]
+    assert lines == ["vibroimpact: error: the output cannot be written (No space left on device)"]
+    assert done.returncode == 1
+
+
+def test_a_closed_stdout(tmp_path):
+    line = f"{sys.executable} -m vibroimpact sweep B2-G1-A3 --frequencies 1Hz,2Hz >&-"
+    done = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, "Traceback" in done.stderr) == (0, False)
+    assert (tmp_path / "out/B2-G1-A3-sweep.nc").is_file()

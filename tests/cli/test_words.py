@@ -1,0 +1,88 @@
+"""What is said about words that cannot be used: in the words of the command line."""
+
+from __future__ import annotations
+
+import pytest
+
+from vibroimpact.cli import main
+
+CASE = "B2-G1-A3"
+FEW = ("--frequencies", "1Hz,2Hz")
+
+
+@pytest.fixture
+def refused(tmp_path, monkeypatch, capsys):
+    """Run words that are refused; return the one line."""
+    monkeypatch.chdir(tmp_path)
+
+    def refused(*words: str) -> str:
+        assert main(words) == 2
+        told = capsys.readouterr()
+        assert (told.out, told.err.count("\n")) == ("", 1)
+        assert told.err.startswith("vibroimpact: error: ")
+        assert "Traceback" not in told.err
+        return told.err.removeprefix("vibroimpact: error: ").rstrip("\n")
+
+    return refused
+
+
+@pytest.mark.parametrize(
+    ("words", "hint"),
+    [
+        (("sweep", CASE, "--damping", "1.2", "kN", "s/m"), '--damping "1.2 kN s/m"'),
+        (
+            ("sweep", CASE, "--bumper-damping", "900", "N", "s", "m^-1", "--json"),
+            '--bumper-damping "900 N s m^-1"',
+        ),
+        (("sweep", "--gap", "9", "mm", CASE), '--gap "9 mm"'),
+        (("simulate", CASE, "--frequency", "2.5", "Hz"), '--frequency "2.5 Hz"'),
+        (("map", "--mass", "600", "kg"), '--mass "600 kg"'),
+    ],
+)
+def test_values_with_blanks_need_quotes(refused, words, hint):
+    assert refused(*words).endswith(f"; a value with blanks needs quotes, as {hint}")
+
+
+def test_no_hint_where_none_is_needed(refused):
+    assert "quotes" not in refused("sweep", CASE, "more")
+    assert "quotes" not in refused("sweep", CASE, "--gap", "1", "--mass", "-5kg")
+    assert "quotes" not in refused("sweep", "--gap", "1", "B9-G1-A3")
+
+
+@pytest.mark.parametrize(
+    ("words", "begins"),
+    [
+        (("sweep", CASE, "--max-cycles", "0"), "--max-cycles: 0; a whole number"),
+        (("sweep", CASE, "--max-cycles=0"), "--max-cycles: 0; a whole number"),
+        (("sweep", CASE, "--tolerance", "2"), "--tolerance: 2"),
+        (("sweep", CASE, "--threads", "-1"), "--threads: -1"),
+        (("sweep", CASE, "--frequencies", "1Hz,0Hz"), "--frequencies[1]: '0Hz'"),
+        (("sweep", "B2-G2-A3", "--parameters", "identified"), "--parameters: case 'B2-G2-A3'"),
+        (("classify", CASE, "--threads", "0"), "--threads: 0"),
+        (("branch", CASE, "--parameter", "mass"), "--parameter: 'mass'"),
+        (("branch", CASE, "--longest", "0"), "--longest: 0"),
+        (("map", "--threads", "0"), "--threads: 0"),
+        (("paper", "--threads", "0"), "--threads: 0"),
+    ],
+)
+def test_options_are_named_as_they_are_written(refused, words, begins):
+    assert refused(*words).startswith(begins)
+
+
+def test_unused_words_are_told_plainly(refused):
+    assert refused("sweep", CASE, "more") == (
+        "'more' is one word too many; --help lists what is accepted"
+    )
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_is_installed(tmp_path, monkeypatch, capsys, shell):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("SHELL", f"/bin/{shell}")
+    for name in ("XDG_DATA_HOME", "XDG_CONFIG_HOME", "ZSH_CUSTOM", "ZDOTDIR"):
+        monkeypatch.delenv(name, raising=False)
+    assert main(["--install-completion", "--shell", shell]) == 0
+    assert "Completion" in capsys.readouterr().out or "ompletion" in str(list(tmp_path.rglob("*")))
+    scripts = "".join(p.read_text() for p in tmp_path.rglob("*") if p.is_file())
+    assert "sweep" in scripts
+    assert "--bumper-stiffness" in scripts
