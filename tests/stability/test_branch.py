@@ -356,7 +356,9 @@ def test_each_orbit_of_a_doubled_period_is_listed_once():
     assert len(branches) < 10
     assert counts.max() < 1000
     ended = [data.attrs[f"branch_{i}_ended_{end}"] for i in branches for end in ("low", "high")]
-    assert not any("no orbit could be found" in reason.split(",")[0] for reason in ended)
+    lost = [reason for reason in ended if "no orbit could be found" in reason]
+    assert len(lost) <= 1
+    assert all("all but grazes" in reason for reason in lost)
     doubled = [i for i in branches if int(data["period"][data["branch"].values == i][0]) == 2]
     for i in doubled:
         mine = data["bifurcation_branch"].values == i

@@ -211,3 +211,40 @@ def test_pairs_of_parameters(pair, independent):
         found, expected = made.at_vectors(q).system(p), system_vector(*setting)
         kept = [i for i in range(len(found)) if i not in RATES]
         np.testing.assert_allclose(found[kept], expected[kept], rtol=1e-12)
+
+
+def test_a_closed_curve_is_gone_round_once():
+    """Its section moves on the way, and it begins beside a cusp."""
+    data = vi.resonance_diagram(case().oscillator, case().amplitude, 0.4, 1.0)
+    folds = np.flatnonzero(data["bifurcation_kind"].values == "fold")
+    row = folds[np.argmin(np.abs(data["bifurcation_value"].values[folds] - 0.56038578))]
+    found = vi.bifurcation_curve(
+        case().oscillator,
+        vi.Harmonic(case().amplitude, 2.0),
+        data.isel(bifurcation=int(row)),
+        parameters=("frequency", "gap"),
+        low=(0.3, 1e-4),
+        high=(6.0, 3e-2),
+    )
+    assert found.attrs["ended_low"] == found.attrs["ended_high"] == "it is closed"
+    assert found.sizes["point"] < 300
+    assert found.sizes["cusp_number"] == 2
+
+
+def test_a_curve_that_creeps_ends_with_a_reason():
+    """The fold comes so close to a grazing that no step leads on."""
+    data = vi.resonance_diagram(case().oscillator, case().amplitude, 0.4, 1.0)
+    folds = np.flatnonzero(data["bifurcation_kind"].values == "fold")
+    row = folds[np.argmin(np.abs(data["bifurcation_value"].values[folds] - 0.56038578))]
+    found = vi.bifurcation_curve(
+        case().oscillator,
+        vi.Harmonic(case().amplitude, 2.0),
+        data.isel(bifurcation=int(row)),
+        parameters=("frequency", "stiffness_ratio"),
+        low=(0.3, 0.1),
+        high=(6.0, 500.0),
+    )
+    ends = [found.attrs["ended_low"], found.attrs["ended_high"]]
+    assert "the range of stiffness_ratio ends at 500" in ends
+    assert any("no fold could be found beyond" in end and "grazes" in end for end in ends)
+    assert found.sizes["point"] < 800

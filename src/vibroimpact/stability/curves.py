@@ -15,6 +15,7 @@ In (z, p, q) the curve of folds is smooth where its projection has a cusp.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from typing import Any
 
@@ -22,6 +23,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.continuation import arclength
+from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.counts import whole
@@ -35,20 +38,17 @@ from vibroimpact.stability.bifurcations import (
     NEIMARK,
 )
 from vibroimpact.stability.branch import scales, state_of
-from vibroimpact.stability.defining import SEEN, Defining, Spot, solve, tangent_of
+from vibroimpact.stability.defining import SEEN, Defining, Spot, solve
 from vibroimpact.stability.family import bounds
-from vibroimpact.stability.orbits import seen_at
+from vibroimpact.stability.locus import Locus, Place
 from vibroimpact.stability.plane import Plane, plane
+from vibroimpact.stability.trace import CLOSED
 
 _Array = NDArray[np.float64]
 
 KINDS = (FOLD, BREAKING, DOUBLING, NEIMARK, GRAZING)
 
-_FIRST, _LEAST, _MOST = 5e-3, 1e-8, 0.05
-_TURN = 0.95
 _NOTHING = xr.DataArray([np.nan])
-_TURNED = 1.0  # rad, by which the section is moved
-_PARAMETERS = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
 
 
 @takes_rig
@@ -126,11 +126,29 @@ def bifurcation_curve(
             f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; one that "
             "was found for it is accepted"
         )
-    back, ahead = (
-        _follow(system, first, sense, spans, most_points, progress) for sense in (-1.0, 1.0)
-    )
-    spots = [*reversed(back[0]), *ahead[0][1:]]
-    return _dataset(spots, back[1] + ahead[1], over, kind, spans, (back[2], ahead[2]))
+    traces = []
+    for sense in (-1.0, 1.0):
+        along = sense * np.array([0.0, 0.0, 0.0, 0.0, 0.3, 1.0])
+        begin = Place(system, first, unit_tangent(first.jacobian, along, SEEN), 0.0)
+        locus = Locus(begin, spans)
+        traces.append(arclength.follow(locus, begin, most_points, _told(progress)))
+        if traces[0].ended == CLOSED:
+            break
+    cusps = [
+        spot
+        for trace in traces
+        for pair in itertools.pairwise(trace.points)
+        if (spot := locus.cusp(*pair)) is not None
+    ]
+    places = traces[0].points
+    if len(traces) == 2:
+        places = [*reversed(places), *traces[1].points[1:]]
+    ended = (traces[0].ended, traces[-1].ended)
+    return _dataset([place.spot for place in places], cusps, over, kind, spans, ended)
+
+
+def _told(progress: Callable[[float, float], None] | None) -> Callable[[Place], None] | None:
+    return None if progress is None else lambda place: progress(*map(float, place.y[4:]))
 
 
 def _start(
@@ -144,106 +162,6 @@ def _start(
     mode = {1: 1.0, -1: 2.0}.get(int(state[5]), 0.0)
     period = int(start["bifurcation_period"])
     return Defining(over, kind, period, own, mode, scale), np.append(point, over.value)
-
-
-def _follow(
-    system: Defining,
-    first: Spot,
-    sense: float,
-    spans: list[tuple[float, float]],
-    most_points: int,
-    progress: Callable[[float, float], None] | None,
-) -> tuple[list[Spot], list[Spot], str]:
-    """Points in one direction, the cusps among them, and why they end."""
-    spots = [first]
-    cusps: list[Spot] = []
-    tangent = tangent_of(first, sense * np.array([0.0, 0.0, 0.0, 0.0, 0.3, 1.0]))
-    length = _FIRST
-    moved = False
-    while len(spots) < most_points:
-        here = spots[-1]
-        spot = solve(system, here.y + length * tangent * system.scale, tangent)
-        if spot is not None:
-            new = tangent_of(spot, tangent)
-            turned = float((new * SEEN) @ tangent)
-            far = np.linalg.norm((spot.y - here.y) / system.scale * SEEN)
-            if turned >= _TURN and far <= 3.0 * length:
-                for i, span in enumerate(spans):
-                    if not span[0] <= spot.y[4 + i] <= span[1]:
-                        bound = span[0] if spot.y[4 + i] < span[0] else span[1]
-                        last = _on_bound(system, here, spot, i, bound)
-                        ended = (system.plane.family.parameter, system.plane.other)[i].name
-                        return spots + last, cusps, f"the range of {ended} ends at {bound:.9g}"
-                if new[4:] @ tangent[4:] < 0.0:
-                    cusps += _cusp(system, here, tangent, length)
-                spots.append(spot)
-                if progress:
-                    progress(float(spot.y[4]), float(spot.y[5]))
-                tangent = new
-                moved = False
-                length = min(1.5 * length, _MOST) if turned > 0.995 else length
-                if len(spots) > 10 and _closed(spots, system.scale):
-                    return spots, cusps, "it is closed"
-                continue
-        length *= 0.5
-        if length < _LEAST:
-            elsewhere = None if moved else _at_another_phase(system, here, tangent)
-            if elsewhere is None:
-                where = ", ".join(f"{value:.9g}" for value in here.y[4:])
-                return spots, cusps, f"no {system.kind} found beyond ({where}): least step"
-            system, spots[-1], tangent = elsewhere
-            moved, length = True, _FIRST
-    return spots, cusps, f"{most_points} points were reached"
-
-
-def _on_bound(system: Defining, here: Spot, there: Spot, which: int, bound: float) -> list[Spot]:
-    """The point at the end of the range, if there is one."""
-    share = (bound - here.y[4 + which]) / (there.y[4 + which] - here.y[4 + which])
-    y = here.y + share * (there.y - here.y)
-    y[4 + which] = bound
-    normal = np.zeros(6)
-    normal[4 + which] = 1.0
-    spot = solve(system, y, normal)
-    return [spot] if spot is not None else []
-
-
-def _cusp(system: Defining, here: Spot, tangent: _Array, length: float) -> list[Spot]:
-    """The point within a step at which both parameters turn back, by bisection."""
-    good, bad = 0.0, length
-    found: list[Spot] = []
-    for _ in range(26):
-        middle = 0.5 * (good + bad)
-        spot = solve(system, here.y + middle * tangent * system.scale, tangent)
-        if spot is None:
-            return []
-        found = [spot]
-        if tangent_of(spot, tangent)[4:] @ tangent[4:] < 0.0:
-            bad = middle
-        else:
-            good = middle
-    return found
-
-
-def _at_another_phase(
-    system: Defining, here: Spot, tangent: _Array
-) -> tuple[Defining, Spot, _Array] | None:
-    """The same curve with the section elsewhere: where an event falls on it, no step goes on."""
-    over = system.plane
-    turned = over.family.excitation.replace(phase=over.family.phase + _TURNED)
-    point, mode = seen_at(here.orbit, turned.phase)
-    system = system._replace(
-        plane=over._replace(family=over.family._replace(excitation=turned)), mode=mode
-    )
-    spot = solve(system, np.append(point[:4], here.y[4:]), tangent * _PARAMETERS)
-    if spot is None:
-        return None
-    return system, spot, tangent_of(spot, tangent * _PARAMETERS)
-
-
-def _closed(spots: list[Spot], scale: _Array) -> bool:
-    gap = np.linalg.norm((spots[-1].y - spots[0].y) / scale * SEEN)
-    last = np.linalg.norm((spots[-1].y - spots[-2].y) / scale * SEEN)
-    return bool(gap <= last)
 
 
 def _dataset(

@@ -61,12 +61,13 @@ class Defining(NamedTuple):
         residual = np.empty(5)
         residual[:4] = (image[:4] - orbit.point[:4]) / self.scale[:4]
         residual[4] = self.test(orbit)
-        return orbit, residual
+        return (orbit, residual) if np.isfinite(residual).all() else None
 
     def test(self, orbit: Orbit) -> float:
         """The condition φ."""
         if self.kind == FOLD:
-            return float(np.linalg.det(orbit.columns - np.eye(4)))
+            with np.errstate(all="ignore"):  # far from any orbit it may overflow
+                return float(np.linalg.det(orbit.columns - np.eye(4)))
         if self.kind == NEIMARK:
             return spiral(orbit)
         if self.kind == GRAZING:
@@ -82,35 +83,43 @@ class Defining(NamedTuple):
         jacobian = np.empty((5, 6))
         jacobian[:4, :5] = orbit.jacobian
         for j in range(6):
-            beside = y.copy()
-            beside[j] += _STEP * self.scale[j]
-            there = self.value(beside)
-            if there is None:
-                return None
-            change = (there[1] - residual) / _STEP
-            jacobian[4, j] = change[4]
-            if j == 5:
-                jacobian[:4, 5] = change[:4]
+            for step in (_STEP, -_STEP):
+                beside = y.copy()
+                beside[j] += step * self.scale[j]
+                there = self.value(beside)
+                if there is None:
+                    return None
+                change = (there[1] - residual) / step
+                jacobian[4, j] = change[4]
+                if j == 5:
+                    jacobian[:4, 5] = change[:4]
+                # The margin has a kink at grazing: its slope is that on the side of `here`.
+                if self.kind != GRAZING or there[1][4] * residual[4] > 0.0:
+                    break
         return Spot(y, orbit, jacobian)
 
 
 def solve(system: Defining, y: _Array, normal: _Array) -> Spot | None:
-    """Newton's method on the plane through y normal to `normal`."""
-    y = y.copy()
-    aim = y.copy()
-    spot = None
+    """Newton's method on the plane through y normal to `normal`.
+
+    Where differences across a kink steer it to and fro, the best that it came by is taken.
+    """
+    y, aim = y.copy(), y.copy()
+    best, spot = np.inf, None
     for _ in range(_NEWTON):
         here = system.value(y)
         if here is None:
             return None
-        residual = here[1]
-        if np.abs(residual).max() <= _GOOD and spot is not None:
-            return system.spot(y)
-        spot = system.spot(y)
-        if spot is None:
+        size = float(np.abs(here[1]).max())
+        now = system.spot(y)
+        if now is None:
             return None
-        matrix = np.vstack([spot.jacobian, normal * SEEN])
-        right = np.append(-residual, -(normal * SEEN) @ ((y - aim) / system.scale))
+        if size < best or spot is None:
+            best, spot = size, now
+        if best <= _GOOD:
+            return spot
+        matrix = np.vstack([now.jacobian, normal * SEEN])
+        right = np.append(-here[1], -(normal * SEEN) @ ((y - aim) / system.scale))
         try:
             change = np.linalg.solve(matrix, right)
         except np.linalg.LinAlgError:
@@ -119,12 +128,4 @@ def solve(system: Defining, y: _Array, normal: _Array) -> Spot | None:
         if not longest < np.inf:
             return None
         y = y + min(1.0, 0.3 / max(longest, 1e-300)) * change * system.scale
-    here = system.value(y)
-    return system.spot(y) if here is not None and np.abs(here[1]).max() <= _ACCEPTED else None
-
-
-def tangent_of(spot: Spot, along: _Array) -> _Array:
-    """Unit tangent of the curve in scaled components, in the sense of `along`."""
-    tangent: _Array = np.linalg.svd(spot.jacobian)[2][-1]
-    tangent = tangent / np.linalg.norm(tangent * SEEN)
-    return tangent if (tangent * SEEN) @ along >= 0.0 else -tangent
+    return spot if best <= _ACCEPTED else None

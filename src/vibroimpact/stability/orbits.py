@@ -23,6 +23,8 @@ _Array = NDArray[np.float64]
 
 MAX_EVENTS = 1000
 
+_GRAZES = 1e-4
+
 HELD = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
 """Normal of the plane on which the parameter does not change."""
 
@@ -230,6 +232,14 @@ def margin_of(found: Orbit) -> float:
         found.facts,
     )
     return value / float(section.scale[0])
+
+
+def beyond(found: Orbit, what: str, where: str) -> str:
+    """Why nothing may be found beyond the last orbit of a curve, in words."""
+    margin = abs(margin_of(found))
+    grazes = what != "grazing" and margin < _GRAZES
+    told = f"it all but grazes, by {margin:.1g} of its size" if grazes else "least step"
+    return f"no {what} could be found beyond {where} ({told})"
 
 
 def vector_of(found: Orbit) -> _Array:

@@ -23,6 +23,7 @@ from vibroimpact.stability.orbits import (
     SEEN,
     Orbit,
     at_phase,
+    beyond,
     corrected,
     evaluated,
     images,
@@ -38,7 +39,6 @@ CLOSED = "it is closed"
 PHASES = (1.0, 2.1, 3.3, 0.4)
 """rad, by which the section is moved in turn."""
 _SAME = 1e-6
-_GRAZES = 1e-4
 _BISECTIONS = 55
 _LOOK = 12  # bisections after which a grazing must show
 _BEYOND = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
@@ -186,13 +186,7 @@ class Branch:
 
     def lost(self, here: Station) -> str:
         """See `Path`."""
-        margin = abs(margin_of(here.orbit))
-        if margin < _GRAZES:
-            return (
-                f"it comes within {margin:.1g} of the gap of a grazing at {here.orbit.value:.9g}, "
-                "beyond which no orbit could be found"
-            )
-        return f"no orbit could be found beyond {here.orbit.value:.9g} (least step)"
+        return beyond(here.orbit, "orbit", f"{here.orbit.value:.9g}")
 
     def corner(self, here: Station, length: float) -> list[Station]:
         """See `Path`: the last orbit with the contacts of `here`, and one just behind it."""
