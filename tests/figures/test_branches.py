@@ -301,6 +301,9 @@ def test_curves_are_called_by_their_names():
     (text,) = bifurcation_curves(named_curves).texts  # the legend tells the kind
     assert text.get_text() == "tongue"
     assert same_color(text.get_color(), curves(bifurcation_curves(named_curves))[0].get_color())
+    # Both, although the one lies on the other.
+    twice = bifurcation_curves({"a": curve("grazing", "gap"), "b": curve("grazing", "gap")})
+    assert {text.get_text() for text in twice.texts} == {"a", "b"}
 
 
 # Files, axes, and what is left alone

@@ -137,7 +137,7 @@ def bifurcation_diagram(
     ax.legend(handles=handles, ncols=4, **LEGEND)
     names = Names(ax)
     for part, name in _orbits(data):
-        names.write(x[part], y[part], name, "black")
+        names.write(x[part], y[part], name, "black", once=True)
     return ax
 
 

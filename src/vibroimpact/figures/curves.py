@@ -88,5 +88,5 @@ def bifurcation_curves(
     for name, data in zip(names, given, strict=True):
         if name not in ("", data.attrs["kind"]):
             x, y = (k * data[p].values for k, p in zip(scales, (first, second), strict=True))
-            written.write(x, y, name, MARKS[data.attrs["kind"]].colour)
+            written.write(x, y, name, MARKS[data.attrs["kind"]].colour, once=False)
     return ax

@@ -66,7 +66,9 @@ def feature_map(
     bar = ax.figure.colorbar(mesh, ax=ax)
     height = 72.0 * ax.get_window_extent().height / ax.figure.dpi
     letters = int(height / (_LETTER * float(bar.ax.yaxis.label.get_fontsize())))
-    bar.set_label(textwrap.fill(f"{data[name].attrs['long_name']} (–)", max(letters, 12)))
+    bar.set_label(
+        textwrap.fill(f"{data[name].attrs['long_name']}\N{NO-BREAK SPACE}(–)", max(letters, 12))
+    )
     if norm is not None:
         bar.set_ticks(list(range(int(values.max()) + 1)))
         bar.ax.minorticks_off()

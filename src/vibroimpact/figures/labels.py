@@ -36,13 +36,14 @@ class Names:
         marks = [line.get_xydata() for line in ax.lines if line.get_linestyle() == "None"]
         self._marks = [spot for part in marks for spot in self._to_panel.transform(part)]
 
-    def write(self, x: _Array, y: _Array, name: str, colour: str) -> None:
+    def write(self, x: _Array, y: _Array, name: str, colour: str, *, once: bool) -> None:
         """Write a name on a curve, given in the units of the axes.
 
-        A curve that is too short for it, or lies on one that has a name, gets none.
+        A curve that is too short for it gets none; nor does, where `once`, one that lies on
+        another that has a name.
         """
         at = self._visible(x, y)
-        if any(np.hypot(*(at - spot).T).min(initial=np.inf) < _ON for spot in self._names):
+        if once and any(np.hypot(*(at - spot).T).min(initial=np.inf) < _ON for spot in self._names):
             return
         if len(at) * _STEP < 2.0 * _LETTER * len(name):
             return  # it would hide half of the curve
