@@ -55,3 +55,12 @@ def test_unexplored_region(tmp_path):
     for name in ("small-gaps", "soft-bumpers"):
         for figure in (f"{name}.png", f"{name}-counts.png"):
             assert (tmp_path / figure).is_file()
+
+
+def test_two_motions(tmp_path):
+    script = EXAMPLES / "two_motions.py"
+    done = subprocess.run(
+        [sys.executable, "-W", "error", script, tmp_path], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "two-motions.png").is_file()

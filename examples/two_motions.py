@@ -1,0 +1,34 @@
+"""Draw two motions that coexist at one frequency: the picture of the README.
+
+python two_motions.py [FOLDER]
+
+On the left all orbits of the rig B2-G1-A3 over the frequency, with a sweep up and one down; on the
+right the two motions at 2 Hz, one of which hits both bumpers.
+"""
+
+import sys
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+import vibroimpact as vi
+from vibroimpact.figures import bifurcation_diagram, phase_portrait, save_figure
+
+folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
+folder.mkdir(parents=True, exist_ok=True)
+
+case = vi.laboratory.case("B2-G1-A3")
+curves = vi.sweep(case.oscillator, case.amplitude, [k / 100 for k in range(60, 361, 6)])
+orbits = vi.resonance_diagram(case.oscillator, case.amplitude, "0.6 Hz", "3.6 Hz")
+shaking = vi.Harmonic(case.amplitude, "2 Hz")
+motions = {
+    ("forward" if motion["impacts_right"] else "backward"): motion
+    for motion in vi.coexisting(case.oscillator, shaking, samples=1024)
+}
+
+figure = Figure(figsize=(10.0, 4.2), layout="constrained")
+left, right = figure.subplots(1, 2, width_ratios=[1.4, 1.0])
+bifurcation_diagram(orbits, left, quantity="eta_a", sweep=curves)
+left.set_ylabel("excursion of acceleration $\\eta_a$ (–)")
+phase_portrait(motions, right)
+print(save_figure(figure, folder / "two-motions.png"))

@@ -1,0 +1,53 @@
+"""What the README promises: short, with a picture that is made here, and how to cite."""
+
+from __future__ import annotations
+
+import re
+
+import yaml
+
+import vibroimpact as vi
+from docs.snippets import PAGES, ROOT
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+PICTURE = re.compile(r"!\[[^\]]+\]\(([^)\s]+)\)")
+
+
+def test_it_is_short():
+    assert README.count("\n") <= 150
+
+
+def test_it_shows_what_make_demo_prints():
+    demo = re.search(
+        r"^demo:.*\n\t@\$\(BIN\)/(vibroimpact .*)$", (ROOT / "Makefile").read_text(), re.M
+    )
+    first = re.search(r"^```console\n\$ (.*)\n(?s:(.*?))^```$", README, re.M)
+    assert first[1] == demo[1]
+    assert "\n..." not in first[2]
+
+
+def test_pictures_are_there():
+    for page in PAGES:
+        for target in PICTURE.findall(page.read_text(encoding="utf-8")):
+            assert (page.parent / target).is_file(), f"{page.name} shows {target}"
+
+
+def test_its_picture_is_made_by_the_script_that_it_names():
+    (picture,) = PICTURE.findall(README)
+    (script,) = re.findall(r"\]\((examples/\w+\.py)\)", README)
+    name = picture.rsplit("/", 1)[1]
+    assert name in (ROOT / script).read_text(encoding="utf-8")
+
+
+def test_citations():
+    for key in ("cff-version", "message", "title", "authors"):
+        assert CITATION[key]
+    assert CITATION["cff-version"] == "1.2.0"
+    assert CITATION["version"] == vi.__version__
+    assert CITATION["license"] == "BSD-3-Clause"
+    (paper,) = CITATION["references"]
+    words = " ".join(README.split())
+    assert paper["title"] in words
+    for author in paper["authors"]:
+        assert author["family-names"] in words
