@@ -50,6 +50,7 @@ _HOME = {
     "sweep": "response.sweep",
     "sweeps": "response.sweep",
     "to_dimensionless": "model",
+    "to_table": "response.table",
 }
 
 __all__ = [
@@ -86,6 +87,7 @@ __all__ = [
     "sweep",
     "sweeps",
     "to_dimensionless",
+    "to_table",
 ]
 
 if TYPE_CHECKING:
@@ -110,6 +112,7 @@ if TYPE_CHECKING:
     from vibroimpact.response.simulate import simulate
     from vibroimpact.response.spectrum import spectrum
     from vibroimpact.response.sweep import sweep, sweeps
+    from vibroimpact.response.table import to_table
     from vibroimpact.scenario.classify import classify
     from vibroimpact.scenario.map import scenario_map
     from vibroimpact.scenario.thresholds import Thresholds

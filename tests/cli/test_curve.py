@@ -13,8 +13,8 @@ import vibroimpact as vi
 
 COMMAND = "curve"
 CASE = vi.laboratory.case("B2-G1-A3")
-RATIO = ("--parameters", "frequency,stiffness-ratio", "--second", "0.5:100", "--first", "1Hz:4Hz")
-GAP = ("--parameters", "frequency,gap", "--second", "1mm:20mm", "--first", "1Hz:4Hz")
+RATIO = ("--over", "frequency,stiffness-ratio", "--second", "0.5:100", "--first", "1Hz:4Hz")
+GAP = ("--over", "frequency,gap", "--second", "1mm:20mm", "--first", "1Hz:4Hz")
 
 
 def groups(path: Path) -> set[str]:
@@ -117,7 +117,7 @@ def test_grazing_in_closed_form(run, tmp_path):
 
 def test_two_parameters_neither_of_which_is_the_frequency(run, tmp_path):
     """Free flight at 2 Hz grazes a gap in proportion to the amplitude."""
-    words = ("--parameters", "gap,amplitude", "--first", "2mm:20mm", "--second", "0.02g:0.1g")
+    words = ("--over", "gap,amplitude", "--first", "2mm:20mm", "--second", "0.02g:0.1g")
     code, out, errors = run(
         "B2-G1-A3", "--bifurcation", "grazing", *words, "--frequency", "2Hz", "--json"
     )
@@ -129,6 +129,14 @@ def test_two_parameters_neither_of_which_is_the_frequency(run, tmp_path):
     data = vi.load(path, group=group)
     exact = swing(CASE.oscillator, data["amplitude"].values, np.array(2.0))
     np.testing.assert_allclose(data["gap"], exact, rtol=1e-9)
+
+
+def test_identified_parameters_over_a_plane(run, tmp_path):
+    words = ("--parameters", "identified", "--over", "frequency,gap", "--bifurcation", "fold")
+    code, out, _ = run("B2-G1-A3", *words, "--first", "1.6Hz:1.8Hz", "--second", "7mm:8mm")
+    assert code == 0
+    assert "K = 26.8 kN/m" in out
+    assert (tmp_path / "out/B2-G1-A3-identified-fold-frequency-gap.nc").is_file()
 
 
 def test_a_study_and_what_is_typed_over_it(run, tmp_path):
@@ -155,13 +163,13 @@ GAPS = ("--first", "1mm:20mm")
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (["--parameters", "frequency", *SECOND], "--parameters: 'frequency'; two"),
-        (["--parameters", "", *SECOND], "--parameters"),
-        (["--parameters", "frequency,gap,damping", *SECOND], "--parameters"),
-        (["--parameters", "frequency,mass", *SECOND], "parameter: 'mass'"),
-        (["--parameters", "mass,gap", "--first", "1:2", *SECOND, "--frequency", "2Hz"], "'mass'"),
-        (["--parameters", "frequency,frequency", "--second", "1Hz:2Hz"], "'frequency' twice"),
-        (["--parameters", "frequency,", *SECOND], "''"),
+        (["--over", "frequency", *SECOND], "--over: 'frequency'; two"),
+        (["--over", "", *SECOND], "--over"),
+        (["--over", "frequency,gap,damping", *SECOND], "--over"),
+        (["--over", "frequency,mass", *SECOND], "--over: 'mass'"),
+        (["--over", "mass,gap", "--first", "1:2", *SECOND, "--frequency", "2Hz"], "'mass'"),
+        (["--over", "frequency,frequency", "--second", "1Hz:2Hz"], "'frequency' twice"),
+        (["--over", "frequency,", *SECOND], "''"),
         ([], "--second"),
         (["--first", "1Hz", *SECOND], "--first: '1Hz'"),
         (["--first", "1Hz:", *SECOND], "--first: '1Hz:'"),
@@ -175,14 +183,14 @@ GAPS = ("--first", "1mm:20mm")
         pytest.param(["--second", "1Hz:2Hz"], "--second"),
         pytest.param(["--second=-1mm:2mm"], "--second"),
         pytest.param(["--second", "10mm:20mm"], "--second"),  # without the rig's own gap
-        (["--parameters", "gap,damping", *SECOND], "--frequency: missing"),
+        (["--over", "gap,damping", *SECOND], "--frequency: missing"),
         (
-            ["--parameters", "gap,damping", *GAPS, "--second", "1kN s/m:2kN s/m"],
+            ["--over", "gap,damping", *GAPS, "--second", "1kN s/m:2kN s/m"],
             "--frequency: missing",
         ),
         pytest.param(
-            ["--parameters", "gap,gap-ratio", *GAPS, "--second", "0.1:1", "--frequency", "2Hz"],
-            "parameters: ",
+            ["--over", "gap,gap-ratio", *GAPS, "--second", "0.1:1", "--frequency", "2Hz"],
+            "--over: ",
         ),
         (["--first", "3Hz:4Hz", *SECOND], "--bifurcation: no fold along frequency"),
         (["--bifurcation", "neimark-sacker", "--first", "2Hz:3Hz", *SECOND], "no Neimark-Sacker"),

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from vibroimpact.cli.grid import DEFAULT, frequencies, frequency_grid
+from vibroimpact.cli.grid import default_range, default_span, frequencies, frequency_grid
+from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.rig import subject
 from vibroimpact.cli.study import SweepTable
 from vibroimpact.errors import InputError
+
+DEFAULT = (0.5, 5.0, 0.01)
 
 
 def test_values_are_the_decimals_that_were_meant():
@@ -37,13 +41,13 @@ def test_long_decimals_do_not_double_the_end():
 
 def test_options_come_before_the_study_and_it_before_the_default():
     table = SweepTable.model_validate({"from": "0.4 Hz", "step": "0.2 Hz"})
-    assert frequencies(None, "1Hz", None, None, table) == (0.4, 0.6, 0.8, 1.0)
-    assert frequencies("0.6Hz", "1Hz", None, None, table) == (0.6, 0.8, 1.0)
-    assert frequencies(None, None, None, None, None) == frequency_grid(*DEFAULT)
+    assert frequencies(None, "1Hz", None, None, table, DEFAULT) == (0.4, 0.6, 0.8, 1.0)
+    assert frequencies("0.6Hz", "1Hz", None, None, table, DEFAULT) == (0.6, 0.8, 1.0)
+    assert frequencies(None, None, None, None, None, DEFAULT) == frequency_grid(*DEFAULT)
     listed = SweepTable(frequencies=["1 Hz", 2])
-    assert frequencies(None, None, None, None, listed) == (1.0, 2.0)
-    assert frequencies("1Hz", "1.01Hz", None, None, listed) == (1.0, 1.01)
-    assert frequencies(None, None, None, "3Hz, 4", listed) == ("3Hz", "4")
+    assert frequencies(None, None, None, None, listed, DEFAULT) == (1.0, 2.0)
+    assert frequencies("1Hz", "1.01Hz", None, None, listed, DEFAULT) == (1.0, 1.01)
+    assert frequencies(None, None, None, "3Hz, 4", listed, DEFAULT) == ("3Hz", "4")
 
 
 @pytest.mark.parametrize(
@@ -60,4 +64,26 @@ def test_options_come_before_the_study_and_it_before_the_default():
 )
 def test_what_cannot_be_used(arguments, message):
     with pytest.raises(InputError, match=message):
-        frequencies(*arguments, None)
+        frequencies(*arguments, None, DEFAULT)
+
+
+def test_the_default_range_follows_from_the_rig(tmp_path):
+    for code in ("B2-G1-A3", "B2-G1-A1", "B3-0mm-A2"):
+        assert default_range(subject(code, RigOptions())) == (0.5, 5.0, 0.01)
+    # A case that has become another rig has a range of its own.
+    assert default_range(subject("B2-G1-A3", RigOptions(mass="55 kg"))) == (1.6, 16.0, 0.05)
+    path = tmp_path / "building.toml"
+    path.write_text(
+        '[oscillator]\nmass = "1000 t"\n'
+        'isolator = { stiffness = 6316547, damping = "500 kN s/m" }\n'
+        '[excitation]\namplitude = "0.3 m/s^2"\n'
+    )
+    building = subject(str(path), RigOptions())
+    assert building.oscillator.natural_frequency == pytest.approx(0.4, rel=1e-4)
+    assert default_range(building) == (0.18, 1.8, 0.005)
+    assert default_span(building) == (0.11, 1.8)
+    grid = frequencies(None, None, None, None, None, default_range(building))
+    assert (grid[0], grid[-1], len(grid)) == (0.18, 1.8, 325)
+    assert default_span(subject("B2-G1-A3", RigOptions())) == (0.3, 5.0)
+    path.write_text('case = "B2-G1-A1"')
+    assert default_range(subject(str(path), RigOptions())) == (0.5, 5.0, 0.01)

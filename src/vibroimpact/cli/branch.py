@@ -33,10 +33,20 @@ def branch(
         ),
     ] = "frequency",
     start: Annotated[
-        str | None, _WITH_UNITS, Parameter(name="--from", help="Least value; of a frequency 0.3Hz.")
+        str | None,
+        _WITH_UNITS,
+        Parameter(
+            name="--from",
+            help="Least value; of a frequency 0.27 times the natural one (of a case 0.3Hz).",
+        ),
     ] = None,
     stop: Annotated[
-        str | None, _WITH_UNITS, Parameter(name="--to", help="Largest value; of a frequency 5Hz.")
+        str | None,
+        _WITH_UNITS,
+        Parameter(
+            name="--to",
+            help="Largest value; of a frequency 4.5 times the natural one (of a case 5Hz).",
+        ),
     ] = None,
     frequency: Annotated[
         str | None,
@@ -66,13 +76,14 @@ def branch(
         vibroimpact branch B3-10mm-A3 --from 0.9Hz --to 1.3Hz --quantity eccentricity
         vibroimpact branch B2-G1-A3 --parameter gap --from 1mm --to 20mm --frequency 2Hz
     """
+    from vibroimpact.cli.grid import default_span
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
     along = parameter.replace("-", "_")
-    span = option_range(along, start, stop, ("--from", "--to"))
+    span = option_range(along, start, stop, ("--from", "--to"), default_span(what))
 
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
@@ -100,9 +111,16 @@ def branch(
 
 
 def option_range(
-    name: str, low: str | None, high: str | None, options: tuple[str, str]
+    name: str,
+    low: str | None,
+    high: str | None,
+    options: tuple[str, str],
+    default: tuple[float, float],
+    field: str = "--parameter",
 ) -> tuple[float, float]:
-    """A range of a parameter from two options; that of a frequency has a default.
+    """A range of a parameter from two options; that of a frequency has a default, in Hz.
+
+    `field` is the option that names the parameter.
 
     Raises
     ------
@@ -112,12 +130,12 @@ def option_range(
     from vibroimpact.model import to_si
     from vibroimpact.stability.family import parameter
 
-    varied = parameter(name, "--parameter")
-    given = [low, high]
+    varied = parameter(name, field)
+    given: list[str | float | None] = [low, high]
     if name == "frequency":
         given = [
-            text if text is not None else default
-            for text, default in zip(given, ("0.3Hz", "5Hz"), strict=True)
+            text if text is not None else otherwise
+            for text, otherwise in zip(given, default, strict=True)
         ]
     ends = []
     for text, option in zip(given, options, strict=True):

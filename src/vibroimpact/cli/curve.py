@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
@@ -35,7 +36,7 @@ def curve(
         Literal["fold", "symmetry-breaking", "period-doubling", "neimark-sacker", "grazing"],
         Parameter(group=_CURVE, help="Which bifurcation is followed."),
     ] = "fold",
-    parameters: Annotated[
+    over: Annotated[
         str,
         Parameter(
             group=_CURVE,
@@ -44,7 +45,9 @@ def curve(
         ),
     ] = "frequency,gap",
     first: Annotated[
-        str | None, _WITH_UNITS, Parameter(help="Range of the first; of a frequency 0.3Hz:5Hz.")
+        str | None,
+        _WITH_UNITS,
+        Parameter(help="Range of the first; of a frequency as for vibroimpact branch."),
     ] = None,
     second: Annotated[
         str | None, _WITH_UNITS, Parameter(help="Range of the second, such as 1mm:20mm.")
@@ -65,19 +68,23 @@ def curve(
 
     For example:
 
-        vibroimpact curve B2-G1-A3 --bifurcation fold --parameters frequency,gap --second 1mm:20mm
-        vibroimpact curve B2-G1-A3 --parameters frequency,stiffness-ratio --second 0.5:100
+        vibroimpact curve B2-G1-A3 --bifurcation fold --over frequency,gap --second 1mm:20mm
+        vibroimpact curve B2-G1-A3 --over frequency,stiffness-ratio --second 0.5:100
     """
+    from vibroimpact.cli.grid import default_span
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
-    names = [name.strip().replace("-", "_") for name in parameters.split(",")]
+    names = [name.strip().replace("-", "_") for name in over.split(",")]
     if len(names) != 2:
-        raise InputError(f"--parameters: {parameters!r}; two, as frequency,gap, are accepted")
+        raise InputError(f"--over: {over!r}; two, as frequency,gap, are accepted")
     shaken = _excitation(what, names[0], frequency)
-    spans = [_range("--first", names[0], first), _range("--second", names[1], second)]
+    spans = [
+        _range("--first", names[0], first, default_span(what)),
+        _range("--second", names[1], second, default_span(what)),
+    ]
     _check(what, shaken, (names[0], names[1]), spans)
 
     with output_folder(out.output) as folder:
@@ -135,15 +142,17 @@ def curve(
     return 0
 
 
-def _range(option: str, name: str, text: str | None) -> tuple[float, float]:
+def _range(
+    option: str, name: str, text: str | None, default: tuple[float, float]
+) -> tuple[float, float]:
     from vibroimpact.cli.branch import option_range
 
     if text is None and name == "frequency":
-        return option_range(name, None, None, (option, option))
+        return option_range(name, None, None, (option, option), default, "--over")
     low, colon, high = (text or "").partition(":")
     if not (low and colon and high):
         raise InputError(f"{option}: {text!r}; a range is accepted, such as 1mm:20mm")
-    return option_range(name, low, high, (option, option))
+    return option_range(name, low, high, (option, option), default, "--over")
 
 
 def _excitation(what: Subject, first: str, frequency: str | None) -> Harmonic:
@@ -169,7 +178,10 @@ def _check(
     """Refuse what cannot be followed before anything is sought."""
     from vibroimpact.stability.plane import plane
 
-    over = plane(what.oscillator, shaken, names)
+    try:
+        over = plane(what.oscillator, shaken, names)
+    except InputError as error:
+        raise InputError(re.sub("^parameters?:", "--over:", str(error))) from None
     low, high = spans[1]
     if not low <= over.value <= high:
         raise InputError(

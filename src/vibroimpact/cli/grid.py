@@ -2,18 +2,57 @@
 
 from __future__ import annotations
 
+import math
 from decimal import Decimal
+from typing import TYPE_CHECKING
 
 from vibroimpact.cli.study import SweepTable
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
 from vibroimpact.model.units import FREQUENCY
 
-DEFAULT = (0.5, 5.0, 0.01)
+if TYPE_CHECKING:
+    from vibroimpact.cli.rig import Subject
+
+_PUBLISHED = (0.5, 5.0, 0.01)
 """From, to and step in Hz: the range of the published tests, ten times as fine."""
+_PUBLISHED_SPAN = (0.3, 5.0)
+_LOW, _SPAN_LOW, _HIGH, _STEPS = 0.45, 0.27, 4.5, 110.0
+"""The same over the natural frequency of the published rig; steps in one natural frequency."""
 
 MOST = 1_000_000
 """More frequencies than anyone means."""
+
+
+def default_range(what: Subject) -> tuple[float, float, float]:
+    """From, to and step in Hz of a sweep: those of the tests, or for another rig as wide a range.
+
+    It follows from the natural frequency, so that the resonance is in it whatever the rig.
+    """
+    if what.published:
+        return _PUBLISHED
+    natural = what.oscillator.natural_frequency
+    return _short(_LOW * natural), _short(_HIGH * natural), _step(natural / _STEPS)
+
+
+def default_span(what: Subject) -> tuple[float, float]:
+    """From and to in Hz of branches; lower than a sweep, for they cost little there."""
+    if what.published:
+        return _PUBLISHED_SPAN
+    natural = what.oscillator.natural_frequency
+    return _short(_SPAN_LOW * natural), _short(_HIGH * natural)
+
+
+def _short(value: float) -> float:
+    """Round to two digits."""
+    return float(f"{value:.1e}")
+
+
+def _step(value: float) -> float:
+    """Round to one, two or five and a power of ten."""
+    power = math.floor(math.log10(value))
+    steps = [float(f"{digit}e{power}") for digit in (1, 2, 5, 10)]
+    return min(steps, key=lambda step: abs(math.log(step / value)))
 
 
 def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
@@ -52,6 +91,7 @@ def frequencies(
     step: str | None,
     listed: str | None,
     table: SweepTable | None,
+    default: tuple[float, float, float],
 ) -> tuple[float, ...] | tuple[str, ...]:
     """Return the frequencies that options and study ask for; options come first.
 
@@ -61,6 +101,8 @@ def frequencies(
         Texts of ``--from``, ``--to``, ``--step`` and ``--frequencies``.
     table
         The study's ``[sweep]``.
+    default
+        From, to and step in Hz where neither says it.
 
     Returns
     -------
@@ -84,7 +126,9 @@ def frequencies(
     numbers = [
         to_si(text, FREQUENCY, option, above=0.0)
         if text is not None
-        else (default if studied is None else studied)
-        for (option, text), studied, default in zip(given.items(), from_study, DEFAULT, strict=True)
+        else (otherwise if studied is None else studied)
+        for (option, text), studied, otherwise in zip(
+            given.items(), from_study, default, strict=True
+        )
     ]
     return frequency_grid(*numbers)

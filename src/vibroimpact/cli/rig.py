@@ -36,8 +36,8 @@ class Subject(NamedTuple):
     amplitude: float
     """Peak base acceleration in m/s²."""
     study: Study | None
-    natural: float
-    """Natural frequency in Hz, without what the options change."""
+    published: bool
+    """Whether it is a case of the laboratory, with its own natural frequency."""
 
     @property
     def title(self) -> str:
@@ -53,6 +53,8 @@ class _Named(NamedTuple):
     oscillator: Oscillator
     amplitude: float | None
     study: Study | None
+    case: bool
+    """Whether it is a case of the laboratory."""
 
 
 def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
@@ -93,7 +95,7 @@ def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
         oscillator,
         amplitude,
         found.study,
-        found.oscillator.natural_frequency,
+        found.case and oscillator.natural_frequency == found.oscillator.natural_frequency,
     )
     for line in doubts(what.oscillator, what.amplitude):
         warn(line)
@@ -117,10 +119,10 @@ def _named(text: str, options: RigOptions) -> _Named:
 def _of_case(code: str, parameters: Parameters | None) -> _Named:
     case = laboratory.case(code, parameters or "table")
     if parameters != "identified":
-        return _Named(case.code, case.slug, case.oscillator, case.amplitude, None)
+        return _Named(case.code, case.slug, case.oscillator, case.amplitude, None, True)
     # Two parameter sets of one test are two rigs: neither may overwrite the other's files.
     title, first = f"{case.code}, identified parameters", f"{case.slug}-identified"
-    return _Named(title, first, case.oscillator, case.amplitude, None)
+    return _Named(title, first, case.oscillator, case.amplitude, None, True)
 
 
 def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
@@ -136,7 +138,7 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
         if parameters != (study.parameters or (parameters and "table")):
             title, first = f"{title}, {parameters} parameters", f"{first}-{parameters}"
         given = found.amplitude if amplitude is None else amplitude
-        return _Named(title, first, found.oscillator, given, study)
+        return _Named(title, first, found.oscillator, given, study, True)
     # Study sees to it that there is one.
     assert study.oscillator is not None
     if parameters is not None:
@@ -145,7 +147,7 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
             "a case has parameter sets"
         )
     title = study.name or Path(path).stem
-    return _Named(title, slug(title), study.oscillator, amplitude, study)
+    return _Named(title, slug(title), study.oscillator, amplitude, study, False)
 
 
 def doubts(oscillator: Oscillator, amplitude: float) -> list[str]:

@@ -17,15 +17,26 @@ def sweep(
     /,
     *,
     start: Annotated[
-        str | None, _FREQUENCY, Parameter(name="--from", help="First frequency; 0.5Hz.")
+        str | None,
+        _FREQUENCY,
+        Parameter(
+            name="--from", help="First frequency; 0.45 times the natural one (of a case 0.5Hz)."
+        ),
     ] = None,
     stop: Annotated[
-        str | None, _FREQUENCY, Parameter(name="--to", help="Last frequency; 5Hz.")
+        str | None,
+        _FREQUENCY,
+        Parameter(name="--to", help="Last frequency; 4.5 times the natural one (of a case 5Hz)."),
     ] = None,
     step: Annotated[
         str | None,
         _FREQUENCY,
-        Parameter(help="Distance of two frequencies; 0.01Hz (the published tests: 0.1Hz)."),
+        Parameter(
+            help=(
+                "Distance of two frequencies; about a hundredth of the natural one (of a case "
+                "0.01Hz; the published tests: 0.1Hz)."
+            )
+        ),
     ] = None,
     frequencies: Annotated[
         str | None, _FREQUENCY, Parameter(help="A list instead, such as 0.5Hz,0.7Hz,1.1Hz.")
@@ -73,7 +84,7 @@ def sweep(
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
     table = what.study.sweep if what.study else None
-    held = grid.frequencies(start, stop, step, frequencies, table)
+    held = grid.frequencies(start, stop, step, frequencies, table, grid.default_range(what))
     way = direction or (table and table.direction) or "both"
     options: dict[str, Any] = {
         "tolerance": tolerance if tolerance is not None else table and table.tolerance,

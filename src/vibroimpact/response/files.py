@@ -11,6 +11,7 @@ import xarray as xr
 
 from vibroimpact._version import __version__
 from vibroimpact.errors import InputError
+from vibroimpact.response.table import as_text
 
 
 def write_whole(path: Path | str, write: Callable[[Path], None]) -> Path:
@@ -45,15 +46,36 @@ def write_whole(path: Path | str, write: Callable[[Path], None]) -> Path:
 
 
 def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Path:
-    """Write a dataset, or several by name, to a NetCDF file.
+    """Write a dataset, or several by name, to a file.
 
-    Several become the groups of the file. A blank or a slash in a name becomes an underscore.
+    Parameters
+    ----------
+    dataset
+        Several become the groups of the file. A blank or a slash in a name becomes an underscore.
+    path
+        ``.nc`` is NetCDF, which keeps everything; ``.csv`` is the table of `to_table`, for a
+        spreadsheet, and holds one dataset.
 
     Raises
     ------
     InputError
-        If the file cannot be written; a file that was there is then as it was.
+        If the ending is another, or the file cannot be written; a file that was there is then as
+        it was.
     """
+    ending = Path(path).suffix.lower()
+    if ending not in (".nc", ".csv"):
+        raise InputError(
+            f"path: {str(path)!r} ends in {ending or 'nothing'!r}; .nc (NetCDF) or .csv (a table) "
+            "is accepted"
+        )
+    if ending == ".csv":
+        if not isinstance(dataset, xr.Dataset):
+            raise InputError(
+                f"path: {str(path)!r} would hold several datasets; a table for each, or .nc, is "
+                "accepted"
+            )
+        text = as_text(dataset)
+        return write_whole(path, lambda beside: _write(beside, text))
     if isinstance(dataset, xr.Dataset):
         return write_whole(path, lambda beside: dataset.to_netcdf(beside, engine="h5netcdf"))
     names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
@@ -65,6 +87,10 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
     tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
     tree.attrs["vibroimpact_version"] = __version__
     return write_whole(path, lambda beside: tree.to_netcdf(beside, engine="h5netcdf"))
+
+
+def _write(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8")
 
 
 def load(path: Path | str, group: str | None = None) -> xr.Dataset:

@@ -1,0 +1,89 @@
+"""Datasets as tidy tables, for spreadsheets and data frames."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import xarray as xr
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.units import shown
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_COLUMNS = {"component", "exponent", "multiplier", "component_after", "component_before"}
+"""Dims of a few labelled values, which stand beside one another."""
+
+
+def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
+    """Return a dataset as a tidy table: a row for each frequency, sample, orbit or contact.
+
+    Parameters
+    ----------
+    dataset
+        What a function of this package returned.
+    rows
+        The dim whose entries are the rows, such as ``"event"`` or ``"contact_number"`` of a motion.
+        None for what the dataset is mainly about: rig, direction and frequency of a sweep, the
+        time of a motion, the points of a branch.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A column for each coordinate and each variable along the rows; a component of the state has
+        a column of its own. Values along other dims are left out. ``attrs["units"]`` has the units
+        of the columns.
+
+    Raises
+    ------
+    InputError
+        If it is no dataset, or nothing in it goes along `rows`.
+    """
+    if not isinstance(dataset, xr.Dataset):
+        raise InputError(f"dataset: {shown(dataset)} is no dataset; what sweep returns is accepted")
+    along = [variable.dims for variable in dataset.data_vars.values() if variable.dims]
+    main = [tuple(dim for dim in dims if dim not in _COLUMNS) for dims in along]
+    about = next((dims for dims in main if dims), ("component",))
+    dims = about if rows is None else (rows,)
+    if not any(set(dims) <= set(given) for given in along):
+        known = dict.fromkeys(str(dim) for given in main for dim in given)
+        raise InputError(f"rows: {rows!r} has no values here; {', '.join(known)} are accepted")
+    parts: dict[str, xr.DataArray] = {}
+    for name, variable in dataset.data_vars.items():
+        others = [dim for dim in variable.dims if dim not in dims]
+        if len(others) == len(variable.dims) or not _COLUMNS.issuperset(map(str, others)):
+            continue
+        parts |= _side_by_side(str(name), variable, others)
+    frame = xr.Dataset(parts).to_dataframe(dim_order=list(dims)).reset_index()
+    first = [name for name in dataset.coords if name in frame and name not in dims]
+    order = [*dims, *first]
+    frame = frame[[*order, *(name for name in frame if name not in order)]]
+    frame.attrs["units"] = {
+        name: (parts.get(name, dataset.get(name, xr.DataArray()))).attrs.get("units", "1")
+        for name in frame
+    }
+    return frame
+
+
+def _side_by_side(name: str, variable: xr.DataArray, dims: list[object]) -> dict[str, xr.DataArray]:
+    """One array for each entry along some dims, named after it."""
+    if not dims:
+        return {name: variable}
+    dim, *rest = dims
+    found: dict[str, xr.DataArray] = {}
+    for i in range(variable.sizes[dim]):
+        label = variable[dim].values[i] if dim in variable.coords else i
+        found |= _side_by_side(f"{name}_{label}", variable.isel({dim: i}, drop=True), rest)
+    return found
+
+
+def as_text(dataset: xr.Dataset) -> str:
+    """Return the table of a dataset as comma-separated values, units in the first line."""
+    frame = to_table(dataset)
+    units = frame.attrs["units"]
+    frame.columns = [
+        name if units[name] == "1" else f"{name} ({units[name]})" for name in frame.columns
+    ]
+    text: str = frame.to_csv(index=False)
+    return text
