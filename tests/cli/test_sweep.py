@@ -157,7 +157,7 @@ WRONG = [
     (["--parameters", "guessed"], "parameters"),
     (["--tolerance", "2"], "tolerance"),
     (["--tolerance", "nan"], "tolerance"),
-    (["--max-cycles", "0"], "max_cycles"),
+    (["--max-cycles", "0"], "--max-cycles"),
     (["--max-cycles", "1.5"], "--max-cycles"),
     (["--threads", "-1"], "threads"),
     (["--threads", "many"], "--threads"),

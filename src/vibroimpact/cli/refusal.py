@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from cyclopts import CycloptsError
 from cyclopts.exceptions import UnusedCliTokensError
 
-_FIELD = re.compile(r"([a-z_]+)(?=(\[\d+\])?: )")
+_FIELD = re.compile(r"([a-z_.]+)(?=(\[\d+\])?: )")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _UNIT = re.compile(r"[A-Za-zµ°]+(\^?-?[²³]|\^-?\d|[23])?([*/·][A-Za-z]+(\^?-?\d|[²³])?)*")
 
@@ -31,9 +31,17 @@ def _as_option(message: str, words: Sequence[str]) -> str:
     field = _FIELD.match(message)
     if field is None:
         return message
-    option = f"--{field[1].replace('_', '-')}"
-    written = any(word == option or word.startswith(f"{option}=") for word in words)
-    return option + message[field.end(1) :] if written else message
+    written = {word.partition("=")[0] for word in words}
+    option = next((option for option in _options(field[1]) if option in written), None)
+    return option + message[field.end(1) :] if option else message
+
+
+def _options(field: str) -> list[str]:
+    """Options that set a field; those of one side first."""
+    part, _, name = field.replace("_", "-").rpartition(".")
+    if part in ("right", "left"):
+        return [f"--{part}-{name}", f"--{name}" if name == "gap" else f"--bumper-{name}"]
+    return [f"--{name}"]
 
 
 def _quoting(words: Sequence[str]) -> str:
