@@ -188,6 +188,11 @@ def test_branches_are_named_by_their_impacts():
     assert {"1R 1L", "3R 2L, period 2"} <= several_texts
 
 
+def test_branches_are_named_under_a_sweep_too():
+    ax = bifurcation_diagram(diagram(), sweep=swept())
+    assert {"1R 1L", "free flight"} <= {text.get_text() for text in ax.texts}
+
+
 def test_names_stand_clear_of_marks_and_of_each_other():
     ax = bifurcation_diagram(several())
     ax.figure.draw_without_rendering()

@@ -129,13 +129,14 @@ def bifurcation_diagram(
             zorder=4,
         )
         handles.append(drawn[0])
+    found = handles[2:]
     if sweep is not None:
         handles += _marks_of(sweep, data, ax, quantity, factor)
     ax.set_xlim(x.min(), x.max())
     ax.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
     ax.set_ylabel(label)
     ax.legend(handles=handles, ncols=4, **LEGEND)
-    names = Names(ax)
+    names = Names(ax, found)
     for part, name in _orbits(data):
         names.write(x[part], y[part], name, "black", once=True)
     return ax

@@ -1,9 +1,12 @@
-"""Names that stand on curves."""
+"""Names that stand beside curves."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
@@ -23,21 +26,22 @@ _LETTER = 0.012
 
 
 class Names:
-    """Writes names on the curves of a panel whose limits are final, none over another.
+    """Writes names beside the curves of a panel whose limits are final, none over another.
 
-    The marks that the panel has stay clear of them.
+    Marks that must be seen stay clear of them.
     """
 
-    def __init__(self, ax: Axes) -> None:
+    def __init__(self, ax: Axes, marks: Iterable[Line2D] = ()) -> None:
         self.ax = ax
         ax.autoscale_view()  # which matplotlib would put off until it draws
         self._to_panel = ax.transData + ax.transAxes.inverted()
         self._names: list[_Array] = []
-        marks = [line.get_xydata() for line in ax.lines if line.get_linestyle() == "None"]
-        self._marks = [spot for part in marks for spot in self._to_panel.transform(part)]
+        self._marks = [
+            spot for line in marks for spot in self._to_panel.transform(line.get_xydata())
+        ]
 
     def write(self, x: _Array, y: _Array, name: str, colour: str, *, once: bool) -> None:
-        """Write a name on a curve, given in the units of the axes.
+        """Write a name beside a curve, given in the units of the axes.
 
         A curve that is too short for it gets none; nor does, where `once`, one that lies on
         another that has a name.
@@ -46,22 +50,26 @@ class Names:
         if once and any(np.hypot(*(at - spot).T).min(initial=np.inf) < _ON for spot in self._names):
             return
         if len(at) * _STEP < 2.0 * _LETTER * len(name):
-            return  # it would hide half of the curve
+            return
         for place in _PLACES:
             spot = at[round(place * (len(at) - 1))]
             if not self._free(spot):
                 continue
             self._names.append(spot)
-            self.ax.text(
-                spot[0],
-                spot[1],
+            near = at[np.abs(at - spot).max(axis=1) < 0.04]
+            across, up = near[-1] - near[0]
+            # Above the curve, on the side that it comes from, where it does not run into the name.
+            rising = 0.0 if abs(up) < 0.1 * abs(across) else np.sign(across * up)
+            self.ax.annotate(
                 name,
-                transform=self.ax.transAxes,
-                ha="center",
-                va="center",
+                (spot[0], spot[1]),
+                xycoords="axes fraction",
+                xytext=(-3.0 * rising, 4.0),
+                textcoords="offset points",
+                ha={1.0: "right", 0.0: "center", -1.0: "left"}[rising],
+                va="bottom",
                 fontsize="small",
                 color=colour,
-                bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "linewidth": 0.0},
                 zorder=6,
             )
             return
