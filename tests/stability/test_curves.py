@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.stability.family import system_vector
-from vibroimpact.stability.plane import RATES, plane
+from vibroimpact.stability.family import RATES, system_vector
+from vibroimpact.stability.plane import plane
 
 
 @cache

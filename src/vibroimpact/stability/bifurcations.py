@@ -39,6 +39,8 @@ GRAZING = "grazing"
 
 _SMALL = 1e-4
 """Of its larger value at the ends of a step, to which a test function must come down."""
+_MEMORY = 1e-9
+"""Modulus of the third multiplier, below which no bumper's memory has a say."""
 _OFF = (1e-3, 3e-4, 1e-4, 3e-3, 1e-2)
 """Scaled distances from a bifurcation at which the branch that is born there is sought."""
 
@@ -61,6 +63,15 @@ def spiral(orbit: Orbit) -> float:
     values = orbit.map_multipliers
     complex_ones = np.abs(values[np.abs(values.imag) > 1e-9 * np.abs(values)])
     return math.log(complex_ones.max()) if complex_ones.size else -1.0
+
+
+def remembers(orbit: Orbit) -> bool:
+    """Whether a bumper's deformation outlives a period.
+
+    If none does, the product of the other two multipliers is that of the damping, at most 1, and
+    no pair passes the unit circle (docs/theory.md, 6.5).
+    """
+    return bool(np.abs(orbit.map_multipliers[2]) > _MEMORY)
 
 
 def find(stations: list[Station]) -> Iterator[Bifurcation]:
@@ -87,8 +98,8 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
             # A zero at the end belongs to the next step.
             if not (first * second < 0.0 or (first == 0.0 and second != 0.0)):
                 continue
-            if kind == NEIMARK and -1.0 in (first, second):
-                continue  # a real pair became complex, or the other way round
+            if kind == NEIMARK and (-1.0 in (first, second) or not remembers(here.orbit)):
+                continue  # a pair became complex, or only rounding passes the unit circle
             turns = kind == FOLD
             if turns and (met := parent(here.orbit, there.orbit)) is not None:
                 # The branch turns where it meets that of the motions which it left.

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.engine import parameters as par
 from vibroimpact.engine import section_map
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Harmonic, Oscillator, Stop, to_si
@@ -30,6 +31,10 @@ from vibroimpact.response.start import engine_rig
 _Array = NDArray[np.float64]
 
 Setting = tuple[Oscillator, Harmonic]
+
+_BUMPERS = (par.BUMPER, par.BUMPER + par.WIDTH)
+RATES = [at + par.RATE for at in _BUMPERS]
+"""Where the bumpers' rates of relaxation stand in the engine's vector."""
 
 
 class Parameter(NamedTuple):
@@ -208,10 +213,14 @@ class Family(NamedTuple):
 
     def system(self, value: float) -> _Array:
         """The engine's vector at a value of the parameter."""
+        vector = self.base.copy()
         moving = self.direction != 0.0
-        return np.where(
-            moving, self.base + value * np.where(moving, self.direction, 0.0), self.base
-        )
+        vector[moving] += value * self.direction[moving]
+        for at in _BUMPERS:
+            if vector[at + par.PRESENT] and vector[at + par.BUMPER_DAMPING] > 0.0:
+                rate = vector[at + par.BUMPER_STIFFNESS] / vector[at + par.BUMPER_DAMPING]
+                vector[at + par.RATE] = rate
+        return vector
 
 
 def parameter(name: str, field: str = "parameter") -> Parameter:
@@ -241,6 +250,8 @@ def family(oscillator: Oscillator, excitation: Harmonic, name: str) -> Family:
     step = value or 1.0
     here = system_vector(oscillator, excitation)
     there = system_vector(*varied.write(oscillator, excitation, value + step))
+    # A rate follows from stiffness and damping, and is infinite without damping.
+    here[RATES] = there[RATES] = np.inf
     same = here == there
     difference = np.subtract(there, here, out=np.zeros_like(here), where=~same)
     direction = difference / step

@@ -94,6 +94,10 @@ def judge_wandering(
     )
     rows = rows[:done]
     size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0])
-    kind = judge(rows[:, : lyapunov.DISSIPATION], rows[:, lyapunov.SECTION :] / size)
+    kind = judge(
+        rows[:, : lyapunov.DISSIPATION],
+        rows[:, lyapunov.SECTION :] / size,
+        rows[:, lyapunov.DISSIPATION],
+    )
     damping = float(rows[:, lyapunov.DISSIPATION].mean()) if done else math.nan
     return kind, damping, done, Status(outcome)

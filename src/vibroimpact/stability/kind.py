@@ -26,6 +26,9 @@ BOUNDED = 5.0
 """A logarithm below this and 2 log N is as on a torus."""
 ENOUGH = 1000
 """Cycles below which a bounded growth says nothing: a chaotic one may not have shown yet."""
+FORGOTTEN = 1e-2
+"""Share of the damping by which the sum of the exponents may differ from it over many cycles, where
+bumpers forget; with bumpers that remember it differs by a good part."""
 SAME = 1e-8
 """Share of the motion's size within which two points of the section are one."""
 
@@ -65,8 +68,11 @@ def averages(logarithms: _Array) -> tuple[_Array, _Array]:
     return logarithms.mean(axis=0), blocks.std(axis=0, ddof=1) / math.sqrt(BLOCKS)
 
 
-def judge(logarithms: _Array, section: _Array) -> Judgement:
+def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) -> Judgement:
     """Tell the kind of a motion.
+
+    Where bumpers forget there is no quasi-periodic one (docs/theory.md, 6.5): then the exponents
+    add up to minus the damping.
 
     Parameters
     ----------
@@ -74,6 +80,8 @@ def judge(logarithms: _Array, section: _Array) -> Judgement:
         Growth of two orthogonal disturbances in each cycle.
     section : ndarray, shape (cycles, component)
         Points of the stroboscopic section, in comparable units.
+    damping : ndarray, shape (cycles,), optional
+        The damping per unit mass, integrated over each cycle.
     """
     cycles = len(logarithms)
     mean, uncertainty = averages(logarithms)
@@ -98,11 +106,20 @@ def judge(logarithms: _Array, section: _Array) -> Judgement:
     bounded = max(abs(whole), abs(half)) <= margin
     if bounded and apart and whole < 0.0:
         return Judgement("undecided", 0, mean, uncertainty, f"{grown}: it still decays, slowly")
+    if bounded and damping is not None and forgets(logarithms, damping):
+        told = f"{grown}: as on a torus, but where bumpers forget there is none; it settles slowly"
+        return Judgement("undecided", 0, mean, uncertainty, told)
     if bounded and cycles >= ENOUGH:
         return Judgement(
             "quasi-periodic", 0, mean, uncertainty, f"{grown}: no more than on a torus"
         )
     return Judgement("undecided", 0, mean, uncertainty, f"{grown}: no clear trend")
+
+
+def forgets(logarithms: _Array, damping: _Array) -> bool:
+    """Whether areas shrink as the damping says, and not otherwise: by the sum of the exponents."""
+    lost = float(damping.mean())
+    return lost > 0.0 and abs(float(logarithms.sum(axis=1).mean()) + lost) <= FORGOTTEN * lost
 
 
 def recurrence(section: _Array) -> int:

@@ -7,16 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import parameters as par
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
-from vibroimpact.stability.family import Family, Parameter, family, parameter, system_vector
+from vibroimpact.stability.family import RATES, Family, Parameter, family, parameter, system_vector
 
 _Array = NDArray[np.float64]
 
 _AGREE = 1e-9
-
-RATES = [par.BUMPER + par.RATE, par.BUMPER + par.WIDTH + par.RATE]
 
 
 class Plane(NamedTuple):
@@ -63,7 +60,7 @@ def plane(oscillator: Oscillator, excitation: Harmonic, names: tuple[str, str]) 
         with np.errstate(invalid="ignore"):
             error = np.abs(guess - true)
         straight &= (guess == true) | (error <= _AGREE * np.maximum(np.abs(true), np.abs(guess)))
-    straight[RATES] = True  # the engine takes them from stiffness and damping
+    straight[RATES] = True  # they follow from stiffness and damping
     if not straight.all():
         raise InputError(
             f"parameters: {names[0]!r} and {names[1]!r} are not independent of each other; a pair "
