@@ -78,3 +78,13 @@ def test_refused(cycles):
         vi.stroboscopic_section(None)
     with pytest.raises(vi.InputError, match="phase"):
         vi.stroboscopic_section(motion, "1 mm")
+
+
+def test_a_limit_that_is_met_is_told(monkeypatch):
+    case = vi.laboratory.case("B2-G1-A3")
+    motion = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 0.6), 10, samples=8)
+    monkeypatch.setattr("vibroimpact.response.section._MAX_EVENTS", 3)
+    for phase in (0.0, 1.0):
+        with pytest.warns(RuntimeWarning, match=r"stopped after \d of 10 points: .*max_events"):
+            data = vi.stroboscopic_section(motion, phase)
+        assert data.sizes["section_point"] < 10

@@ -366,3 +366,38 @@ def test_each_orbit_of_a_doubled_period_is_listed_once():
         assert len(own) == len(np.unique(np.round(own, 7)))
         for end in ("low", "high"):
             assert "it is born at 1." in data.attrs[f"branch_{i}_ended_{end}"]
+
+
+@pytest.mark.parametrize("left", [True, False])
+def test_no_pair_passes_the_circle_at_no_damping(left):
+    """There all multipliers of elastic bumpers lie on it, to rounding."""
+    stop = vi.Bumper(10.0, 0.0, 1.0)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop if left else None)
+    shaken = vi.Harmonic(0.3, 1.3 / (2 * np.pi))
+    data = vi.branch(rig, shaken, parameter="damping", low=0.0, high=0.5)
+    assert float(data["damping"].min()) == 0.0
+    assert len(values(data, "Neimark-Sacker")) == 0
+
+
+def test_from_no_dashpot_and_to_none():
+    """The rate at which a bumper relaxes is infinite there."""
+    turn = 2 * np.pi
+    shaken = vi.Harmonic(0.2, 1.2 / turn)
+    ends = []
+    for damping in (0.0, 1.0):
+        data = vi.branch(
+            between_stops(damping), shaken, parameter="bumper_damping", low=0.0, high=2.0
+        )
+        ends.append(data.isel(point=int(data["bumper_damping"].values.argmin())))
+        ends.append(data.isel(point=int(data["bumper_damping"].values.argmax())))
+    for one, other in ((ends[0], ends[2]), (ends[1], ends[3])):
+        assert float(one["bumper_damping"]) == float(other["bumper_damping"])
+        np.testing.assert_allclose(one["section"], other["section"], atol=1e-12)
+
+
+def test_an_orbit_without_extremes_is_told(monkeypatch):
+    case = vi.laboratory.case("B2-G1-A3")
+    monkeypatch.setattr("vibroimpact.stability.branch.MAX_EVENTS", 1)
+    with pytest.warns(RuntimeWarning, match="the orbit at .* has no extremes: .*max_events"):
+        data = vi.branch(case.oscillator, vi.Harmonic(case.amplitude, 2.0), low=1.95, high=2.05)
+    assert data["eta_d"].isnull().any()

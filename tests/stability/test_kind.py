@@ -71,6 +71,24 @@ def test_a_bounded_growth_over_few_cycles_says_nothing():
     assert data["motion"].item() == "undecided"
 
 
+def test_no_torus_where_areas_shrink_as_the_damping_says():
+    """Where bumpers forget (docs/theory.md, 6.5); without damping there are tori, and attractors
+    of bumpers that remember."""
+    cycles = 3000
+    wandering = 0.3 * np.sin(np.arange(cycles + 1.0))
+    first = np.diff(wandering)
+    section = np.column_stack([np.sin(math.sqrt(2) * np.arange(cycles))] * 4)
+    for damping, total, kind in (
+        (0.04, 0.04, "undecided"),
+        (0.0, 0.0, "quasi-periodic"),
+        (0.04, 0.02, "quasi-periodic"),
+    ):
+        logarithms = np.column_stack([first, -total - first])
+        found = judge(logarithms, section, np.full(cycles, damping))
+        assert found.motion == kind
+        assert (found.returns > 0) == (kind == "undecided")
+
+
 def test_uncertainty_is_that_of_the_mean():
     """Of independent cycles it is σ/√N; of slow drifts it is larger."""
     found = [averages(growth(0.3, 1.0, 3200, seed)) for seed in range(300)]

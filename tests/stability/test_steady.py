@@ -248,3 +248,14 @@ def test_records_that_would_not_fit_are_refused():
     for field in ("window", "exponent_cycles"):
         with pytest.raises(vi.InputError, match=field):
             vi.steady(rig(0.1), vi.Harmonic(1.0, 0.1), **{field: 10**9})
+
+
+def test_what_settles_slowly_is_not_quasi_periodic_where_bumpers_forget():
+    """A period 4 that is approached by the factor 0.99963 a period, just beyond grazing."""
+    omega = 2.0 / 5.5
+    amplitude = 1.002 * 1.26 * np.hypot(1.0 - omega**2, 0.02 * omega)
+    data = vi.steady(rig(0.02, (29.0, 0.0, 1.26)), vi.Harmonic(amplitude, omega / (2 * np.pi)))
+    assert (data["motion"].item(), int(data["period"])) == ("periodic", 4)
+    assert int(data["stable"]) == 1
+    assert "0.99963" in data.attrs["evidence"]
+    assert "settles slowly" in data.attrs["evidence"]

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
+import warnings
 
 import numpy as np
 import xarray as xr
 
 from vibroimpact.engine import lyapunov
+from vibroimpact.engine.status import Status
 from vibroimpact.model import to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.units import ANGLE
 from vibroimpact.response.contacts import contacts
+from vibroimpact.response.follow import grown, moved_on
 from vibroimpact.response.phases import beginning, recorded
-from vibroimpact.response.start import engine_rig, engine_state, moved_on
+from vibroimpact.response.start import engine_rig, engine_state
 from vibroimpact.response.variables import describe, motion_parameters
 
 _MAX_EVENTS = 10_000
@@ -39,7 +42,8 @@ def stroboscopic_section(
     -------
     xarray.Dataset
         Dim ``section_point``: ``section_displacement``, ``section_velocity`` and the bumpers'
-        deformations. Fewer points than asked for if the motion met the event limit.
+        deformations. If the motion met the event limit there are fewer points than asked for, and a
+        warning says so.
 
     Raises
     ------
@@ -54,17 +58,23 @@ def stroboscopic_section(
     rig = engine_rig(origin.oscillator)
     shaken = origin.excitation
     ahead = ((angle - shaken.phase) / (2.0 * math.pi)) % 1.0
-    rows = np.empty((count, lyapunov.GROWTH))
     first = np.array(
         [start.displacement, start.velocity, start.right_bumper, start.left_bumper], dtype=float
     )
+    status = Status.DONE
     if ahead > 0.0:
-        state = moved_on(rig, shaken, state, ahead, _MAX_EVENTS)
+        status, state = moved_on(rig, shaken, state, ahead, _MAX_EVENTS)
         first = np.array([*state[2:5], -state[5]])
-    _, done = lyapunov.growth(
-        rig, shaken.amplitude, shaken.frequency, angle, state, 0, 0, _MAX_EVENTS, rows
-    )
-    points = np.vstack([first, rows[:done, lyapunov.SECTION :]])[:count]
+    points = np.empty((0, len(_NAMES)))
+    if status is Status.DONE:
+        status, rows = grown(rig, shaken.replace(phase=angle), state, count, _MAX_EVENTS)
+        points = np.vstack([first, rows[:, lyapunov.SECTION :]])[:count]
+    if len(points) < count:
+        warnings.warn(
+            f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}",
+            RuntimeWarning,
+            stacklevel=2,
+        )
     data = xr.Dataset(
         {f"section_{name}": ("section_point", points[:, i]) for i, name in enumerate(_NAMES)}
     )

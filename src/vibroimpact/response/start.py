@@ -9,13 +9,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
-from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State
+from vibroimpact.model import Bumper, Oscillator, RigidStop, State
 from vibroimpact.model.units import LENGTH, pretty
 from vibroimpact.response.variables import COMPONENTS
 
@@ -181,28 +179,3 @@ def state_from(vector: NDArray[np.float64], phase: float) -> State:
     """An engine's state at a forcing phase as a `State`."""
     values: dict[str, Any] = dict(zip(COMPONENTS, components(vector, phase), strict=True))
     return State(**{**values, "contact": int(values["contact"])})
-
-
-def moved_on(
-    rig: NDArray[np.float64],
-    excitation: Harmonic,
-    vector: NDArray[np.float64],
-    cycles: float,
-    max_events: int = 10_000,
-) -> NDArray[np.float64]:
-    """The engine's state some forcing cycles later; it stops where a limit is met."""
-    later = vector.copy()
-    batch.trajectory(
-        rig,
-        excitation.amplitude,
-        excitation.frequency,
-        excitation.phase,
-        later,
-        0.0,
-        cycles,
-        0,
-        max_events,
-        np.empty((0, record.SAMPLE)),
-        np.empty((max_events + 1, record.EVENT)),
-    )
-    return later

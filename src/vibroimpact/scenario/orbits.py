@@ -49,12 +49,12 @@ def _named(
     excitation = Harmonic(amplitude, float(inside["frequency"][i]), start.phase or 0.0)
     state = engine_state(oscillator, start)
     followed = Settled(oscillator, excitation, state, 0, 0, Status.NOT_SETTLED)
-    found = judge_wandering(followed, state, cycles, _MAX_EVENTS)[0].motion
-    if found == "quasi-periodic":
+    judged, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
+    if status is Status.DONE and judged.motion == "quasi-periodic":
         # A slow transient, or chaos that is slow to show, looks the same for a while.
-        found = judge_wandering(followed, state, _LONGER * cycles, _MAX_EVENTS)[0].motion
+        judged, _, _, status = judge_wandering(followed, state, _LONGER * cycles, _MAX_EVENTS)
     kinds: dict[str, Kind] = {"chaotic": "chaotic", "quasi-periodic": "quasi-periodic"}
-    kind = kinds.get(found, "not periodic")
+    kind = kinds.get(judged.motion, "not periodic") if status is Status.DONE else "not periodic"
     return item._replace(
         kinds=tuple(kind if known == "not periodic" else known for known in item.kinds)
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -33,7 +34,7 @@ from vibroimpact.stability.orbits import (
     corrected,
     is_fixed,
 )
-from vibroimpact.stability.settled import settle
+from vibroimpact.stability.settled import approach
 from vibroimpact.stability.trace import CLOSED, Branch, Station
 
 _Array = NDArray[np.float64]
@@ -116,7 +117,7 @@ def branch(
         )
     period, most_points = whole(period, "period"), whole(most_points, "most_points")
     first = first_orbit(fam, span, start, period)
-    return as_dataset([follow(first, span, most_points, progress)], fam, span)
+    return as_dataset([follow_both_ways(first, span, most_points, progress)], fam, span)
 
 
 def first_orbit(
@@ -134,7 +135,7 @@ def first_orbit(
         If Newton's method finds none.
     """
     if start is None:
-        found = settle(fam.oscillator, fam.excitation, State(phase=fam.phase))
+        found = approach(fam.oscillator, fam.excitation, State(phase=fam.phase))
         vector = found.state
         point = np.array([vector[2], vector[3], vector[4], -vector[5], fam.value])
         mode = float(vector[layout.MODE])
@@ -206,7 +207,7 @@ def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
     return np.array([size, size * omega, size, size, span[1] - span[0]])
 
 
-def follow(
+def follow_both_ways(
     first: Orbit, span: tuple[float, float], most_points: int, progress: Progress | None = None
 ) -> Followed:
     """Follow a branch both ways from an orbit, and find its bifurcations."""
@@ -349,9 +350,9 @@ def state_of(one: Orbit) -> list[float]:
 
 
 def _measured(one: Orbit) -> _Array:
-    """Exact extremes and contacts per cycle."""
+    """Exact extremes and contacts per cycle; NaN, and a warning, where a limit is met."""
     result = np.full(hold.RESULTS, np.nan)
-    orbit.measure_orbit(
+    outcome = orbit.measure_orbit(
         one.section.family.system(one.value),
         one.section.family.phase,
         one.point,
@@ -360,6 +361,13 @@ def _measured(one: Orbit) -> _Array:
         2 * MAX_EVENTS,
         result,
     )
+    if outcome != Status.DONE:
+        result[:] = np.nan
+        warnings.warn(
+            f"the orbit at {one.value:.9g} has no extremes: {Status(outcome).advice}",
+            RuntimeWarning,
+            stacklevel=4,
+        )
     return result
 
 

@@ -16,17 +16,18 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.follow import grown
 from vibroimpact.response.start import as_state, engine_rig, state_from
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
 from vibroimpact.response.variables import describe, motion_parameters
 from vibroimpact.stability.settled import (
     Settled,
     apart,
-    follow,
+    approach,
+    later,
     mirrored,
     reach,
     reach_at_rest,
-    settle,
 )
 from vibroimpact.stability.steady import describe_motion, steady
 
@@ -108,15 +109,19 @@ def coexisting(
             '{"mine": State(0.01, 0.0)}'
         )
     kept: list[_Kept] = []
-    given_up: dict[Status, tuple[State, list[str]]] = {}
+    given_up: dict[Status, tuple[State | NDArray[np.float64], list[str]]] = {}
     options = (samples, window, exponent_cycles, max_events)
 
-    def go(name: str, start: State) -> None:
-        found = settle(oscillator, excitation, start, max_cycles=max_cycles, max_events=max_events)
-        if found.status not in (Status.DONE, Status.NOT_SETTLED):
+    def go(name: str, start: State | NDArray[np.float64]) -> None:
+        found = approach(
+            oscillator, excitation, start, max_cycles=max_cycles, max_events=max_events
+        )
+        if found.status in (Status.DONE, Status.NOT_SETTLED):
+            found = _at_phase(found, excitation, max_events)
+        if found.status in (Status.DONE, Status.NOT_SETTLED):
+            _keep(kept, found, name, options)
+        else:
             given_up.setdefault(found.status, (start, []))[1].append(name)
-            return
-        _keep(kept, _at_phase(found, excitation, max_events), name, options)
 
     go("rest", State(phase=excitation.phase))
     for name, start in arrivals(
@@ -136,15 +141,16 @@ def coexisting(
         for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
                 image = _image(one.found, max_events)
-                go("mirror image", state_from(image.state, excitation.phase))
+                if image is not None:
+                    go("mirror image", image.state)
     kept.sort(key=lambda one: -float(one.motion["displacement_excursion"]))
     motions = [_labelled(one, max_events) for one in kept]
-    for start, names in given_up.values():
+    for given, names in given_up.values():
         # Told with a warning, and once.
         motion = steady(
             oscillator,
             excitation,
-            start,
+            given if isinstance(given, State) else state_from(given, excitation.phase),
             samples,
             window=window,
             max_cycles=max_cycles,
@@ -159,7 +165,7 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     pair = (
         one.found.oscillator.symmetric
         and not bool(one.motion["antisymmetric"])
-        and not _same(one.found, _image(one.found, max_events), max_events)
+        and not _mirrors(one.found, one.found, max_events)
     )
     data = one.motion.assign(mirror_pair=pair)
     data.attrs["starts"] = ", ".join(one.starts)
@@ -173,9 +179,10 @@ def _at_phase(found: Settled, excitation: Harmonic, max_events: int) -> Settled:
     ahead = ((excitation.phase - found.excitation.phase) / (2.0 * math.pi)) % 1.0
     if ahead == 0.0:
         return found._replace(excitation=excitation)
-    return found._replace(
-        state=follow(found, found.state, ahead, max_events), excitation=excitation
-    )
+    status, state = later(found, found.state, ahead, max_events)
+    if status is not Status.DONE:
+        return found._replace(status=status)
+    return found._replace(state=state, excitation=excitation)
 
 
 def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int, int, int]) -> None:
@@ -186,15 +193,22 @@ def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int,
         if _same(one.found, found, options[3]):
             one.starts.append(name)
             return
-        if found.oscillator.symmetric and _same(one.found, _image(found, options[3]), options[3]):
+        if found.oscillator.symmetric and _mirrors(one.found, found, options[3]):
             one.mirrored_starts.append(name)
             return
     kept.append(_Kept(found, describe_motion(found, *options), [name], []))
 
 
-def _image(found: Settled, max_events: int) -> Settled:
-    """The mirror image, half a cycle later."""
-    return found._replace(state=mirrored(follow(found, found.state, 0.5, max_events)))
+def _image(found: Settled, max_events: int) -> Settled | None:
+    """The mirror image, half a cycle later; None if a limit is met on the way."""
+    status, state = later(found, found.state, 0.5, max_events)
+    return found._replace(state=mirrored(state)) if status is Status.DONE else None
+
+
+def _mirrors(one: Settled, other: Settled, max_events: int) -> bool:
+    """Whether a motion is the mirror image of another."""
+    image = _image(other, max_events)
+    return image is not None and _same(one, image, max_events)
 
 
 def _same(one: Settled, other: Settled, max_events: int) -> bool:
@@ -205,7 +219,9 @@ def _same(one: Settled, other: Settled, max_events: int) -> bool:
         for _ in range(one.period):
             if apart(one, one.state, state, size) <= SAME:
                 return True
-            state = follow(one, state, 1.0, max_events)
+            status, state = later(one, state, 1.0, max_events)
+            if status is not Status.DONE:
+                return False
         return False
     mine, others = _displacements(one, max_events), _displacements(other, max_events)
     if not (len(mine) and len(others)):
@@ -217,19 +233,10 @@ def _same(one: Settled, other: Settled, max_events: int) -> bool:
 
 def _displacements(found: Settled, max_events: int) -> NDArray[np.float64]:
     """Displacements at the section over many cycles, sorted."""
-    rows = np.empty((_SEEN, lyapunov.GROWTH))
-    _, done = lyapunov.growth(
-        engine_rig(found.oscillator),
-        found.excitation.amplitude,
-        found.excitation.frequency,
-        found.excitation.phase,
-        found.state.copy(),
-        0,
-        0,
-        max_events,
-        rows,
-    )
-    return np.sort(rows[:done, lyapunov.SECTION])
+    rig, state = engine_rig(found.oscillator), found.state.copy()
+    status, rows = grown(rig, found.excitation, state, _SEEN, max_events)
+    # Fewer if it is given up: then it is another motion than one that goes on.
+    return np.sort(rows[:, lyapunov.SECTION]) if status is Status.DONE else np.empty(0)
 
 
 def arrivals(

@@ -23,7 +23,7 @@ from vibroimpact.stability.branch import (
     Followed,
     as_dataset,
     first_orbit,
-    follow,
+    follow_both_ways,
 )
 from vibroimpact.stability.family import Family, bounds, family
 from vibroimpact.stability.orbits import SEEN, Orbit, at_phase, corrected, images
@@ -102,7 +102,7 @@ def resonance_diagram(
         if len(followed) >= most_branches:
             complete = False
             break
-        done = follow(first, span, most_points)
+        done = follow_both_ways(first, span, most_points)
         followed.append(done)
         for found in done.bifurcations:
             if found.turns or found.kind not in (BREAKING, DOUBLING):

@@ -9,10 +9,11 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.engine import lyapunov
-from vibroimpact.model import State, equilibrium, to_si
+from vibroimpact.model import Harmonic, State, equilibrium, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.model.units import ANGLE
+from vibroimpact.response.follow import grown
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, engine_rig, engine_state
 from vibroimpact.response.sweep import check_frequencies, named_rigs
@@ -111,15 +112,15 @@ def lyapunov_exponents(
         rig, amplitude, begin = prepared[r]
         if counter[task, 1]:
             return
-        rows = np.empty((cycles, lyapunov.GROWTH))
-        outcomes[r, i], done = lyapunov.growth(
-            rig, amplitude, grid[i], angle, begin.copy(), transient, DISCARD, max_events, rows
+        shaken = Harmonic(amplitude, float(grid[i]), angle)
+        outcomes[r, i], rows = grown(
+            rig, shaken, begin.copy(), cycles, max_events, transient=transient, discard=DISCARD
         )
-        used[r, i] = done
-        if done:
-            mean, spread = averages(rows[:done, : lyapunov.DISSIPATION])
+        used[r, i] = len(rows)
+        if len(rows):
+            mean, spread = averages(rows[:, : lyapunov.DISSIPATION])
             exponents[r, i], uncertainty[r, i] = mean * grid[i], spread * grid[i]
-            damping[r, i] = rows[:done, lyapunov.DISSIPATION].mean() * grid[i]
+            damping[r, i] = rows[:, lyapunov.DISSIPATION].mean() * grid[i]
         counter[task, 0] = 1
 
     lyapunov.growth.prepare()  # once, before the threads would queue for it

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
+from vibroimpact.response.follow import grown
 from vibroimpact.response.start import engine_rig
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.kind import Judgement, judge
@@ -20,14 +21,14 @@ _TINY = 1e-10
 """A multiplier smaller than this times the largest one is lost in its rounding."""
 
 
-def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int]:
-    """Exponents of a periodic motion from its monodromy matrix, damping, and cycles used."""
+def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int, Status]:
+    """Exponents of a periodic motion from its monodromy matrix; the rest as `judge_wandering`."""
     columns = np.empty((4, 4))
     damping = np.empty(1)
     state = found.state.copy()
     rates = []
     for _ in range(2):  # the second time tells how far rounding and the rest of a transient go
-        lyapunov.monodromy(
+        outcome = lyapunov.monodromy(
             engine_rig(found.oscillator),
             found.excitation.amplitude,
             found.excitation.frequency,
@@ -38,6 +39,10 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int]
             columns,
             damping,
         )
+        if outcome != Status.DONE:
+            nothing = np.full(2, np.nan)
+            told = Judgement("undecided", 0, nothing, nothing, Status(outcome).advice)
+            return told, math.nan, 0, Status(outcome)
         rates.append(_rates(columns, damping[0]) / found.period)
     first, second = rates
     finite = np.isfinite(first) & np.isfinite(second)
@@ -50,7 +55,7 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int]
         spread,
         f"the section repeats after {found.period}; largest multiplier {largest:.6g} in modulus",
     )
-    return kind, float(damping[0]) / found.period, 2 * found.period
+    return kind, float(damping[0]) / found.period, 2 * found.period, Status.DONE
 
 
 def _rates(columns: _Array, damping: float) -> _Array:
@@ -80,24 +85,14 @@ def judge_wandering(
     judgement, damping, cycles, status
         The damping per unit mass is the integral over a cycle, on average.
     """
-    rows = np.empty((cycles, lyapunov.GROWTH))
-    outcome, done = lyapunov.growth(
-        engine_rig(found.oscillator),
-        found.excitation.amplitude,
-        found.excitation.frequency,
-        found.excitation.phase,
-        state,
-        0,
-        DISCARD,
-        max_events,
-        rows,
+    status, rows = grown(
+        engine_rig(found.oscillator), found.excitation, state, cycles, max_events, discard=DISCARD
     )
-    rows = rows[:done]
     size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0])
     kind = judge(
         rows[:, : lyapunov.DISSIPATION],
         rows[:, lyapunov.SECTION :] / size,
         rows[:, lyapunov.DISSIPATION],
     )
-    damping = float(rows[:, lyapunov.DISSIPATION].mean()) if done else math.nan
-    return kind, damping, done, Status(outcome)
+    damping = float(rows[:, lyapunov.DISSIPATION].mean()) if len(rows) else math.nan
+    return kind, damping, len(rows), status

@@ -29,6 +29,8 @@ ENOUGH = 1000
 FORGOTTEN = 1e-2
 """Share of the damping by which the sum of the exponents may differ from it over many cycles, where
 bumpers forget; with bumpers that remember it differs by a good part."""
+LONGEST = 64
+"""Period of the longest orbit that is sought where a motion settles slowly."""
 SAME = 1e-8
 """Share of the motion's size within which two points of the section are one."""
 
@@ -45,6 +47,8 @@ class Judgement(NamedTuple):
     uncertainty: _Array
     """Their standard uncertainties, per cycle."""
     evidence: str
+    returns: int = 0
+    """Cycles after which a motion that still settles, slowly, all but returns; 0 for any other."""
 
 
 def averages(logarithms: _Array) -> tuple[_Array, _Array]:
@@ -105,10 +109,11 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
         return Judgement("chaotic", 0, mean, uncertainty, grown)
     bounded = max(abs(whole), abs(half)) <= margin
     if bounded and apart and whole < 0.0:
-        return Judgement("undecided", 0, mean, uncertainty, f"{grown}: it still decays, slowly")
+        told = f"{grown}: it still decays, slowly"
+        return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
     if bounded and damping is not None and forgets(logarithms, damping):
         told = f"{grown}: as on a torus, but where bumpers forget there is none; it settles slowly"
-        return Judgement("undecided", 0, mean, uncertainty, told)
+        return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
     if bounded and cycles >= ENOUGH:
         return Judgement(
             "quasi-periodic", 0, mean, uncertainty, f"{grown}: no more than on a torus"
@@ -120,6 +125,12 @@ def forgets(logarithms: _Array, damping: _Array) -> bool:
     """Whether areas shrink as the damping says, and not otherwise: by the sum of the exponents."""
     lost = float(damping.mean())
     return lost > 0.0 and abs(float(logarithms.sum(axis=1).mean()) + lost) <= FORGOTTEN * lost
+
+
+def returns(section: _Array) -> int:
+    """After how many cycles, of at most `LONGEST`, a section comes closest to its end."""
+    before = section[-LONGEST - 1 : -1]
+    return len(before) - int(np.abs(before - section[-1]).max(axis=1).argmin())
 
 
 def recurrence(section: _Array) -> int:

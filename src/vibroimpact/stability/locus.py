@@ -114,7 +114,10 @@ class Locus:
         return False
 
     def _marks(self, system: Defining) -> list[tuple[_Array, _Array]]:
-        point, mode = seen_at(self.first.spot.orbit, system.plane.family.phase)
+        start = seen_at(self.first.spot.orbit, system.plane.family.phase)
+        if start is None:
+            return []
+        point, mode = start
         parameters = self.first.y[4:]
         here = system._replace(mode=mode).value(np.append(point[:4], parameters))
         found: list[tuple[_Array, _Array]] = []
@@ -133,7 +136,10 @@ class Locus:
         for number in range(here.phases_tried, len(PHASES)):
             phase = over.family.phase + PHASES[number]
             turned = over.family.excitation.replace(phase=phase)
-            point, mode = seen_at(here.spot.orbit, phase)
+            seen = seen_at(here.spot.orbit, phase)
+            if seen is None:
+                continue
+            point, mode = seen
             system = here.system._replace(
                 plane=over._replace(family=over.family._replace(excitation=turned)), mode=mode
             )

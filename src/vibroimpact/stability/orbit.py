@@ -5,15 +5,14 @@ from __future__ import annotations
 import xarray as xr
 
 from vibroimpact.engine import section_map
-from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.variables import describe, motion_parameters
 from vibroimpact.stability.branch import first_orbit
 from vibroimpact.stability.family import family
-from vibroimpact.stability.orbits import MAX_EVENTS, Orbit, vector_of
-from vibroimpact.stability.settled import Settled
+from vibroimpact.stability.orbits import MAX_EVENTS
+from vibroimpact.stability.settled import settled_on
 from vibroimpact.stability.steady import describe_motion
 
 
@@ -69,10 +68,3 @@ def orbit(
     data.attrs["contacts"] = "".join("R" if side == 1 else "L" for side in sides)
     data.attrs["created_by"] = "vibroimpact.orbit"
     return describe(data, "vibroimpact.orbit", motion_parameters(data))
-
-
-def settled_on(found: Orbit) -> Settled:
-    """An orbit as a motion that has settled on it."""
-    state = vector_of(found)
-    rig, shaken = found.setting
-    return Settled(rig, shaken, state, found.section.period, 0, Status.DONE)

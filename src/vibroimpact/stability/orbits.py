@@ -16,7 +16,7 @@ from vibroimpact.engine import orbit, section_map
 from vibroimpact.engine.motion import FLIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator
-from vibroimpact.response.start import moved_on
+from vibroimpact.response.follow import moved_on
 from vibroimpact.stability.family import Family
 
 _Array = NDArray[np.float64]
@@ -253,8 +253,8 @@ def vector_of(found: Orbit) -> _Array:
     return state
 
 
-def seen_at(found: Orbit, phase: float) -> tuple[_Array, float]:
-    """Point and mode of the same motion at another forcing phase of the section."""
+def seen_at(found: Orbit, phase: float) -> tuple[_Array, float] | None:
+    """Point and mode of the same motion at another forcing phase; None if a limit is met there."""
     section = found.section
     system = section.family.system(found.value)
     here = Harmonic(
@@ -266,7 +266,9 @@ def seen_at(found: Orbit, phase: float) -> tuple[_Array, float]:
     state = vector_of(found)
     if ahead > 0.0:
         rig = system[: section_map.AMPLITUDE].copy()
-        state = moved_on(rig, here, state, ahead, MAX_EVENTS)
+        status, state = moved_on(rig, here, state, ahead, MAX_EVENTS)
+        if status is not Status.DONE:
+            return None
     right, left = state[layout.RIGHT_BUMPER], -state[layout.LEFT_BUMPER]
     point = np.array([state[layout.U], state[layout.V], right, left, found.value])
     return point, float(state[layout.MODE])
@@ -277,8 +279,10 @@ def at_phase(found: Orbit, phase: float) -> Orbit | None:
     section = found.section
     if phase == section.family.phase:
         return found
-    moved = section.turned(phase)
-    status, there = corrected(moved, *seen_at(found, phase))
+    seen = seen_at(found, phase)
+    if seen is None:
+        return None
+    status, there = corrected(section.turned(phase), *seen)
     return there if status is Status.DONE else None
 
 

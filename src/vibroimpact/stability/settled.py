@@ -13,8 +13,10 @@ from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import share
+from vibroimpact.response.follow import moved_on
 from vibroimpact.response.free_flight import check_bounded
-from vibroimpact.response.start import engine_rig, engine_state, moved_on
+from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.stability.orbits import Orbit, vector_of
 
 _Array = NDArray[np.float64]
 
@@ -34,15 +36,17 @@ class Settled(NamedTuple):
     status: Status
 
 
-def settle(
+def approach(
     oscillator: Oscillator,
     excitation: Harmonic,
-    start: State,
+    start: State | _Array,
     tolerance: float = 1e-12,
     max_cycles: int = 2000,
     max_events: int = 10_000,
 ) -> Settled:
     """Follow a motion until its stroboscopic state repeats, or for `max_cycles`.
+
+    The start may be the engine's vector at the excitation's phase.
 
     Raises
     ------
@@ -51,16 +55,17 @@ def settle(
     """
     tolerance = share(tolerance, "tolerance")
     check_bounded(oscillator, excitation.frequency, "frequency")
-    if start.phase is not None:
-        excitation = excitation.replace(phase=start.phase)
+    if isinstance(start, State):
+        if start.phase is not None:
+            excitation = excitation.replace(phase=start.phase)
+        start = engine_state(oscillator, start)
     result = np.empty((1, hold.RESULTS))
-    state = engine_state(oscillator, start)
     batch.sweep(
         engine_rig(oscillator),
         excitation.amplitude,
         np.array([excitation.frequency]),
         excitation.phase,
-        state,
+        start.copy(),
         tolerance,
         max_cycles,
         1,
@@ -98,8 +103,10 @@ def mirrored(state: _Array) -> _Array:
     return image
 
 
-def follow(found: Settled, state: _Array, cycles: float, max_events: int = 10_000) -> _Array:
-    """The state some forcing cycles later."""
+def later(
+    found: Settled, state: _Array, cycles: float, max_events: int = 10_000
+) -> tuple[Status, _Array]:
+    """The state some forcing cycles later; of use only if `Status.DONE`."""
     rig = engine_rig(found.oscillator)
     return moved_on(rig, found.excitation, state, cycles, max_events)
 
@@ -131,3 +138,9 @@ def reach(found: Settled, state: _Array) -> float:
 def reach_at_rest(oscillator: Oscillator, excitation: Harmonic) -> float:
     """Displacement (m) of a mass that an inertia force M A moves against the isolator alone."""
     return excitation.amplitude / oscillator.angular_frequency**2
+
+
+def settled_on(found: Orbit) -> Settled:
+    """An orbit as a motion that has settled on it."""
+    rig, shaken = found.setting
+    return Settled(rig, shaken, vector_of(found), found.section.period, 0, Status.DONE)

@@ -21,15 +21,27 @@ from vibroimpact.response.phases import measured, phases, recorded, relaxation_l
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, state_from
 from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.stability.branch import first_orbit
 from vibroimpact.stability.exponents import DISCARD
+from vibroimpact.stability.family import family
 from vibroimpact.stability.growth import judge_orbit, judge_wandering
 from vibroimpact.stability.kind import Judgement
-from vibroimpact.stability.settled import Settled, apart, follow, mirrored, reach, settle
+from vibroimpact.stability.settled import (
+    Settled,
+    apart,
+    approach,
+    later,
+    mirrored,
+    reach,
+    settled_on,
+)
 
 _Array = NDArray[np.float64]
 
 ANTISYMMETRIC = 1e-8
 """Distance from the own mirror image, over the motion's size, below which they are one."""
+APPROACHED = 0.05
+"""Distance, over the motion's size, from the orbit that it settles on slowly."""
 NEUTRAL = 1e-9
 """Logarithm of the largest multiplier below which an orbit is neither stable nor unstable."""
 MOST_CYCLES = 5_000_000
@@ -91,7 +103,7 @@ def steady(
             f"exponent_cycles: {exponent_cycles} cycles; at most {MOST_CYCLES} are accepted"
         )
     state = equilibrium(oscillator) if start is None else as_state(start)
-    found = settle(oscillator, excitation, state, tolerance, max_cycles, max_events)
+    found = approach(oscillator, excitation, state, tolerance, max_cycles, max_events)
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
         return _given_up(found, samples, max_events)
     return describe_motion(found, samples, window, exponent_cycles, max_events)
@@ -101,7 +113,7 @@ def describe_motion(
     found: Settled, samples: int, window: int, exponent_cycles: int, max_events: int
 ) -> xr.Dataset:
     """Name a motion, record it and measure it."""
-    used = found.cycles
+    used, slowly = found.cycles, ""
     if not found.period:
         state = found.state.copy()
         kind, damping, cycles, status = judge_wandering(found, state, exponent_cycles, max_events)
@@ -109,8 +121,14 @@ def describe_motion(
         found = found._replace(state=state, period=kind.period, cycles=used)
         if status is not Status.DONE:
             return _given_up(found._replace(status=status), samples, max_events)
+        if kind.returns and (orbit := _approached(found, kind.returns)) is not None:
+            found = orbit._replace(cycles=used)
+            slowly = "; it settles slowly, and was found by Newton's method"
     if found.period:
-        kind, damping, cycles = judge_orbit(found, max_events)
+        kind, damping, cycles, status = judge_orbit(found, max_events)
+        if status is not Status.DONE:
+            return _given_up(found._replace(status=status), samples, max_events)
+        kind = kind._replace(evidence=kind.evidence + slowly)
     stable = {"chaotic": 0, "periodic": _stable(kind)}.get(kind.motion, -1)
     data = _record(found, found.state, samples, kind.period or window, max_events)
     if data.attrs["status"] != Status.DONE.advice:
@@ -131,6 +149,20 @@ def describe_motion(
     }
     data.attrs["evidence"] = kind.evidence
     return _measured(data, scalars)
+
+
+def _approached(found: Settled, period: int) -> Settled | None:
+    """The stable orbit that a motion settles on slowly, by Newton's method."""
+    along = family(found.oscillator, found.excitation, "frequency")
+    here = state_from(found.state, found.excitation.phase)
+    try:
+        orbit = first_orbit(along, (0.0, 1.0), here, period, symmetric=False)
+    except InputError:
+        return None
+    there = settled_on(orbit)
+    size = reach(found, found.state)
+    near = apart(found, there.state, found.state, size) <= APPROACHED
+    return there if near and orbit.stable else None
 
 
 def _stable(kind: Judgement) -> int:
@@ -159,7 +191,9 @@ def _mirror_distance(found: Settled, state: _Array, period: int, max_events: int
     """
     if period % 2 == 0:
         return math.nan
-    half = follow(found, state, 0.5 * period, max_events)
+    status, half = later(found, state, 0.5 * period, max_events)
+    if status is not Status.DONE:
+        return math.nan  # seen from there a cycle has more events than are allowed
     return apart(found, mirrored(half), state, reach(found, state))
 
 

@@ -159,8 +159,10 @@ class Branch:
     def _marks(self, phase: float) -> list[tuple[_Array, _Array]]:
         first = self.first.orbit
         turned = first.section.turned(phase)
-        point, mode = seen_at(first, phase)
-        status, seen, _ = evaluated(turned, point, mode)
+        start = seen_at(first, phase)
+        if start is None:
+            return []
+        status, seen, _ = evaluated(turned, *start)
         if status is not Status.DONE:
             return []
         found = []
