@@ -2,7 +2,8 @@
 
 In the frame of the base, its work is that of the inertia force -M A_t. It goes into the isolator's
 dashpot, into the dashpot of a pressed bumper, into that of a relaxing one - which from a
-deformation r burns K_j r²/2 (1 - exp(-2 K_j t / C_j)) in the time t - and into motion and springs.
+deformation r burns K_j r²/2 (1 - exp(-2 K_j t / C_j)) in the time t - into impacts on rigid stops,
+each M (1 - e²) v²/2, and into motion and springs.
 The integrals are Gauss-Legendre sums, exact to rounding, over each phase by itself.
 """
 
@@ -22,8 +23,8 @@ CYCLES = 4
 
 def stored(rig: vi.Oscillator, state: Mechanics) -> float:
     energy = rig.mass * state.v**2 + rig.isolator.stiffness * state.u**2
-    for bumper, deformation in ((rig.right, state.right), (rig.left, state.left)):
-        energy += bumper.stiffness * deformation**2 if bumper else 0.0
+    for stop, deformation in ((rig.right, state.right), (rig.left, state.left)):
+        energy += stop.stiffness * deformation**2 if isinstance(stop, vi.Bumper) else 0.0
     return float(energy) / 2
 
 
@@ -31,12 +32,20 @@ def dissipated(rig: vi.Oscillator, phase: Phase) -> float:
     squares = float(phase.weights @ phase.motion.v**2)
     lost = rig.isolator.damping * squares
     sides = ((1, rig.right, phase.begin.right), (-1, rig.left, phase.begin.left))
-    for side, bumper, deformation in sides:
-        if bumper and side == phase.contact:
-            lost += bumper.damping * squares
-        elif bumper and bumper.damping:
-            decay = -2.0 * bumper.stiffness * phase.length / bumper.damping
-            lost -= bumper.stiffness * float(deformation) ** 2 / 2 * math.expm1(decay)
+    for side, stop, deformation in sides:
+        if phase.then == ("impact", side):
+            assert isinstance(stop, vi.RigidStop)
+            lost += rig.mass * (1.0 - stop.restitution**2) * float(phase.end.v) ** 2 / 2
+        if phase.then == ("contact", side) and isinstance(stop, vi.RigidStop):
+            # A chatter: what was left after the last impact listed goes into the others.
+            lost += rig.mass * float(phase.begin.v) ** 2 / 2
+        if not isinstance(stop, vi.Bumper):
+            continue
+        if side in phase.touched:
+            lost += stop.damping * squares
+        elif stop.damping:
+            decay = -2.0 * stop.stiffness * phase.length / stop.damping
+            lost -= stop.stiffness * float(deformation) ** 2 / 2 * math.expm1(decay)
     return lost
 
 
