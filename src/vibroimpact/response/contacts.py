@@ -12,8 +12,8 @@ from vibroimpact.model.units import DIMENSIONLESS
 from vibroimpact.response.phases import (
     Phases,
     Recorded,
+    cut,
     measured,
-    phases,
     recorded,
     relaxation_loss,
 )
@@ -50,9 +50,36 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     """
     share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
     origin = recorded(motion)
-    every = phases(motion)
+    data = contact_log(motion, origin, cut(motion, origin), None, share)
+    return describe(data, "vibroimpact.contacts", motion_parameters(motion))
+
+
+def contact_log(
+    motion: xr.Dataset,
+    origin: Recorded,
+    every: Phases,
+    rows: NDArray[np.float64] | None,
+    share: float = GRAZING,
+) -> xr.Dataset:
+    """As `contacts`, of a motion that has been cut into phases, and perhaps measured.
+
+    Parameters
+    ----------
+    motion, origin, every
+        The motion, where it comes from, and its phases.
+    rows
+        What `phases.measured` found of each phase; None if nobody has looked.
+    share
+        As `grazing` of `contacts`.
+    """
     chosen, first = _whole_contacts(every, origin)
-    found = measured(origin, chosen)
+    if rows is None:
+        found = measured(origin, chosen)
+    else:
+        found = rows[first]
+        if len(first) and chosen.length[-1] != every.length[first[-1]]:
+            # A contact that the section had cut in two.
+            found[-1] = measured(origin, chosen.take(np.array([len(first) - 1])))[0]
     mass, period = origin.oscillator.mass, origin.excitation.period
     side, begin = chosen.contact, chosen.begin
     damping = origin.of_side(side, "damping")
@@ -93,10 +120,9 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
         ),
         "grazing": approach < share * fastest,
     }
-    data = xr.Dataset(
+    return xr.Dataset(
         {f"contact_{name}": ("contact_number", value) for name, value in values.items()}
     )
-    return describe(data, "vibroimpact.contacts", motion_parameters(motion))
 
 
 def _whole_contacts(every: Phases, origin: Recorded) -> tuple[Phases, NDArray[np.int64]]:

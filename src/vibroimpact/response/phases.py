@@ -106,7 +106,11 @@ def phases(motion: xr.Dataset) -> Phases:
     InputError
         If it is not the dataset of a motion with samples and events.
     """
-    origin = recorded(motion)
+    return cut(motion, recorded(motion))
+
+
+def cut(motion: xr.Dataset, origin: Recorded) -> Phases:
+    """As `phases`, of a motion whose origin is known."""
     period = origin.excitation.period
     # A motion that was given up has events behind its last sample.
     at = motion["event_cycle"].values + motion["event_cycle_time"].values / period

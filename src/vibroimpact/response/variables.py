@@ -259,8 +259,12 @@ COMPONENTS = ["displacement", "velocity", "right_bumper", "left_bumper", "phase"
 """Components of a state in a dataset, in the order of `State`'s fields."""
 
 
-def describe(dataset: xr.Dataset, created_by: str, parameters: dict[str, Any]) -> xr.Dataset:
+def describe(
+    dataset: xr.Dataset, created_by: str, parameters: dict[str, Any] | None = None
+) -> xr.Dataset:
     """Give every variable its units and meaning, and the dataset its parameters and origin.
+
+    What the dataset already says of itself stays; None if that holds the parameters.
 
     Raises
     ------
@@ -279,7 +283,7 @@ def describe(dataset: xr.Dataset, created_by: str, parameters: dict[str, Any]) -
     dataset.attrs = {
         "created_by": created_by,
         "vibroimpact_version": __version__,
-        "parameters": json.dumps(parameters),
+        **({} if parameters is None else {"parameters": json.dumps(parameters)}),
         **dataset.attrs,
     }
     return dataset

@@ -19,7 +19,7 @@ from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.follow import grown
 from vibroimpact.response.start import as_state, engine_rig, state_from
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
-from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.response.variables import describe
 from vibroimpact.stability.settled import (
     Settled,
     apart,
@@ -157,7 +157,7 @@ def coexisting(
             max_events=max_events,
         ).assign(mirror_pair=False)
         motion.attrs |= {"starts": ", ".join(names), "mirrored_starts": ""}
-        motions.append(describe(motion, "vibroimpact.coexisting", motion_parameters(motion)))
+        motions.append(describe(motion, "vibroimpact.coexisting"))
     return motions
 
 
@@ -171,7 +171,7 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     data.attrs["starts"] = ", ".join(one.starts)
     data.attrs["mirrored_starts"] = ", ".join(one.mirrored_starts)
     data.attrs["created_by"] = "vibroimpact.coexisting"
-    return describe(data, "vibroimpact.coexisting", motion_parameters(data))
+    return describe(data, "vibroimpact.coexisting")
 
 
 def _at_phase(found: Settled, excitation: Harmonic, max_events: int) -> Settled:

@@ -8,7 +8,7 @@ from vibroimpact.engine import section_map
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.response.variables import describe
 from vibroimpact.stability.branch import first_orbit
 from vibroimpact.stability.family import family
 from vibroimpact.stability.orbits import MAX_EVENTS
@@ -67,4 +67,4 @@ def orbit(
     sides = data["contact_side"].values
     data.attrs["contacts"] = "".join("R" if side == 1 else "L" for side in sides)
     data.attrs["created_by"] = "vibroimpact.orbit"
-    return describe(data, "vibroimpact.orbit", motion_parameters(data))
+    return describe(data, "vibroimpact.orbit")

@@ -16,11 +16,11 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State, equilibrium
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.contacts import contacts
-from vibroimpact.response.phases import measured, phases, recorded, relaxation_loss
+from vibroimpact.response.contacts import contact_log
+from vibroimpact.response.phases import Recorded, cut, measured, relaxation_loss
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, state_from
-from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.response.variables import describe
 from vibroimpact.stability.branch import first_orbit
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.family import family
@@ -148,7 +148,7 @@ def describe_motion(
         "exponents_uncertainty": ("exponent", kind.uncertainty * frequency),
     }
     data.attrs["evidence"] = kind.evidence
-    return _measured(data, scalars)
+    return _measured(data, found, scalars)
 
 
 def _approached(found: Settled, period: int) -> Settled | None:
@@ -197,11 +197,11 @@ def _mirror_distance(found: Settled, state: _Array, period: int, max_events: int
     return apart(found, mirrored(half), state, reach(found, state))
 
 
-def _measured(data: xr.Dataset, scalars: dict[str, Any]) -> xr.Dataset:
+def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:
     """Add the scalars, the contact log, the exact extremes, and what follows from them."""
-    data = data.assign(period=scalars["period"])  # tells the log that the end is the beginning
-    origin = recorded(data)
-    every = phases(data)
+    periodic = scalars["period"] > 0
+    origin = Recorded(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
+    every = cut(data, origin)
     rows = measured(origin, every)
     rig, shaken = origin.oscillator, origin.excitation
     side = every.contact
@@ -211,7 +211,7 @@ def _measured(data: xr.Dataset, scalars: dict[str, Any]) -> xr.Dataset:
     most = np.where(side == -1, -rows[:, measure.X_LEAST], rows[:, measure.X_MOST]) + face
     high, low = float(most.max()), float(least.min())
     top, bottom = float(rows[:, measure.A_MOST].max()), float(rows[:, measure.A_LEAST].min())
-    log = contacts(data)
+    log = contact_log(data, origin, every, rows)
     cycles = max(origin.cycles, 1.0)
     pressed = origin.of_side(side, "damping")
     squares = rows[:, measure.SQUARES]
@@ -231,7 +231,7 @@ def _measured(data: xr.Dataset, scalars: dict[str, Any]) -> xr.Dataset:
     }
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
-    return describe(data, "vibroimpact.steady", motion_parameters(data))
+    return describe(data, "vibroimpact.steady")
 
 
 def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
@@ -260,7 +260,7 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
         "exponents_uncertainty": nothing,
     }
     data.attrs["evidence"] = data.attrs["status"] = found.status.advice
-    return _measured(data, scalars)
+    return _measured(data, found, scalars)
 
 
 def _until_the_last_event(data: xr.Dataset, found: Settled, samples: int) -> xr.Dataset:
