@@ -78,6 +78,45 @@ def test_elsewhere_nothing_is_written(monkeypatch):
     assert pipe.getvalue() == ""
 
 
+def test_where_the_end_is_not_known_it_counts(monkeypatch):
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    show = vi.progress_bar("branch", every=0.0)
+    show(7, None)
+    assert screen.getvalue().startswith("\rbranch 7, 0 s")
+    page = Notebook()
+    monkeypatch.setattr("vibroimpact.response.progress._notebook", lambda: page.display)
+    vi.progress_bar("branch", every=0.0)(7, None)
+    assert page.shown[0]["text/html"].startswith("<progress></progress> branch 7")
+
+
+def counted_and_ended(told):
+    *before, (done, total) = told
+    assert before == [(i, None) for i in range(1, len(before) + 1)]
+    assert done == total > 5
+
+
+def test_all_functions_tell_the_same(monkeypatch):
+    told: list[tuple[int, int | None]] = []
+
+    def note(done, total):
+        told.append((done, total))
+
+    shaken = vi.Harmonic(CASE.amplitude, 2.0)
+    found = vi.resonance_diagram(CASE.oscillator, CASE.amplitude, 1.0, 3.0, progress=note)
+    assert all(isinstance(total, int) for _, total in told)
+    assert told[-1][0] == told[-1][1]
+    told.clear()
+    vi.branch(CASE.oscillator, shaken, parameter="gap", low=7e-3, high=8e-3, progress=note)
+    counted_and_ended(told)
+    told.clear()
+    fold = found.isel(bifurcation=0)
+    span = {"low": (1.0, 7e-3), "high": (4.0, 8e-3)}
+    over = ("frequency", "gap")
+    vi.bifurcation_curve(CASE.oscillator, shaken, fold, parameters=over, **span, progress=note)
+    counted_and_ended(told)
+
+
 def test_functions_that_take_long_take_it(monkeypatch):
     screen = Terminal()
     monkeypatch.setattr(sys, "stderr", screen)

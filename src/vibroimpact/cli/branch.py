@@ -200,5 +200,5 @@ def _over_another(
         parameter=parameter,
         low=span[0],
         high=span[1],
-        progress=progress and (lambda at: progress(0, None)),
+        progress=progress,
     )

@@ -228,7 +228,7 @@ def _curves(
             parameters=names,
             low=(spans[0][0], spans[1][0]),
             high=(spans[0][1], spans[1][1]),
-            progress=progress and (lambda *at: progress(0, None)),
+            progress=progress,
         )
     return found
 

@@ -82,7 +82,7 @@ def _remove_empty(folders: list[Path]) -> None:
 
 
 @contextmanager
-def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
+def progress_bar(what: str) -> Iterator[Callable[[int, int | None], None] | None]:
     """Yield a function that shows progress on stderr, or None where nobody would see it."""
     if not sys.stderr.isatty():
         yield None

@@ -19,7 +19,7 @@ from vibroimpact.response.files import write_whole
 from vibroimpact.scenario.kinds import Scenario
 
 Format = Literal["png", "svg"]
-Progress = Callable[[int, int], None]
+Progress = Callable[[int, int | None], None]
 
 FIGURES = "figures"
 """Folder of the images beside the report."""

@@ -34,26 +34,30 @@ def progress_bar(what: str = "done", *, every: float = 0.2) -> Progress:
     shown = -every
     display = _notebook()
     handle: Any = None
+    longest = 0
 
-    def show(done: int, total: int) -> None:
-        nonlocal shown, handle
+    def show(done: int, total: int | None) -> None:
+        nonlocal shown, handle, longest
         passed = time.monotonic() - begin
-        if done < total and shown >= 0.0 and passed - shown < every:
+        ended = total is not None and done >= total
+        if not ended and shown >= 0.0 and passed - shown < every:
             return
         shown = passed
-        text = f"{what} {done}/{total}, {passed:.0f} s"
+        text = f"{what} {done}{'' if total is None else f'/{total}'}, {passed:.0f} s"
         if display is not None:
-            bar = f'<progress value="{done}" max="{total}"></progress> ' if done < total else ""
+            range_ = "" if total is None else f' value="{done}" max="{total}"'
+            bar = "" if ended else f"<progress{range_}></progress> "
             page = {"text/html": bar + escape(text), "text/plain": text}
             if handle is None:
                 handle = display(page, raw=True, display_id=True)
             else:
                 handle.update(page, raw=True)
         elif sys.stderr.isatty():
-            full = _WIDTH * done // max(total, 1)
-            line = f"{text} [{'#' * full}{'.' * (_WIDTH - full)}]"
-            end = f"\r{' ' * len(line)}\r" if done >= total else ""
-            print(f"\r{line}{end}", end="", file=sys.stderr, flush=True)
+            full = _WIDTH * done // max(total or 1, 1)
+            line = text if total is None else f"{text} [{'#' * full}{'.' * (_WIDTH - full)}]"
+            longest = max(longest, len(line))
+            end = f"\r{' ' * longest}\r" if ended else ""
+            print(f"\r{line:{longest}}{end}", end="", file=sys.stderr, flush=True)
 
     return show
 

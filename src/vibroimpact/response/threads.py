@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
@@ -9,8 +10,16 @@ from concurrent.futures import ThreadPoolExecutor, wait
 import numpy as np
 from numpy.typing import NDArray
 
-Progress = Callable[[int, int], None]
-"""Called now and then with how much is done and how much there is to do."""
+Progress = Callable[[int, int | None], None]
+"""Called now and then with how much is done and how much there is to do, None if nobody knows."""
+
+
+def counted(progress: Progress | None) -> Callable[[object], None] | None:
+    """What tells `progress`, each time it is called, that one more is done, of nobody knows."""
+    if progress is None:
+        return None
+    count = itertools.count(1)
+    return lambda _: progress(next(count), None)
 
 
 def available() -> int:

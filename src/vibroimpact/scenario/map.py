@@ -212,7 +212,7 @@ def _parallel(
     parts = [rigs[i : i + few] for i in range(0, len(rigs), few)]
     stopped = threading.Event()
 
-    def check(_done: int, _total: int) -> None:
+    def check(_done: int, _total: int | None) -> None:
         if stopped.is_set():
             raise _Stopped
 

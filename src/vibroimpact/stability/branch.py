@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +21,7 @@ from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.free_flight import reference_excursions
 from vibroimpact.response.start import as_state
+from vibroimpact.response.threads import Progress, counted
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.bifurcations import Bifurcation, own_mirror
@@ -38,9 +38,6 @@ from vibroimpact.stability.settled import approach
 from vibroimpact.stability.trace import CLOSED, Branch, Station
 
 _Array = NDArray[np.float64]
-
-Progress = Callable[[float], None]
-"""Called now and then with the parameter."""
 
 
 class Followed(NamedTuple):
@@ -91,7 +88,8 @@ def branch(
     most_points
         Orbits in each direction after which it is given up.
     progress
-        Called with the parameter as the branch is followed.
+        Called with the number of orbits so far as the branch is followed, and with None until
+        it has been.
 
     Returns
     -------
@@ -117,7 +115,10 @@ def branch(
         )
     period, most_points = whole(period, "period"), whole(most_points, "most_points")
     first = first_orbit(fam, span, start, period)
-    return as_dataset([follow_both_ways(first, span, most_points, progress)], fam, span)
+    data = as_dataset([follow_both_ways(first, span, most_points, progress)], fam, span)
+    if progress is not None:
+        progress(data.sizes["point"], data.sizes["point"])
+    return data
 
 
 def first_orbit(
@@ -211,10 +212,10 @@ def follow_both_ways(
     first: Orbit, span: tuple[float, float], most_points: int, progress: Progress | None = None
 ) -> Followed:
     """Follow a branch both ways from an orbit, and find its bifurcations."""
-    traces = []
+    traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
         start = Station(first, first.tangent(sense * HELD), 0.0, 0)
-        trace = arclength.follow(Branch(start, *span), start, most_points, _told(progress))
+        trace = arclength.follow(Branch(start, *span), start, most_points, told)
         traces.append(trace)
         if trace.ended == CLOSED:
             break
@@ -228,10 +229,6 @@ def follow_both_ways(
         (traces[0].ended, traces[-1].ended),
         len(traces) == 1,
     )
-
-
-def _told(progress: Progress | None) -> Callable[[Station], None] | None:
-    return None if progress is None else lambda station: progress(station.orbit.value)
 
 
 def as_dataset(

@@ -16,7 +16,6 @@ In (z, p, q) the curve of folds is smooth where its projection has a cusp.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -29,6 +28,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.threads import Progress, counted
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.stability.bifurcations import (
     BREAKING,
@@ -61,7 +61,7 @@ def bifurcation_curve(
     low: tuple[float | str, float | str],
     high: tuple[float | str, float | str],
     most_points: int = 2000,
-    progress: Callable[[float, float], None] | None = None,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Follow a bifurcation in two parameters.
 
@@ -80,7 +80,8 @@ def bifurcation_curve(
     most_points
         Points in each direction after which it is given up.
     progress
-        Called with both parameters as the curve is followed.
+        Called with the number of points so far as the curve is followed, and with None until it
+        has been.
 
     Returns
     -------
@@ -126,12 +127,12 @@ def bifurcation_curve(
             f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; one that "
             "was found for it is accepted"
         )
-    traces = []
+    traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
         along = sense * np.array([0.0, 0.0, 0.0, 0.0, 0.3, 1.0])
         begin = Place(system, first, unit_tangent(first.jacobian, along, SEEN), 0.0)
         locus = Locus(begin, spans)
-        traces.append(arclength.follow(locus, begin, most_points, _told(progress)))
+        traces.append(arclength.follow(locus, begin, most_points, told))
         if traces[0].ended == CLOSED:
             break
     cusps = [
@@ -144,11 +145,9 @@ def bifurcation_curve(
     if len(traces) == 2:
         places = [*reversed(places), *traces[1].points[1:]]
     ended = (traces[0].ended, traces[-1].ended)
+    if progress is not None:
+        progress(len(places), len(places))
     return _dataset([place.spot for place in places], cusps, over, kind, spans, ended)
-
-
-def _told(progress: Callable[[float, float], None] | None) -> Callable[[Place], None] | None:
-    return None if progress is None else lambda place: progress(*map(float, place.y[4:]))
 
 
 def _start(

@@ -113,6 +113,8 @@ def resonance_diagram(
                     waiting.append((station.orbit, found))
         if progress:
             progress(len(followed), len(followed) + len(waiting))
+    if progress:  # what still waited was on branches that had been followed
+        progress(len(followed), len(followed))
     data = as_dataset(followed, fam, span, "resonance_diagram")
     data.attrs["complete"] = int(complete)
     return data
