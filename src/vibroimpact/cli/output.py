@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 WIDTH = 100
 """Columns of a summary in a file."""
 
+_CUT = "…"
+"""What rich puts in the place of what it leaves out."""
+
 
 class Folder(NamedTuple):
     """A folder for results."""
@@ -111,16 +114,32 @@ def tell(
         told = {**facts, "files": files, "replaced": replaced}
         print(json.dumps(_plain(told), indent=2, allow_nan=False))
         return
-    from rich.console import Console, Group
+    from rich.console import Console
     from rich.text import Text
 
     lines = [f"  {path}{' (replaced)' if path in replaced else ''}" for path in files.values()]
-    # A path is never broken.
-    paths = Text("\n".join(["Files", *lines]), no_wrap=True, overflow="ignore")
 
     # A file or a pipe has no width of its own.
     width = None if sys.stdout is None or sys.stdout.isatty() else WIDTH
-    Console(file=sys.stdout, width=width, highlight=False).print(Group(summary, Text(), paths))
+    console = Console(file=sys.stdout, width=width, highlight=False)
+    console.width = _wide_enough(summary, console.width)
+    console.print(summary, Text(), sep="\n")
+    # A path is never broken, and never cut.
+    console.print(Text("\n".join(["Files", *lines])), soft_wrap=True)
+
+
+def _wide_enough(summary: RenderableType, width: int) -> int:
+    """Columns in which no table loses a digit; a narrower terminal breaks the lines itself."""
+    from rich.console import Console
+
+    while width < WIDTH:
+        console = Console(file=io.StringIO(), width=width)
+        with console.capture() as rendered:
+            console.print(summary)
+        if _CUT not in rendered.get():
+            break
+        width += 1
+    return width
 
 
 def write_text(path: Path, summary: RenderableType) -> None:

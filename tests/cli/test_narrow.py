@@ -1,0 +1,67 @@
+"""Terminals of 80 and 60 columns: words move to other lines, none is cut."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+from collections import Counter
+
+import pytest
+
+from vibroimpact.cli import main
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def words(text: str) -> Counter[str]:
+    return Counter(re.sub("\x1b\\[[0-9;]*m", "", text).split())
+
+
+@pytest.fixture
+def told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def told(columns: int, *line: str) -> str:
+        monkeypatch.setenv("COLUMNS", str(columns))
+        with contextlib.redirect_stdout(Terminal()) as out:
+            assert main(line) == 0
+        return out.getvalue().replace(" (replaced)", "")
+
+    return told
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        ("sweep", "B2-G1-A3", "--step", "0.05Hz", "--left-damping", "1234567.89 N s/m"),
+        ("simulate", "B2-G1-A3", "--frequency", "2.5Hz", "--left-gap", "9.12345mm"),
+        ("motion", "B3-10mm-A3", "--frequency", "1.12Hz", "--random", "0"),
+        ("branch", "B2-G1-A3", "--from", "1.6Hz", "--to", "1.8Hz"),
+        ("classify", "B2-G1-A3"),
+    ],
+    ids=lambda line: line[0],
+)
+def test_no_digit_is_lost(told, line):
+    wide = told(200, *line)
+    assert "…" not in wide
+    for columns in (80, 60):
+        assert words(told(columns, *line)) == words(wide)
+
+
+def test_a_long_path_is_whole(told):
+    name = "a-name-of-a-file-that-is-longer-than-any-terminal-is-wide-" * 3
+    told_ = told(60, "sweep", "B2-G1-A3", "--frequencies", "1Hz,2Hz", "--name", name)
+    assert f"  out/{name.rstrip('.')}-sweep.txt\n" in told_
+
+
+@pytest.mark.parametrize("columns", [80, 60])
+@pytest.mark.parametrize("command", ["sweep", "motion", "map", "paper"])
+def test_help_is_whole(told, command, columns):
+    narrow = told(columns, command, "--help")
+    assert "…" not in narrow
+    for option in re.findall(r"--[a-z-]+", told(200, command, "--help")):
+        assert option in narrow
