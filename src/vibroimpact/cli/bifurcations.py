@@ -10,6 +10,8 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from vibroimpact.cli.numbers import plain
+
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
     """Return the bifurcations and how each branch ended, in SI units."""
@@ -83,8 +85,8 @@ def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
             largest = f"{first[0]:.4f}, {second[0]:.4f}"
         table.add_row(
             one["kind"],
-            f"{one['value']:.10g}",
-            f"{one['eta_d']:.4g}",
+            f"{plain(one['value'], 10)}",
+            f"{plain(one['eta_d'], 4)}",
             largest,
             _note(one),
         )

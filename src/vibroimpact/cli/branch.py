@@ -180,7 +180,7 @@ def _over_another(
 ) -> xr.Dataset:
     """The branch along another parameter, from where the motion from rest settles."""
     from vibroimpact.model import Harmonic, to_si
-    from vibroimpact.model.units import FREQUENCY
+    from vibroimpact.model.units import FREQUENCY, pretty
     from vibroimpact.stability.branch import branch as follow
     from vibroimpact.stability.family import parameter as varied
 
@@ -188,11 +188,12 @@ def _over_another(
         raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
     hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
     phase = what.study.excitation.phase if what.study else 0.0
+    kind = varied(parameter).quantity
     here = varied(parameter).read(what.oscillator, Harmonic(what.amplitude, hertz, phase))
     if not span[0] <= here <= span[1]:
         raise InputError(
-            f"--from: {span[0]:g} to {span[1]:g} leaves out the rig's {parameter}, {here:g}; a "
-            "range that holds it is accepted"
+            f"--from: {pretty(span[0], kind)} to {pretty(span[1], kind)} leaves out the rig's "
+            f"{parameter}, {pretty(here, kind)}; a range that holds it is accepted"
         )
     return follow(
         what.oscillator,

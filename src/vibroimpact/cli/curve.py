@@ -176,6 +176,7 @@ def _check(
     spans: list[tuple[float, float]],
 ) -> None:
     """Refuse what cannot be followed before anything is sought."""
+    from vibroimpact.model.units import pretty
     from vibroimpact.stability.plane import plane
 
     try:
@@ -183,10 +184,11 @@ def _check(
     except InputError as error:
         raise InputError(re.sub("^parameters?:", "--over:", str(error))) from None
     low, high = spans[1]
+    kind = over.other.quantity
     if not low <= over.value <= high:
         raise InputError(
-            f"--second: {low:g} to {high:g} leaves out the rig's {names[1]}, {over.value:g}; a "
-            "range that holds it is accepted"
+            f"--second: {pretty(low, kind)} to {pretty(high, kind)} leaves out the rig's "
+            f"{names[1]}, {pretty(over.value, kind)}; a range that holds it is accepted"
         )
 
 

@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact._version import __version__
+from vibroimpact.cli.numbers import plain
 from vibroimpact.cli.rig import Subject
 from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY, Dimensionless, RigidStop, Stop, to_dimensionless
@@ -44,12 +45,12 @@ def rig_text(subject: Subject) -> RenderableType:
     table.add_row(
         "mass",
         pretty(oscillator.mass, MASS),
-        f"natural frequency {oscillator.natural_frequency:.4g} Hz",
+        f"natural frequency {plain(oscillator.natural_frequency, 4)} Hz",
     )
     table.add_row(
         "isolator",
         f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}",
-        f"ξ = {oscillator.damping_ratio:.4g}",
+        f"ξ = {plain(oscillator.damping_ratio, 4)}",
     )
     for side in ("right", "left"):
         bumper: Stop | None = getattr(oscillator, side)
@@ -60,21 +61,21 @@ def rig_text(subject: Subject) -> RenderableType:
         if isinstance(bumper, RigidStop):
             table.add_row(
                 f"{side} stop",
-                f"rigid, e = {bumper.restitution:.4g}, gap {pretty(bumper.gap, LENGTH)}",
-                f"δ0 = {group.gap:.4g}" if group else "",
+                f"rigid, e = {plain(bumper.restitution, 4)}, gap {pretty(bumper.gap, LENGTH)}",
+                f"δ0 = {plain(group.gap, 4)}" if group else "",
             )
             continue
         table.add_row(
             f"{side} bumper",
             f"K = {pretty(bumper.stiffness, STIFFNESS)}, C = {pretty(bumper.damping, DAMPING)}, "
             f"gap {pretty(bumper.gap, LENGTH)}",
-            f"λ = {group.stiffness_ratio:.4g}, δ0 = {group.gap:.4g}, "
-            f"τ = {group.relaxation_time:.3g}"
+            f"λ = {plain(group.stiffness_ratio, 4)}, δ0 = {plain(group.gap, 4)}, "
+            f"τ = {plain(group.relaxation_time, 3)}"
             if group
             else "",
         )
     amplitude = subject.amplitude
-    table.add_row("base", f"A = {amplitude:.7g} m/s² = {amplitude / GRAVITY:.6g} g", "")
+    table.add_row("base", f"A = {plain(amplitude, 7)} m/s² = {plain(amplitude / GRAVITY, 6)} g", "")
     return Group(Text(subject.name, style="bold"), table)
 
 
@@ -106,10 +107,10 @@ def sweep_text(data: xr.Dataset, found: Features, advice: list[str]) -> Renderab
     directions = " and ".join(str(d) for d in data["direction"].values)
     parts: list[RenderableType] = [
         Text(
-            f"{len(frequency)} frequencies from {frequency[0]:g} to {frequency[-1]:g} Hz, "
-            f"{directions}"
+            f"{len(frequency)} frequencies from "
+            f"{_span(frequency[0], frequency[-1])} Hz, {directions}"
             if len(frequency) > 1
-            else f"1 frequency, {frequency[0]:g} Hz, {directions}"
+            else f"1 frequency, {plain(frequency[0])} Hz, {directions}"
         ),
         Text(),
         _peaks(found),
@@ -160,17 +161,17 @@ def motion_text(facts: dict[str, Any]) -> RenderableType:
         ("velocity", pretty(state["velocity"], VELOCITY)),
         ("right bumper", f"deformed by {pretty(state['right_bumper'], LENGTH)}"),
         ("left bumper", f"deformed by {pretty(state['left_bumper'], LENGTH)}"),
-        ("phase", f"{state['phase']:.6g} rad"),
+        ("phase", f"{plain(state['phase'], 6)} rad"),
         ("contact", touching),
     ]
     for row in rows:
         table.add_row(*row, "")
     return Group(
-        Text(f"State after {facts['cycles']:g} cycles ({facts['time']:.6g} s)"),
+        Text(f"State after {plain(facts['cycles'])} cycles ({plain(facts['time'], 6)} s)"),
         table,
         Text(
-            f"Contacts per cycle, over the last {contacts['over_cycles']:g}: "
-            f"{contacts['right_per_cycle']:g} right, {contacts['left_per_cycle']:g} left"
+            f"Contacts per cycle, over the last {plain(contacts['over_cycles'])}: "
+            f"{plain(contacts['right_per_cycle'])} right, {plain(contacts['left_per_cycle'])} left"
         ),
     )
 
@@ -194,9 +195,9 @@ def _peaks(found: Features) -> RenderableType:
                     symbol,
                     peak.direction,
                     f"{kind}, at the end" if peak.at_end else kind,
-                    f"{peak.frequency:g}",
-                    f"{peak.value:.4g}",
-                    f"{peak.prominence:.3g}",
+                    f"{plain(peak.frequency)}",
+                    f"{plain(peak.value, 4)}",
+                    f"{plain(peak.prominence, 3)}",
                 )
     return table
 
@@ -209,9 +210,9 @@ def _jumps(found: Features) -> RenderableType:
         table.add_row(
             jump.direction,
             "upward" if jump.upward else "downward",
-            f"{jump.before:g} and {jump.after:g}",
-            f"{jump.eta_a[0]:.4g} → {jump.eta_a[1]:.4g}",
-            f"{jump.eta_d[0]:.4g} → {jump.eta_d[1]:.4g}",
+            f"{plain(jump.before)} and {plain(jump.after)}",
+            f"{plain(jump.eta_a[0], 4)} → {plain(jump.eta_a[1], 4)}",
+            f"{plain(jump.eta_d[0], 4)} → {plain(jump.eta_d[1], 4)}",
             "" if jump.settled else "not settled",
         )
     return table
@@ -245,7 +246,7 @@ def _ranges(title: str, ranges: tuple[Range, ...], none: str) -> RenderableType:
 
 
 def _span(low: float, high: float) -> str:
-    return f"{low:g}" if low == high else f"{low:g} to {high:g}"
+    return f"{plain(low)}" if low == high else f"{plain(low)} to {plain(high)}"
 
 
 def _plain_table() -> Table:

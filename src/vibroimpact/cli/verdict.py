@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import xarray as xr
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
+
+from vibroimpact.cli.numbers import (
+    ENERGIES,
+    FORCES,
+    IMPULSES,
+    LENGTHS,
+    SPEEDS,
+    fitting,
+    plain,
+)
 
 _MOST_CONTACTS = 12
 """Contacts that are printed of a motion; the file has them all."""
@@ -55,7 +66,7 @@ def text(found: Found) -> RenderableType:
     parts: list[RenderableType] = []
     for hertz, motions in found.items():
         many = f"{len(motions)} motions coexist" if len(motions) > 1 else "one motion found"
-        parts += [Text(), Text(f"{hertz:.10g} Hz: {many}", style="bold")]
+        parts += [Text(), Text(f"{plain(hertz, 10)} Hz: {many}", style="bold")]
         for name, data in motions.items():
             parts += [Text(), *_motion(name, data)]
     return Group(*parts)
@@ -91,22 +102,26 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
     table.add_column(style="bold")
     table.add_column()
     low, high = data["displacement_min"].item(), data["displacement_max"].item()
+    middle = _rounded(data["eccentricity"].item(), high - low)
+    _, size, metres = fitting((low, high), LENGTHS)
+    supplied, lost = data["energy_supplied"].item(), data["energy_bumpers"].item()
+    _, joule, joules = fitting((supplied, lost), ENERGIES)
     floor, ceiling = data["acceleration_min"].item(), data["acceleration_max"].item()
     rows = [
         ("evidence", data.attrs["evidence"]),
         ("exponents", _exponents(data)),
-        ("displacement", f"{1e3 * low:.5g} to {1e3 * high:.5g} mm"),
-        ("eccentricity", f"{1e3 * _rounded(data['eccentricity'].item(), high - low):.4g} mm"),
-        ("acceleration", f"{floor:.5g} to {ceiling:.5g} m/s² (absolute)"),
+        ("displacement", f"{plain(low / size, 5)} to {plain(high / size, 5)} {metres}"),
+        ("eccentricity", f"{plain(middle / size, 4)} {metres}"),
+        ("acceleration", f"{plain(floor, 5)} to {plain(ceiling, 5)} m/s² (absolute)"),
         (
             "impacts",
-            f"{data['impacts_right'].item():.4g} right, {data['impacts_left'].item():.4g} left "
-            "per cycle",
+            f"{plain(data['impacts_right'].item(), 4)} right, "
+            f"{plain(data['impacts_left'].item(), 4)} left per cycle",
         ),
         (
             "energy",
-            f"{data['energy_supplied'].item():.4g} J per cycle, "
-            f"{data['energy_bumpers'].item():.4g} J of it lost in the bumpers",
+            f"{plain(supplied / joule, 4)} {joules} per cycle, "
+            f"{plain(lost / joule, 4)} {joules} of it lost in the bumpers",
         ),
     ]
     if data.attrs.get("starts"):
@@ -115,7 +130,7 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         rows.append(("mirror image", f"found from {data.attrs['mirrored_starts']}"))
     for row in rows:
         table.add_row(*row)
-    return [Text(f"{name}: {', '.join(words)}", style="bold"), table, *_contacts(data)]
+    return [Text(f"{name}: {', '.join(words)}", style="bold"), table, *contact_tables(data)]
 
 
 def _exponents(data: xr.Dataset) -> str:
@@ -134,7 +149,8 @@ def _rounded(value: float, scale: float) -> float:
     return value if abs(value) > 1e-9 * scale else 0.0
 
 
-def _contacts(data: xr.Dataset) -> list[RenderableType]:
+def contact_tables(data: xr.Dataset) -> list[RenderableType]:
+    """The contacts of a motion, in units that fit the largest of each."""
     count = data.sizes["contact_number"]
     if not count:
         return [Text("no contact")]
@@ -148,26 +164,34 @@ def _contacts(data: xr.Dataset) -> list[RenderableType]:
         title_justify="left",
         title_style="",
     )
-    columns = (
-        ("phase (°)", "start_phase", 57.29577951308232, ".1f"),
-        ("length/T", "duration_share", 1.0, ".4f"),
-        ("u̇ in (mm/s)", "start_velocity", 1e3, ".2f"),
-        ("u̇ out (mm/s)", "end_velocity", 1e3, ".2f"),
-        ("force (kN)", "peak_force", 1e-3, ".3g"),
-        ("J (N s)", "impulse", 1.0, ".3g"),
-        ("depth (mm)", "penetration", 1e3, ".3g"),
-        ("lost (J)", "dissipated", 1.0, ".3g"),
-        ("e (–)", "restitution", 1.0, ".3f"),
-    )
-    for heading, *_ in columns:
+    shown = data.isel(contact_number=slice(_MOST_CONTACTS))
+
+    def values(name: str) -> list[float]:
+        return [float(value) for value in shown[f"contact_{name}"].values]
+
+    columns = [
+        ("phase (°)", [f"{math.degrees(value):.1f}" for value in values("start_phase")]),
+        ("length/T", [f"{value:.4f}" for value in values("duration_share")]),
+    ]
+    speeds = fitting(values("start_velocity") + values("end_velocity"), SPEEDS)
+    for heading, name in (("u̇ in", "start_velocity"), ("u̇ out", "end_velocity")):
+        texts = [f"{value / speeds.size:.2f}" for value in values(name)]
+        columns.append((f"{heading} ({speeds.symbol})", texts))
+    for heading, name, scales in (
+        ("force", "peak_force", FORCES),
+        ("J", "impulse", IMPULSES),
+        ("depth", "penetration", LENGTHS),
+        ("lost", "dissipated", ENERGIES),
+    ):
+        found = values(name)
+        _, unit, symbol = fitting(found, scales)
+        columns.append((f"{heading} ({symbol})", [plain(value / unit, 3) for value in found]))
+    columns.append(("e (–)", [f"{value:.3f}" for value in values("restitution")]))
+    for heading, _ in columns:
         table.add_column(heading, justify="right")
-    for i in range(min(count, _MOST_CONTACTS)):
+    for i in range(shown.sizes["contact_number"]):
         side = "right" if int(data["contact_side"][i]) == 1 else "left"
         if bool(data["contact_grazing"][i]):
             side += ", grazing"
-        values = [
-            format(factor * float(data[f"contact_{name}"][i]), how)
-            for _, name, factor, how in columns
-        ]
-        table.add_row(side, *values)
+        table.add_row(side, *(texts[i] for _, texts in columns))
     return [table]
