@@ -307,3 +307,42 @@ def test_an_output_that_is_a_file_is_refused_and_kept(run, tmp_path):
     assert errors.startswith("vibroimpact: error: --output: 'taken' cannot be written to")
     assert errors.count("\n") == 1
     assert (tmp_path / "taken").read_text() == "kept"
+
+
+def test_the_branch_of_another_motion(run, tmp_path):
+    """Period 5 beside the motion from rest, over the frequency and over another parameter."""
+    (tmp_path / "soft.toml").write_text(
+        "[oscillator]\nmass = 1\nisolator = {stiffness = 1, damping = 0.02}\n"
+        "right = {stiffness = 29, damping = 0, gap = 1.26}\n"
+        f"[excitation]\namplitude = {0.7 * 0.81**2}\nphase = {math.pi}\n"
+    )
+    shaken = ("--frequency", "0.81rad/s", "--json")
+    span = ("--from", "0.8rad/s", "--to", "0.82rad/s")
+    told = "this orbit of period 1 is not the motion from rest, which has period 5"
+    code, out, errors = run("soft.toml", *shaken, *span, "--period", "1")
+    assert json.loads(out)["branches"][0]["period"] == 1
+    assert (code, told in errors) == (0, True)
+    code, out, errors = run("soft.toml", *shaken, *span, "--period", "5")
+    assert (code, errors) == (0, "")
+    (branch,) = json.loads(out)["branches"]
+    assert branch["period"] == 5
+    # The same branch from one of its states.
+    state = vi.load(next(tmp_path.rglob("*.nc")))["section"].isel(point=branch["points"] // 2)
+    where = f"{float(state[0])!r}m,{float(state[1])!r}m/s"
+    code, out, errors = run("soft.toml", *shaken, *span, "--start", where, "--period", "5")
+    assert (code, errors) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("--start", "5mm"), "--start: '5mm'; a displacement and a velocity"),
+        (("--start", "5mm,1kg"), "--start: "),
+        (("--period", "0"), "--period: 0"),
+    ],
+)
+def test_a_first_orbit_that_cannot_be(run, words, named):
+    code, _, errors = run("B2-G1-A3", "--frequency", "2Hz", *words)
+    assert code == 2
+    assert named in errors
+    assert errors.count("\n") == 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 from cyclopts import Group, Parameter
 
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from vibroimpact.cli.rig import Subject
+    from vibroimpact.model import State
 
 _BRANCH = Group("Branch", sort_key=1)
 _WITH_UNITS = Parameter(group=_BRANCH, allow_leading_hyphen=True)
@@ -60,15 +61,34 @@ def branch(
     longest: Annotated[
         Whole, Parameter(group=_BRANCH, help="Longest period, in cycles, that is followed.")
     ] = 4,
+    begin: Annotated[
+        str | None,
+        _WITH_UNITS,
+        Parameter(
+            name="--start",
+            help=(
+                "Displacement and velocity near the first orbit, such as 5mm,100mm/s, where a "
+                "motion other than that from rest is to be followed."
+            ),
+        ),
+    ] = None,
+    period: Annotated[
+        Whole | None,
+        Parameter(
+            group=_BRANCH,
+            help="Its period in cycles; that of the motion from rest, or 1 with --start.",
+        ),
+    ] = None,
     changes: RigOptions | None = None,
     output: OutputOptions | None = None,
 ) -> int:
     """Follow the branches of periodic orbits along a parameter, through folds and grazings.
 
     Along the frequency all branches are followed that sweeps, free flight, symmetry breakings
-    and period doublings lead to; along another parameter the one that begins where the motion
-    from rest settles. Prints the bifurcations; writes NAME-PARAMETER-branches.nc and
-    NAME-PARAMETER-branches.png, in the figure with a stepped sweep.
+    and period doublings lead to; along another parameter, or with --start or --period, the one
+    that begins near the start or where the motion from rest settles. Prints the bifurcations;
+    writes NAME-PARAMETER-branches.nc and NAME-PARAMETER-branches.png, in the figure with a
+    stepped sweep.
 
     For example:
 
@@ -77,7 +97,7 @@ def branch(
         vibroimpact branch B2-G1-A3 --parameter gap --from 1mm --to 20mm --frequency 2Hz
     """
     from vibroimpact.cli.grid import default_span
-    from vibroimpact.cli.output import output_folder, progress_bar, tell
+    from vibroimpact.cli.output import output_folder, progress_bar, tell, warn
     from vibroimpact.cli.rig import subject
 
     out = output or OutputOptions()
@@ -85,7 +105,11 @@ def branch(
     along = parameter.replace("-", "_")
     span = option_range(along, start, stop, ("--from", "--to"), default_span(what))
 
+    first = _first(begin, period)
+
     with output_folder(out.output) as folder:
+        import warnings
+
         from rich.console import Group as Together
 
         from vibroimpact.cli import summary
@@ -93,11 +117,15 @@ def branch(
         from vibroimpact.figures import bifurcation_diagram, save_figure
         from vibroimpact.response.files import save
 
-        with progress_bar("following") as progress:
-            if along == "frequency":
+        with warnings.catch_warnings(record=True) as caught, progress_bar("following") as progress:
+            warnings.simplefilter("always", RuntimeWarning)
+            if along == "frequency" and first is None:
                 data, swept = _over_frequency(what, span, longest, progress)
             else:
-                data, swept = _over_another(what, along, span, frequency, progress), None
+                data = _one_branch(what, along, span, frequency, first or First(), progress)
+                swept = None
+        for message in dict.fromkeys(str(warning.message) for warning in caught):
+            warn(message)
         data.attrs["title"] = what.name
         axes = bifurcation_diagram(data, quantity=quantity, sweep=swept, title=what.title)
         stem = folder / f"{what.slug}-{along.replace('_', '-')}-branches"
@@ -175,10 +203,49 @@ def _over_frequency(
     return data, sweep(what.oscillator, what.amplitude, grid)
 
 
-def _over_another(
-    what: Subject, parameter: str, span: tuple[float, float], frequency: str | None, progress: Any
+class First(NamedTuple):
+    """The orbit from which one branch is followed; of the motion from rest unless it says more."""
+
+    start: State | None = None
+    period: int | None = None
+
+
+def _first(start: str | None, period: int | None) -> First | None:
+    """The first orbit from its options; None if neither is given.
+
+    Raises
+    ------
+    InputError
+        If one cannot be used.
+    """
+    from vibroimpact.model import State, to_si
+    from vibroimpact.model.units import LENGTH, VELOCITY
+
+    if period is not None and period < 1:
+        raise InputError(f"--period: {period}; a whole number of at least 1 is accepted")
+    if start is None:
+        return None if period is None else First(period=period)
+    parts = start.split(",")
+    if len(parts) != 2:
+        raise InputError(
+            f"--start: {start!r}; a displacement and a velocity are accepted, as 5mm,100mm/s"
+        )
+    u, v = (
+        to_si(part.strip(), quantity, "--start")
+        for part, quantity in zip(parts, (LENGTH, VELOCITY), strict=True)
+    )
+    return First(State(u, v), period)
+
+
+def _one_branch(
+    what: Subject,
+    parameter: str,
+    span: tuple[float, float],
+    frequency: str | None,
+    first: First,
+    progress: Any,
 ) -> xr.Dataset:
-    """The branch along another parameter, from where the motion from rest settles."""
+    """The branch along a parameter from one orbit."""
     from vibroimpact.model import Harmonic, to_si
     from vibroimpact.model.units import FREQUENCY, pretty
     from vibroimpact.stability.branch import branch as follow
@@ -198,8 +265,10 @@ def _over_another(
     return follow(
         what.oscillator,
         Harmonic(what.amplitude, hertz, phase),
+        first.start,
         parameter=parameter,
         low=span[0],
         high=span[1],
+        period=first.period,
         progress=progress,
     )

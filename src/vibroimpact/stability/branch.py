@@ -16,7 +16,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model import Harmonic, Oscillator, State, equilibrium
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.free_flight import reference_excursions
@@ -33,11 +33,15 @@ from vibroimpact.stability.orbits import (
     Section,
     corrected,
     is_fixed,
+    vector_of,
 )
-from vibroimpact.stability.settled import approach
+from vibroimpact.stability.settled import Settled, apart, approach, reach
 from vibroimpact.stability.trace import CLOSED, Branch, Station
 
 _Array = NDArray[np.float64]
+
+_SAME = 1e-6
+"""Distance, over the motion's size, from the motion from rest of an orbit that is it."""
 
 
 class Followed(NamedTuple):
@@ -59,7 +63,7 @@ def branch(
     parameter: str = "frequency",
     low: float | str,
     high: float | str,
-    period: int = 1,
+    period: int | None = None,
     most_points: int = 5000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -84,7 +88,7 @@ def branch(
     low, high
         Range of the parameter, in SI units or as text.
     period
-        Of the orbits, in forcing cycles.
+        Of the orbits, in forcing cycles; None for that of the motion from rest, or 1 with a start.
     most_points
         Orbits in each direction after which it is given up.
     progress
@@ -113,7 +117,8 @@ def branch(
             f"low: {span[0]:g} to {span[1]:g} leaves out the first orbit's {parameter}, "
             f"{fam.value:g}; a range that holds it is accepted"
         )
-    period, most_points = whole(period, "period"), whole(most_points, "most_points")
+    period = None if period is None else whole(period, "period")
+    most_points = whole(most_points, "most_points")
     first = first_orbit(fam, span, start, period)
     data = as_dataset([follow_both_ways(first, span, most_points, progress)], fam, span)
     if progress is not None:
@@ -125,7 +130,7 @@ def first_orbit(
     fam: Family,
     span: tuple[float, float],
     start: State | xr.DataArray | xr.Dataset | None,
-    period: int,
+    period: int | None,
     symmetric: bool = True,
 ) -> Orbit:
     """The orbit near a state; if `symmetric`, as its own mirror image where it is one.
@@ -135,11 +140,21 @@ def first_orbit(
     InputError
         If Newton's method finds none.
     """
+    rest = None
     if start is None:
-        found = approach(fam.oscillator, fam.excitation, State(phase=fam.phase))
-        vector = found.state
+        begin = equilibrium(fam.oscillator).replace(phase=fam.phase)
+        rest = approach(fam.oscillator, fam.excitation, begin)
+        vector = rest.state
         point = np.array([vector[2], vector[3], vector[4], -vector[5], fam.value])
         mode = float(vector[layout.MODE])
+        if rest.status not in (Status.DONE, Status.NOT_SETTLED):
+            raise InputError(f"start: the motion from rest is given up: {rest.status.advice}")
+        if period is None and not rest.period:
+            raise InputError(
+                f"start: the motion from rest does not settle at {fam.excitation.frequency:g} Hz; "
+                "a state near an orbit, and its period, are accepted"
+            )
+        period = period or rest.period
     else:
         state = as_state(start)
         if state.phase is not None:
@@ -154,6 +169,7 @@ def first_orbit(
             ]
         )
         mode = float({1: RIGHT, -1: LEFT}.get(state.contact or 0, FLIGHT))
+    period = period or 1
     section = Section(fam, period, False, scales(fam, span, point))
     status, orbit_found = corrected(section, point, mode)
     if status is not Status.DONE:
@@ -162,7 +178,25 @@ def first_orbit(
             f"({told(status)}); a state nearer to one is accepted"
         )
     orbit_found = reduced(orbit_found)
+    if rest is not None:
+        _tell_another(rest, orbit_found)
     return symmetric_if_so(orbit_found) if symmetric else orbit_found
+
+
+def _tell_another(rest: Settled, found: Orbit) -> None:
+    """Warn if an orbit that was sought where the motion from rest goes is another motion."""
+    there = vector_of(found)
+    if (
+        rest.period == found.section.period
+        and apart(rest, there, rest.state, reach(rest, rest.state)) <= _SAME
+    ):
+        return
+    it = f"has period {rest.period}" if rest.period else "does not settle"
+    warnings.warn(
+        f"this orbit of period {found.section.period} is not the motion from rest, which {it}",
+        RuntimeWarning,
+        stacklevel=4,
+    )
 
 
 def told(status: Status) -> str:

@@ -21,7 +21,7 @@ def orbit(
     oscillator: Oscillator,
     excitation: Harmonic,
     guess: State | xr.DataArray | xr.Dataset | None = None,
-    period: int = 1,
+    period: int | None = None,
     *,
     samples: int = 256,
 ) -> xr.Dataset:
@@ -37,7 +37,8 @@ def orbit(
         A state near the orbit's, at the excitation's phase; None for where the motion from rest
         settles.
     period
-        In forcing cycles.
+        In forcing cycles; None for that of the motion from rest, or 1 with a guess. A warning says
+        if what is found without a guess is not the motion from rest.
     samples
         Samples per forcing cycle, at least 1.
 
@@ -53,7 +54,8 @@ def orbit(
     InputError
         If a value cannot be used, or Newton's method finds no orbit near the guess.
     """
-    period, samples = whole(period, "period"), whole(samples, "samples")
+    period = None if period is None else whole(period, "period")
+    samples = whole(samples, "samples")
     fam = family(oscillator, excitation, "frequency")
     found = first_orbit(fam, (0.0, 1.0), guess, period, symmetric=False)
     data = describe_motion(settled_on(found), samples, 1, 1, MAX_EVENTS)
