@@ -24,15 +24,7 @@ def draw(study: Study) -> Figure:
             "antisymmetric, unstable": study.antisymmetric_orbit(CODE, wild, *BRANCH),
         },
     }
-    figure: Figure = motion_page(columns)[0, 0].get_figure(root=True)
-    (legend,) = figure.legends
-    handles = legend.legend_handles
-    legend.remove()
-    # With two columns the page is too narrow for all that its legend would put side by side.
-    figure.legend(
-        handles=handles, loc="outside lower center", ncols=4, frameon=False, fontsize="small"
-    )
-    return figure
+    return motion_page(columns)[0, 0].get_figure(root=True)  # type: ignore[no-any-return]
 
 
 ITEM = Item(
