@@ -193,9 +193,24 @@ def test_branches_are_named_under_a_sweep_too():
     assert {"1R 1L", "free flight"} <= {text.get_text() for text in ax.texts}
 
 
-def test_names_stand_clear_of_marks_and_of_each_other():
-    ax = bifurcation_diagram(several())
+def test_a_dense_sweep_leaves_the_branches_to_be_seen():
+    dense = vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(1.0, 4.0, 0.01))
+    line = marks(bifurcation_diagram(diagram(), sweep=dense))["forward sweep"]
+    assert len(line.get_xdata()) / line.get_markevery() < 100
+    assert (
+        marks(bifurcation_diagram(diagram(), sweep=swept()))["forward sweep"].get_markevery() == 1
+    )
+
+
+@pytest.mark.parametrize("made", [diagram, several, gaps])
+def test_names_stand_clear_of_marks_and_of_each_other_inside_the_panel(made):
+    ax = bifurcation_diagram(made())
     ax.figure.draw_without_rendering()
+    inside = ax.get_window_extent()
+    for text in ax.texts:
+        box = text.get_window_extent()
+        assert inside.contains(*box.min)
+        assert inside.contains(*box.max)
     boxes = [text.get_window_extent() for text in ax.texts]
     for i, box in enumerate(boxes):
         assert not any(box.overlaps(other) for other in boxes[:i])

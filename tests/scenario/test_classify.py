@@ -95,3 +95,13 @@ def test_thresholds_that_are_none_are_refused(given):
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
     with pytest.raises(vi.InputError, match=r"thresholds: .* a Thresholds, or None, is accepted"):
         vi.classify(*rig, thresholds=given)
+
+
+def test_a_verdict_is_shown_in_short():
+    found = vi.classify("B2-G1-A3")
+    assert len(repr(found)) < 500
+    assert repr(found).startswith("Classification(scenario='S3', confidence=")
+    page = found._repr_html_()
+    for text in (found.scenario, f"{found.confidence:.0%}", "right hysteresis"):
+        assert text in page
+    assert "array" not in page

@@ -31,6 +31,10 @@ _LABELS = {
 _NORMALISED = {"eta_d": "displacement_excursion", "eta_a": "acceleration_excursion"}
 
 
+_MARKS = 60
+"""About how many holds of a sweep are marked."""
+
+
 class _Mark(NamedTuple):
     marker: str
     colour: str
@@ -199,6 +203,8 @@ def _marks_of(
             factor * sweep[source].sel(direction=direction).values,
             linestyle="",
             marker=look.marker,
+            # Of a dense sweep not every hold: the lines below must be seen.
+            markevery=max(1, sweep.sizes["frequency"] // _MARKS),
             markersize=look.size * 0.8,
             color=look.colour,
             markerfacecolor=look.colour if look.filled else "none",

@@ -49,17 +49,20 @@ class Names:
         at = self._visible(x, y)
         if once and any(np.hypot(*(at - spot).T).min(initial=np.inf) < _ON for spot in self._names):
             return
-        if len(at) * _STEP < 2.0 * _LETTER * len(name):
+        wide = _LETTER * len(name)
+        if len(at) * _STEP < 2.0 * wide:
             return
         for place in _PLACES:
             spot = at[round(place * (len(at) - 1))]
-            if not self._free(spot):
-                continue
-            self._names.append(spot)
             near = at[np.abs(at - spot).max(axis=1) < 0.04]
             across, up = near[-1] - near[0]
             # Above the curve, on the side that it comes from, where it does not run into the name.
-            rising = 0.0 if abs(up) < 0.1 * abs(across) else np.sign(across * up)
+            rising = 0.0 if abs(up) < 0.1 * abs(across) else float(np.sign(across * up))
+            middle = spot[0] - 0.5 * rising * wide
+            inside = 0.5 * wide < middle < 1.0 - 0.5 * wide and spot[1] < 0.94
+            if not inside or not self._free(spot):
+                continue
+            self._names.append(spot)
             self.ax.annotate(
                 name,
                 (spot[0], spot[1]),

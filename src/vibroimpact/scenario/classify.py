@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import xarray as xr
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, to_si
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.table import table
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import sweep
 from vibroimpact.response.threads import Progress
@@ -55,12 +56,20 @@ class Classification:
     confidence: float
     evidence: str
     alternatives: dict[tuple[str, float], str]
-    features: Evidence
-    thresholds: Thresholds
-    sweep: xr.Dataset
+    features: Evidence = field(repr=False)
+    thresholds: Thresholds = field(repr=False)
+    sweep: xr.Dataset = field(repr=False)
 
     def __str__(self) -> str:
         return f"{self.scenario} ({self.confidence:.0%}): {self.evidence}"
+
+    def _repr_html_(self) -> str:
+        rows = [("confidence", f"{self.confidence:.0%}"), ("evidence", self.evidence)]
+        rows += [
+            (f"if {threshold} were {value:g}", scenario)
+            for (threshold, value), scenario in self.alternatives.items()
+        ]
+        return table(f"Scenario {self.scenario}", rows)
 
 
 @takes_rig
