@@ -15,7 +15,7 @@ from vibroimpact.paper import study as study_module
 from vibroimpact.paper.claim import Claim, Finding, Kind, Verdict
 from vibroimpact.paper.claims import CLAIMS, jumps, left, maxima, motions, named, with_bumpers
 from vibroimpact.paper.claims.reasons import REASONS
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 NOT_REPRODUCED = {
     # Equal, never lower, where both sweeps pass over one peak; mostly grazing tests.
@@ -70,7 +70,7 @@ OF_THE_TESTS = (*with_bumpers.CLAIMS, *jumps.CLAIMS, *maxima.CLAIMS, *motions.CL
 
 @pytest.fixture(scope="module")
 def found() -> dict[str, Finding]:
-    study = Study(threads=2)
+    study = PublishedStudy(threads=2)
     return {claim.key: claim.find(study) for claim in CLAIMS}
 
 
@@ -171,7 +171,7 @@ class TestBroken:
 
     @staticmethod
     def turned(found: dict[str, Finding], claims: tuple[Claim, ...]) -> set[str]:
-        study = Study(threads=2)
+        study = PublishedStudy(threads=2)
         return {c.key for c in claims if c.find(study).verdict is not found[c.key].verdict}
 
     @staticmethod
@@ -236,7 +236,7 @@ class TestBroken:
 
     def test_a_feature_that_is_absent_does_not_hold(self):
         (claim,) = (c for c in CLAIMS if c.key == "three-motions")
-        study = Study(threads=1)
+        study = PublishedStudy(threads=1)
         free = xr.concat([study.curves("B1-Ginf-A3").assign_coords(rig="B4-G4-A3")], dim="rig")
         study._made["campaign"] = free
         finding = claim.find(study)

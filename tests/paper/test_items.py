@@ -13,9 +13,9 @@ from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.paper import fig15, table1
 from vibroimpact.paper.fig07 import CODE
 from vibroimpact.paper.items import ITEMS
-from vibroimpact.paper.study import GAPS, Study
+from vibroimpact.paper.study import GAPS, PublishedStudy
 
-STUDY = Study(threads=2)
+STUDY = PublishedStudy(threads=2)
 DRAWN = [item for item in ITEMS if item.draw is not None]
 
 

@@ -14,7 +14,7 @@ from vibroimpact.paper.claims import CLAIMS
 from vibroimpact.paper.claims.reasons import REASONS
 from vibroimpact.paper.item import Item, Table
 from vibroimpact.paper.report import Report, compute, write
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 _VOID = {"meta", "img", "br", "hr", "link", "input"}
 
@@ -50,13 +50,13 @@ class Page(HTMLParser):
         return [found[name] or "" for kind, found in self.tags if kind == tag and name in found]
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     figure = Figure()
     figure.subplots().plot([0, 1], [1, 0])
     return figure
 
 
-def table(study: Study) -> Table:
+def table(study: PublishedStudy) -> Table:
     return Table(("name", "a < b | c"), (("first", "1 & 2"), ("second", "x | y")))
 
 
@@ -75,7 +75,7 @@ def stub(claim: Claim, number: int) -> Claim:
 @pytest.fixture
 def made(tmp_path) -> tuple[Report, dict[str, Path]]:
     claims = tuple(stub(claim, k) for k, claim in enumerate(CLAIMS))
-    report = compute(Study(), tmp_path, ITEMS, claims)
+    report = compute(PublishedStudy(), tmp_path, ITEMS, claims)
     return report, write(report, tmp_path)
 
 
@@ -158,7 +158,7 @@ def test_reasons_only_where_not_reproduced(made):
 def test_a_part_does_not_replace_the_whole(made, tmp_path):
     _, files = made
     before = files["html"].read_bytes()
-    part = compute(Study(), tmp_path, ITEMS[:1], (), whole=False, figure="svg")
+    part = compute(PublishedStudy(), tmp_path, ITEMS[:1], (), whole=False, figure="svg")
     assert write(part, tmp_path)["html"] == tmp_path / "fig90.html"
     assert files["html"].read_bytes() == before
     page = Page((tmp_path / "fig90.html").read_text(encoding="utf-8"))
@@ -171,5 +171,5 @@ def test_a_part_does_not_replace_the_whole(made, tmp_path):
 def test_progress(tmp_path):
     seen = []
     claims = (stub(CLAIMS[0], 0),)
-    compute(Study(), tmp_path, ITEMS, claims, progress=lambda *step: seen.append(step))
+    compute(PublishedStudy(), tmp_path, ITEMS, claims, progress=lambda *step: seen.append(step))
     assert seen == [(1, 3), (2, 3), (3, 3)]

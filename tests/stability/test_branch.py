@@ -397,7 +397,7 @@ def test_from_no_dashpot_and_to_none():
 
 def test_an_orbit_without_extremes_is_told(monkeypatch):
     case = vi.laboratory.case("B2-G1-A3")
-    monkeypatch.setattr("vibroimpact.stability.branch.MAX_EVENTS", 1)
+    monkeypatch.setattr("vibroimpact.stability.labelled.MAX_EVENTS", 1)
     with pytest.warns(RuntimeWarning, match="the orbit at .* has no extremes: .*max_events"):
         data = vi.branch(case.oscillator, vi.Harmonic(case.amplitude, 2.0), low=1.95, high=2.05)
     assert data["eta_d"].isnull().any()

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import vibroimpact as vi
 from properties.strategies import Motion, examples, motions
 from vibroimpact.stability.family import family
-from vibroimpact.stability.orbits import Section, corrected, evaluated
+from vibroimpact.stability.fixed_points import Section, corrected, evaluated
 
 
 def test_it_agrees_with_settling():
@@ -93,7 +93,7 @@ def test_monodromy_against_differences_of_the_map(motion: Motion, phase: float) 
         weight = scale[component] / scale[:4]
         spread = np.max(np.abs(slopes[0] - slopes[1]) * weight)
         assume(spread < 1e-6)
-        error = np.max(np.abs(slopes[1] - here.columns[component]) * weight)
+        error = np.max(np.abs(slopes[1] - here.carried[component]) * weight)
         assert error < 1e-6 + 4.0 * spread
 
 

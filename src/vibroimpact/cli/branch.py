@@ -156,7 +156,7 @@ def option_range(
         If there is no such parameter, an end is missing or cannot be used, or none lies between.
     """
     from vibroimpact.model import to_si
-    from vibroimpact.stability.family import parameter
+    from vibroimpact.model.parameters import parameter
 
     varied = parameter(name, field)
     given: list[str | float | None] = [low, high]
@@ -247,9 +247,9 @@ def _one_branch(
 ) -> xr.Dataset:
     """The branch along a parameter from one orbit."""
     from vibroimpact.model import Harmonic, to_si
+    from vibroimpact.model.parameters import parameter as varied
     from vibroimpact.model.units import FREQUENCY, pretty
     from vibroimpact.stability.branch import branch as follow
-    from vibroimpact.stability.family import parameter as varied
 
     if frequency is None:
         raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")

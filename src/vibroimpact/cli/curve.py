@@ -203,10 +203,10 @@ def _curves(
     """Each curve once, by the parameter at which it was found."""
     import numpy as np
 
+    from vibroimpact.model.parameters import parameter
     from vibroimpact.stability.branch import branch
     from vibroimpact.stability.curves import bifurcation_curve
     from vibroimpact.stability.diagram import resonance_diagram
-    from vibroimpact.stability.family import parameter
 
     if names[0] == "frequency":
         data = resonance_diagram(

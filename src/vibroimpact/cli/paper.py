@@ -80,11 +80,11 @@ def paper(
     items, claims = chosen(only, ITEMS, CLAIMS)
     with output_folder(output) as folder:
         from vibroimpact.paper import report
-        from vibroimpact.paper.study import Study
+        from vibroimpact.paper.study import PublishedStudy
 
         with progress_bar("computing the study") as progress:
             found = report.compute(
-                Study(threads),
+                PublishedStudy(threads),
                 folder.path,
                 items,
                 claims,

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from enum import StrEnum
 from typing import NamedTuple
 
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 
 class Verdict(StrEnum):
@@ -57,5 +57,5 @@ class Claim(NamedTuple):
     """In our own words."""
     quantity: str
     """What is computed, and what decides."""
-    find: Callable[[Study], Finding]
+    find: Callable[[PublishedStudy], Finding]
     kind: Kind = Kind.COMPUTED

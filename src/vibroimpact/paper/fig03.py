@@ -9,10 +9,10 @@ from vibroimpact.figures.family import Quantity
 from vibroimpact.figures.style import LEGEND
 from vibroimpact.model import laboratory
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """E_a above E_d, a curve for each acceleration."""
     codes = {f"B1-Ginf-{a}": a for a in laboratory.ACCELERATIONS}
     data = study.family(tuple(codes))

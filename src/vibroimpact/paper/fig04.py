@@ -8,12 +8,12 @@ from matplotlib.figure import Figure
 from vibroimpact.figures import hysteresis_cycle, resonance_curves
 from vibroimpact.figures.style import FREE, LEGEND
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 CODE, NO_BUMPERS = "B4-G4-A3", "B4-Ginf-A3"
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """The cycles at resonance on the left, the curves on the right."""
     data, flight = study.curves(CODE), study.curves(NO_BUMPERS)
     at = _highest(data)

@@ -9,10 +9,10 @@ from matplotlib.figure import Figure
 from vibroimpact.figures import family_legend, resonance_family
 from vibroimpact.model import laboratory
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 
-def panels_of(study: Study, quantity: Literal["eta_a", "eta_d"]) -> Figure:
+def panels_of(study: PublishedStudy, quantity: Literal["eta_a", "eta_d"]) -> Figure:
     """Bumpers downwards, accelerations to the right; a curve for each gap and free flight."""
     data = study.campaign()
     bumpers, accelerations = tuple(laboratory.BUMPERS), tuple(laboratory.ACCELERATIONS)
@@ -38,7 +38,7 @@ def panels_of(study: Study, quantity: Literal["eta_a", "eta_d"]) -> Figure:
     return figure
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """η_a."""
     return panels_of(study, "eta_a")
 

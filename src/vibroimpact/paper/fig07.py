@@ -7,13 +7,13 @@ from matplotlib.figure import Figure
 from vibroimpact.figures import frequency_marks, resonance_curves
 from vibroimpact.model import laboratory
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 CODE = "B2-G1-A3"
 NAMES = ("I", "II", "III")
 
 
-def curves_of(study: Study, parameters: laboratory.Parameters) -> Figure:
+def curves_of(study: PublishedStudy, parameters: laboratory.Parameters) -> Figure:
     """The curves, with the three frequencies of Figs. 8 and 12 marked."""
     axes = resonance_curves(study.curves(CODE, parameters))
     places = study.regular_places(CODE, parameters)
@@ -21,7 +21,7 @@ def curves_of(study: Study, parameters: laboratory.Parameters) -> Figure:
     return axes[0].get_figure(root=True)  # type: ignore[return-value]
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """With the table's parameters."""
     return curves_of(study, "table")
 

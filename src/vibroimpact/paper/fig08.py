@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from vibroimpact.figures import motion_page
 from vibroimpact.paper.fig07 import CODE
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 PLACES = (
     "$f_{I}$, secondary resonance",
@@ -16,7 +16,7 @@ PLACES = (
 )
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """Portrait, spectrum and histories; a column for each frequency."""
     columns = {
         f"{place}: {frequency:.2f} Hz": {

@@ -6,10 +6,10 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures import resonance_curves
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """The curves."""
     axes = resonance_curves(study.curves("B2-G2-A2"))
     return axes[0].get_figure(root=True)  # type: ignore[return-value]

@@ -6,10 +6,10 @@ from matplotlib.figure import Figure
 
 from vibroimpact.paper.fig07 import curves_of
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """With the identified parameters."""
     return curves_of(study, "identified")
 

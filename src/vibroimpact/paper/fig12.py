@@ -8,10 +8,10 @@ from vibroimpact.figures import phase_portrait
 from vibroimpact.paper.fig07 import CODE
 from vibroimpact.paper.fig08 import PLACES
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """The three frequencies side by side."""
     figure = Figure(figsize=(12.6, 4.6), layout="constrained")
     axes = figure.subplots(1, len(PLACES))

@@ -6,10 +6,10 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures import scenario_cases
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """A panel for each acceleration."""
     figure = scenario_cases(study.scenarios())[0].get_figure(root=True)
     assert figure is not None

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 
 from vibroimpact.figures import frequency_marks, resonance_curves
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.resonance import Features, features
 
 CODE = "B3-10mm-A3"
@@ -29,7 +29,7 @@ _GREEN: dict[str, Any] = {
 _WILD: dict[str, Any] = {"facecolor": "#fbe3bd", "lw": 0.0, "label": "does not settle"}
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """The whole range on the left, that around 1 Hz on the right."""
     data = study.curves(CODE, low=LOW)
     found = features(data)

@@ -7,10 +7,10 @@ from matplotlib.figure import Figure
 from vibroimpact.figures import motion_page
 from vibroimpact.paper.fig15 import BRANCH, CODE, LOW
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """Left hysteresis on the left, the motion that does not repeat itself on the right."""
     left, wild = study.other_places(CODE, LOW)
     columns = {

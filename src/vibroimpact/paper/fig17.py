@@ -6,13 +6,13 @@ from matplotlib.figure import Figure
 
 from vibroimpact.figures import resonance_curves
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 CODE = "B3-0mm-A3"
 LOW, HIGH = 0.3, 10.0
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """The curves, up to twice the range of the tests."""
     axes = resonance_curves(study.curves(CODE, low=LOW, high=HIGH))
     return axes[0].get_figure(root=True)  # type: ignore[return-value]

@@ -7,11 +7,11 @@ from matplotlib.figure import Figure
 from vibroimpact.figures import clearances, phase_portrait, spectrum_lines, time_history
 from vibroimpact.paper.fig17 import CODE, HIGH, LOW
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.spectrum import spectrum
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """Portrait and spectrum above; histories on the left, clearances on the right."""
     curve = study.curves(CODE, low=LOW, high=HIGH)["eta_d"].sel(direction="forward")
     frequency = float(curve["frequency"][int(curve.values.argmax())])

@@ -12,7 +12,7 @@ from vibroimpact.figures.family import Quantity
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model import laboratory
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import GAPS, Study
+from vibroimpact.paper.study import GAPS, PublishedStudy
 
 LOW, HIGH = 0.3, 8.0
 NEAR = (0.3, 2.0)
@@ -21,7 +21,7 @@ NOT_NEAR = ("2mm", "5mm")
 """Gaps left out of it: most of their motions there do not settle, and would hide the others."""
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """η_a above η_d, a curve for each gap; the whole range, and its lower part magnified."""
     names = {f"B3-{gap}-A3": _name(gap) for gap in GAPS}
     scenarios = {code: study.classification(code, LOW, HIGH).scenario for code in names}

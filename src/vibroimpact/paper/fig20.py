@@ -7,13 +7,13 @@ from matplotlib.figure import Figure
 from vibroimpact.model import laboratory
 from vibroimpact.paper.fig19 import family_of
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import STIFFNESSES, Study
+from vibroimpact.paper.study import STIFFNESSES, PublishedStudy
 
 SHOWN = (0.8, 1.8)
 """Range in Hz; outside it all curves are those of free flight."""
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """η_a above η_d, a curve for each stiffness."""
     names = {f"{stiffness}-G3-A1": _name(stiffness) for stiffness in STIFFNESSES}
     names["B1-Ginf-A1"] = "no bumpers"

@@ -8,11 +8,11 @@ from vibroimpact.figures import Mark, scenario_map
 from vibroimpact.figures.style import BUMPERS, SCENARIOS
 from vibroimpact.model import laboratory
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.scenario.borders import jump_border
 
 
-def draw(study: Study) -> Figure:
+def draw(study: PublishedStudy) -> Figure:
     """The map, with the tests and the sections of Figs. 19 and 20."""
     data = study.map()
     table = laboratory.table_1()

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from matplotlib.figure import Figure
 
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 
 class Table(NamedTuple):
@@ -25,5 +25,5 @@ class Item(NamedTuple):
     title: str
     caption: str
     """What is seen, in our own words."""
-    draw: Callable[[Study], Figure] | None = None
-    table: Callable[[Study], Table] | None = None
+    draw: Callable[[PublishedStudy], Figure] | None = None
+    table: Callable[[PublishedStudy], Table] | None = None

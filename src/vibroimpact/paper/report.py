@@ -14,7 +14,7 @@ from vibroimpact.model import GRAVITY, laboratory
 from vibroimpact.paper.claim import Claim, Finding, Kind, Verdict
 from vibroimpact.paper.claims.reasons import REASONS
 from vibroimpact.paper.item import Item, Table
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.files import write_whole
 from vibroimpact.scenario.kinds import Scenario
 
@@ -86,7 +86,7 @@ class Report(NamedTuple):
 
 
 def compute(
-    study: Study,
+    study: PublishedStudy,
     folder: Path,
     items: Sequence[Item],
     claims: Sequence[Claim],
@@ -137,7 +137,7 @@ def compute(
     return Report(tuple(shown), tuple(judged), whole)
 
 
-def _shown(study: Study, folder: Path, item: Item, figure: Format) -> Shown:
+def _shown(study: PublishedStudy, folder: Path, item: Item, figure: Format) -> Shown:
     table = item.table(study) if item.table else None
     if item.draw is None:
         return Shown(item, None, table)

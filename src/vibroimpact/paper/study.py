@@ -65,7 +65,7 @@ def grid(low: float = LOW, high: float = HIGH) -> NDArray[np.float64]:
     return np.array([round(k * STEP, 10) for k in range(first, last + 1)])
 
 
-class Study:
+class PublishedStudy:
     """The published rig, computed as far as it is asked for.
 
     Parameters

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from vibroimpact.model import laboratory
 from vibroimpact.paper.item import Item, Table
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 _NAMES = (*laboratory.GAPS, *laboratory.BUMPERS)
 
@@ -27,7 +27,7 @@ def written(name: str, value: float) -> str:
     return f"{value:.2f}" if name in laboratory.GAPS else f"{value:.1f}"
 
 
-def table(study: Study) -> Table:
+def table(study: PublishedStudy) -> Table:
     """For each acceleration a row of computed and one of printed values."""
     head = tuple(f"δ {n}" if n in laboratory.GAPS else f"λ {n}" for n in _NAMES)
     rows = [

@@ -17,10 +17,10 @@ from vibroimpact.model import Harmonic, Oscillator, Rig
 from vibroimpact.response.sweep import sweep
 from vibroimpact.response.variables import describe
 from vibroimpact.scenario.axes import Base
+from vibroimpact.scenario.behind import primary_branch
 from vibroimpact.scenario.evidence import evidence
 from vibroimpact.scenario.frequencies import frequencies
 from vibroimpact.scenario.kinds import Scenario
-from vibroimpact.scenario.orbits import primary_branch
 from vibroimpact.scenario.store import CREATED_BY
 from vibroimpact.stability.bifurcations import FOLD
 from vibroimpact.stability.curves import bifurcation_curve

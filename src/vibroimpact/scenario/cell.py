@@ -14,9 +14,9 @@ from vibroimpact.response.peaks import Curve
 from vibroimpact.response.sweep import sweeps
 from vibroimpact.response.swept import Direction
 from vibroimpact.response.threads import Progress
+from vibroimpact.scenario.behind import with_folds, with_kinds
 from vibroimpact.scenario.evidence import Evidence, each_evidence
 from vibroimpact.scenario.frequencies import cycles, grid, highest
-from vibroimpact.scenario.orbits import with_folds, with_kinds
 from vibroimpact.scenario.thresholds import Thresholds
 from vibroimpact.scenario.verdict import confidence, scenario
 

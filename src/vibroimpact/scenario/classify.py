@@ -14,11 +14,11 @@ from vibroimpact.model.table import table
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import sweep
 from vibroimpact.response.threads import Progress
+from vibroimpact.scenario.behind import with_folds, with_kinds
 from vibroimpact.scenario.bumpers import bumpers
 from vibroimpact.scenario.evidence import Evidence, evidence
 from vibroimpact.scenario.frequencies import cycles, highest
 from vibroimpact.scenario.frequencies import frequencies as default_frequencies
-from vibroimpact.scenario.orbits import with_folds, with_kinds
 from vibroimpact.scenario.thresholds import Thresholds, checked
 from vibroimpact.scenario.verdict import alternatives, confidence, scenario
 from vibroimpact.scenario.words import in_words

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from vibroimpact.continuation.zero import zero_within
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.orbits import SEEN, Orbit, corrected, is_fixed
+from vibroimpact.stability.fixed_points import SEEN, Orbit, corrected, is_fixed
 from vibroimpact.stability.parents import half_plus, parent, slid
 from vibroimpact.stability.trace import Station, solved
 
@@ -163,7 +163,7 @@ def born(found: Bifurcation) -> Iterator[Station]:
         target = section.times(2)
     else:
         return
-    values, vectors = np.linalg.eig(found.orbit.columns.T)
+    values, vectors = np.linalg.eig(found.orbit.carried.T)
     vector = np.real(vectors[:, np.argmin(np.abs(values + 1.0))]) / section.scale[:4]
     normal = np.append(vector, 0.0)
     size = float(np.linalg.norm(normal * SEEN))

@@ -27,6 +27,7 @@ from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.counts import whole
+from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.threads import Progress, counted
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
@@ -37,9 +38,9 @@ from vibroimpact.stability.bifurcations import (
     GRAZING,
     NEIMARK,
 )
-from vibroimpact.stability.branch import scales, state_of
 from vibroimpact.stability.defining import SEEN, Defining, Spot, solve
-from vibroimpact.stability.family import bounds
+from vibroimpact.stability.first import scales
+from vibroimpact.stability.labelled import state_of
 from vibroimpact.stability.locus import Locus, Place
 from vibroimpact.stability.plane import Plane, plane
 from vibroimpact.stability.trace import CLOSED

@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.bifurcations import FOLD, GRAZING, NEIMARK, spiral
-from vibroimpact.stability.orbits import Orbit, Section, evaluated, margin_of
+from vibroimpact.stability.fixed_points import Orbit, Section, evaluated, margin_of
 from vibroimpact.stability.parents import half_plus
 from vibroimpact.stability.plane import Plane
 
 _Array = NDArray[np.float64]
 
 SEEN = np.array([1.0, 1.0, 0.0, 0.0, 1.0, 1.0])
-"""Components of (z, p, q) by which lengths and angles are measured, as in `orbits`."""
+"""Components of (z, p, q) by which lengths and angles are measured, as in `fixed_points`."""
 
 _FAR = 1e3  # scaled; Newton's method has lost its way
 _STEP = 1e-7
@@ -56,7 +56,7 @@ class Defining(NamedTuple):
             return None
         section = self.section(y[5])
         status, orbit, image = evaluated(section, y[:5], self.mode)
-        if status is not Status.DONE or not np.isfinite(orbit.columns).all():
+        if status is not Status.DONE or not np.isfinite(orbit.carried).all():
             return None
         residual = np.empty(5)
         residual[:4] = (image[:4] - orbit.point[:4]) / self.scale[:4]
@@ -67,7 +67,7 @@ class Defining(NamedTuple):
         """The condition φ."""
         if self.kind == FOLD:
             with np.errstate(all="ignore"):  # far from any orbit it may overflow
-                return float(np.linalg.det(orbit.columns - np.eye(4)))
+                return float(np.linalg.det(orbit.carried - np.eye(4)))
         if self.kind == NEIMARK:
             return spiral(orbit)
         if self.kind == GRAZING:

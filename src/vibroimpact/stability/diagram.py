@@ -14,19 +14,17 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State, to_si
 from vibroimpact.model.counts import whole
+from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import DIRECTIONS, sweep
 from vibroimpact.response.threads import Progress
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
-from vibroimpact.stability.branch import (
-    Followed,
-    as_dataset,
-    first_orbit,
-    follow_both_ways,
-)
-from vibroimpact.stability.family import Family, bounds, family
-from vibroimpact.stability.orbits import SEEN, Orbit, at_phase, corrected, images
+from vibroimpact.stability.branch import follow_both_ways
+from vibroimpact.stability.family import Family, family
+from vibroimpact.stability.first import first_orbit
+from vibroimpact.stability.fixed_points import SEEN, Orbit, at_phase, corrected, images
+from vibroimpact.stability.labelled import Followed, as_dataset
 
 _Array = NDArray[np.float64]
 

@@ -23,7 +23,7 @@ _TINY = 1e-10
 
 def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int, Status]:
     """Exponents of a periodic motion from its monodromy matrix; the rest as `judge_wandering`."""
-    columns = np.empty((4, 4))
+    carried = np.empty((4, 4))
     damping = np.empty(1)
     state = found.state.copy()
     rates = []
@@ -36,14 +36,14 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
             state,
             found.period,
             max_events,
-            columns,
+            carried,
             damping,
         )
         if outcome != Status.DONE:
             nothing = np.full(2, np.nan)
             told = Judgement("undecided", 0, nothing, nothing, Status(outcome).advice)
             return told, math.nan, 0, Status(outcome)
-        rates.append(_rates(columns, damping[0]) / found.period)
+        rates.append(_rates(carried, damping[0]) / found.period)
     first, second = rates
     finite = np.isfinite(first) & np.isfinite(second)
     spread = np.abs(np.subtract(first, second, where=finite, out=np.zeros(2)))
@@ -58,16 +58,16 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
     return kind, float(damping[0]) / found.period, 2 * found.period, Status.DONE
 
 
-def _rates(columns: _Array, damping: float) -> _Array:
+def _rates(carried: _Array, damping: float) -> _Array:
     """Logarithms of the two largest multipliers of an orbit.
 
     A bumper that is never touched only relaxes; it is left out. A second multiplier that is
     lost in rounding follows from the damping over the orbit, which is that of a motion whose
     bumpers forget.
     """
-    touched = [j for j in (2, 3) if columns[:2, j].any() or columns[j, :2].any()]
+    touched = [j for j in (2, 3) if carried[:2, j].any() or carried[j, :2].any()]
     kept = [0, 1, *touched]
-    moduli = np.sort(np.abs(np.linalg.eigvals(columns[np.ix_(kept, kept)])))[::-1]
+    moduli = np.sort(np.abs(np.linalg.eigvals(carried[np.ix_(kept, kept)])))[::-1]
     with np.errstate(divide="ignore"):
         logarithms: _Array = np.log(moduli[:2])
     if moduli[1] <= _TINY * moduli[0]:

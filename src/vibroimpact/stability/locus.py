@@ -12,7 +12,7 @@ from vibroimpact.continuation.arclength import distance, predicted, strays, unit
 from vibroimpact.continuation.closing import crossing
 from vibroimpact.continuation.zero import zero_within
 from vibroimpact.stability.defining import SEEN, Defining, Spot, solve
-from vibroimpact.stability.orbits import beyond, images, seen_at
+from vibroimpact.stability.fixed_points import beyond, images, seen_at
 from vibroimpact.stability.trace import CLOSED, PHASES
 
 _Array = NDArray[np.float64]

@@ -9,9 +9,9 @@ from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.variables import describe
-from vibroimpact.stability.branch import first_orbit
 from vibroimpact.stability.family import family
-from vibroimpact.stability.orbits import MAX_EVENTS
+from vibroimpact.stability.first import first_orbit
+from vibroimpact.stability.fixed_points import MAX_EVENTS
 from vibroimpact.stability.settled import settled_on
 from vibroimpact.stability.steady import describe_motion
 

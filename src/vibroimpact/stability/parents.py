@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.orbits import SEEN, Orbit, Section, corrected, evaluated, is_fixed
+from vibroimpact.stability.fixed_points import SEEN, Orbit, Section, corrected, evaluated, is_fixed
 
 _Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ _REACH = 0.02
 def half_plus(orbit: Orbit) -> float:
     """det(M + I) of an orbit's map: zero where an eigenvalue is −1."""
     with np.errstate(all="ignore"):  # far from any orbit it may overflow
-        return float(np.linalg.det(orbit.columns + np.eye(4)))
+        return float(np.linalg.det(orbit.carried + np.eye(4)))
 
 
 def slid(found: Orbit) -> bool:

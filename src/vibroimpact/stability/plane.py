@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
-from vibroimpact.stability.family import RATES, Family, Parameter, family, parameter, system_vector
+from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.stability.family import RATES, Family, family, system_vector
 
 _Array = NDArray[np.float64]
 

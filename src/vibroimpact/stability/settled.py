@@ -16,7 +16,7 @@ from vibroimpact.model.counts import share
 from vibroimpact.response.follow import moved_on
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.stability.orbits import Orbit, vector_of
+from vibroimpact.stability.fixed_points import Orbit, vector_of
 
 _Array = NDArray[np.float64]
 

@@ -21,9 +21,9 @@ from vibroimpact.response.phases import Recorded, cut, measured, relaxation_loss
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, state_from
 from vibroimpact.response.variables import describe
-from vibroimpact.stability.branch import first_orbit
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.family import family
+from vibroimpact.stability.first import first_orbit
 from vibroimpact.stability.growth import judge_orbit, judge_wandering
 from vibroimpact.stability.kind import Judgement
 from vibroimpact.stability.settled import (

@@ -18,7 +18,7 @@ from vibroimpact.continuation.arclength import distance, predicted, strays
 from vibroimpact.continuation.closing import crossing
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.orbits import (
+from vibroimpact.stability.fixed_points import (
     HELD,
     SEEN,
     Orbit,

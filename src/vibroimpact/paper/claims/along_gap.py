@@ -7,7 +7,7 @@ import xarray as xr
 
 from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import BOTH, AbsentError, Array, claim
-from vibroimpact.paper.study import GAPS, Study
+from vibroimpact.paper.study import GAPS, PublishedStudy
 from vibroimpact.response.peaks import Curve
 from vibroimpact.response.resonance import features
 from vibroimpact.response.swept import Direction
@@ -38,7 +38,7 @@ def jumps_of(data: xr.Dataset) -> dict[str, tuple[float, float]]:
     "Scenarios for the total gaps from none to 0 mm, from 0.3 to 8 Hz.",
     Kind.RULES,
 )
-def along_gap(study: Study) -> Finding:
+def along_gap(study: PublishedStudy) -> Finding:
     """Never back, and none left out."""
     found = [study.classification(code, *_RANGE).scenario for code in _CODES]
     told = ", ".join(
@@ -58,7 +58,7 @@ def along_gap(study: Study) -> Finding:
     "Frequencies of both jumps of B3-A3 along falling gaps, where there are any: rising, and the "
     "upward jump by less over the family.",
 )
-def jumps_along_gap(study: Study) -> Finding:
+def jumps_along_gap(study: PublishedStudy) -> Finding:
     """From the widest gap with a jump to the smallest."""
     found = jumps_of(study.by_gap().sel(rig=list(_CODES)))
     down, up = np.array(list(found.values())).T
@@ -67,7 +67,7 @@ def jumps_along_gap(study: Study) -> Finding:
     return Finding(rising and np.ptp(up) < np.ptp(down), f"down and up: {told} Hz")
 
 
-def _maxima(study: Study, curve: Curve, direction: Direction) -> tuple[Array, float]:
+def _maxima(study: PublishedStudy, curve: Curve, direction: Direction) -> tuple[Array, float]:
     """Largest excursions along falling gaps, and that without a gap, a scenario of its own."""
     most = study.by_gap()[curve].sel(rig=list(_CODES), direction=direction).max("frequency")
     return most.values[:-1], float(most[-1])
@@ -85,7 +85,7 @@ def _gap(k: int) -> str:
     "Largest η_a of B3-A3 in each direction along gaps that fall to 2 mm: rises to one maximum, "
     "then falls; and the range of the backward maxima is the smaller one.",
 )
-def bell_along_gap(study: Study) -> Finding:
+def bell_along_gap(study: PublishedStudy) -> Finding:
     """Both directions."""
     told, ranges, holds = [], [], True
     for way in BOTH:
@@ -111,7 +111,7 @@ def bell_along_gap(study: Study) -> Finding:
     "Largest η_d of B3-A3 in each direction along gaps that fall to 2 mm: never rises, and falls "
     "where bumpers are hit.",
 )
-def displacement_along_gap(study: Study) -> Finding:
+def displacement_along_gap(study: PublishedStudy) -> Finding:
     """Both directions."""
     told, holds = [], True
     for way in BOTH:

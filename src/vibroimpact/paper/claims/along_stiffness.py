@@ -16,7 +16,7 @@ from vibroimpact.paper.claims.reading import (
     listed,
     told_onset,
 )
-from vibroimpact.paper.study import STEP, STIFFNESSES, Study
+from vibroimpact.paper.study import STEP, STIFFNESSES, PublishedStudy
 from vibroimpact.response.peaks import CURVES
 
 _CODES = tuple(f"{stiffness}-G3-A1" for stiffness in STIFFNESSES)
@@ -29,7 +29,7 @@ _CODES = tuple(f"{stiffness}-G3-A1" for stiffness in STIFFNESSES)
     "hysteresis (S6); with stiffer ones they are S2.",
     "Scenarios for the bumper stiffnesses from 10 kN/m to 10 MN/m: S6 first, then S2, no other.",
 )
-def soft(study: Study) -> Finding:
+def soft(study: PublishedStudy) -> Finding:
     """In the order of stiffness."""
     found = [study.classification(code).scenario for code in _CODES]
     told = ", ".join(f"{s} {f}" for s, f in zip(STIFFNESSES, found, strict=True))
@@ -44,7 +44,7 @@ def soft(study: Study) -> Finding:
     "For the stiffnesses that give S6: settled on one cycle, the directions alike; at resonance "
     "all higher harmonics of the displacement together are below 10 % of the first.",
 )
-def soft_motion(study: Study) -> Finding:
+def soft_motion(study: PublishedStudy) -> Finding:
     """At the resonance of each."""
     codes = [code for code in _CODES if study.classification(code).scenario == "S6"]
     if not codes:
@@ -68,7 +68,7 @@ def soft_motion(study: Study) -> Finding:
     "with free flight at its foot, is the onset of the primary resonance and left out.",
     Kind.RULES,
 )
-def no_secondary(study: Study) -> Finding:
+def no_secondary(study: PublishedStudy) -> Finding:
     """By the classification's evidence."""
     found = {}
     for code in _CODES:
@@ -90,7 +90,7 @@ def no_secondary(study: Study) -> Finding:
     "Frequencies of both jumps of G3-A1 along rising stiffness: neither ever falls, each rises by "
     "more than the step of 0.01 Hz over the family, and the upward one by less.",
 )
-def jumps_along_stiffness(study: Study) -> Finding:
+def jumps_along_stiffness(study: PublishedStudy) -> Finding:
     """Upwards it jumps where free flight reaches the gap."""
     found = jumps_of(study.by_stiffness().sel(rig=list(_CODES)))
     down, up = np.array(list(found.values())).T
@@ -108,7 +108,7 @@ def jumps_along_stiffness(study: Study) -> Finding:
     "those of η_d.",
     "Maxima of both directions of G3-A1 along rising stiffness: rising in η_a, falling in η_d.",
 )
-def maxima_along_stiffness(study: Study) -> Finding:
+def maxima_along_stiffness(study: PublishedStudy) -> Finding:
     """Both directions."""
     data = study.by_stiffness().sel(rig=list(_CODES))
     told, holds = [], True

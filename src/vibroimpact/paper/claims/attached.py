@@ -16,7 +16,7 @@ from vibroimpact.paper.claims.reading import (
     impacts,
     listed,
 )
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.resonance import features
 
 _CODE = "B3-0mm-A3"
@@ -24,7 +24,7 @@ _LOW, _HIGH = 0.3, 10.0
 _PRINTED = 5.4
 
 
-def _curves(study: Study) -> xr.Dataset:
+def _curves(study: PublishedStudy) -> xr.Dataset:
     return study.curves(_CODE, low=_LOW, high=_HIGH)
 
 
@@ -32,7 +32,7 @@ def _share(value: float) -> str:
     return "0 to rounding" if value < ROUNDING else f"{value:.1%}"
 
 
-def _resonance(study: Study) -> float:
+def _resonance(study: PublishedStudy) -> float:
     return float(_curves(study)["eta_d"].sel(direction="forward").idxmax("frequency"))
 
 
@@ -43,7 +43,7 @@ def _resonance(study: Study) -> float:
     "hysteresis, no secondary resonance.",
     "What the sweeps from 0.3 to 10 Hz show, and the largest difference of the directions.",
 )
-def smooth(study: Study) -> Finding:
+def smooth(study: PublishedStudy) -> Finding:
     """One peak a curve."""
     data = _curves(study)
     found = features(data)
@@ -63,7 +63,7 @@ def smooth(study: Study) -> Finding:
     "With the bumpers attached to the mass, the resonance of B3-A3 has moved up to about 5.4 Hz.",
     "Frequency of the largest η_d: 5.4 Hz to the digit printed (5.35 to 5.45 Hz).",
 )
-def resonance(study: Study) -> Finding:
+def resonance(study: PublishedStudy) -> Finding:
     """With the parameters of Table 1."""
     found = _resonance(study)
     rig = _curves(study)["eta_a"].sel(direction="forward")
@@ -81,7 +81,7 @@ def resonance(study: Study) -> Finding:
     "Settled on one forcing cycle at all frequencies, both directions alike; at 1, 3 and 8 Hz and "
     "at resonance all higher harmonics of the displacement together are below 10 % of the first.",
 )
-def one_motion(study: Study) -> Finding:
+def one_motion(study: PublishedStudy) -> Finding:
     """Sampled where the spectrum is concerned."""
     data = _curves(study)
     places = [1.0, 3.0, _resonance(study), 8.0]
@@ -103,7 +103,7 @@ def one_motion(study: Study) -> Finding:
     "At resonance: one contact a side and cycle, and the time between contacts over T: above 0, "
     "below 5 %.",
 )
-def flights(study: Study) -> Finding:
+def flights(study: PublishedStudy) -> Finding:
     """The bumper just left has nearly recovered."""
     place = _resonance(study)
     motion = study.motion(_CODE, place, "forward")
@@ -123,7 +123,7 @@ def flights(study: Study) -> Finding:
     "Deformation at the end of a contact over the largest one, and that of the other bumper as it "
     "is met over the same: below 10 % and below 1 %.",
 )
-def recovered(study: Study) -> Finding:
+def recovered(study: PublishedStudy) -> Finding:
     """From the log of events."""
     motion = study.motion(_CODE, _resonance(study), "forward")
     largest = float(motion["contact_penetration"].max())

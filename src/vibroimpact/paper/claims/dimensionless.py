@@ -11,7 +11,7 @@ from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims import grazing
 from vibroimpact.paper.claims.named import from_below
 from vibroimpact.paper.claims.reading import ACCELERATIONS, BUMPERS, CODES, at_most, claim
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.peaks import CURVES
 from vibroimpact.response.resonance import UNSETTLED_APART
 
@@ -41,7 +41,7 @@ def _printed_again(names: tuple[str, ...]) -> Finding:
     "G/(2 u_max) from mass, equivalent stiffness and ξ = 0.15, to the two digits printed.",
     Kind.INPUTS,
 )
-def table_gaps(study: Study) -> Finding:
+def table_gaps(study: PublishedStudy) -> Finding:
     """Of one side, as the printed numbers are."""
     return _printed_again(_GAPS)
 
@@ -53,7 +53,7 @@ def table_gaps(study: Study) -> Finding:
     "K_j/K of each bumper at each acceleration, to the digit printed.",
     Kind.INPUTS,
 )
-def table_ratios(study: Study) -> Finding:
+def table_ratios(study: PublishedStudy) -> Finding:
     """Bumper over isolator."""
     return _printed_again(BUMPERS)
 
@@ -76,7 +76,7 @@ def _of_tests() -> dict[str, tuple[float, float]]:
     "δ of Table 1 against G/u_max (both sides) and G/(2 u_max) (one side).",
     Kind.INPUTS,
 )
-def total_gap(study: Study) -> Finding:
+def total_gap(study: PublishedStudy) -> Finding:
     """The printed numbers are those of one side."""
     printed = table1.PRINTED["A3"]["G1"]
     one = table1.computed()["A3"]["G1"]
@@ -93,7 +93,7 @@ def total_gap(study: Study) -> Finding:
     "Smallest δ of the 48 tests: at least 0.215, which is printed as 0.22.",
     Kind.INPUTS,
 )
-def range_gaps(study: Study) -> Finding:
+def range_gaps(study: PublishedStudy) -> Finding:
     """To the digits printed."""
     least = min(gap for _, gap in _of_tests().values())
     return Finding(least >= 0.215, f"smallest δ {least:.4f}")
@@ -106,7 +106,7 @@ def range_gaps(study: Study) -> Finding:
     "Smallest and largest λ, to the one digit that the paper gives.",
     Kind.INPUTS,
 )
-def range_ratios(study: Study) -> Finding:
+def range_ratios(study: PublishedStudy) -> Finding:
     """B1-A1 and B4-A3."""
     tests = {code: ratio for code, (ratio, _) in _of_tests().items()}
     least, most = min(tests, key=tests.__getitem__), max(tests, key=tests.__getitem__)
@@ -122,7 +122,7 @@ def range_ratios(study: Study) -> Finding:
     "λ of the four bumpers and δ of the four gaps at A1, A2, A3.",
     Kind.INPUTS,
 )
-def with_acceleration(study: Study) -> Finding:
+def with_acceleration(study: PublishedStudy) -> Finding:
     """For the isolator softens."""
     values = table1.computed()
     ratios = np.array([[values[a][b] for a in ACCELERATIONS] for b in BUMPERS])
@@ -142,7 +142,7 @@ def with_acceleration(study: Study) -> Finding:
     "λ of B3 over that of B2, against the ratios of the other neighbours: the smallest.",
     Kind.INPUTS,
 )
-def middle(study: Study) -> Finding:
+def middle(study: PublishedStudy) -> Finding:
     """The same at every acceleration."""
     values = table1.computed()["A3"]
     ratios = [values[BUMPERS[k + 1]] / values[BUMPERS[k]] for k in range(3)]
@@ -159,7 +159,7 @@ def middle(study: Study) -> Finding:
     "where both settle, 10 % elsewhere.",
     Kind.CONSTRUCTION,
 )
-def only_ratios(study: Study) -> Finding:
+def only_ratios(study: PublishedStudy) -> Finding:
     """Swept as two physically different rigs."""
     settled, loose, same = 0.0, 0.0, True
     for code in _SAME:
@@ -184,7 +184,7 @@ def only_ratios(study: Study) -> Finding:
     "Scenarios of all 48 tests.",
     Kind.RULES,
 )
-def counts(study: Study) -> Finding:
+def counts(study: PublishedStudy) -> Finding:
     """Counted."""
     found = list(study.scenarios().values())
     told = {s: found.count(s) for s in sorted(set(found))}
@@ -194,7 +194,7 @@ def counts(study: Study) -> Finding:
 
 
 def _region(
-    study: Study, ratios: tuple[float, ...], gaps: tuple[float, ...], wanted: str
+    study: PublishedStudy, ratios: tuple[float, ...], gaps: tuple[float, ...], wanted: str
 ) -> Finding:
     found = {(ratio, gap): study.scenario_at(ratio, gap) for ratio in ratios for gap in gaps}
     others = [f"λ {r:g}, δ {g:g}: {s}" for (r, g), s in found.items() if s != wanted]
@@ -209,7 +209,7 @@ def _region(
     "leaves open what else is there.",
     "Scenarios at λ = 0.5, 1, 1.5 and 1.9 with δ = 0.25, 0.5 and 0.75: all S6.",
 )
-def soft_region(study: Study) -> Finding:
+def soft_region(study: PublishedStudy) -> Finding:
     """At δ above 0.2; below it is the other region without tests."""
     return _region(study, (0.5, 1.0, 1.5, 1.9), (0.25, 0.5, 0.75), "S6")
 
@@ -221,7 +221,7 @@ def soft_region(study: Study) -> Finding:
     "leaves open what else is there.",
     "Scenarios at δ = 0.1, 0.15 and 0.19 with λ = 3, 25.9 and 87.5, as wide as the tests': all S4.",
 )
-def small_gap_region(study: Study) -> Finding:
+def small_gap_region(study: PublishedStudy) -> Finding:
     """The paper itself leaves open what else is in there."""
     return _region(study, (3.0, 25.9, 87.5), (0.1, 0.15, 0.19), "S4")
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import ACCELERATIONS, apart, at_most, claim, listed
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 _CODES = tuple(f"B1-Ginf-{a}" for a in ACCELERATIONS)
 
@@ -18,7 +18,7 @@ _CODES = tuple(f"B1-Ginf-{a}" for a in ACCELERATIONS)
     "narrow hysteresis at A3.",
     "Nothing: the model's isolator is linear, so that its free flight can show neither.",
 )
-def softening(study: Study) -> Finding:
+def softening(study: PublishedStudy) -> Finding:
     """The model cannot tell; that it has no hysteresis is computed."""
     worst = float(apart(study.family(_CODES)).max())
     return Finding(
@@ -36,7 +36,7 @@ def softening(study: Study) -> Finding:
     "Maxima of both excursions for A1, A2, A3, and the frequencies of the acceleration's.",
     Kind.INPUTS,
 )
-def larger_and_lower(study: Study) -> Finding:
+def larger_and_lower(study: PublishedStudy) -> Finding:
     """With the equivalent stiffness of each acceleration."""
     data = study.family(_CODES).sel(direction="forward")
     a = data["acceleration_excursion"].max("frequency").values

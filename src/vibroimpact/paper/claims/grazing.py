@@ -8,7 +8,7 @@ from vibroimpact.model import laboratory
 from vibroimpact.paper import table1
 from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import ACCELERATIONS, SYMBOLS, claim, free, listed
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.peaks import CURVES, Curve
 from vibroimpact.response.resonance import features
 
@@ -25,7 +25,7 @@ _SHALLOW = 0.1
 """Largest penetration over the gap of one side of bumpers that are hardly deformed."""
 
 
-def _like_free(study: Study, curve: Curve) -> Finding:
+def _like_free(study: PublishedStudy, curve: Curve) -> Finding:
     data = study.campaign().sel(rig=_CODE)
     worst = float(np.abs(data[curve] - free(data, curve)).max())
     most = float(data[curve].max())
@@ -40,7 +40,7 @@ def _like_free(study: Study, curve: Curve) -> Finding:
     "In grazing contact, B2-G4-A1, the displacement's curves are close to free flight's.",
     "Largest difference of η_d from free flight: at most 0.1.",
 )
-def displacement(study: Study) -> Finding:
+def displacement(study: PublishedStudy) -> Finding:
     """Hardly pressed in."""
     return _like_free(study, "eta_d")
 
@@ -51,7 +51,7 @@ def displacement(study: Study) -> Finding:
     "In grazing contact, B2-G4-A1, the acceleration's curves are close to free flight's.",
     "Largest difference of η_a from free flight: at most 0.1.",
 )
-def acceleration(study: Study) -> Finding:
+def acceleration(study: PublishedStudy) -> Finding:
     """A stiff bumper adds much acceleration where it is pressed in a little."""
     return _like_free(study, "eta_a")
 
@@ -64,7 +64,7 @@ def acceleration(study: Study) -> Finding:
     "the gap of one side, which is also the rules' threshold for grazing.",
     Kind.RULES,
 )
-def hardly_deformed(study: Study) -> Finding:
+def hardly_deformed(study: PublishedStudy) -> Finding:
     """In millimetres, for the paper says no number."""
     gap = 0.5 * laboratory.GAPS["G4"]
     most = study.campaign()["displacement_max"].max(["direction", "frequency"])
@@ -84,7 +84,7 @@ def hardly_deformed(study: Study) -> Finding:
     "The four tests with G4 and A1, and B3-A3 with a gap of 65 mm: largest difference of η_a and "
     "of η_d from free flight, at most 0.01, and no jump.",
 )
-def free_flight(study: Study) -> Finding:
+def free_flight(study: PublishedStudy) -> Finding:
     """Of the cases that are grazing by the paper and in Fig. 19, not of a gap of just u_max."""
     told, holds = [], True
     for code in (*_TESTS, _COMPUTED):
@@ -107,7 +107,7 @@ def free_flight(study: Study) -> Finding:
     "total gap that is δ = 1.",
     Kind.CONSTRUCTION,
 )
-def at_one(study: Study) -> Finding:
+def at_one(study: PublishedStudy) -> Finding:
     """A hundredth to both sides, for the sweep's frequencies miss the peak a little."""
     table = table1.computed()
     gaps = [1e3 * laboratory.GAPS["G1"] / table[a]["G1"] for a in ACCELERATIONS]

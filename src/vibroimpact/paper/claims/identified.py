@@ -8,7 +8,7 @@ from vibroimpact.model import laboratory
 from vibroimpact.model.dimensionless import DimensionlessBumper, to_dimensionless
 from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import BOTH, AbsentError, claim, regular_places, turns
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.resonance import features
 
 _S3, _S2 = "B2-G1-A3", "B2-G2-A2"
@@ -16,7 +16,7 @@ _CLOSE = 0.05
 """Largest relative difference of parameters that are called the same."""
 
 
-def _jumps(study: Study, code: str) -> str:
+def _jumps(study: PublishedStudy, code: str) -> str:
     """The jumps of the primary resonance with fitted parameters, in words."""
     found = features(study.curves(code, "identified")).jumps
     told = []
@@ -34,7 +34,7 @@ def _jumps(study: Study, code: str) -> str:
     "Scenarios of the two computed pairs of curves.",
     Kind.RULES,
 )
-def scenarios(study: Study) -> Finding:
+def scenarios(study: PublishedStudy) -> Finding:
     """By the classification."""
     found = {c: study.classification(c, parameters="identified").scenario for c in (_S3, _S2)}
     return Finding(
@@ -48,7 +48,7 @@ def scenarios(study: Study) -> Finding:
     "At the secondary resonance the computed phase portrait of B2-G1-A3 has inner loops.",
     "Changes of the velocity's sign in a forcing cycle at f_I: more than the two of a plain orbit.",
 )
-def loops(study: Study) -> Finding:
+def loops(study: PublishedStudy) -> Finding:
     """A loop turns the velocity round twice more."""
     place = regular_places(study, _S3, "identified")[0]
     count = turns(study.motion(_S3, place, "forward", "identified", samples=1024))
@@ -62,7 +62,7 @@ def loops(study: Study) -> Finding:
     "downward jump, secondary resonance.",
     "The computed places; the measured markers are published as pictures only.",
 )
-def agreement(study: Study) -> Finding:
+def agreement(study: PublishedStudy) -> Finding:
     """What is to be compared."""
     return Finding(
         None,
@@ -78,7 +78,7 @@ def agreement(study: Study) -> Finding:
     "does not soften.",
     "The computed upward jump; the measured one is not given as a number.",
 )
-def upward(study: Study) -> Finding:
+def upward(study: PublishedStudy) -> Finding:
     """What is to be compared."""
     return Finding(
         None,
@@ -93,7 +93,7 @@ def upward(study: Study) -> Finding:
     "The computed phase portraits agree with the measured ones at f_I, f_II and f_III.",
     "The computed extremes; the measured orbits are published as pictures only.",
 )
-def portraits(study: Study) -> Finding:
+def portraits(study: PublishedStudy) -> Finding:
     """What is to be compared."""
     sizes = []
     with suppress(AbsentError):  # the verdict stays: nothing computed can give another
@@ -115,7 +115,7 @@ def portraits(study: Study) -> Finding:
     "K fitted to B2-G1-A3 and B2-G2-A2 against the K from which Table 1 comes out: within 5 %.",
     Kind.INPUTS,
 )
-def stiffness(study: Study) -> Finding:
+def stiffness(study: PublishedStudy) -> Finding:
     """Both describe the isolator at one acceleration."""
     told, off = [], []
     for code in (_S3, _S2):
@@ -133,7 +133,7 @@ def stiffness(study: Study) -> Finding:
     "ξ and τ of the parameters fitted to B2-G1-A3 and B2-G2-A2: within 5 % of both.",
     Kind.INPUTS,
 )
-def damping(study: Study) -> Finding:
+def damping(study: PublishedStudy) -> Finding:
     """Section 7 assumes what Section 5 fits."""
     told, off = [], []
     for code in (_S3, _S2):

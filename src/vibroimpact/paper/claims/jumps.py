@@ -14,7 +14,7 @@ from vibroimpact.paper.claims.reading import (
     jump_trend,
     trend,
 )
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 _FORWARD = (
     "Frequency of the forward sweep's jump along {}: it never falls, and rises by more than the "
@@ -26,12 +26,12 @@ _BACKWARD = (
 )
 
 
-def _forward(study: Study, sequences: Sequences) -> Finding:
+def _forward(study: PublishedStudy, sequences: Sequences) -> Finding:
     found = jump_trend(study, sequences, "forward")
     return Finding(found.all_hold, found.told(".2f", " Hz"))
 
 
-def _backward(study: Study, sequences: Sequences) -> Finding:
+def _backward(study: PublishedStudy, sequences: Sequences) -> Finding:
     forward = jump_trend(study, sequences, "forward")
     backward = jump_trend(study, sequences, "backward")
     return Finding(backward_less(forward, backward), backward.told(".2f", " Hz"))
@@ -43,7 +43,7 @@ def _backward(study: Study, sequences: Sequences) -> Finding:
     "The smaller the gap, the higher the frequency of the downward jump.",
     _FORWARD.format("falling gaps"),
 )
-def down_gap(study: Study) -> Finding:
+def down_gap(study: PublishedStudy) -> Finding:
     """Twelve pairs of bumper and acceleration."""
     return _forward(study, ALONG_GAP)
 
@@ -54,7 +54,7 @@ def down_gap(study: Study) -> Finding:
     "The smaller the gap, the higher the frequency of the upward jump, which moves less.",
     _BACKWARD,
 )
-def up_gap(study: Study) -> Finding:
+def up_gap(study: PublishedStudy) -> Finding:
     """Twelve pairs of bumper and acceleration."""
     return _backward(study, ALONG_GAP)
 
@@ -65,7 +65,7 @@ def up_gap(study: Study) -> Finding:
     "The larger the acceleration, the higher the frequency of the downward jump.",
     _FORWARD.format("rising accelerations"),
 )
-def down_acceleration(study: Study) -> Finding:
+def down_acceleration(study: PublishedStudy) -> Finding:
     """Sixteen pairs of bumper and gap."""
     return _forward(study, ALONG_ACCELERATION)
 
@@ -76,7 +76,7 @@ def down_acceleration(study: Study) -> Finding:
     "The larger the acceleration, the higher the frequency of the upward jump, which moves less.",
     _BACKWARD,
 )
-def up_acceleration(study: Study) -> Finding:
+def up_acceleration(study: PublishedStudy) -> Finding:
     """Sixteen pairs of bumper and gap."""
     return _backward(study, ALONG_ACCELERATION)
 
@@ -87,7 +87,7 @@ def up_acceleration(study: Study) -> Finding:
     "The stiffer the bumper, the higher the frequency of the downward jump.",
     _FORWARD.format("stiffer bumpers"),
 )
-def down_bumper(study: Study) -> Finding:
+def down_bumper(study: PublishedStudy) -> Finding:
     """Twelve pairs of gap and acceleration."""
     return _forward(study, ALONG_BUMPER)
 
@@ -98,12 +98,12 @@ def down_bumper(study: Study) -> Finding:
     "The stiffer the bumper, the higher the frequency of the upward jump, which moves less.",
     _BACKWARD,
 )
-def up_bumper(study: Study) -> Finding:
+def up_bumper(study: PublishedStudy) -> Finding:
     """In the model it lies where free flight reaches the gap, whatever the bumper."""
     return _backward(study, ALONG_BUMPER)
 
 
-def _rises(study: Study) -> dict[str, tuple[float, float]]:
+def _rises(study: PublishedStudy) -> dict[str, tuple[float, float]]:
     """Rise of η_a and η_d at the backward sweep's upward jump, by test."""
     found = {}
     for code in CODES:
@@ -124,7 +124,7 @@ def _rises(study: Study) -> dict[str, tuple[float, float]]:
     "The upward jump is less evident in the displacement than in the acceleration.",
     "Rise of η_d and of η_a at the upward jump: smaller in all tests that have one.",
 )
-def less_evident(study: Study) -> Finding:
+def less_evident(study: PublishedStudy) -> Finding:
     """Compared test by test."""
     rises = _rises(study)
     less = [code for code, (a, d) in rises.items() if abs(d) < abs(a)]
@@ -142,7 +142,7 @@ def less_evident(study: Study) -> Finding:
     "Rise of η_d at the upward jump along falling gaps and along rising accelerations: grows in "
     "every sequence.",
 )
-def fades(study: Study) -> Finding:
+def fades(study: PublishedStudy) -> Finding:
     """By the same rule as all other trends."""
     rises = {code: d for code, (_, d) in _rises(study).items()}
     gap, acceleration = (

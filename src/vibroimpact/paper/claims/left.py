@@ -16,7 +16,7 @@ from vibroimpact.paper.claims.reading import (
     orbits_at,
     turns,
 )
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.resonance import Features, Hysteresis, features
 
 CODE = "B3-10mm-A3"
@@ -25,17 +25,17 @@ AROUND = (0.9, 1.4)
 """Range round the non-regular resonance (Hz)."""
 
 
-def curves(study: Study) -> xr.Dataset:
+def curves(study: PublishedStudy) -> xr.Dataset:
     """Sweeps from 0.3 Hz."""
     return study.curves(CODE, low=START)
 
 
-def found_features(study: Study) -> Features:
+def found_features(study: PublishedStudy) -> Features:
     """What they show."""
     return features(curves(study))
 
 
-def _left(study: Study) -> list[Hysteresis]:
+def _left(study: PublishedStudy) -> list[Hysteresis]:
     """Left hystereses below 0.9 Hz, by frequency."""
     return [
         item
@@ -44,8 +44,8 @@ def _left(study: Study) -> list[Hysteresis]:
     ]
 
 
-def places(study: Study) -> tuple[float, float]:
-    """`Study.other_places`, or `AbsentError`."""
+def places(study: PublishedStudy) -> tuple[float, float]:
+    """`PublishedStudy.other_places`, or `AbsentError`."""
     try:
         return study.other_places(CODE, START)
     except ValueError:
@@ -62,7 +62,7 @@ def places(study: Study) -> tuple[float, float]:
     "Left hystereses (backward above forward) of the sweeps from 0.3 Hz in steps of 0.01 Hz: two "
     "or more. From 0.44 Hz, where `vibroimpact classify` begins, there are fewer.",
 )
-def left(study: Study) -> Finding:
+def left(study: PublishedStudy) -> Finding:
     """From 0.3 Hz, in steps of 0.01 Hz."""
     found = _left(study)
     ends = ", ".join(f"{i.ends[0]:.3f} to {i.ends[1]:.3f}" for i in found)
@@ -81,7 +81,7 @@ def left(study: Study) -> Finding:
     "the larger one is that of the backward sweep.",
     "The motions that the two sweeps reach in the middle of the widest left hysteresis.",
 )
-def two_motions(study: Study) -> Finding:
+def two_motions(study: PublishedStudy) -> Finding:
     """At f_I."""
     place = places(study)[0]
     forward, backward = (study.motion(CODE, place, way) for way in BOTH)
@@ -102,7 +102,7 @@ def two_motions(study: Study) -> Finding:
     "once in the backward one.",
     "Impacts per forcing cycle and side of both motions.",
 )
-def two_and_one(study: Study) -> Finding:
+def two_and_one(study: PublishedStudy) -> Finding:
     """At f_I."""
     place = places(study)[0]
     counts = [impacts(study.motion(CODE, place, way)) for way in BOTH]
@@ -120,7 +120,7 @@ def two_and_one(study: Study) -> Finding:
     "Changes of the velocity's sign a cycle (more than 2 is a loop), and impacts a side beyond the "
     "first one.",
 )
-def loops(study: Study) -> Finding:
+def loops(study: PublishedStudy) -> Finding:
     """A loop that crosses the bumper is a second impact."""
     place = places(study)[0]
     both = [study.motion(CODE, place, way, samples=1024) for way in BOTH]
@@ -138,7 +138,7 @@ def loops(study: Study) -> Finding:
     "In a left hysteresis a third, unstable motion lies between the two stable ones.",
     "Orbits of the followed branch in the middle of the widest left hysteresis, by stability.",
 )
-def third(study: Study) -> Finding:
+def third(study: PublishedStudy) -> Finding:
     """Two stable, one unstable."""
     place, found = places(study)[0], _left(study)
     widest = max(found, key=lambda item: item.high - item.low)
@@ -156,7 +156,7 @@ def third(study: Study) -> Finding:
     "in the forward sweep.",
     "Impacts a side in the middle of each left hysteresis, from the highest frequency down.",
 )
-def more_impacts(study: Study) -> Finding:
+def more_impacts(study: PublishedStudy) -> Finding:
     """Counted in the sweeps."""
     data, rows = curves(study), []
     for item in reversed(_left(study)):

@@ -19,11 +19,11 @@ from vibroimpact.paper.claims.reading import (
     peak_trend,
     trend,
 )
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.swept import Direction
 
 
-def _maxima(study: Study, pair: str, direction: Direction) -> list[float]:
+def _maxima(study: PublishedStudy, pair: str, direction: Direction) -> list[float]:
     bumper, acceleration = pair.split("-")
     codes = [f"{bumper}-{gap}-{acceleration}" for gap in FALLING_GAPS]
     return [peak(study, code, "eta_a", direction).value for code in codes]
@@ -46,7 +46,7 @@ def _told(forward: list[float], backward: list[float]) -> str:
     "Maxima of η_a for the four gaps; the largest one of each direction is at G2 or G3, and the "
     "range of the backward ones is the smaller one.",
 )
-def bell(study: Study) -> Finding:
+def bell(study: PublishedStudy) -> Finding:
     """Both directions."""
     both = [_maxima(study, "B2-A3", way) for way in BOTH]
     holds = all(int(np.argmax(values)) in (1, 2) for values in both)
@@ -61,7 +61,7 @@ def bell(study: Study) -> Finding:
     "Maxima of η_a for the four gaps; each larger than the one before in both directions, and the "
     "range of the backward ones is the smaller one.",
 )
-def ascending(study: Study) -> Finding:
+def ascending(study: PublishedStudy) -> Finding:
     """Both directions."""
     both = [_maxima(study, "B1-A1", way) for way in BOTH]
     holds = all((np.diff(values) > 0).all() for values in both)
@@ -76,14 +76,14 @@ def ascending(study: Study) -> Finding:
     "Maxima of η_a for the four gaps; each smaller than the one before in both directions, and the "
     "range of the backward ones is the smaller one.",
 )
-def descending(study: Study) -> Finding:
+def descending(study: PublishedStudy) -> Finding:
     """Both directions."""
     both = [_maxima(study, "B4-A3", way) for way in BOTH]
     holds = all((np.diff(values) < 0).all() for values in both)
     return Finding(holds and _less(*both), _told(*both))
 
 
-def _rise(study: Study, sequences: Sequences, direction: Direction) -> Finding:
+def _rise(study: PublishedStudy, sequences: Sequences, direction: Direction) -> Finding:
     found = peak_trend(study, sequences, "eta_a", direction, 1)
     return Finding(found.all_hold, found.told(".2f"))
 
@@ -94,7 +94,7 @@ def _rise(study: Study, sequences: Sequences, direction: Direction) -> Finding:
     "The larger the table acceleration, the higher the forward resonance in η_a.",
     "Height of the forward resonance from A1 to A3: rises in all 16 pairs of bumper and gap.",
 )
-def with_acceleration(study: Study) -> Finding:
+def with_acceleration(study: PublishedStudy) -> Finding:
     """Forward."""
     return _rise(study, ALONG_ACCELERATION, "forward")
 
@@ -106,7 +106,7 @@ def with_acceleration(study: Study) -> Finding:
     "extent.",
     "Height of the backward resonance from A1 to A3: rises in all 16 pairs, less than forward.",
 )
-def with_acceleration_backward(study: Study) -> Finding:
+def with_acceleration_backward(study: PublishedStudy) -> Finding:
     """Backward."""
     forward, backward = (peak_trend(study, ALONG_ACCELERATION, "eta_a", way, 1) for way in BOTH)
     example = listed(backward.values["B2-G1"], ".3f")
@@ -121,7 +121,7 @@ def with_acceleration_backward(study: Study) -> Finding:
     "The stiffer the bumper, the higher the forward resonance in η_a.",
     "Height of the forward resonance from B1 to B4: rises in all 12 pairs of gap and acceleration.",
 )
-def with_bumper(study: Study) -> Finding:
+def with_bumper(study: PublishedStudy) -> Finding:
     """Forward."""
     return _rise(study, ALONG_BUMPER, "forward")
 
@@ -132,12 +132,12 @@ def with_bumper(study: Study) -> Finding:
     "The stiffer the bumper, the higher the backward resonance in η_a.",
     "Height of the backward resonance from B1 to B4: rises in all 12 pairs.",
 )
-def with_bumper_backward(study: Study) -> Finding:
+def with_bumper_backward(study: PublishedStudy) -> Finding:
     """Backward."""
     return _rise(study, ALONG_BUMPER, "backward")
 
 
-def _fall(study: Study, sequences: Sequences) -> Finding:
+def _fall(study: PublishedStudy, sequences: Sequences) -> Finding:
     both = [peak_trend(study, sequences, "eta_d", way, -1) for way in BOTH]
     return Finding(
         all(found.all_hold for found in both),
@@ -151,7 +151,7 @@ def _fall(study: Study, sequences: Sequences) -> Finding:
     "The smaller the gap, the lower the resonances in η_d, in both directions.",
     "Height of the resonance from G4 to G1: falls in all 12 pairs of bumper and acceleration.",
 )
-def displacement_gap(study: Study) -> Finding:
+def displacement_gap(study: PublishedStudy) -> Finding:
     """Both directions."""
     return _fall(study, ALONG_GAP)
 
@@ -162,7 +162,7 @@ def displacement_gap(study: Study) -> Finding:
     "The larger the table acceleration, the lower the resonances in η_d, in both directions.",
     "Height of the resonance from A1 to A3: falls in all 16 pairs of bumper and gap.",
 )
-def displacement_acceleration(study: Study) -> Finding:
+def displacement_acceleration(study: PublishedStudy) -> Finding:
     """Both directions."""
     return _fall(study, ALONG_ACCELERATION)
 
@@ -173,7 +173,7 @@ def displacement_acceleration(study: Study) -> Finding:
     "The stiffer the bumper, the lower the resonances in η_d, in both directions.",
     "Height of the resonance from B1 to B4: falls in all 12 pairs of gap and acceleration.",
 )
-def displacement_bumper(study: Study) -> Finding:
+def displacement_bumper(study: PublishedStudy) -> Finding:
     """Both directions."""
     return _fall(study, ALONG_BUMPER)
 
@@ -184,7 +184,7 @@ def displacement_bumper(study: Study) -> Finding:
     "The stiffer the bumper, the smaller the difference of forward and backward resonance in η_d.",
     "Difference of the two heights from B1 to B4: falls in all 12 pairs of gap and acceleration.",
 )
-def directions_closer(study: Study) -> Finding:
+def directions_closer(study: PublishedStudy) -> Finding:
     """With the softest bumper and a small acceleration the hysteresis is too short for it."""
 
     def difference(code: str) -> float:

@@ -27,7 +27,7 @@ from vibroimpact.paper.claims.reading import (
     told_left,
     touching,
 )
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 
 _S3, _S2 = "B2-G1-A3", "B2-G2-A2"
 _SETS: dict[laboratory.Parameters, str] = {
@@ -45,7 +45,7 @@ _SETS: dict[laboratory.Parameters, str] = {
     "between exact folds of the branch either.",
     Kind.RULES,
 )
-def s3(study: Study) -> Finding:
+def s3(study: PublishedStudy) -> Finding:
     """By the branch of orbits: the sweeps step over what is narrower than 0.01 Hz."""
     found, left = study.classification(_S3), left_folds(study, _S3)
     resonances = ", ".join(f"{f:.2f} Hz ({p:.0%} prominent)" for f, p in secondary(study, _S3))
@@ -63,7 +63,7 @@ def s3(study: Study) -> Finding:
     "In B2-G1-A3 the bumpers are hit from the lowest frequency of 0.5 Hz on.",
     "First frequency of the forward sweep with impacts.",
 )
-def s3_contact(study: Study) -> Finding:
+def s3_contact(study: PublishedStudy) -> Finding:
     """From 0.5 Hz."""
     low, high = contact_span(study, _S3)
     return Finding(low == 0.5, f"{low:g} to {high:g} Hz")
@@ -77,7 +77,7 @@ def s3_contact(study: Study) -> Finding:
     "Difference of the two excursions at f_I and f_II, read off the curves; and no left hysteresis "
     "on the secondary resonance, between exact folds of the branch either.",
 )
-def s3_coincide(study: Study) -> Finding:
+def s3_coincide(study: PublishedStudy) -> Finding:
     """To rounding, and between two frequencies of the sweep."""
     first, valley, _ = regular_places(study, _S3)
     differ = apart(study.campaign().sel(rig=_S3))
@@ -98,7 +98,7 @@ def s3_coincide(study: Study) -> Finding:
     "image): falling, and the third above 1 %; of displacement and of acceleration, for the text "
     "does not name the quantity.",
 )
-def s3_harmonics(study: Study) -> Finding:
+def s3_harmonics(study: PublishedStudy) -> Finding:
     """Exact Fourier coefficients."""
     told, holds = [], True
     for name, frequency in zip(("f_I", "f_II"), regular_places(study, _S3), strict=False):
@@ -117,7 +117,7 @@ def s3_harmonics(study: Study) -> Finding:
     "forcing cycle.",
     "Impacts per cycle, right and left, of the forward sweep's motion at the three frequencies.",
 )
-def s3_impacts(study: Study) -> Finding:
+def s3_impacts(study: PublishedStudy) -> Finding:
     """Of periodic motions."""
     places = regular_places(study, _S3)
     found = [study.motion(_S3, f, "forward") for f in places]
@@ -134,7 +134,7 @@ def s3_impacts(study: Study) -> Finding:
     "From f_I over f_II to f_III each contact takes a larger share of the forcing period.",
     "Longest contact of the forward sweep's motion over T at the three frequencies: rising.",
 )
-def s3_duration(study: Study) -> Finding:
+def s3_duration(study: PublishedStudy) -> Finding:
     """Contact time over T."""
     shares = [
         float(study.motion(_S3, f, "forward")["contact_duration_share"].max())
@@ -149,7 +149,7 @@ def s3_duration(study: Study) -> Finding:
     "Just before the downward jump a large motion with impacts and a small one without coexist.",
     "Excursion and impacts of the motions that the two sweeps reach at f_III.",
 )
-def s3_two(study: Study) -> Finding:
+def s3_two(study: PublishedStudy) -> Finding:
     """Forward large, backward small."""
     place = regular_places(study, _S3)[2]
     large, small = (study.motion(_S3, place, way) for way in BOTH)
@@ -169,7 +169,7 @@ def s3_two(study: Study) -> Finding:
     "All higher harmonics of the displacement together over the first one: below 10 %. The text "
     "does not name the quantity; the acceleration's are told as well.",
 )
-def s3_one_line(study: Study) -> Finding:
+def s3_one_line(study: PublishedStudy) -> Finding:
     """Of the displacement."""
     place = regular_places(study, _S3)[2]
     both = [study.motion(_S3, place, way) for way in BOTH]
@@ -190,7 +190,7 @@ def s3_one_line(study: Study) -> Finding:
     "frequencies from f_II to f_III: falling throughout, to below 10 %. The acceleration's are "
     "told as well.",
 )
-def s3_ellipses(study: Study) -> Finding:
+def s3_ellipses(study: PublishedStudy) -> Finding:
     """A single harmonic is an ellipse."""
     _, valley, last = regular_places(study, _S3)
     places = [round(float(f), 2) for f in np.linspace(valley, last, 5)]
@@ -210,7 +210,7 @@ def s3_ellipses(study: Study) -> Finding:
     "Above the downward jump there is one motion only, without impacts, the same in both sweeps.",
     "Contacts and differences of the two directions of B2-G1-A3 above f_III.",
 )
-def s3_above(study: Study) -> Finding:
+def s3_above(study: PublishedStudy) -> Finding:
     """Free flight."""
     last = regular_places(study, _S3)[2]
     above = study.campaign().sel(rig=_S3, frequency=slice(last + 0.005, None))
@@ -226,7 +226,7 @@ def s3_above(study: Study) -> Finding:
     "The measured portraits of B2-G1-A3 are not symmetric, for the two gaps differ by accident.",
     "Nothing: the accidental gaps are not given, and the model's are equal.",
 )
-def dissymmetry(study: Study) -> Finding:
+def dissymmetry(study: PublishedStudy) -> Finding:
     """The computed eccentricity is zero."""
     worst = 1e3 * float(np.abs(study.campaign()["eccentricity"].sel(rig=_S3)).max())
     return Finding(
@@ -243,7 +243,7 @@ def dissymmetry(study: Study) -> Finding:
     "Scenario S2, and no secondary resonance.",
     Kind.RULES,
 )
-def s2(study: Study) -> Finding:
+def s2(study: PublishedStudy) -> Finding:
     """By the classification."""
     found, others = study.classification(_S2), secondary(study, _S2)
     ends = [f"{item.ends[0]:.3f} to {item.ends[1]:.3f} Hz" for item in found.features.right]
@@ -261,7 +261,7 @@ def s2(study: Study) -> Finding:
     "First and last frequency with impacts of the forward sweep by the tests' own steps of 0.1 Hz, "
     "with the parameters fitted to this test: each within one step.",
 )
-def s2_contact(study: Study) -> Finding:
+def s2_contact(study: PublishedStudy) -> Finding:
     """The same with the parameters of all tests is told beside it."""
     told, holds = [], []
     for parameters, name in _SETS.items():
@@ -282,7 +282,7 @@ def s2_contact(study: Study) -> Finding:
     "small one that are stable, and an unstable one.",
     "Orbits of the followed branch in the middle between the jumps, by stability.",
 )
-def s2_three(study: Study) -> Finding:
+def s2_three(study: PublishedStudy) -> Finding:
     """Counted on the branch."""
     return three_between_jumps(study, _S2)
 
@@ -293,7 +293,7 @@ def s2_three(study: Study) -> Finding:
     "In B2-G2-A2, unlike in B2-G1-A3, the bumpers are not hit at the lowest frequency yet.",
     "First frequency of the forward sweep with impacts, in both tests.",
 )
-def s2_later(study: Study) -> Finding:
+def s2_later(study: PublishedStudy) -> Finding:
     """The gap is wider, the acceleration smaller."""
     one, other = contact_span(study, _S2)[0], contact_span(study, _S3)[0]
     return Finding(one > other == 0.5, f"{one:.2f} Hz, against {other:.2f} Hz in {_S3}")

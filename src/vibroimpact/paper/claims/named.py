@@ -7,13 +7,13 @@ import numpy as np
 from vibroimpact.model import laboratory
 from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import claim, listed
-from vibroimpact.paper.study import HIGH, LOW, Study
+from vibroimpact.paper.study import HIGH, LOW, PublishedStudy
 
 EDGE, EDGE_LOW = "B1-G1-A3", 0.44
 """A test with a peak at the lower edge of the tests' range, and where `classify` begins (Hz)."""
 
 
-def from_below(study: Study) -> str:
+def from_below(study: PublishedStudy) -> str:
     """What the test at the edge is, from the tests' 0.5 Hz and from where `classify` begins."""
     there = study.classification(EDGE, EDGE_LOW, HIGH).scenario
     here = study.scenarios()[EDGE]
@@ -32,7 +32,7 @@ def _with(found: dict[str, str], scenario: str, acceleration: str) -> list[str]:
     "Scenarios of the 16 tests at A1.",
     Kind.RULES,
 )
-def at_a1(study: Study) -> Finding:
+def at_a1(study: PublishedStudy) -> Finding:
     """Fig. 14's lowest plane."""
     found = study.scenarios()
     grazing, rest = _with(found, "S1", "A1"), _with(found, "S2", "A1")
@@ -47,7 +47,7 @@ def at_a1(study: Study) -> Finding:
     "Scenarios of the 32 tests at A2 and A3.",
     Kind.RULES,
 )
-def at_a2_a3(study: Study) -> Finding:
+def at_a2_a3(study: PublishedStudy) -> Finding:
     """Fig. 14's upper planes."""
     found = [s for c, s in study.scenarios().items() if not c.endswith("A1")]
     told = ", ".join(f"{s}: {found.count(s)}" for s in sorted(set(found)))
@@ -62,7 +62,7 @@ def at_a2_a3(study: Study) -> Finding:
     "bumper; both scenarios occur.",
     Kind.RULES,
 )
-def transition(study: Study) -> Finding:
+def transition(study: PublishedStudy) -> Finding:
     """No exception."""
     found = study.scenarios()
     exceptions, both = [], True
@@ -87,7 +87,7 @@ def transition(study: Study) -> Finding:
     "Tests that are S3 at A1, A2 and A3: rising.",
     Kind.RULES,
 )
-def region(study: Study) -> Finding:
+def region(study: PublishedStudy) -> Finding:
     """Counted."""
     found = study.scenarios()
     counts = [len(_with(found, "S3", a)) for a in laboratory.ACCELERATIONS]

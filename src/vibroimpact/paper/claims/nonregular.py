@@ -8,7 +8,7 @@ import xarray as xr
 from vibroimpact.paper.claim import Finding
 from vibroimpact.paper.claims.left import AROUND, CODE, curves, found_features, places
 from vibroimpact.paper.claims.reading import AbsentError, apart, at_most, claim, listed, turns
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.resonance import UNSETTLED_APART
 from vibroimpact.scenario.evidence import UNEVEN
 
@@ -25,7 +25,7 @@ _CONSTANT = 0.25
     "Frequencies from 0.9 to 1.4 Hz that do not settle; no hysteresis there; and the largest "
     "difference of the directions: below 10⁻⁶ where they settle, and below 10 % elsewhere.",
 )
-def no_hysteresis(study: Study) -> Finding:
+def no_hysteresis(study: PublishedStudy) -> Finding:
     """Where nothing settles, two windows of one motion differ a little."""
     wild = [r for r in found_features(study).unsettled if AROUND[0] < r.low < AROUND[1]]
     data = curves(study).sel(frequency=slice(*AROUND))
@@ -50,7 +50,7 @@ def no_hysteresis(study: Study) -> Finding:
     "periodic: at most a quarter of the resonance's height above the unstable antisymmetric "
     "motion.",
 )
-def plateau(study: Study) -> Finding:
+def plateau(study: PublishedStudy) -> Finding:
     """Against the resonance's own height: all curves are flat beside the primary resonance."""
     places(study)
     data = curves(study)
@@ -83,7 +83,7 @@ def plateau(study: Study) -> Finding:
     "Excursion and eccentricity of the forward sweep's motion at f_II and of what its mirror image "
     "leads to: within 10 %, for neither repeats itself.",
 )
-def pair(study: Study) -> Finding:
+def pair(study: PublishedStudy) -> Finding:
     """A motion and its mirror image."""
     place = places(study)[1]
     one = study.motion(CODE, place, "forward")
@@ -110,7 +110,7 @@ def pair(study: Study) -> Finding:
     "The kind of the motion by the growth of disturbances: the largest Lyapunov exponent of a "
     "quasi-periodic motion is zero, that of a chaotic one positive.",
 )
-def quasi_periodic(study: Study) -> Finding:
+def quasi_periodic(study: PublishedStudy) -> Finding:
     """A planar map that contracts area has no attracting closed curve."""
     place = places(study)[1]
     motion = study.motion(CODE, place, "forward")
@@ -144,7 +144,7 @@ def _by_cycle(motion: xr.Dataset) -> dict[str, list[int]]:
     "Impacts in each cycle of the record at f_II: one a cycle on one side, a changing number on "
     "the other.",
 )
-def changing(study: Study) -> Finding:
+def changing(study: PublishedStudy) -> Finding:
     """By the record's window."""
     place = places(study)[1]
     counts = _by_cycle(study.motion(CODE, place, "forward"))
@@ -161,7 +161,7 @@ def changing(study: Study) -> Finding:
     "motion that is its own mirror image.",
     "The orbit of the antisymmetric branch at f_II: excursion, eccentricity and symmetry.",
 )
-def small(study: Study) -> Finding:
+def small(study: PublishedStudy) -> Finding:
     """By Newton's method."""
     place = places(study)[1]
     one = study.antisymmetric_orbit(CODE, place, *AROUND)
@@ -183,7 +183,7 @@ def small(study: Study) -> Finding:
     "smaller antisymmetric motion.",
     "Stability of the orbit: whatever starts beside an unstable one leaves it.",
 )
-def small_reached(study: Study) -> Finding:
+def small_reached(study: PublishedStudy) -> Finding:
     """Its multipliers decide."""
     place = places(study)[1]
     found = study.antisymmetric_orbit(CODE, place, *AROUND)
@@ -195,7 +195,7 @@ def small_reached(study: Study) -> Finding:
     )
 
 
-def _uneven(study: Study) -> xr.Dataset:
+def _uneven(study: PublishedStudy) -> xr.Dataset:
     """The forward sweep around 1 Hz, with `uneven` where it settles on one of a pair."""
     data = curves(study).sel(direction="forward", frequency=slice(*AROUND))
     uneven = np.abs(data["eccentricity"]) > UNEVEN * data["displacement_excursion"]
@@ -211,7 +211,7 @@ def _uneven(study: Study) -> xr.Dataset:
     "motion with eccentricity: without a gap; and changes of the velocity's sign a cycle at the "
     "first and the last of them: more than 2, then 2.",
 )
-def pair_settles(study: Study) -> Finding:
+def pair_settles(study: PublishedStudy) -> Finding:
     """Up to where the symmetry is restored."""
     places(study)
     data = _uneven(study)
@@ -238,7 +238,7 @@ def pair_settles(study: Study) -> Finding:
     "Settled, of one forcing cycle, its own mirror image and the same in both directions, at all "
     "frequencies between the two.",
 )
-def one_motion(study: Study) -> Finding:
+def one_motion(study: PublishedStudy) -> Finding:
     """Both directions."""
     places(study)
     right = [h for h in found_features(study).hysteresis if h.side == "right"]

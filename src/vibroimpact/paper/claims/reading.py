@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.model import laboratory
 from vibroimpact.paper.claim import Claim, Finding, Kind
-from vibroimpact.paper.study import HIGH, LOW, STEP, Study
+from vibroimpact.paper.study import HIGH, LOW, STEP, PublishedStudy
 from vibroimpact.response.peaks import Curve, Peak
 from vibroimpact.response.spectrum import spectrum
 from vibroimpact.response.swept import Direction
@@ -55,11 +55,11 @@ class AbsentError(LookupError):
 
 def claim(
     key: str, section: str, statement: str, quantity: str, kind: Kind = Kind.COMPUTED
-) -> Callable[[Callable[[Study], Finding]], Claim]:
+) -> Callable[[Callable[[PublishedStudy], Finding]], Claim]:
     """Make a claim of the function below."""
 
-    def made(find: Callable[[Study], Finding]) -> Claim:
-        def found(study: Study) -> Finding:
+    def made(find: Callable[[PublishedStudy], Finding]) -> Claim:
+        def found(study: PublishedStudy) -> Finding:
             try:
                 holds, number = find(study)
             except AbsentError as absent:
@@ -72,7 +72,7 @@ def claim(
     return made
 
 
-def peak(study: Study, code: str, curve: Curve, direction: Direction) -> Peak:
+def peak(study: PublishedStudy, code: str, curve: Curve, direction: Direction) -> Peak:
     """The primary resonance of a test."""
     return next(
         p
@@ -81,7 +81,7 @@ def peak(study: Study, code: str, curve: Curve, direction: Direction) -> Peak:
     )
 
 
-def jump(study: Study, code: str, direction: Direction) -> float | None:
+def jump(study: PublishedStudy, code: str, direction: Direction) -> float | None:
     """Frequency of a test's jump at the primary resonance (Hz): forward down, backward up."""
     return max(
         (
@@ -93,7 +93,7 @@ def jump(study: Study, code: str, direction: Direction) -> float | None:
     )
 
 
-def both_jumps(study: Study, code: str) -> tuple[float, float]:
+def both_jumps(study: PublishedStudy, code: str) -> tuple[float, float]:
     """Frequencies of the downward and the upward jump (Hz), or `AbsentError`."""
     down, up = (jump(study, code, way) for way in BOTH)
     if down is None or up is None:
@@ -144,13 +144,13 @@ def trend(
     return Trend(held, moves, kept)
 
 
-def jump_trend(study: Study, sequences: Sequences, direction: Direction) -> Trend:
+def jump_trend(study: PublishedStudy, sequences: Sequences, direction: Direction) -> Trend:
     """Trend of the jump's frequency: it has to rise by more than the step of the sweeps."""
     return trend(sequences, lambda code: jump(study, code, direction), 1, 1.5 * STEP)
 
 
 def peak_trend(
-    study: Study, sequences: Sequences, curve: Curve, direction: Direction, sign: int
+    study: PublishedStudy, sequences: Sequences, curve: Curve, direction: Direction, sign: int
 ) -> Trend:
     """Trend of the primary resonance's height."""
     return trend(sequences, lambda code: peak(study, code, curve, direction).value, sign)
@@ -171,7 +171,7 @@ def touching(data: xr.Dataset) -> xr.DataArray:
     return (data["impacts_right"] + data["impacts_left"]) > 0.0
 
 
-def contact_span(study: Study, code: str) -> tuple[float, float]:
+def contact_span(study: PublishedStudy, code: str) -> tuple[float, float]:
     """First and last frequency of the forward sweep at which a bumper is hit (Hz)."""
     spans = [c for c in study.features(code).contact if c.direction == "forward"]
     if not spans:
@@ -185,13 +185,13 @@ def free(data: xr.Dataset, curve: Curve) -> xr.DataArray:
     return data[name] / data[f"largest_{name}"]
 
 
-def secondary(study: Study, code: str) -> list[tuple[float, float]]:
+def secondary(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
     """Secondary resonances without hysteresis of a test: frequency (Hz), prominence as a share."""
     found = study.classification(code)
     return found.features.secondary_resonances(found.thresholds.prominence)
 
 
-def left_folds(study: Study, code: str) -> list[tuple[float, float]]:
+def left_folds(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
     """Left hystereses below the primary resonance of a test between exact folds (Hz).
 
     They are those of the followed branch, so that none is too narrow for the sweeps' step; what
@@ -217,7 +217,7 @@ def told_left(found: list[tuple[float, float]]) -> str:
     return f"left hysteresis {', '.join(told)}" if told else "no left hysteresis"
 
 
-def at_onset(study: Study, code: str) -> list[tuple[float, float]]:
+def at_onset(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
     """Peaks of η_a where contact begins, with free flight at their foot.
 
     They are the transition onto the primary resonance, not secondary resonances. Frequency (Hz)
@@ -235,7 +235,7 @@ def at_onset(study: Study, code: str) -> list[tuple[float, float]]:
     return sorted(told)
 
 
-def told_onset(study: Study, codes: Iterable[str]) -> str:
+def told_onset(study: PublishedStudy, codes: Iterable[str]) -> str:
     """The peaks that are left out because contact begins there, in words."""
     told = [
         f"{code} {share:.0%} at {frequency:.2f} Hz"
@@ -246,9 +246,9 @@ def told_onset(study: Study, codes: Iterable[str]) -> str:
 
 
 def regular_places(
-    study: Study, code: str, parameters: laboratory.Parameters = "table"
+    study: PublishedStudy, code: str, parameters: laboratory.Parameters = "table"
 ) -> tuple[float, float, float]:
-    """`Study.regular_places`, or `AbsentError`."""
+    """`PublishedStudy.regular_places`, or `AbsentError`."""
     try:
         return study.regular_places(code, parameters)
     except (ValueError, IndexError, StopIteration):
@@ -292,7 +292,7 @@ def orbits_at(branch: xr.Dataset, frequency: float) -> tuple[int, int]:
     return int((passes & both).sum()), int((passes & ~both).sum())
 
 
-def three_between_jumps(study: Study, code: str) -> Finding:
+def three_between_jumps(study: PublishedStudy, code: str) -> Finding:
     """Whether half-way between a test's jumps there are two stable orbits and an unstable one."""
     middle = 0.5 * sum(both_jumps(study, code))
     stable, unstable = orbits_at(study.antisymmetric_branch(code, LOW, HIGH), middle)

@@ -23,11 +23,11 @@ from vibroimpact.paper.claims.reading import (
     told_onset,
     trend,
 )
-from vibroimpact.paper.study import Study
+from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.peaks import CURVES, Curve
 
 
-def _penetration(study: Study, code: str, low: float, high: float) -> tuple[float, float]:
+def _penetration(study: PublishedStudy, code: str, low: float, high: float) -> tuple[float, float]:
     """Least and largest penetration in a range of the forward sweep (m)."""
     bumper = laboratory.case(code).oscillator.right
     assert bumper is not None
@@ -43,7 +43,7 @@ def _penetration(study: Study, code: str, low: float, high: float) -> tuple[floa
     "Largest penetration of the forward sweep from B1 to B4: falls in all 12 pairs of gap and "
     "acceleration.",
 )
-def penetration(study: Study) -> Finding:
+def penetration(study: PublishedStudy) -> Finding:
     """Largest over the frequency."""
     found = trend(ALONG_BUMPER, lambda code: _penetration(study, code, 0.0, 10.0)[1], -1)
     example = listed([1e3 * value for value in found.values["G1-A3"]], ".2f")
@@ -59,7 +59,7 @@ def penetration(study: Study) -> Finding:
     "Range of the penetration over the frequencies at which all four bumpers are hit in the "
     "forward sweep, from B1 to B4: falls in all 12 pairs of gap and acceleration.",
 )
-def flat(study: Study) -> Finding:
+def flat(study: PublishedStudy) -> Finding:
     """On a range that the four bumpers have in common."""
 
     def change(code: str) -> float:
@@ -76,7 +76,7 @@ def flat(study: Study) -> Finding:
     )
 
 
-def _distance(study: Study, one: str, other: str) -> float:
+def _distance(study: PublishedStudy, one: str, other: str) -> float:
     """Root mean square difference of two tests' curves, both quantities and directions."""
     data = study.campaign()
     squares = [((data[c].sel(rig=one) - data[c].sel(rig=other)) ** 2).mean() for c in CURVES]
@@ -90,7 +90,7 @@ def _distance(study: Study, one: str, other: str) -> float:
     "Root mean square difference of the curves for every two bumpers: that of B2 and B3 is the "
     "smallest of the six in all 12 pairs of gap and acceleration.",
 )
-def alike(study: Study) -> Finding:
+def alike(study: PublishedStudy) -> Finding:
     """Both quantities, both directions."""
     held, shares = 0, []
     for codes in ALONG_BUMPER.values():
@@ -111,7 +111,7 @@ def alike(study: Study) -> Finding:
     )
 
 
-def _from_free(study: Study, curve: Curve) -> dict[str, float]:
+def _from_free(study: PublishedStudy, curve: Curve) -> dict[str, float]:
     """Root mean square difference from free flight, by bumper and acceleration."""
     data = study.campaign()
     square = ((data[curve] - free(data, curve)) ** 2).mean(["direction", "frequency"])
@@ -133,7 +133,7 @@ def _told(found: dict[Curve, dict[str, float]], chosen: dict[Curve, str]) -> str
     "Root mean square difference from free flight over the four gaps: the smallest of the 12 "
     "pairs, in η_a and in η_d.",
 )
-def closest(study: Study) -> Finding:
+def closest(study: PublishedStudy) -> Finding:
     """In both quantities."""
     found = {curve: _from_free(study, curve) for curve in CURVES}
     least = {curve: min(values, key=values.__getitem__) for curve, values in found.items()}
@@ -147,7 +147,7 @@ def closest(study: Study) -> Finding:
     "Root mean square difference from free flight over the four gaps: the largest of the 12 "
     "pairs, in η_a and in η_d.",
 )
-def furthest(study: Study) -> Finding:
+def furthest(study: PublishedStudy) -> Finding:
     """In both quantities."""
     found = {curve: _from_free(study, curve) for curve in CURVES}
     most = {curve: max(values, key=values.__getitem__) for curve, values in found.items()}
@@ -163,7 +163,7 @@ def furthest(study: Study) -> Finding:
     "of the primary resonance and left out.",
     Kind.RULES,
 )
-def secondary_where(study: Study) -> Finding:
+def secondary_where(study: PublishedStudy) -> Finding:
     """By the tests that have one."""
     found = [code for code in CODES if secondary(study, code)]
     parts = {part for code in found for part in code.split("-")[1:]}
@@ -182,7 +182,7 @@ def secondary_where(study: Study) -> Finding:
     "acceleration and the next stiffer bumper.",
     Kind.RULES,
 )
-def secondary_grows(study: Study) -> Finding:
+def secondary_grows(study: PublishedStudy) -> Finding:
     """No exception in the grid of tests."""
     found = {code for code in CODES if secondary(study, code)}
     lost = []
@@ -205,7 +205,7 @@ def secondary_grows(study: Study) -> Finding:
     "η_a of the forward sweep's highest secondary resonance from B2 to B4, where all three have "
     "one: rising.",
 )
-def secondary_higher(study: Study) -> Finding:
+def secondary_higher(study: PublishedStudy) -> Finding:
     """Height, not prominence."""
     told, holds = [], True
     for pair in ALONG_BUMPER:

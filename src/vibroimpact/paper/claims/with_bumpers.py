@@ -28,7 +28,7 @@ from vibroimpact.paper.claims.reading import (
     touching,
     trend,
 )
-from vibroimpact.paper.study import LOW, STEP, Study
+from vibroimpact.paper.study import LOW, STEP, PublishedStudy
 from vibroimpact.response.peaks import Curve
 from vibroimpact.response.resonance import APART
 
@@ -43,7 +43,7 @@ _CROSS = 0.05
     "Bumpers raise the largest acceleration: η_a reaches more than 1 in every test and direction.",
     "The smallest of the 96 maxima of η_a (48 tests, two directions).",
 )
-def acceleration(study: Study) -> Finding:
+def acceleration(study: PublishedStudy) -> Finding:
     """All maxima above 1."""
     most = study.campaign()["eta_a"].max("frequency")
     least = float(most.min())
@@ -57,7 +57,7 @@ def acceleration(study: Study) -> Finding:
     "Bumpers limit the displacement: η_d stays below 1 in every test and direction.",
     "The largest of the 96 maxima of η_d.",
 )
-def displacement(study: Study) -> Finding:
+def displacement(study: PublishedStudy) -> Finding:
     """All maxima below 1."""
     most = study.campaign()["eta_d"].max("frequency")
     largest = float(most.max())
@@ -65,7 +65,7 @@ def displacement(study: Study) -> Finding:
     return Finding(largest < 1.0, f"largest maximum {largest:.3f} ({code})")
 
 
-def _forward_higher(study: Study, curve: Curve) -> Finding:
+def _forward_higher(study: PublishedStudy, curve: Curve) -> Finding:
     pairs = {code: [peak(study, code, curve, way).value for way in BOTH] for code in CODES}
     equal = [c for c, (f, b) in pairs.items() if abs(f - b) <= 1e-6 * f]
     higher = [c for c, (f, b) in pairs.items() if f > b and c not in equal]
@@ -85,7 +85,7 @@ def _forward_higher(study: Study, curve: Curve) -> Finding:
     "In η_a the resonance of the forward sweep is higher than that of the backward sweep.",
     "Heights of the primary resonance in both directions; higher in all 48 tests.",
 )
-def forward_higher_acceleration(study: Study) -> Finding:
+def forward_higher_acceleration(study: PublishedStudy) -> Finding:
     """Equal where the hysteresis begins beyond the peak."""
     return _forward_higher(study, "eta_a")
 
@@ -96,7 +96,7 @@ def forward_higher_acceleration(study: Study) -> Finding:
     "In η_d the resonance of the forward sweep is higher than that of the backward sweep.",
     "Heights of the primary resonance in both directions; higher in all 48 tests.",
 )
-def forward_higher_displacement(study: Study) -> Finding:
+def forward_higher_displacement(study: PublishedStudy) -> Finding:
     """Equal where the hysteresis begins beyond the peak."""
     return _forward_higher(study, "eta_d")
 
@@ -109,7 +109,7 @@ def forward_higher_displacement(study: Study) -> Finding:
     "Largest difference from free flight at all frequencies without contact, 48 tests.",
     Kind.CONSTRUCTION,
 )
-def overlap(study: Study) -> Finding:
+def overlap(study: PublishedStudy) -> Finding:
     """To rounding."""
     data = study.campaign()
     apart_by = abs(data["eta_d"] / free(data, "eta_d") - 1.0)
@@ -124,7 +124,7 @@ def overlap(study: Study) -> Finding:
     "backward sweep jumps up at a lower frequency: a right hysteresis.",
     "Jumps of both directions, and whether bumpers are hit on their far sides.",
 )
-def hysteresis(study: Study) -> Finding:
+def hysteresis(study: PublishedStudy) -> Finding:
     """Down into free flight, up out of it."""
     down, up = both_jumps(study, _EXAMPLE)
     hit = touching(study.campaign().sel(rig=_EXAMPLE))
@@ -146,7 +146,7 @@ def hysteresis(study: Study) -> Finding:
     "and one that is unstable and cannot be measured.",
     "Orbits of the followed branch of B4-G4-A3 in the middle between its jumps, by stability.",
 )
-def three_motions(study: Study) -> Finding:
+def three_motions(study: PublishedStudy) -> Finding:
     """Counted on the branch."""
     return three_between_jumps(study, _EXAMPLE)
 
@@ -158,7 +158,7 @@ def three_motions(study: Study) -> Finding:
     "First frequency with impacts of the forward sweep along falling gaps; the sweep begins at "
     "0.5 Hz, where some tests hit already.",
 )
-def onset(study: Study) -> Finding:
+def onset(study: PublishedStudy) -> Finding:
     """Falls until it reaches the beginning of the sweep."""
     found = trend(ALONG_GAP, lambda code: contact_span(study, code)[0], -1)
     strictly = all(
@@ -176,7 +176,7 @@ def onset(study: Study) -> Finding:
     "At some frequencies the displacement with bumpers is larger than without.",
     "Frequencies at which η_d exceeds free flight's by more than 1 % in the forward sweep.",
 )
-def larger(study: Study) -> Finding:
+def larger(study: PublishedStudy) -> Finding:
     """Above free flight's resonance, on the hardened branch."""
     data = study.campaign().sel(direction="forward")
     more = data["eta_d"] > (1.0 + APART) * free(data, "eta_d")
@@ -194,7 +194,7 @@ def larger(study: Study) -> Finding:
     "Frequency at which the spread of η_a over G1 to G4, all with impacts, is smallest: for "
     "B3 and B4 at A2 and A3 within one step of the tests, 0.1 Hz, of 1 Hz, and below 5 %.",
 )
-def fixed_point(study: Study) -> Finding:
+def fixed_point(study: PublishedStudy) -> Finding:
     """Forward, below the lowest upward jump."""
     data = study.campaign().sel(direction="forward")
     parts, holds = [], True
@@ -222,7 +222,7 @@ def fixed_point(study: Study) -> Finding:
     "Largest difference of the two directions outside the hystereses that were found, at "
     "frequencies where both settled, 48 tests.",
 )
-def coincide(study: Study) -> Finding:
+def coincide(study: PublishedStudy) -> Finding:
     """By construction less than what tells two motions apart, and in fact far less."""
     data = study.campaign()
     differ = apart(data).where((data["motion"] == "periodic").all("direction"))

@@ -90,7 +90,7 @@ class Orbit:
     """u, u̇, u_R, u_L and the parameter."""
     facts: _Array
     """See `engine.orbit`."""
-    columns: _Array
+    carried: _Array
     """Row i is what becomes of a unit disturbance of component i."""
     slope: _Array
     """Derivative of the map with respect to the parameter."""
@@ -111,7 +111,7 @@ class Orbit:
     @cached_property
     def map_multipliers(self) -> NDArray[np.complex128]:
         """Eigenvalues of the map's derivative, the largest first."""
-        found = np.linalg.eigvals(self.columns.T).astype(complex)
+        found = np.linalg.eigvals(self.carried.T).astype(complex)
         return found[np.argsort(-np.abs(found), kind="stable")]
 
     @property
@@ -125,7 +125,7 @@ class Orbit:
     @property
     def monodromy(self) -> _Array:
         """Derivative of the state after one period."""
-        matrix = self.columns.T
+        matrix = self.carried.T
         return matrix @ matrix if self.section.mirror else matrix
 
     @property
@@ -138,7 +138,7 @@ class Orbit:
         """Derivative of P(z; p) − z in scaled components, shape (4, 5)."""
         scale = self.section.scale
         matrix = np.empty((4, section_map.POINT))
-        matrix[:, :4] = self.columns.T * scale[:4] / scale[:4, np.newaxis] - np.eye(4)
+        matrix[:, :4] = self.carried.T * scale[:4] / scale[:4, np.newaxis] - np.eye(4)
         matrix[:, 4] = self.slope * scale[4] / scale[:4]
         return matrix
 
@@ -187,7 +187,7 @@ def corrected(
         normal * SEEN,
         found.point,
         found.facts,
-        found.columns,
+        found.carried,
         found.slope,
     )
     return Status(outcome), found
@@ -207,7 +207,7 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
         section.scale,
         found.point,
         found.facts,
-        found.columns,
+        found.carried,
         found.slope,
         image,
     )

@@ -1,0 +1,148 @@
+"""The first orbit of a branch: near a state, or where the motion from rest settles."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine import section_map
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import State, equilibrium
+from vibroimpact.response.start import as_state
+from vibroimpact.stability.bifurcations import own_mirror
+from vibroimpact.stability.family import Family
+from vibroimpact.stability.fixed_points import (
+    Orbit,
+    Section,
+    corrected,
+    is_fixed,
+    vector_of,
+)
+from vibroimpact.stability.settled import Settled, apart, approach, reach
+
+_Array = NDArray[np.float64]
+
+_SAME = 1e-6
+"""Distance, over the motion's size, from the motion from rest of an orbit that is it."""
+
+
+def first_orbit(
+    fam: Family,
+    span: tuple[float, float],
+    start: State | xr.DataArray | xr.Dataset | None,
+    period: int | None,
+    symmetric: bool = True,
+) -> Orbit:
+    """The orbit near a state; if `symmetric`, as its own mirror image where it is one.
+
+    Raises
+    ------
+    InputError
+        If Newton's method finds none.
+    """
+    rest = None
+    if start is None:
+        begin = equilibrium(fam.oscillator).replace(phase=fam.phase)
+        rest = approach(fam.oscillator, fam.excitation, begin)
+        vector = rest.state
+        point = np.array([vector[2], vector[3], vector[4], -vector[5], fam.value])
+        mode = float(vector[layout.MODE])
+        if rest.status not in (Status.DONE, Status.NOT_SETTLED):
+            raise InputError(f"start: the motion from rest is given up: {rest.status.advice}")
+        if period is None and not rest.period:
+            raise InputError(
+                f"start: the motion from rest does not settle at {fam.excitation.frequency:g} Hz; "
+                "a state near an orbit, and its period, are accepted"
+            )
+        period = period or rest.period
+    else:
+        state = as_state(start)
+        if state.phase is not None:
+            fam = fam._replace(excitation=fam.excitation.replace(phase=state.phase))
+        point = np.array(
+            [
+                state.displacement,
+                state.velocity,
+                state.right_bumper or 0.0,
+                state.left_bumper or 0.0,
+                fam.value,
+            ]
+        )
+        mode = float({1: RIGHT, -1: LEFT}.get(state.contact or 0, FLIGHT))
+    period = period or 1
+    section = Section(fam, period, False, scales(fam, span, point))
+    status, orbit_found = corrected(section, point, mode)
+    if status is not Status.DONE:
+        raise InputError(
+            f"start: Newton's method finds no orbit of period {period} near it "
+            f"({told(status)}); a state nearer to one is accepted"
+        )
+    orbit_found = reduced(orbit_found)
+    if rest is not None:
+        _tell_another(rest, orbit_found)
+    return symmetric_if_so(orbit_found) if symmetric else orbit_found
+
+
+def _tell_another(rest: Settled, found: Orbit) -> None:
+    """Warn if an orbit that was sought where the motion from rest goes is another motion."""
+    there = vector_of(found)
+    if (
+        rest.period == found.section.period
+        and apart(rest, there, rest.state, reach(rest, rest.state)) <= _SAME
+    ):
+        return
+    it = f"has period {rest.period}" if rest.period else "does not settle"
+    warnings.warn(
+        f"this orbit of period {found.section.period} is not the motion from rest, which {it}",
+        RuntimeWarning,
+        stacklevel=4,
+    )
+
+
+def told(status: Status) -> str:
+    """Why a correction failed, in words."""
+    if status is Status.NOT_SETTLED:
+        return "it does not converge"
+    return status.advice
+
+
+def reduced(found: Orbit) -> Orbit:
+    """The orbit with its least period."""
+    section = found.section
+    for count in range(1, section.count):
+        simpler = section.simpler(count, mirror=False)
+        if section.count % count == 0 and is_fixed(simpler, found, 1e-9):
+            status, simple = corrected(simpler, found.point, found.facts[section_map.MODE])
+            return simple if status is Status.DONE else found
+    return found
+
+
+def symmetric_if_so(found: Orbit) -> Orbit:
+    """The orbit as a fixed point of the mirrored map, if it is its own mirror image."""
+    section = found.section
+    if not own_mirror(found, 1e-9):
+        return found
+    half = section.simpler(section.count, mirror=True)
+    status, mirrored = corrected(half, found.point, found.facts[section_map.MODE])
+    return mirrored if status is Status.DONE else found
+
+
+def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
+    """Sizes of displacement, velocity, deformations and parameter."""
+    rig, shaken = fam.oscillator, fam.excitation
+    # The nearer bumper: the other may be far out of reach.
+    gap = min((b.gap for b in (rig.right, rig.left) if b is not None), default=0.0)
+    omega = shaken.angular_frequency
+    size = max(
+        gap,
+        abs(float(point[0])),
+        abs(float(point[1])) / omega,
+        1e-3 * shaken.amplitude / rig.angular_frequency**2,
+    )
+    return np.array([size, size * omega, size, size, span[1] - span[0]])

@@ -1,0 +1,179 @@
+"""Branches and their bifurcations as one labelled dataset."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import hold, orbit, section_map
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.motion import LEFT, RIGHT
+from vibroimpact.engine.status import Status
+from vibroimpact.response.free_flight import reference_excursions
+from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
+from vibroimpact.stability import bifurcations
+from vibroimpact.stability.bifurcations import Bifurcation
+from vibroimpact.stability.family import Family
+from vibroimpact.stability.fixed_points import MAX_EVENTS, Orbit
+from vibroimpact.stability.trace import Station
+
+_Array = NDArray[np.float64]
+
+
+class Followed(NamedTuple):
+    """A branch as it was followed."""
+
+    stations: list[Station]
+    bifurcations: list[Bifurcation]
+    ended: tuple[str, str]
+    """Why it was not followed further, at its beginning and at its end."""
+    closed: bool
+
+
+def as_dataset(
+    followed: list[Followed], fam: Family, span: tuple[float, float], created: str = "branch"
+) -> xr.Dataset:
+    """Branches as one labelled dataset."""
+    name = fam.parameter.name
+    stations = [
+        (i, s)
+        for i, one in enumerate(followed)
+        for s in bifurcations.with_critical(one.stations, one.bifurcations)
+    ]
+    orbits = [s.orbit for _, s in stations]
+    measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
+    high, low = measured[:, hold.U_MOST], measured[:, hold.U_LEAST]
+    top, bottom = measured[:, hold.A_MOST], measured[:, hold.A_LEAST]
+    free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
+    multipliers = np.array([one.multipliers for one in orbits]).reshape(-1, 4)
+    values = {
+        "arclength": [s.arclength for _, s in stations],
+        "displacement_max": high,
+        "displacement_min": low,
+        "displacement_excursion": high - low,
+        "acceleration_max": top,
+        "acceleration_min": bottom,
+        "acceleration_excursion": top - bottom,
+        "eta_d": (high - low) / free[:, 0],
+        "eta_a": (top - bottom) / free[:, 1],
+        "eccentricity": 0.5 * (high + low),
+        "impacts_right": measured[:, hold.HITS_RIGHT],
+        "impacts_left": measured[:, hold.HITS_LEFT],
+        "period": [one.section.period for one in orbits],
+        "antisymmetric": [one.section.mirror for one in orbits],
+        "stable": np.array(
+            [-1 if s.critical else int(s.orbit.stable) for _, s in stations], dtype=np.int64
+        ),
+        "branch": np.array([i for i, _ in stations], dtype=np.int64),
+        "piece": np.array([s.piece for _, s in stations], dtype=np.int64),
+    }
+    variables: dict[str, Any] = {
+        **{key: ("point", np.asarray(value)) for key, value in values.items()},
+        "multiplier_real": (("point", "multiplier"), multipliers.real),
+        "multiplier_imag": (("point", "multiplier"), multipliers.imag),
+        "section": (("point", "component"), np.array([state_of(one) for one in orbits])),
+        **_bifurcations(followed),
+    }
+    coordinates = {name: ("point", [one.value for one in orbits]), "component": COMPONENTS}
+    data = xr.Dataset(variables, coordinates)
+    data.attrs["parameter"] = name
+    for i, one in enumerate(followed):
+        prefix = f"branch_{i}_" if created == "resonance_diagram" else ""
+        data.attrs[f"{prefix}ended_low"], data.attrs[f"{prefix}ended_high"] = one.ended
+        data.attrs[f"{prefix}closed"] = int(one.closed)
+    return describe(
+        data,
+        f"vibroimpact.{created}",
+        {
+            "oscillator": oscillator_parameters(fam.oscillator),
+            "amplitude": fam.excitation.amplitude,
+            "frequency": fam.excitation.frequency,
+            "phase": fam.phase,
+            "parameter": name,
+            "low": span[0],
+            "high": span[1],
+        },
+    )
+
+
+def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
+    """The bifurcations as variables."""
+    found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
+    multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, 4)
+    measured = np.array([_measured(b.orbit) for _, b in found]).reshape(-1, hold.RESULTS)
+    free = np.array([_reference(b.orbit) for _, b in found]).reshape(-1, 2)
+    excursion = measured[:, hold.U_MOST] - measured[:, hold.U_LEAST]
+    peak = measured[:, hold.A_MOST] - measured[:, hold.A_LEAST]
+    values: dict[str, Any] = {
+        "kind": np.array([b.kind for _, b in found], dtype=str),
+        "value": [b.orbit.value for _, b in found],
+        "arclength": [b.arclength for _, b in found],
+        "turns": np.array([int(b.turns) for _, b in found], dtype=np.int64),
+        "branch": np.array([i for i, _ in found], dtype=np.int64),
+        "displacement_excursion": excursion,
+        "eta_d": excursion / free[:, 0],
+        "eta_a": peak / free[:, 1],
+        "eccentricity": 0.5 * (measured[:, hold.U_MOST] + measured[:, hold.U_LEAST]),
+        "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
+        "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
+        "contacts": np.array([_contacts(b) for _, b in found], dtype=str),
+    }
+    states = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
+    return {
+        **{
+            f"bifurcation_{key}": ("bifurcation", np.asarray(value))
+            for key, value in values.items()
+        },
+        "bifurcation_multiplier_real": (("bifurcation", "multiplier"), multipliers.real),
+        "bifurcation_multiplier_imag": (("bifurcation", "multiplier"), multipliers.imag),
+        "bifurcation_section": (("bifurcation", "component"), states),
+    }
+
+
+def _contacts(found: Bifurcation) -> str:
+    """Contacts per period, right (R) and left (L); at a grazing on both sides of it."""
+    before = "{}R {}L".format(*found.orbit.contacts)
+    if found.contacts_behind == found.orbit.contacts:
+        return before
+    return before + " | {}R {}L".format(*found.contacts_behind)
+
+
+def state_of(one: Orbit) -> list[float]:
+    """The state at the section as the components of a dataset's state."""
+    mode = int(one.facts[section_map.MODE])
+    side = {RIGHT: 1.0, LEFT: -1.0}.get(mode, 0.0)
+    return [*one.point[:4], one.section.family.phase, side]
+
+
+def _measured(one: Orbit) -> _Array:
+    """Exact extremes and contacts per cycle; NaN, and a warning, where a limit is met."""
+    result = np.full(hold.RESULTS, np.nan)
+    outcome = orbit.measure_orbit(
+        one.section.family.system(one.value),
+        one.section.family.phase,
+        one.point,
+        one.facts,
+        one.section.period,
+        2 * MAX_EVENTS,
+        result,
+    )
+    if outcome != Status.DONE:
+        result[:] = np.nan
+        warnings.warn(
+            f"the orbit at {one.value:.9g} has no extremes: {Status(outcome).advice}",
+            RuntimeWarning,
+            stacklevel=4,
+        )
+    return result
+
+
+def _reference(one: Orbit) -> tuple[float, float]:
+    """Excursions of displacement and absolute acceleration that η is taken over."""
+    system = one.section.family.system(one.value)
+    omega = float(np.sqrt(system[par.STIFFNESS]))
+    xi = float(system[par.DAMPING]) / (2.0 * omega)
+    return reference_excursions(omega, xi, float(system[section_map.AMPLITUDE]))
