@@ -16,7 +16,7 @@ from hypothesis import given
 
 import vibroimpact as vi
 from properties.strategies import Motion, examples, motions, simulated
-from reference.linear_phases import Mechanics, Phase, phases
+from reference.linear_phases import Mechanics, Phase, chatters, phases
 
 CYCLES = 4
 
@@ -36,9 +36,6 @@ def dissipated(rig: vi.Oscillator, phase: Phase) -> float:
         if phase.then == ("impact", side):
             assert isinstance(stop, vi.RigidStop)
             lost += rig.mass * (1.0 - stop.restitution**2) * float(phase.end.v) ** 2 / 2
-        if phase.then == ("contact", side) and isinstance(stop, vi.RigidStop):
-            # A chatter: what was left after the last impact listed goes into the others.
-            lost += rig.mass * float(phase.begin.v) ** 2 / 2
         if not isinstance(stop, vi.Bumper):
             continue
         if side in phase.touched:
@@ -49,19 +46,36 @@ def dissipated(rig: vi.Oscillator, phase: Phase) -> float:
     return lost
 
 
+def dashpots(rig: vi.Oscillator, phase: Phase) -> float:
+    """All that the mass moves."""
+    stops = {1: rig.right, -1: rig.left}
+    pressed = (stops[side] for side in phase.touched)
+    return rig.isolator.damping + sum(s.damping for s in pressed if isinstance(s, vi.Bumper))
+
+
 def imbalance(motion: Motion) -> float:
     """Of the energy, as a share of all that the base gave and took."""
     rig = motion.oscillator
     data = simulated(motion, CYCLES)
-    work = turnover = lost = 0.0
+    work = turnover = lost = unknown = 0.0
     walk = list(phases(rig, motion.excitation, data))
     for phase in walk:
+        if chatters(rig, phase):
+            # What is left after the last impact listed goes into the others. Meanwhile the mass is
+            # no farther from the stop than v t, and its work is that of the change of force.
+            v, t = abs(float(phase.begin.v)), phase.length
+            still = phase._replace(motion=phase.motion._replace(v=np.zeros_like(phase.base)))
+            lost += rig.mass * v**2 / 2 + dissipated(rig, still)
+            unknown += (
+                rig.mass * float(np.ptp(phase.base)) * v * t + dashpots(rig, phase) * v**2 * t
+            )
+            continue
         power = -rig.mass * phase.base * phase.motion.v
         work += float(phase.weights @ power)
         turnover += float(phase.weights @ np.abs(power))
         lost += dissipated(rig, phase)
     gained = stored(rig, walk[-1].end) - stored(rig, walk[0].begin)
-    return abs(work - lost - gained) / turnover
+    return max(0.0, abs(work - lost - gained) - unknown) / turnover if turnover else 0.0
 
 
 @examples(100)

@@ -125,7 +125,7 @@ def integrate(
     -------
     Reference
         States at t = 0, T, ..., cycles * T and all events. A contact or a rest that begins at
-        t = 0 is part of the start and no event.
+        t = 0 is part of the start and no event, unless an impact comes before it.
 
     Raises
     ------
@@ -352,7 +352,7 @@ class _Run:
     def _pass(self, time: mpf) -> None:
         """Let a time pass, in which the mass has moved to where it is now."""
         # The end of the period is a fixed number: the sum of its steps may miss it by a rounding.
-        left = self.period - self.elapsed
+        left = self.period - self.elapsed - self.tolerance * self.period
         self.elapsed = self.period if time >= left else self.elapsed + time
         for side in self.sides:
             if side in self.pressed:
@@ -380,7 +380,7 @@ class _Run:
         return self.cycles_done * self.period + self.elapsed
 
     def _note(self, what: str, side: _Side) -> None:
-        if self.time > 0 or what != "contact":
+        if self.time > 0 or what != "contact" or self.events:
             self.events.append(Event(self.time, f"{what}_{side.name}", *self.state))
 
     def _press_or_part(self, side: _Side) -> None:
@@ -412,9 +412,10 @@ class _Run:
             if self._pressing(side) >= 0:
                 self._rest(side)
         elif e < 1 and self._chatters(side):
-            start = self.elapsed
+            start, memory = self.elapsed, dict(self.bumper)
             limit = accumulation(self._impacts(side), e, self.tolerance * self.period)
-            self.elapsed, self.v = start, mpf(0)
+            self.elapsed, self.bumper = start, memory
+            self.u, self.v = side.wall, mpf(0)
             self._pass(limit)
             self._rest(side)
 
@@ -468,8 +469,8 @@ class _Run:
             # The clearance begins at zero: what it is divided by time tells the next impact.
             at = first_zero([-side.sign * value for value in u[1:]])
             assert at is not None
-            self.elapsed += step * at
             self.u, self.v = side.wall, polynomial_value(v, at)
+            self._pass(step * at)
             self._note("impact", side)
             self.v *= -side.restitution
             yield self.elapsed - start

@@ -104,6 +104,13 @@ def phases(rig: vi.Oscillator, shaken: vi.Harmonic, data: xr.Dataset) -> Iterato
             touched ^= {side}
 
 
+def chatters(rig: vi.Oscillator, phase: Phase) -> bool:
+    """Whether a phase ends with the rest that a chatter leads to: not all impacts are listed."""
+    if phase.then is None or phase.then[0] != "contact":
+        return False
+    return isinstance(rig.right if phase.then[1] == 1 else rig.left, vi.RigidStop)
+
+
 def _touched_first(
     rig: vi.Oscillator,
     side: int,

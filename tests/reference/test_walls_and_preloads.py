@@ -45,6 +45,11 @@ RUNS: dict[str, tuple[Rig, Shaken, tuple[float, float]]] = {
         (1.0, 0.06, 0.0),
         (0.05, 0.0),
     ),
+    "chatter while a bumper relaxes": (
+        rig(Stop(1.0, 2.8, 0.5), Wall(0.5, 0.0), 1.9),
+        (1.0, 0.16, 0.0),
+        (0.0, 0.0),
+    ),
     "sticking": (rig(Wall(0.0, 0.2), Wall(0.0, 0.3)), (1.0, 0.1, 0.0), (0.0, 0.0)),
     "no loss": (rig(Wall(1.0, 0.2), Wall(1.0, -0.1)), SHAKEN, (0.15, 0.0)),
     "rest at the start": (rig(Wall(0.5, -0.4), None), (0.5, 0.2, 0.0), (-0.4, 0.0)),
@@ -131,6 +136,22 @@ def test_order_and_digits_change_nothing(name: str) -> None:
     run = without_chatter(run_of(name))
     assert largest_difference(run, without_chatter(run_of(name, order=45))) < mpf(10) ** -46
     assert largest_difference(run, without_chatter(run_of(name, digits=30))) < mpf(10) ** -26
+
+
+def test_a_rest_may_end_with_the_period() -> None:
+    """Without a gap it ends where sin θ = 0: there, and not a rounding later once more."""
+    setup = rig(Wall(0.0, 0.0), None, 0.0)
+    run = integrate(setup, 1.0, 0.16, 0.0, (-1.0, 0.0, 0, 0), 4)
+    assert [e.kind for e in run.events] == ["impact_right", "contact_right", "detach_right"] * 4
+    with mp.workdps(60):
+        for n, event in enumerate(run.events[2::3]):
+            assert abs(event.time - (n + 1) / mpf(0.16)) < mpf(10) ** -48
+
+
+def test_an_impact_at_the_start_is_an_event() -> None:
+    setup = rig(Wall(0.0, -5.0), Wall(0.5, 9.0))
+    run = integrate(setup, 1.0, 0.16, 0.0, (-5.0, 2.0, 0, 0), 2)
+    assert [(e.kind, e.time) for e in run.events] == [("impact_right", 0), ("contact_right", 0)]
 
 
 @pytest.mark.parametrize("name", ["chatter and rest", "sticking", "rest at the start"])
