@@ -58,6 +58,13 @@ def test_a_name_names_the_files_and_the_title_tells_the_changes():
     assert what[:2] == ("mine, gap 9 mm", "mine")
 
 
+def test_a_long_title_is_broken_between_changes():
+    options = RigOptions(mass="560kg", left_stiffness="500kN/m", left_damping="1.234 kN s/m")
+    assert subject("B2-G1-A3", options).title == (
+        "B2-G1-A3, mass 560 kg, left stiffness 500 kN/m,\nleft damping 1.234 kN s/m"
+    )
+
+
 def test_many_changes_make_a_file_name_that_any_disk_takes():
     options = {
         name: "123456.789e-3"

@@ -28,8 +28,9 @@ def branch(
         Parameter(
             group=_BRANCH,
             help=(
-                "What is varied: frequency, amplitude, gap, right-gap, left-gap, "
-                "bumper-stiffness, bumper-damping, stiffness, damping, stiffness-ratio, gap-ratio."
+                "What is varied: frequency, amplitude, gap, right-gap, left-gap, bumper-stiffness, "
+                "right-stiffness, left-stiffness, bumper-damping, right-damping, left-damping, "
+                "stiffness, damping, stiffness-ratio, gap-ratio, relaxation-time, damping-ratio."
             ),
         ),
     ] = "frequency",

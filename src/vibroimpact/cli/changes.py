@@ -11,18 +11,8 @@ from typing import Any, NamedTuple
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY
-from vibroimpact.model.units import (
-    ACCELERATION,
-    DAMPING,
-    LENGTH,
-    MASS,
-    STIFFNESS,
-    pretty,
-    to_si,
-)
-
-_QUANTITIES = {"mass": MASS, "stiffness": STIFFNESS, "damping": DAMPING, "gap": LENGTH}
-"""By the last word of an option's name."""
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.units import ACCELERATION, MASS, pretty, to_si
 
 _LONGEST = 120
 """Characters of a file name, before what a command adds; disks take 255."""
@@ -73,7 +63,7 @@ def _change(option: str, value: str | bool) -> Change:
     if option == "amplitude":
         text = f"{to_si(value, ACCELERATION, option) / GRAVITY:.6g} g"
     else:
-        quantity = _QUANTITIES[option.rpartition("_")[2]]
+        quantity = MASS if option == "mass" else PARAMETERS[option].quantity
         text = pretty(to_si(value, quantity, option), quantity)
     return Change(f"{flag.replace('-', ' ')} {text}", f"{flag}-{slug(text.replace(' ', ''))}")
 

@@ -175,8 +175,9 @@ def scenario_map(
 def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     """What the map does not vary, in words."""
     from vibroimpact.model import to_dimensionless
+    from vibroimpact.model.parameters import PARAMETERS
     from vibroimpact.model.units import ACCELERATION, LENGTH, STIFFNESS, pretty
-    from vibroimpact.scenario.axes import ONE_QUANTITY, PARAMETERS
+    from vibroimpact.scenario.axes import ONE_QUANTITY
     from vibroimpact.scenario.bumpers import bumpers
 
     varied = {name for name, *_ in axes}
@@ -215,11 +216,12 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
 def _axis(option: str, name: str, text: str) -> _Axis:
     """Read ``LOW:HIGH[:log][:NODES]``."""
     from vibroimpact.model import to_si
-    from vibroimpact.scenario.axes import PARAMETERS
+    from vibroimpact.model.parameters import PARAMETERS
+    from vibroimpact.scenario.axes import NAMES
 
     key = name.strip().replace("-", "_")
-    if key not in PARAMETERS:
-        known = ", ".join(p.replace("_", "-") for p in PARAMETERS)
+    if key not in NAMES:
+        known = ", ".join(name.replace("_", "-") for name in NAMES)
         raise InputError(f"{option}: {name!r}; one of {known} is accepted")
     parameter = PARAMETERS[key]
     parts = [part.strip() for part in text.split(":")]

@@ -41,8 +41,9 @@ class Subject(NamedTuple):
 
     @property
     def title(self) -> str:
-        """The name, in lines that fit above a figure."""
-        return textwrap.fill(self.name, 72)
+        """The name, in lines that fit above a figure, broken between changes."""
+        whole = self.name.replace(" ", "\N{NO-BREAK SPACE}").replace(",\N{NO-BREAK SPACE}", ", ")
+        return textwrap.fill(whole, 72).replace("\N{NO-BREAK SPACE}", " ")
 
 
 class _Named(NamedTuple):

@@ -1,8 +1,14 @@
-"""The quantities of a rig and its forcing that can be varied, one registry of them."""
+"""The parameters of a rig and its forcing: one registry for all that varies them.
+
+Branches, curves, maps and the command line ask here for the name, the unit and the meaning of a
+parameter, and for its value in a rig and the rig at another value. A new one is one entry of
+`PARAMETERS`.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from vibroimpact.errors import InputError
@@ -22,6 +28,20 @@ from vibroimpact.model.units import (
 )
 
 Setting = tuple[Oscillator, Harmonic]
+"""A rig and its forcing."""
+
+Read = Callable[[Oscillator, Harmonic], float]
+Write = Callable[[Oscillator, Harmonic, float], Setting]
+
+_UNITS = {
+    FREQUENCY: "Hz",
+    ACCELERATION: "m s-2",
+    LENGTH: "m",
+    STIFFNESS: "N m-1",
+    DAMPING: "N s m-1",
+    DIMENSIONLESS: "1",
+}
+"""As datasets write them."""
 
 
 class Parameter(NamedTuple):
@@ -29,145 +49,25 @@ class Parameter(NamedTuple):
 
     name: str
     quantity: Quantity
-    units: str
     long_name: str
-    read: Callable[[Oscillator, Harmonic], float]
-    write: Callable[[Oscillator, Harmonic, float], Setting]
+    read: Read
+    """Its value in a rig; refused where the rig has none."""
+    write: Write
+    """The rig and the forcing at another value."""
+    zero: bool = True
+    """Whether it may be 0."""
+    comment: str = ""
+    """Its definition."""
 
+    @property
+    def units(self) -> str:
+        """The SI unit, as datasets write it."""
+        return _UNITS[self.quantity]
 
-def _number(stop: Stop, name: str) -> float:
-    """A field of a stop, if it has it."""
-    if name not in type(stop).model_fields:
-        raise InputError(
-            f"parameter: {stop} has no {name}; "
-            f"its {' or '.join(type(stop).model_fields)} is accepted, or a rig with bumpers"
-        )
-    return float(getattr(stop, name))
-
-
-def _bumpers(name: str) -> tuple[Callable[..., float], Callable[..., Setting]]:
-    """Read and write a number that both bumpers share."""
-
-    def read(rig: Oscillator, shaken: Harmonic) -> float:
-        values = {_number(stop, name) for stop in rig.stops}
-        if len(values) != 1:
-            told = "there is no bumper" if not values else f"they are {sorted(values)}"
-            raise InputError(
-                f"parameter: {name!r} is that of both bumpers, but {told}; "
-                f"'right_{name}' and 'left_{name}' are accepted, or a rig in which they agree"
-            )
-        return float(values.pop())
-
-    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
-        changed = {
-            side: bumper.replace(**{name: value})
-            for side, bumper in (("right", rig.right), ("left", rig.left))
-            if bumper is not None
-        }
-        return rig.replace(**changed), shaken
-
-    return read, write
-
-
-def _one_bumper(side: str, name: str) -> tuple[Callable[..., float], Callable[..., Setting]]:
-    def bumper(rig: Oscillator) -> Stop:
-        found: Stop | None = getattr(rig, side)
-        if found is None:
-            raise InputError(f"parameter: there is no {side} bumper; one that is there is accepted")
-        return found
-
-    def read(rig: Oscillator, shaken: Harmonic) -> float:
-        return _number(bumper(rig), name)
-
-    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
-        return rig.replace(**{side: bumper(rig).replace(**{name: value})}), shaken
-
-    return read, write
-
-
-def _isolator(name: str) -> tuple[Callable[..., float], Callable[..., Setting]]:
-    return (
-        lambda rig, shaken: float(getattr(rig.isolator, name)),
-        lambda rig, shaken, value: (
-            rig.replace(isolator=rig.isolator.replace(**{name: value})),
-            shaken,
-        ),
-    )
-
-
-def _forcing(name: str) -> tuple[Callable[..., float], Callable[..., Setting]]:
-    return (
-        lambda rig, shaken: float(getattr(shaken, name)),
-        lambda rig, shaken, value: (rig, shaken.replace(**{name: value})),
-    )
-
-
-_READ_STIFFNESS, _ = _bumpers("stiffness")
-_READ_GAP, _WRITE_GAP = _bumpers("gap")
-
-
-def _stiffness_ratio(rig: Oscillator, shaken: Harmonic) -> float:
-    return _READ_STIFFNESS(rig, shaken) / rig.isolator.stiffness
-
-
-def _set_stiffness_ratio(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
-    """λ = K_j/K at a fixed relaxation time C_j/K_j."""
-    changed = {}
-    for side, bumper in (("right", rig.right), ("left", rig.left)):
-        if isinstance(bumper, Bumper):
-            stiffness = value * rig.isolator.stiffness
-            time = bumper.damping / bumper.stiffness
-            changed[side] = bumper.replace(stiffness=stiffness, damping=stiffness * time)
-    return rig.replace(**changed), shaken
-
-
-def _gap_ratio(rig: Oscillator, shaken: Harmonic) -> float:
-    return _READ_GAP(rig, shaken) / peak_displacement(rig, shaken.amplitude)
-
-
-def _set_gap_ratio(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
-    return _WRITE_GAP(rig, shaken, value * peak_displacement(rig, shaken.amplitude))
-
-
-PARAMETERS: dict[str, Parameter] = {
-    p.name: p
-    for p in (
-        Parameter("frequency", FREQUENCY, "Hz", "excitation frequency", *_forcing("frequency")),
-        Parameter(
-            "amplitude", ACCELERATION, "m s-2", "peak base acceleration", *_forcing("amplitude")
-        ),
-        Parameter("gap", LENGTH, "m", "gap of each side", *_bumpers("gap")),
-        Parameter("right_gap", LENGTH, "m", "gap of the right side", *_one_bumper("right", "gap")),
-        Parameter("left_gap", LENGTH, "m", "gap of the left side", *_one_bumper("left", "gap")),
-        Parameter(
-            "bumper_stiffness",
-            STIFFNESS,
-            "N m-1",
-            "stiffness of both bumpers",
-            *_bumpers("stiffness"),
-        ),
-        Parameter(
-            "bumper_damping", DAMPING, "N s m-1", "damping of both bumpers", *_bumpers("damping")
-        ),
-        Parameter(
-            "stiffness", STIFFNESS, "N m-1", "stiffness of the isolator", *_isolator("stiffness")
-        ),
-        Parameter("damping", DAMPING, "N s m-1", "damping of the isolator", *_isolator("damping")),
-        Parameter(
-            "stiffness_ratio",
-            DIMENSIONLESS,
-            "1",
-            "stiffness ratio λ of the bumpers",
-            _stiffness_ratio,
-            _set_stiffness_ratio,
-        ),
-        Parameter(
-            "gap_ratio", DIMENSIONLESS, "1", "gap ratio δ0 of each side", _gap_ratio, _set_gap_ratio
-        ),
-    )
-}
-"""By name. `stiffness_ratio` keeps the bumpers' relaxation time, `gap_ratio` the free-flight peak.
-"""
+    @property
+    def physical(self) -> bool:
+        """Whether it has a unit."""
+        return self.quantity is not DIMENSIONLESS
 
 
 def parameter(name: str, field: str = "parameter") -> Parameter:
@@ -198,3 +98,198 @@ def bounds(varied: Parameter, low: float | str, high: float | str) -> tuple[floa
             f"high: {ends[1]:g} does not lie above low, {ends[0]:g}; a larger value is accepted"
         )
     return ends[0], ends[1]
+
+
+def _number(stop: Stop, name: str) -> float:
+    """A field of a stop, if it has it."""
+    if name not in type(stop).model_fields:
+        raise InputError(
+            f"parameter: {stop} has no {name}; "
+            f"its {' or '.join(type(stop).model_fields)} is accepted, or a rig with bumpers"
+        )
+    return float(getattr(stop, name))
+
+
+def _bumpers(name: str) -> tuple[Read, Write]:
+    """Read and write a number that both bumpers share."""
+
+    def read(rig: Oscillator, shaken: Harmonic) -> float:
+        values = {_number(stop, name) for stop in rig.stops}
+        if len(values) != 1:
+            told = "there is no bumper" if not values else f"they are {sorted(values)}"
+            raise InputError(
+                f"parameter: {name!r} is that of both bumpers, but {told}; "
+                f"'right_{name}' and 'left_{name}' are accepted, or a rig in which they agree"
+            )
+        return float(values.pop())
+
+    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+        changed = {
+            side: bumper.replace(**{name: value})
+            for side, bumper in (("right", rig.right), ("left", rig.left))
+            if bumper is not None
+        }
+        return rig.replace(**changed), shaken
+
+    return read, write
+
+
+def _one_bumper(side: str, name: str) -> tuple[Read, Write]:
+    def bumper(rig: Oscillator) -> Stop:
+        found: Stop | None = getattr(rig, side)
+        if found is None:
+            raise InputError(f"parameter: there is no {side} bumper; one that is there is accepted")
+        return found
+
+    def read(rig: Oscillator, shaken: Harmonic) -> float:
+        return _number(bumper(rig), name)
+
+    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+        return rig.replace(**{side: bumper(rig).replace(**{name: value})}), shaken
+
+    return read, write
+
+
+def _isolator(name: str) -> tuple[Read, Write]:
+    return (
+        lambda rig, shaken: float(getattr(rig.isolator, name)),
+        lambda rig, shaken, value: (
+            rig.replace(isolator=rig.isolator.replace(**{name: value})),
+            shaken,
+        ),
+    )
+
+
+def _forcing(name: str) -> tuple[Read, Write]:
+    return (
+        lambda rig, shaken: float(getattr(shaken, name)),
+        lambda rig, shaken, value: (rig, shaken.replace(**{name: value})),
+    )
+
+
+def _stiffness_ratio() -> tuple[Read, Write]:
+    """λ = K_j/K at a fixed relaxation time C_j/K_j."""
+    stiffness_of, _ = _bumpers("stiffness")
+
+    def read(rig: Oscillator, shaken: Harmonic) -> float:
+        return stiffness_of(rig, shaken) / rig.isolator.stiffness
+
+    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+        changed = {}
+        for side, bumper in (("right", rig.right), ("left", rig.left)):
+            if isinstance(bumper, Bumper):
+                stiffness = value * rig.isolator.stiffness
+                time = bumper.damping / bumper.stiffness
+                changed[side] = bumper.replace(stiffness=stiffness, damping=stiffness * time)
+        return rig.replace(**changed), shaken
+
+    return read, write
+
+
+def _gap_ratio() -> tuple[Read, Write]:
+    """δ0 = G0_j/u_max at a fixed peak of free flight."""
+    gap_of, with_gap = _bumpers("gap")
+
+    def read(rig: Oscillator, shaken: Harmonic) -> float:
+        return gap_of(rig, shaken) / peak_displacement(rig, shaken.amplitude)
+
+    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+        return with_gap(rig, shaken, value * peak_displacement(rig, shaken.amplitude))
+
+    return read, write
+
+
+def _relaxation_time() -> tuple[Read, Write]:
+    """τ = ω0 C_j/K_j at a fixed stiffness."""
+
+    def read(rig: Oscillator, shaken: Harmonic) -> float:
+        times = [_number(stop, "damping") / _number(stop, "stiffness") for stop in rig.stops]
+        if not times or not math.isclose(min(times), max(times), rel_tol=1e-12):
+            told = "there is no bumper" if not times else f"their C/K are {sorted(times)} s"
+            raise InputError(
+                f"parameter: 'relaxation_time' is that of both bumpers, but {told}; "
+                "'right_damping' and 'left_damping' are accepted, or a rig in which they agree"
+            )
+        return rig.angular_frequency * times[0]
+
+    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+        changed = {
+            side: bumper.replace(damping=value * bumper.stiffness / rig.angular_frequency)
+            for side, bumper in (("right", rig.right), ("left", rig.left))
+            if isinstance(bumper, Bumper)
+        }
+        return rig.replace(**changed), shaken
+
+    return read, write
+
+
+def _damping_ratio() -> tuple[Read, Write]:
+    """ξ = C/(2√(K M)) at fixed stiffness and mass."""
+
+    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+        damping = 2.0 * value * math.sqrt(rig.isolator.stiffness * rig.mass)
+        return rig.replace(isolator=rig.isolator.replace(damping=damping)), shaken
+
+    return lambda rig, shaken: rig.damping_ratio, write
+
+
+def _of_bumpers(
+    field: str, both: str, quantity: Quantity, zero: bool = True
+) -> Iterator[Parameter]:
+    """A field of the bumpers: of both, and of each side."""
+    yield Parameter(both, quantity, f"{field} of both bumpers", *_bumpers(field), zero)
+    for side in ("right", "left"):
+        named = f"{field} of the {side} bumper"
+        yield Parameter(f"{side}_{field}", quantity, named, *_one_bumper(side, field), zero)
+
+
+PARAMETERS: dict[str, Parameter] = {
+    p.name: p
+    for p in (
+        Parameter("frequency", FREQUENCY, "excitation frequency", *_forcing("frequency"), False),
+        Parameter(
+            "amplitude", ACCELERATION, "peak base acceleration", *_forcing("amplitude"), False
+        ),
+        Parameter("gap", LENGTH, "gap of each side", *_bumpers("gap")),
+        Parameter("right_gap", LENGTH, "gap of the right side", *_one_bumper("right", "gap")),
+        Parameter("left_gap", LENGTH, "gap of the left side", *_one_bumper("left", "gap")),
+        *_of_bumpers("stiffness", "bumper_stiffness", STIFFNESS, False),
+        *_of_bumpers("damping", "bumper_damping", DAMPING),
+        Parameter(
+            "stiffness", STIFFNESS, "stiffness of the isolator", *_isolator("stiffness"), False
+        ),
+        Parameter("damping", DAMPING, "damping of the isolator", *_isolator("damping")),
+        Parameter(
+            "stiffness_ratio",
+            DIMENSIONLESS,
+            "stiffness ratio of the bumpers",
+            *_stiffness_ratio(),
+            False,
+            "K_j / K",
+        ),
+        Parameter(
+            "gap_ratio",
+            DIMENSIONLESS,
+            "gap ratio of each side",
+            *_gap_ratio(),
+            comment="G / u_max",
+        ),
+        Parameter(
+            "relaxation_time",
+            DIMENSIONLESS,
+            "relaxation time of the bumpers",
+            *_relaxation_time(),
+            comment="ω0 C_j / K_j",
+        ),
+        Parameter(
+            "damping_ratio",
+            DIMENSIONLESS,
+            "damping ratio of the isolator",
+            *_damping_ratio(),
+            False,
+            "C / (2 √(K M))",
+        ),
+    )
+}
+"""By name. `bumper_stiffness` keeps the bumpers' damping, `stiffness_ratio` their C_j/K_j, the
+other ratios keep what else they are made of."""

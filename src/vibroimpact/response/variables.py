@@ -10,6 +10,7 @@ import xarray as xr
 from vibroimpact._version import __version__
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator
+from vibroimpact.model.parameters import PARAMETERS
 
 
 class Variable(NamedTuple):
@@ -23,8 +24,9 @@ class Variable(NamedTuple):
 _OVER = "over that of the largest free flight of the same isolator and amplitude at any frequency"
 
 VARIABLES: dict[str, Variable] = {
+    # what may be varied
+    **{p.name: Variable(p.units, p.long_name, p.comment) for p in PARAMETERS.values()},
     # coordinates
-    "frequency": Variable("Hz", "excitation frequency"),
     "direction": Variable("1", "sweep direction"),
     "rig": Variable("1", "rig"),
     "time": Variable("s", "time"),
@@ -172,16 +174,6 @@ VARIABLES: dict[str, Variable] = {
         "1 yes, 0 no, -1 neither: no orbit, no dissipation, or a bifurcation itself",
     ),
     # branches
-    "amplitude": Variable("m s-2", "peak base acceleration"),
-    "gap": Variable("m", "gap of each side"),
-    "right_gap": Variable("m", "gap of the right side"),
-    "left_gap": Variable("m", "gap of the left side"),
-    "bumper_stiffness": Variable("N m-1", "stiffness of both bumpers"),
-    "bumper_damping": Variable("N s m-1", "damping of both bumpers"),
-    "stiffness": Variable("N m-1", "stiffness of the isolator"),
-    "damping": Variable("N s m-1", "damping of the isolator"),
-    "stiffness_ratio": Variable("1", "stiffness ratio of the bumpers", "K_j / K"),
-    "gap_ratio": Variable("1", "gap ratio of each side", "G / u_max"),
     "arclength": Variable("1", "arclength along the branch, in scaled components"),
     "branch": Variable("1", "number of the branch"),
     "piece": Variable("1", "number of the smooth piece", "it changes where the contacts do"),
@@ -217,8 +209,6 @@ VARIABLES: dict[str, Variable] = {
     "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
     "energy_bumpers": Variable("J", "energy lost in the bumpers per forcing cycle"),
     # maps
-    "relaxation_time": Variable("1", "relaxation time of the bumpers", "ω0 C_j / K_j"),
-    "damping_ratio": Variable("1", "damping ratio of the isolator", "C / (2 √(K M))"),
     "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
     "confidence": Variable(
         "1",

@@ -11,37 +11,22 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Dimensionless, Oscillator, Rig, to_dimensionless, to_si
-from vibroimpact.model.units import (
-    ACCELERATION,
-    DIMENSIONLESS,
-    LENGTH,
-    STIFFNESS,
-    Quantity,
-)
+from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.scenario.bumpers import bumpers
 
 _Array = NDArray[np.float64]
 
 
-class Parameter(NamedTuple):
-    """One quantity that an axis can show."""
-
-    quantity: Quantity
-    zero: bool
-    """Whether it may be 0."""
-    physical: bool
-
-
-PARAMETERS: Mapping[str, Parameter] = {
-    "gap": Parameter(LENGTH, True, True),
-    "amplitude": Parameter(ACCELERATION, False, True),
-    "bumper_stiffness": Parameter(STIFFNESS, False, True),
-    "stiffness_ratio": Parameter(DIMENSIONLESS, False, False),
-    "gap_ratio": Parameter(DIMENSIONLESS, True, False),
-    "relaxation_time": Parameter(DIMENSIONLESS, True, False),
-    "damping_ratio": Parameter(DIMENSIONLESS, False, False),
-}
-"""By name; lengths and stiffnesses are those of each side."""
+NAMES = (
+    "gap",
+    "amplitude",
+    "bumper_stiffness",
+    "stiffness_ratio",
+    "gap_ratio",
+    "relaxation_time",
+    "damping_ratio",
+)
+"""Parameters over which a map can be drawn; lengths and stiffnesses are those of each side."""
 
 ONE_QUANTITY = ({"gap", "gap_ratio"}, {"bumper_stiffness", "stiffness_ratio"})
 """Pairs that say the same."""
@@ -92,8 +77,8 @@ def axis(given: Any, field: str) -> Axis:
             '("gap_ratio", [0, 0.5, 1]), and "log" or "linear" behind it'
         )
     name, values = given[:2]
-    if name not in PARAMETERS:
-        raise InputError(f"{field}: {name!r}; one of {', '.join(PARAMETERS)} is accepted")
+    if name not in NAMES:
+        raise InputError(f"{field}: {name!r}; one of {', '.join(NAMES)} is accepted")
     parameter = PARAMETERS[name]
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise InputError(f"{field}: {values!r} is no list of values; at least two are accepted")

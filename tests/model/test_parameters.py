@@ -1,0 +1,73 @@
+"""The registry of parameters: what is read is what was written, and nothing else changes."""
+
+from __future__ import annotations
+
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli import main
+from vibroimpact.model.parameters import PARAMETERS, parameter
+from vibroimpact.scenario.axes import NAMES
+
+CASE = vi.laboratory.case("B2-G1-A3")
+RIG, SHAKEN = CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_what_is_written_is_read(name):
+    one = parameter(name)
+    here = one.read(RIG, SHAKEN)
+    rig, shaken = one.write(RIG, SHAKEN, 1.5 * here)
+    assert one.read(rig, shaken) == pytest.approx(1.5 * here, rel=1e-12)
+    back = one.write(rig, shaken, here)
+    for found, value in zip(numbers(*back), numbers(RIG, SHAKEN), strict=True):
+        assert found == pytest.approx(value, rel=1e-12)
+    # A straight line, which is what branches are followed along.
+    third = one.write(RIG, SHAKEN, 2.0 * here)
+    for a, b, c in zip(numbers(RIG, SHAKEN), numbers(rig, shaken), numbers(*third), strict=True):
+        assert c - b == pytest.approx(b - a, rel=1e-9, abs=1e-12 * abs(a))
+
+
+def numbers(rig: vi.Oscillator, shaken: vi.Harmonic) -> list[float]:
+    sides = [value for stop in rig.stops for value in stop.model_dump().values()]
+    isolator = list(rig.isolator.model_dump().values())
+    found = [rig.mass, *isolator, *sides, *shaken.model_dump().values()]
+    return [value for value in found if isinstance(value, float)]
+
+
+def test_names_and_units():
+    assert all(name == one.name and one.long_name for name, one in PARAMETERS.items())
+    assert parameter("bumper-damping").units == "N s m-1"
+    assert parameter("gap").physical
+    assert not parameter("gap_ratio").physical
+    assert set(NAMES) <= set(PARAMETERS)
+    with pytest.raises(vi.InputError, match=r"^along: 'mas'; one of frequency, .* is accepted$"):
+        parameter("mas", "along")
+
+
+def test_sides_that_differ():
+    uneven = RIG.replace(left=RIG.left.replace(damping=1.0))
+    for name in ("bumper_damping", "relaxation_time"):
+        with pytest.raises(vi.InputError, match="'left_damping' are accepted"):
+            parameter(name).read(uneven, SHAKEN)
+    assert parameter("left_damping").read(uneven, SHAKEN) == 1.0
+    with pytest.raises(vi.InputError, match="there is no bumper"):
+        parameter("relaxation_time").read(RIG.without_bumpers(), SHAKEN)
+
+
+def test_help_names_them_all(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "400")
+    assert main(["branch", "--help"]) == 0
+    told = capsys.readouterr().out
+    assert ", ".join(name.replace("_", "-") for name in PARAMETERS) in told
+
+
+@pytest.mark.parametrize("name", ["relaxation_time", "damping_ratio", "right_stiffness"])
+def test_a_branch_over_any_of_them_ends_on_the_orbit_of_that_rig(name):
+    here = parameter(name).read(RIG, SHAKEN)
+    found = vi.branch(RIG, SHAKEN, parameter=name, low=0.9 * here, high=1.1 * here)
+    last = found.isel(point=-1)
+    assert float(last[name]) == pytest.approx(1.1 * here)
+    setting = parameter(name).write(RIG, SHAKEN, 1.1 * here)
+    direct = vi.orbit(*setting, last["section"])
+    assert float(last["displacement_max"]) == pytest.approx(float(direct["displacement_max"]), 1e-9)
