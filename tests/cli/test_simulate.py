@@ -9,24 +9,12 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.cli import main
 
-
-@pytest.fixture
-def run(tmp_path, monkeypatch, capsys):
-    """Run a command in an empty folder; return exit code, stdout and stderr."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words: str) -> tuple[int, str, str]:
-        code = main(words)
-        told = capsys.readouterr()
-        return code, told.out, told.err
-
-    return run
+COMMAND = "simulate"
 
 
 def test_summary_and_files(run, tmp_path):
-    code, told, _ = run("simulate", "B2-G1-A3", "--frequency", "0.58Hz")
+    code, told, _ = run("B2-G1-A3", "--frequency", "0.58Hz")
     assert code == 0
     assert "State after 100 cycles" in told
     assert "Contacts per cycle, over the last 10: 1 right, 1 left" in told
@@ -41,7 +29,7 @@ def test_summary_and_files(run, tmp_path):
 
 def test_json_and_options(run, tmp_path):
     code, told, _ = run(
-        *("simulate", "B2-G1-A3", "--frequency", "2.5 Hz", "--cycles", "300", "--samples", "16"),
+        *("B2-G1-A3", "--frequency", "2.5 Hz", "--cycles", "300", "--samples", "16"),
         *("--displacement", "5mm", "--velocity", "-50 mm/s", "--shown", "2", "--json"),
     )
     assert code == 0
@@ -58,7 +46,7 @@ def test_json_and_options(run, tmp_path):
 
 
 def test_the_start_chooses_the_motion(run):
-    words = ("simulate", "B2-G1-A3", "--frequency", "2Hz", "--json")
+    words = ("B2-G1-A3", "--frequency", "2Hz", "--json")
     contacts = []
     for start in ("0", "25mm"):
         _, told, _ = run(
@@ -82,10 +70,10 @@ def test_study(run, tmp_path):
     (tmp_path / "wall.toml").write_text(
         'case = "B2-G1-A3"\n[simulate]\nfrequency = "1.5 Hz"\ncycles = 7\nsamples = 8\n'
     )
-    assert run("simulate", "wall.toml")[0] == 0
+    assert run("wall.toml")[0] == 0
     data = vi.load(tmp_path / "out/wall-1.5Hz-history.nc")
     assert data.sizes["time"] == 57
-    assert run("simulate", "wall.toml", "--frequency", "1.6Hz", "--cycles", "2.5")[0] == 0
+    assert run("wall.toml", "--frequency", "1.6Hz", "--cycles", "2.5")[0] == 0
     assert vi.load(tmp_path / "out/wall-1.6Hz-history.nc").sizes["time"] == 21
 
 
@@ -95,7 +83,7 @@ def test_a_motion_that_is_given_up_is_said_to_be(run, monkeypatch):
     # The limit of events cannot be reached by an ordinary rig: lower it.
     limited = functools.partial(module.simulate, max_events=1)
     monkeypatch.setattr(module, "simulate", limited)
-    code, _, errors = run("simulate", "B2-G1-A3", "--frequency", "0.58Hz")
+    code, _, errors = run("B2-G1-A3", "--frequency", "0.58Hz")
     assert "max_events" in errors
     assert "Traceback" not in errors
     assert code in (0, 2)  # with what was found until then, if there is anything
@@ -123,7 +111,7 @@ def test_a_motion_that_is_given_up_is_said_to_be(run, monkeypatch):
     ],
 )
 def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):
-    code, told, errors = run("simulate", "B2-G1-A3", *words)
+    code, told, errors = run("B2-G1-A3", *words)
     assert code == 2
     assert told == ""
     assert errors.startswith("vibroimpact: error: ")

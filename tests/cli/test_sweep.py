@@ -8,26 +8,15 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.cli import main, output
+from vibroimpact.cli import output
+
+COMMAND = "sweep"
 
 COARSE = ["--step", "0.1Hz"]
 
 
-@pytest.fixture
-def run(tmp_path, monkeypatch, capsys):
-    """Run a command in an empty folder; return exit code, stdout and stderr."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*words: str) -> tuple[int, str, str]:
-        code = main(words)
-        told = capsys.readouterr()
-        return code, told.out, told.err
-
-    return run
-
-
 def test_summary_and_files(run, tmp_path):
-    code, told, errors = run("sweep", "B2-G1-A3", "--parameters", "identified")
+    code, told, errors = run("B2-G1-A3", "--parameters", "identified")
     assert code == 0
     assert "error" not in errors
     assert "K = 26.8 kN/m" in told
@@ -53,7 +42,7 @@ def test_summary_and_files(run, tmp_path):
 
 
 def test_json_and_nothing_else(run, tmp_path):
-    code, told, _ = run("sweep", "B2-G1-A3", *COARSE, "--json", "-o", "deep/folder")
+    code, told, _ = run("B2-G1-A3", *COARSE, "--json", "-o", "deep/folder")
     assert code == 0
     facts = json.loads(told)
     assert facts["oscillator"]["isolator"]["stiffness"] == 26290.0
@@ -67,7 +56,7 @@ def test_json_and_nothing_else(run, tmp_path):
 
 
 def test_left_hysteresis_and_advice(run):
-    words = ("sweep", "B3-10mm-A3", "--from", "0.6Hz", "--to", "1.2Hz", "--step", "0.01Hz")
+    words = ("B3-10mm-A3", "--from", "0.6Hz", "--to", "1.2Hz", "--step", "0.01Hz")
     _, told, _ = run(*words)
     assert "0.68 to 0.72 Hz: left (backward above forward)" in told
     assert "Not settled\n" in told
@@ -76,21 +65,21 @@ def test_left_hysteresis_and_advice(run):
 
 @pytest.mark.parametrize("code", ["B2-Ginf-A3", "B3-0mm-A3"])
 def test_smooth_rigs(run, code):
-    status, told, _ = run("sweep", code, *COARSE)
+    status, told, _ = run(code, *COARSE)
     assert status == 0
     assert "Jumps: none" in told
     assert "Hysteresis: none" in told
 
 
 def test_one_direction(run):
-    code, told, _ = run("sweep", "B2-G1-A3", *COARSE, "--direction", "backward")
+    code, told, _ = run("B2-G1-A3", *COARSE, "--direction", "backward")
     assert code == 0
     assert "Hysteresis: not sought" in told
     assert "forward" not in told
 
 
 def test_listed_frequencies_are_held_as_they_are(run, tmp_path):
-    run("sweep", "B2-G1-A3", "--frequencies", "0.5Hz, 700 mHz,1.1")
+    run("B2-G1-A3", "--frequencies", "0.5Hz, 700 mHz,1.1")
     data = vi.load(tmp_path / "out/B2-G1-A3-sweep.nc")
     assert data["frequency"].values.tolist() == [0.5, 0.7, 1.1]
 
@@ -98,7 +87,7 @@ def test_listed_frequencies_are_held_as_they_are(run, tmp_path):
 def test_options_reach_the_sweep(run, tmp_path):
     options = ("--max-cycles", "60", "--tolerance", "1e-8", "--threads", "1", "--mass", "600 kg")
     rest = ("--left-gap", "9mm", "--no-right", "--name", "one sided", "--figure", "svg")
-    code, _, _ = run("sweep", "B2-G1-A3", *COARSE, *options, *rest)
+    code, _, _ = run("B2-G1-A3", *COARSE, *options, *rest)
     assert code == 0
     assert (tmp_path / "out/one_sided-sweep.svg").is_file()
     parameters = json.loads(vi.load(tmp_path / "out/one_sided-sweep.nc").attrs["parameters"])
@@ -113,7 +102,7 @@ def test_study(run, tmp_path):
         'case = "B2-G1-A3"\n[excitation]\nphase = "90 deg"\n'
         '[sweep]\nfrequencies = ["1 Hz", "2 Hz"]\ndirection = "forward"\nmax_cycles = 70\n'
     )
-    code, _, _ = run("sweep", "wall.toml")
+    code, _, _ = run("wall.toml")
     assert code == 0
     data = vi.load(tmp_path / "out/wall-sweep.nc")
     assert data["direction"].values.tolist() == ["forward"]
@@ -125,7 +114,7 @@ def test_study(run, tmp_path):
 def test_figure_is_repeated_to_the_byte(run, tmp_path):
     figures = []
     for _ in range(2):
-        run("sweep", "B2-G1-A3", *COARSE)
+        run("B2-G1-A3", *COARSE)
         figures.append((tmp_path / "out/B2-G1-A3-sweep.png").read_bytes())
     assert figures[0] == figures[1]
 
@@ -177,7 +166,7 @@ def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, w
         # Undamped resonance of a mass that nothing stops, found only in the sweep itself.
         f0 = vi.laboratory.case("B2-G1-A3").oscillator.natural_frequency
         words, named = [*words[:-1], f"1,{f0!r}"], "natural frequency"
-    code, told, errors = run("sweep", "B2-G1-A3", *words)
+    code, told, errors = run("B2-G1-A3", *words)
     assert code == 2
     assert told == ""
     assert errors.startswith("vibroimpact: error: ")
@@ -188,7 +177,7 @@ def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, w
 
 @pytest.mark.parametrize("case", ["B9-G1-A3", "B2-G1", "nonsense", "B2-G1-9kg", "none.toml", ""])
 def test_unknown_rig(run, tmp_path, case):
-    code, _, errors = run("sweep", case)
+    code, _, errors = run(case)
     assert code == 2
     assert errors.startswith("vibroimpact: error: ")
     assert errors.count("\n") == 1
@@ -203,7 +192,7 @@ def test_folder_that_cannot_be_written_to(run, tmp_path, monkeypatch, folder):
         raise AssertionError("computed before the folder was tried")
 
     monkeypatch.setattr("vibroimpact.response.sweep.sweeps", never)
-    code, _, errors = run("sweep", "B2-G1-A3", "--output", folder)
+    code, _, errors = run("B2-G1-A3", "--output", folder)
     assert code == 2
     assert errors.startswith("vibroimpact: error: --output: ")
     assert errors.count("\n") == 1
@@ -216,13 +205,13 @@ def test_interrupted(run, tmp_path, monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr("vibroimpact.response.sweep.sweeps", interrupted)
-    code, told, errors = run("sweep", "B2-G1-A3")
+    code, told, errors = run("B2-G1-A3")
     assert (code, told, errors) == (130, "", "vibroimpact: interrupted\n")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_interrupted_while_writing_leaves_the_old_file(run, tmp_path, monkeypatch):
-    assert run("sweep", "B2-G1-A3", *COARSE)[0] == 0
+    assert run("B2-G1-A3", *COARSE)[0] == 0
     before = (tmp_path / "out/B2-G1-A3-sweep.png").read_bytes()
 
     def interrupted(self, beside, **_):
@@ -230,6 +219,6 @@ def test_interrupted_while_writing_leaves_the_old_file(run, tmp_path, monkeypatc
         raise KeyboardInterrupt
 
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", interrupted)
-    assert run("sweep", "B2-G1-A3", *COARSE, "--to", "4Hz")[0] == 130
+    assert run("B2-G1-A3", *COARSE, "--to", "4Hz")[0] == 130
     assert (tmp_path / "out/B2-G1-A3-sweep.png").read_bytes() == before
     assert len(list((tmp_path / "out").iterdir())) == 3

@@ -6,7 +6,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.cli import main
-from vibroimpact.model.parameters import PARAMETERS, parameter
+from vibroimpact.model.parameters import PARAMETERS, bounds, parameter
 from vibroimpact.scenario.axes import NAMES
 
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -71,3 +71,11 @@ def test_a_branch_over_any_of_them_ends_on_the_orbit_of_that_rig(name):
     setting = parameter(name).write(RIG, SHAKEN, 1.1 * here)
     direct = vi.orbit(*setting, last["section"])
     assert float(last["displacement_max"]) == pytest.approx(float(direct["displacement_max"]), 1e-9)
+
+
+def test_ranges_that_cannot_be():
+    assert bounds(parameter("gap"), "1 mm", 0.02) == (1e-3, 0.02)
+    with pytest.raises(vi.InputError, match=r"high: .* does not lie above low"):
+        bounds(parameter("gap"), 0.02, 0.01)
+    with pytest.raises(vi.InputError, match=r"^low: "):
+        bounds(parameter("gap"), "1 kg", 0.01)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache
 from itertools import pairwise
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import vibroimpact as vi
+from response.curves import grid, made, primary, swept
 from vibroimpact.response.resonance import (
     Features,
     Hysteresis,
@@ -17,39 +16,8 @@ from vibroimpact.response.resonance import (
     features,
     hysteresis,
     jumps,
-    peaks,
     ranges,
 )
-
-
-def grid(start: float, stop: float, step: float) -> list[float]:
-    return [round(start + k * step, 9) for k in range(round((stop - start) / step) + 1)]
-
-
-@cache
-def swept(code: str, start: float, stop: float, step: float, parameters="table") -> xr.Dataset:
-    case = vi.laboratory.case(code, parameters)
-    return vi.sweep(case.oscillator, case.amplitude, grid(start, stop, step))
-
-
-def made(frequency, forward, backward=None, *, settled=True, period=1) -> xr.Dataset:
-    """A dataset as a sweep makes it, from given curves (η_a and η_d alike)."""
-    curves = {"forward": forward} | ({} if backward is None else {"backward": backward})
-    shape = (len(curves), len(frequency))
-    dims = ("direction", "frequency")
-    eta = np.array(list(curves.values()), dtype=float)
-    settled = np.broadcast_to(settled, shape)
-    return xr.Dataset(
-        {
-            "eta_a": (dims, eta),
-            "eta_d": (dims, eta),
-            "motion": (dims, np.where(settled, "periodic", "undecided")),
-            "period": (dims, np.broadcast_to(period, shape)),
-            "impacts_right": (dims, np.zeros(shape)),
-            "impacts_left": (dims, np.zeros(shape)),
-        },
-        coords={"direction": list(curves), "frequency": np.asarray(frequency, dtype=float)},
-    )
 
 
 def brackets(found: tuple[Jump, ...], direction: str) -> list[tuple[float, float, str]]:
@@ -64,13 +32,6 @@ def secondary(found: Features, direction: str, curve: str = "eta_a") -> list[flo
         for p in found.peaks
         if (p.direction, p.curve, p.primary) == (direction, curve, False)
     ]
-
-
-def primary(found: Features, direction: str, curve: str = "eta_a") -> float:
-    (only,) = (
-        p for p in found.peaks if (p.direction, p.curve, p.primary) == (direction, curve, True)
-    )
-    return only.frequency
 
 
 class TestPublishedRig:
@@ -281,66 +242,12 @@ class TestBreaks:
         assert jumps(made([1.0, 2.0], [np.nan, np.nan])) == ()
 
 
-class TestPeaks:
-    f = grid(1, 2, 0.1)
-
-    def found(self, curve, **options):
-        return [p for p in peaks(made(self.f, curve, **options)) if p.curve == "eta_a"]
-
-    def test_prominence(self):
-        first, second = self.found([0, 1, 3, 2, 1.5, 2, 5, 4, 1, 1, 1])
-        assert (first.frequency, first.value, first.prominence) == (1.2, 3.0, 1.5)
-        assert (second.frequency, second.value, second.prominence) == (1.6, 5.0, 4.0)
-        assert (first.primary, second.primary) == (False, True)
-
-    def test_ripples_are_left_out(self):
-        curve = [1, 2, 1.99, 2, 3, 5, 4, 3, 2, 1.5, 1]
-        assert [p.frequency for p in self.found(curve)] == [1.5]
-
-    def test_plateau_counts_once(self):
-        (only,) = self.found([1, 2, 3, 3, 3, 2, 1, 1, 1, 1, 1])
-        assert only.frequency == 1.2
-
-    def test_curve_that_still_rises_at_the_end(self):
-        (only,) = self.found(np.arange(11.0))
-        assert (only.frequency, only.at_end, only.primary) == (2.0, True, True)
-        (only,) = self.found(-np.arange(11.0) + 20)
-        assert (only.frequency, only.at_end) == (1.0, True)
-
-    def test_subharmonic_resonance_is_not_the_primary_one(self):
-        period = np.ones(11, dtype=int)
-        period[6:10] = 2
-        first, second = self.found([0, 1, 3, 2, 1.5, 2, 5, 4, 1, 1, 1], period=period)
-        assert (first.primary, second.primary) == (True, False)
-
-    def test_absent_values(self):
-        (only,) = self.found([1, 2, np.nan, 5, 2, 1, 1, 1, 1, 1, np.nan])
-        assert only.frequency == 1.3
-        assert self.found([np.nan] * 11) == []
-
-    def test_every_curve_has_one_primary_peak(self):
-        found = features(swept("B4-G1-A3", 0.5, 5, 0.1))
-        for direction in ("forward", "backward"):
-            for curve in ("eta_a", "eta_d"):
-                primary(found, direction, curve)
-
-
 def test_ranges_are_runs():
     f = grid(1, 2, 0.1)
     data = made(f, np.ones(11))
     where = data["eta_a"].copy(data=np.isin(np.arange(11), [0, 1, 5, 10])[np.newaxis])
     found = ranges(data, where)
     assert [r[1:] for r in found] == [(1.0, 1.1, 2), (1.5, 1.5, 1), (2.0, 2.0, 1)]
-
-
-def test_several_rigs_are_refused():
-    case = vi.laboratory.case("B2-G1-A3")
-    data = vi.sweeps([case], [1.0, 2.0])
-    with pytest.raises(vi.InputError, match=r"isel\(rig=0\)"):
-        features(data)
-    assert features(data.isel(rig=0)).peaks
-    with pytest.raises(vi.InputError, match="not the sweep"):
-        features(xr.Dataset())
 
 
 def test_jumps_are_in_the_order_of_their_sweep():

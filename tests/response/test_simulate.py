@@ -161,33 +161,6 @@ def test_no_samples_no_memory() -> None:
 
 
 @pytest.mark.parametrize(
-    ("start", "message"),
-    [
-        (vi.State(0.02, right_bumper=0.001), "start.right_bumper: 0.001 m puts the mass at 0.02 m"),
-        (vi.State(-0.02, left_bumper=-0.001), "start.left_bumper: -0.001 m puts the mass at "),
-        (vi.State(0.0, contact=1), "start.contact: 1, but the bumper is 0.0075 m away"),
-        ({"displacement": 0.0}, "start: dict is not a state"),
-        (xr.DataArray([0.0, 1.0]), "start: DataArray is not a state"),
-    ],
-)
-def test_bad_starts(start: object, message: str) -> None:
-    with pytest.raises(vi.InputError) as caught:
-        vi.simulate(CASE.oscillator, SHAKEN, 1, start)
-    assert str(caught.value).startswith(message)
-    assert "is accepted" in str(caught.value)
-    assert "\n" not in str(caught.value)
-
-
-def test_starts_on_absent_bumpers() -> None:
-    rig = CASE.oscillator.replace(right=None)
-    with pytest.raises(vi.InputError, match=r"^start.right_bumper: 0.001 m, but .* no such bumper"):
-        vi.simulate(rig, SHAKEN, 1, vi.State(right_bumper=0.001))
-    with pytest.raises(vi.InputError, match=r"^start.contact: 1, but .* no bumper there"):
-        vi.simulate(rig, SHAKEN, 1, vi.State(contact=1))
-    vi.simulate(rig, SHAKEN, 1, vi.State(right_bumper=0.0))
-
-
-@pytest.mark.parametrize(
     ("arguments", "field"),
     [
         ({"cycles": 0}, "cycles"),
@@ -222,3 +195,11 @@ def test_a_stiffness_beyond_reach_is_told() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.Bumper(1e30, 0.0, 0.5))
     with pytest.warns(RuntimeWarning, match="raise the frequency or lower the largest stiffness"):
         vi.simulate(rig, vi.Harmonic(1.0, 0.1), 1)
+
+
+def test_given_up_motion_ends_at_its_last_section() -> None:
+    bumper = vi.Bumper(20.0, 0.4, 0.1)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), bumper, bumper)
+    with pytest.warns(RuntimeWarning, match="simulate stopped in cycle 0"):
+        motion = vi.simulate(rig, vi.Harmonic(0.6, 0.2, 0.3), 5, max_events=3)
+    assert list(motion["final_state"].values) == [0.0, 0.0, 0.0, 0.0, pytest.approx(0.3), 0.0]

@@ -8,8 +8,6 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.stability.family import RATES, system_vector
-from vibroimpact.stability.plane import plane
 
 
 @cache
@@ -180,71 +178,3 @@ def test_grazing_of_one_bumper(side):
     k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
     swing = case().amplitude / np.hypot(k - omega**2, c * omega)
     np.testing.assert_allclose(data[f"{side}_gap"], swing, rtol=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("pair", "independent"),
-    [
-        (("frequency", "gap"), True),
-        (("stiffness_ratio", "gap_ratio"), True),
-        (("amplitude", "damping"), True),
-        (("gap", "gap_ratio"), False),
-        (("amplitude", "gap_ratio"), False),
-        (("stiffness", "stiffness_ratio"), False),
-        (("bumper_damping", "stiffness_ratio"), False),
-        (("gap", "right_gap"), False),
-    ],
-)
-def test_pairs_of_parameters(pair, independent):
-    """Each writes its own numbers of the rig, and its line does not bend with the other."""
-    for names in (pair, pair[::-1]):
-        if not independent:
-            with pytest.raises(vi.InputError, match="not independent"):
-                plane(case().oscillator, vi.Harmonic(case().amplitude, 2.0), names)
-            continue
-        made = plane(case().oscillator, vi.Harmonic(case().amplitude, 2.0), names)
-        p, q = 1.3 * made.family.value, 0.8 * made.value
-        setting = made.other.write(
-            *made.family.parameter.write(case().oscillator, vi.Harmonic(case().amplitude, 2.0), p),
-            q,
-        )
-        found, expected = made.at_vectors(q).system(p), system_vector(*setting)
-        kept = [i for i in range(len(found)) if i not in RATES]
-        np.testing.assert_allclose(found[kept], expected[kept], rtol=1e-12)
-
-
-def test_a_closed_curve_is_gone_round_once():
-    """Its section moves on the way, and it begins beside a cusp."""
-    data = vi.resonance_diagram(case().oscillator, case().amplitude, 0.4, 1.0)
-    folds = np.flatnonzero(data["bifurcation_kind"].values == "fold")
-    row = folds[np.argmin(np.abs(data["bifurcation_value"].values[folds] - 0.56038578))]
-    found = vi.bifurcation_curve(
-        case().oscillator,
-        vi.Harmonic(case().amplitude, 2.0),
-        data.isel(bifurcation=int(row)),
-        parameters=("frequency", "gap"),
-        low=(0.3, 1e-4),
-        high=(6.0, 3e-2),
-    )
-    assert found.attrs["ended_low"] == found.attrs["ended_high"] == "it is closed"
-    assert found.sizes["point"] < 300
-    assert found.sizes["cusp_number"] == 2
-
-
-def test_a_curve_that_creeps_ends_with_a_reason():
-    """The fold comes so close to a grazing that no step leads on."""
-    data = vi.resonance_diagram(case().oscillator, case().amplitude, 0.4, 1.0)
-    folds = np.flatnonzero(data["bifurcation_kind"].values == "fold")
-    row = folds[np.argmin(np.abs(data["bifurcation_value"].values[folds] - 0.56038578))]
-    found = vi.bifurcation_curve(
-        case().oscillator,
-        vi.Harmonic(case().amplitude, 2.0),
-        data.isel(bifurcation=int(row)),
-        parameters=("frequency", "stiffness_ratio"),
-        low=(0.3, 0.1),
-        high=(6.0, 500.0),
-    )
-    ends = [found.attrs["ended_low"], found.attrs["ended_high"]]
-    assert "the range of stiffness_ratio ends at 500" in ends
-    assert any("no fold could be found beyond" in end and "grazes" in end for end in ends)
-    assert found.sizes["point"] < 800

@@ -1,0 +1,55 @@
+"""Peaks of resonance curves: the primary resonance, and what counts as another."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from response.curves import grid, made, primary, swept
+from vibroimpact.response.resonance import (
+    features,
+    peaks,
+)
+
+
+class TestPeaks:
+    f = grid(1, 2, 0.1)
+
+    def found(self, curve, **options):
+        return [p for p in peaks(made(self.f, curve, **options)) if p.curve == "eta_a"]
+
+    def test_prominence(self):
+        first, second = self.found([0, 1, 3, 2, 1.5, 2, 5, 4, 1, 1, 1])
+        assert (first.frequency, first.value, first.prominence) == (1.2, 3.0, 1.5)
+        assert (second.frequency, second.value, second.prominence) == (1.6, 5.0, 4.0)
+        assert (first.primary, second.primary) == (False, True)
+
+    def test_ripples_are_left_out(self):
+        curve = [1, 2, 1.99, 2, 3, 5, 4, 3, 2, 1.5, 1]
+        assert [p.frequency for p in self.found(curve)] == [1.5]
+
+    def test_plateau_counts_once(self):
+        (only,) = self.found([1, 2, 3, 3, 3, 2, 1, 1, 1, 1, 1])
+        assert only.frequency == 1.2
+
+    def test_curve_that_still_rises_at_the_end(self):
+        (only,) = self.found(np.arange(11.0))
+        assert (only.frequency, only.at_end, only.primary) == (2.0, True, True)
+        (only,) = self.found(-np.arange(11.0) + 20)
+        assert (only.frequency, only.at_end) == (1.0, True)
+
+    def test_subharmonic_resonance_is_not_the_primary_one(self):
+        period = np.ones(11, dtype=int)
+        period[6:10] = 2
+        first, second = self.found([0, 1, 3, 2, 1.5, 2, 5, 4, 1, 1, 1], period=period)
+        assert (first.primary, second.primary) == (True, False)
+
+    def test_absent_values(self):
+        (only,) = self.found([1, 2, np.nan, 5, 2, 1, 1, 1, 1, 1, np.nan])
+        assert only.frequency == 1.3
+        assert self.found([np.nan] * 11) == []
+
+    def test_every_curve_has_one_primary_peak(self):
+        found = features(swept("B4-G1-A3", 0.5, 5, 0.1))
+        for direction in ("forward", "backward"):
+            for curve in ("eta_a", "eta_d"):
+                primary(found, direction, curve)

@@ -1,0 +1,28 @@
+"""A map that is quickly made."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import xarray as xr
+
+import vibroimpact as vi
+
+X = ("stiffness_ratio", np.geomspace(1.0, 64.0, 4))
+
+
+Y = ("gap_ratio", np.linspace(0.0, 1.0, 5))
+
+
+OPTIONS = {"refine": 1, "block": 2, "step": 0.02}
+
+
+@cache
+def small() -> xr.Dataset:
+    return vi.scenario_map(X, Y, **OPTIONS)
+
+
+def rig_of(case) -> tuple[vi.Oscillator, float]:
+    """A case as a map's base."""
+    return case.oscillator, case.amplitude

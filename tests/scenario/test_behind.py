@@ -1,0 +1,51 @@
+"""What the orbits behind the curves add: kinds of motion, and exact jumps."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.scenario.behind import primary_branch, with_folds, with_kinds
+from vibroimpact.scenario.evidence import evidence
+
+
+def looked_at(code: str, low: float, high: float, step: float):
+    case = vi.laboratory.case(code)
+    rig = case.oscillator, case.amplitude
+    data = vi.sweep(*rig, np.arange(round(low / step), round(high / step) + 1) * step)
+    return evidence(*rig, data, 0.01), rig, data
+
+
+@pytest.fixture(scope="module")
+def chaotic():
+    return looked_at("B3-10mm-A3", 0.9, 1.5, 0.02)
+
+
+def test_motions_that_are_not_periodic_are_named(chaotic):
+    found, rig, data = chaotic
+    assert any("not periodic" in item.kinds for item in found.irregular)
+    named = with_kinds(found, *rig, data)
+    assert any("chaotic" in item.kinds for item in named.irregular)
+    assert not any("quasi-periodic" in item.kinds for item in named.irregular)
+
+
+def test_a_motion_that_meets_the_event_limit_stays_unnamed(chaotic, monkeypatch):
+    monkeypatch.setattr("vibroimpact.scenario.behind._MAX_EVENTS", 1)
+    found, rig, data = chaotic
+    named = with_kinds(found, *rig, data)
+    assert [item.kinds for item in named.irregular] == [item.kinds for item in found.irregular]
+
+
+def test_folds_lie_where_the_sweeps_jump():
+    found, rig, data = looked_at("B2-G1-A3", 0.9, 4.0, 0.05)
+    exact = with_folds(found, *rig, data).folds
+    (right,) = found.right
+    assert right.below < exact[-2] < right.low
+    assert right.high < exact[-1] < right.above
+
+
+def test_no_contact_no_branch():
+    found, rig, data = looked_at("B2-Ginf-A3", 0.9, 4.0, 0.1)
+    assert primary_branch(found, *rig, data) is None
+    assert with_folds(found, *rig, data).folds is None

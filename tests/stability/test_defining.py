@@ -1,0 +1,52 @@
+"""The defining system of a bifurcation, and Newton's method for it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.stability.defining import Defining, solve
+from vibroimpact.stability.first import scales
+from vibroimpact.stability.plane import plane
+
+CASE = vi.laboratory.case("B2-G1-A3")
+SHAKEN = vi.Harmonic(CASE.amplitude, 2.0)
+HOLD_GAP = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+
+
+@pytest.fixture(scope="module")
+def fold():
+    """The upper fold over frequency and gap: its system, and where it is."""
+    data = vi.branch(CASE.oscillator, SHAKEN, low=1.0, high=4.0)
+    row = int(np.flatnonzero(data["bifurcation_kind"].values == "fold")[-1])
+    one = data.isel(bifurcation=row)
+    point = np.append(one["bifurcation_section"].values[:4], float(one["bifurcation_value"]))
+    over = plane(CASE.oscillator, SHAKEN, ("frequency", "gap"))
+    scale = np.append(scales(over.family, (1.0, 4.0), point), 0.02)
+    mirror = bool(int(one["bifurcation_antisymmetric"]))
+    return Defining(over, "fold", 1, mirror, 0.0, scale), np.append(point, over.value)
+
+
+def test_a_bifurcation_solves_it(fold):
+    system, y = fold
+    _, residual = system.value(y)
+    assert np.abs(residual).max() < 1e-8
+
+
+@pytest.mark.parametrize("share", [1e-6, 1e-4])
+def test_newton_comes_back_to_it(fold, share):
+    system, y = fold
+    beside = y + share * system.scale * np.array([1.0, -1.0, 0.0, 0.0, 0.5, 0.0])
+    spot = solve(system, beside, HOLD_GAP)
+    assert spot is not None
+    assert spot.y[4] == pytest.approx(y[4], rel=1e-9)
+    assert spot.y[5] == y[5]
+    assert np.abs(spot.orbit.map_multipliers - 1.0).min() < 1e-7
+
+
+def test_far_from_any_there_is_none(fold):
+    system, y = fold
+    assert system.value(np.full(6, np.nan)) is None
+    assert system.value(y + 1e4 * system.scale) is None
+    assert solve(system, np.full(6, np.nan), HOLD_GAP) is None

@@ -1,0 +1,58 @@
+"""A rig along a parameter."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from stability.followed import between_stops
+
+
+def test_from_no_dashpot_and_to_none():
+    """The rate at which a bumper relaxes is infinite there."""
+    turn = 2 * np.pi
+    shaken = vi.Harmonic(0.2, 1.2 / turn)
+    ends = []
+    for damping in (0.0, 1.0):
+        data = vi.branch(
+            between_stops(damping), shaken, parameter="bumper_damping", low=0.0, high=2.0
+        )
+        ends.append(data.isel(point=int(data["bumper_damping"].values.argmin())))
+        ends.append(data.isel(point=int(data["bumper_damping"].values.argmax())))
+    for one, other in ((ends[0], ends[2]), (ends[1], ends[3])):
+        assert float(one["bumper_damping"]) == float(other["bumper_damping"])
+        np.testing.assert_allclose(one["section"], other["section"], atol=1e-12)
+
+
+@pytest.mark.parametrize("parameter", ["gap", "amplitude", "bumper_stiffness", "stiffness_ratio"])
+def test_other_parameters(parameter):
+    """Each orbit belongs to the rig that the parameter says."""
+    case = vi.laboratory.case("B2-G1-A3")
+    shaken = vi.Harmonic(case.amplitude, 2.0)
+    ranges = {
+        "gap": (1e-3, 15e-3),
+        "amplitude": (0.1, 1.0),
+        "bumper_stiffness": (1e5, 1e6),
+        "stiffness_ratio": (1.0, 50.0),
+    }
+    low, high = ranges[parameter]
+    data = vi.branch(case.oscillator, shaken, parameter=parameter, low=low, high=high)
+    assert data.attrs["parameter"] == parameter
+    for i in np.linspace(0, data.sizes["point"] - 1, 8).astype(int):
+        value = float(data[parameter][i])
+        rig, excitation = case.oscillator, shaken
+        if parameter == "amplitude":
+            excitation = shaken.replace(amplitude=value)
+        elif parameter == "gap":
+            rig = rig.replace(right=rig.right.replace(gap=value), left=rig.left.replace(gap=value))
+        else:
+            stiffness = value if parameter == "bumper_stiffness" else value * rig.isolator.stiffness
+            damping = rig.right.damping
+            if parameter == "stiffness_ratio":  # the relaxation time is kept
+                damping *= stiffness / rig.right.stiffness
+            bumper = rig.right.replace(stiffness=stiffness, damping=damping)
+            rig = rig.replace(right=bumper, left=bumper)
+        state = data["section"].isel(point=i)
+        moved = vi.simulate(rig, excitation, 1, state, 0)["final_state"]
+        np.testing.assert_allclose(moved[:2], state[:2], rtol=0, atol=1e-9)

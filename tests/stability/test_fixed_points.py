@@ -1,0 +1,65 @@
+"""Orbits as fixed points of a section's map, with their derivative."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import vibroimpact as vi
+from properties.strategies import Motion, examples, motions
+from vibroimpact.stability.family import family
+from vibroimpact.stability.fixed_points import Section, corrected, evaluated
+
+
+@examples(60)
+@given(motions(least_damping=0.02), st.floats(0.0, 6.28))
+def test_monodromy_against_differences_of_the_map(motion: Motion, phase: float) -> None:
+    """At whatever the state at the section: flight, contact, relaxing bumpers."""
+    rig = motion.oscillator
+    shaken = motion.excitation.replace(phase=phase)
+    fam = family(rig, shaken, "frequency")
+    settled = vi.simulate(rig, shaken, 20, samples=0)["final_state"].values
+    size = max(abs(settled[0]), abs(settled[1]) / shaken.angular_frequency, 1e-12)
+    scale = np.array([size, size * shaken.angular_frequency, size, size, shaken.frequency])
+    section = Section(fam, 1, False, scale)
+    point = np.append(settled[:4], shaken.frequency)
+    mode = {1: 1.0, -1: 2.0}.get(int(settled[5]), 0.0)
+    status, here, _ = evaluated(section, point, mode)
+    assume(int(status) == 0)
+    for component in (0, 1):
+        slopes = []
+        for step in (1e-5, 3e-6):
+            ends = []
+            for sign in (1.0, -1.0):
+                beside = point.copy()
+                beside[component] += sign * step * scale[component]
+                if mode:  # the pressed bumper goes with the mass
+                    beside[2 if mode == 1.0 else 3] += (
+                        sign * step * scale[component] if component == 0 else 0.0
+                    )
+                status, other, image = evaluated(section, beside, mode)
+                assume(int(status) == 0 and other.contacts == here.contacts)
+                ends.append(image[:4])
+            slopes.append((ends[0] - ends[1]) / (2.0 * step * scale[component]))
+        weight = scale[component] / scale[:4]
+        spread = np.max(np.abs(slopes[0] - slopes[1]) * weight)
+        assume(spread < 1e-6)
+        error = np.max(np.abs(slopes[1] - here.carried[component]) * weight)
+        assert error < 1e-6 + 4.0 * spread
+
+
+def test_the_half_cycle_map_squared_is_the_map():
+    case = vi.laboratory.case("B2-G1-A3")
+    fam = family(case.oscillator, vi.Harmonic(case.amplitude, 1.3, 0.3), "frequency")
+    settled = vi.steady(case.oscillator, fam.excitation)["final_state"].values
+    point = np.append(settled[:4], 1.3)
+    scale = np.array([7.5e-3, 0.06, 7.5e-3, 7.5e-3, 1.0])
+    halves = [corrected(Section(fam, 1, mirror, scale), point, 0.0) for mirror in (True, False)]
+    assert all(int(status) == 0 for status, _ in halves)
+    (_, half), (_, full) = halves
+    np.testing.assert_allclose(half.monodromy, full.monodromy, atol=1e-9)
+    np.testing.assert_allclose(
+        np.sort(np.abs(half.multipliers)), np.sort(np.abs(full.multipliers)), atol=1e-9
+    )
+    assert half.contacts == full.contacts
