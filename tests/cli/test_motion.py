@@ -297,6 +297,8 @@ def test_study(run, tmp_path):
     assert motion["frequency"] == 2.2  # not that of [simulate]: what is typed replaces it
     assert facts["files"]["data"] == "out/moat-wall-left-gap-8mm-2.2Hz-motion.nc"
     data = vi.load(tmp_path / facts["files"]["data"], group="forward_branch")
+    assert data.attrs["title"] == "moat-wall, left gap 8 mm"
+    data = vi.load(tmp_path / facts["files"]["data"], group="forward_branch")
     rig = json.loads(data.attrs["parameters"])["oscillator"]
     assert rig["left"]["stiffness"] == 100e3
     assert rig["left"]["gap"] == pytest.approx(8e-3)

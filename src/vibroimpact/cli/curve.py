@@ -103,6 +103,8 @@ def curve(
                 f"--bifurcation: no {kind} along {names[0]} between {spans[0][0]} and "
                 f"{spans[0][1]}; another kind or range is accepted"
             )
+        for data in found.values():
+            data.attrs["title"] = what.name
         stem = folder / f"{what.slug}-{bifurcation}-{'-'.join(names).replace('_', '-')}"
         axes = bifurcation_curves(found, title=f"{what.title}, {kind}")
         files = {

@@ -103,6 +103,9 @@ def motion(
             raise InputError(
                 "--frequency: no motion was found; another rig or frequency is accepted"
             )
+        for motions in drawn.values():
+            for data in motions.values():
+                data.attrs["title"] = what.name
         stem = folder / f"{what.slug}-{'-'.join(f'{hertz:.10g}Hz' for hertz in found)}-motion"
         axes = motion_page(_columns(drawn), title=what.title)
         files = {
