@@ -110,3 +110,23 @@ def test_each_orbit_of_a_doubled_period_is_listed_once():
         assert len(own) == len(np.unique(np.round(own, 7)))
         for end in ("low", "high"):
             assert "it is born at 1." in data.attrs[f"branch_{i}_ended_{end}"]
+
+
+@pytest.mark.parametrize(
+    ("ratio", "time", "sides"),
+    [(1e6, 0.01, 1), (1e6, 0.01, 2), (1e8, 0.01, 1), (1e8, 0.0, 2), (1e8, 1e-6, 2)],
+)
+def test_through_the_grazings_of_very_stiff_bumpers(ratio, time, sides):
+    """The branch that leaves free flight at one end comes back to it at the other."""
+    rig, amplitude = vi.from_dimensionless((ratio, ratio if sides == 2 else None), 0.6, time, 0.1)
+    natural = rig.natural_frequency
+    data = vi.branch(
+        rig, vi.Harmonic(amplitude, 0.3 * natural), low=0.2 * natural, high=4.0 * natural
+    )
+    ends = {data.attrs["ended_low"], data.attrs["ended_high"]}
+    assert ends == {f"the range ends at {share * natural:.9g}" for share in (0.2, 4.0)}
+    # Free flight reaches the gap at two frequencies.
+    squares = np.roots([1.0, 4 * 0.1**2 - 2.0, 1.0 - (0.2 * np.sqrt(1 - 0.1**2) / 0.6) ** 2])
+    exact = natural * np.sqrt(np.sort(squares.real))
+    # From the side of a contact the depth is known to rounding, which is little of a frequency.
+    np.testing.assert_allclose(values(data, "grazing")[[0, -1]], exact, rtol=1e-5)

@@ -39,11 +39,12 @@ CLOSED = "it is closed"
 PHASES = (1.0, 2.1, 3.3, 0.4)
 """rad, by which the section is moved in turn."""
 _SAME = 1e-6
+_TOUCHES = 1e-8  # scaled margin of an orbit that grazes, to rounding
 _BISECTIONS = 55
 _LOOK = 12  # bisections after which a grazing must show
 _BEYOND = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8)
 """Scaled distances behind a grazing at which the map must have the new contacts."""
-_RESTART = (1e-6, 1e-5, 1e-4, 1e-7)
+_RESTART = (1e-6, 1e-5, 1e-4, 1e-7, 1e-3)
 """Scaled distances behind a grazing at which the branch is taken up again."""
 
 
@@ -195,11 +196,14 @@ class Branch:
         contacts = here.orbit.contacts
         good, bad = 0.0, length
         last = here.orbit
+        grazing = abs(margin_of(last)) < _TOUCHES
         for number in range(_BISECTIONS):
             middle = 0.5 * (good + bad)
             if middle in (good, bad):
                 break
             if number == _LOOK and not _near_other_contacts(last, here.tangent, 4.0 * (bad - good)):
+                if grazing:
+                    break
                 return []  # the step failed for another reason
             found = self.stepped(here, middle)
             if found is not None and found.contacts == contacts:
@@ -210,31 +214,36 @@ class Branch:
             last, good = self._refined(here, last, good)
         tangent = last.tangent(here.tangent) if good > 0.0 else here.tangent
         before = Station(last, tangent, here.arclength + good, here.piece, True)
-        # The map just beyond, where it has the new contacts: at a point that is no orbit yet.
-        scale = last.section.scale
-        for ahead in _BEYOND:
-            point = last.point + ahead * tangent * scale
-            status, other, _ = evaluated(last.section, point, last.facts[section_map.MODE])
-            if status is not Status.DONE or other.contacts == contacts:
-                continue
-            for sign in (1.0, -1.0):
-                # Forwards first: a corner may turn the branch back, but need not.
-                along = sign * other.tangent(tangent)
-                for reach in _RESTART:
-                    guess = last.point + reach * along * scale
-                    status, found = corrected(
-                        last.section, guess, other.facts[section_map.MODE], along
-                    )
-                    if (
-                        status is Status.DONE
-                        and found.contacts != contacts
-                        and distance(self, found.point, last.point) <= 3.0 * reach
-                    ):
-                        arclength = before.arclength + distance(self, found.point, last.point)
-                        behind = Station(found, found.tangent(along), arclength, here.piece + 1)
-                        return [before, behind]
-            break
+        for sense in (1.0, -1.0) if grazing else (1.0,):
+            # Behind a stiff bumper the old tangent may lead deeper into the contact.
+            behind = self._behind(before, sense * tangent)
+            if behind is not None:
+                return [before, behind]
         return []
+
+    def _behind(self, before: Station, tangent: _Array) -> Station | None:
+        """The branch just behind a grazing."""
+        last, contacts = before.orbit, before.orbit.contacts
+        # The map just beyond, where it has the new contacts: at a point that is no orbit yet.
+        for ahead in _BEYOND:
+            point = last.point + ahead * tangent * self.scale
+            status, other, _ = evaluated(last.section, point, last.facts[section_map.MODE])
+            if status is Status.DONE and other.contacts != contacts:
+                break
+        else:
+            return None
+        mode = other.facts[section_map.MODE]
+        for sign in (1.0, -1.0):
+            # Forwards first: a corner may turn the branch back, but need not.
+            along = sign * other.tangent(tangent)
+            for reach in _RESTART:
+                guess = last.point + reach * along * self.scale
+                status, found = corrected(last.section, guess, mode, along)
+                away = distance(self, found.point, last.point)
+                if status is Status.DONE and found.contacts != contacts and away <= 3.0 * reach:
+                    arclength = before.arclength + away
+                    return Station(found, found.tangent(along), arclength, before.piece + 1)
+        return None
 
     def _refined(self, here: Station, last: Orbit, good: float) -> tuple[Orbit, float]:
         """Go on to where the turning point touches: the bisection may stop a little before."""
