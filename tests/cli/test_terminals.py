@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+from vibroimpact.cli import main
+
 PROGRAM = [sys.executable, "-m", "vibroimpact"]
 FEW = ["sweep", "B2-G1-A3", "--frequencies", "1Hz,2Hz,3Hz"]
 
@@ -55,3 +57,16 @@ def test_a_closed_stdout(tmp_path):
     done = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True)
     assert (done.returncode, "Traceback" in done.stderr) == (0, False)
     assert (tmp_path / "out/B2-G1-A3-sweep.nc").is_file()
+
+
+def test_a_file_that_fails_beneath(tmp_path, monkeypatch, capsys):
+    def broken(*_, **__):
+        raise PermissionError(13, "Permission denied", "cache")
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("vibroimpact.response.sweep.sweeps", broken)
+    assert main(FEW) == 1
+    assert capsys.readouterr() == (
+        "",
+        "vibroimpact: error: 'cache' cannot be used (Permission denied)\n",
+    )

@@ -78,8 +78,10 @@ def main(arguments: Iterable[str] | None = None) -> int:
         return 0
     except OSError as error:
         give_up_stdout()
-        what = "the output" if error.filename is None else repr(error.filename)
-        return _told(f"{what} cannot be written ({error.strerror or error})", 1)
+        why = error.strerror or str(error)
+        if error.filename is None:  # a stream, which has no name
+            return _told(f"the output cannot be written ({why})", 1)
+        return _told(f"{error.filename!r} cannot be used ({why})", 1)
     return result if isinstance(result, int) else 0
 
 
