@@ -2,9 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+
 from vibroimpact.continuation.arclength import Array, P, Path, distance
 
+SAME = 1e-6
+"""Scaled distance within which two points are one."""
 _NEAR = 2.0  # steps
+
+
+def returned(
+    path: Path[P],
+    here: P,
+    there: P,
+    marks: Iterable[tuple[Array, Array]],
+    solved: Callable[[Array, Array], Array | None],
+) -> bool:
+    """Whether a step passes one of some points of the curve, in its sense.
+
+    Parameters
+    ----------
+    path
+        What is followed.
+    here, there
+        The ends of the step.
+    marks
+        Unknowns of the points, and the curve's tangents there.
+    solved
+        The solution on the plane through a guess normal to a tangent, None if there is none.
+    """
+    for mark, tangent in marks:
+        guess = crossing(path, here, there, mark, tangent)
+        found = None if guess is None else solved(guess, tangent)
+        if found is not None and distance(path, found, mark) <= SAME:
+            return True
+    return False
 
 
 def crossing(path: Path[P], here: P, there: P, mark: Array, tangent: Array) -> Array | None:

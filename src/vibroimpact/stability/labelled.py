@@ -45,24 +45,11 @@ def as_dataset(
         for s in bifurcations.with_critical(one.stations, one.bifurcations)
     ]
     orbits = [s.orbit for _, s in stations]
-    measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
-    high, low = measured[:, hold.U_MOST], measured[:, hold.U_LEAST]
-    top, bottom = measured[:, hold.A_MOST], measured[:, hold.A_LEAST]
-    free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
+    sizes = _sizes(orbits)
     multipliers = np.array([one.multipliers for one in orbits]).reshape(-1, 4)
     values = {
         "arclength": [s.arclength for _, s in stations],
-        "displacement_max": high,
-        "displacement_min": low,
-        "displacement_excursion": high - low,
-        "acceleration_max": top,
-        "acceleration_min": bottom,
-        "acceleration_excursion": top - bottom,
-        "eta_d": (high - low) / free[:, 0],
-        "eta_a": (top - bottom) / free[:, 1],
-        "eccentricity": 0.5 * (high + low),
-        "impacts_right": measured[:, hold.HITS_RIGHT],
-        "impacts_left": measured[:, hold.HITS_LEFT],
+        **sizes,
         "period": [one.section.period for one in orbits],
         "antisymmetric": [one.section.mirror for one in orbits],
         "stable": np.array(
@@ -104,20 +91,15 @@ def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
     """The bifurcations as variables."""
     found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
     multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, 4)
-    measured = np.array([_measured(b.orbit) for _, b in found]).reshape(-1, hold.RESULTS)
-    free = np.array([_reference(b.orbit) for _, b in found]).reshape(-1, 2)
-    excursion = measured[:, hold.U_MOST] - measured[:, hold.U_LEAST]
-    peak = measured[:, hold.A_MOST] - measured[:, hold.A_LEAST]
+    sizes = _sizes([b.orbit for _, b in found])
+    told = ("displacement_excursion", "eta_d", "eta_a", "eccentricity")
     values: dict[str, Any] = {
         "kind": np.array([b.kind for _, b in found], dtype=str),
         "value": [b.orbit.value for _, b in found],
         "arclength": [b.arclength for _, b in found],
         "turns": np.array([int(b.turns) for _, b in found], dtype=np.int64),
         "branch": np.array([i for i, _ in found], dtype=np.int64),
-        "displacement_excursion": excursion,
-        "eta_d": excursion / free[:, 0],
-        "eta_a": peak / free[:, 1],
-        "eccentricity": 0.5 * (measured[:, hold.U_MOST] + measured[:, hold.U_LEAST]),
+        **{name: sizes[name] for name in told},
         "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
         "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
         "contacts": np.array([_contacts(b) for _, b in found], dtype=str),
@@ -149,6 +131,27 @@ def state_of(one: Orbit) -> list[float]:
     return [*one.point[:4], one.section.family.phase, side]
 
 
+def _sizes(orbits: list[Orbit]) -> dict[str, _Array]:
+    """Extremes, excursions and contacts per cycle of orbits."""
+    measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
+    high, low = measured[:, hold.U_MOST], measured[:, hold.U_LEAST]
+    top, bottom = measured[:, hold.A_MOST], measured[:, hold.A_LEAST]
+    free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
+    return {
+        "displacement_max": high,
+        "displacement_min": low,
+        "displacement_excursion": high - low,
+        "acceleration_max": top,
+        "acceleration_min": bottom,
+        "acceleration_excursion": top - bottom,
+        "eta_d": (high - low) / free[:, 0],
+        "eta_a": (top - bottom) / free[:, 1],
+        "eccentricity": 0.5 * (high + low),
+        "impacts_right": measured[:, hold.HITS_RIGHT],
+        "impacts_left": measured[:, hold.HITS_LEFT],
+    }
+
+
 def _measured(one: Orbit) -> _Array:
     """Exact extremes and contacts per cycle; NaN, and a warning, where a limit is met."""
     result = np.full(hold.RESULTS, np.nan)
@@ -166,7 +169,7 @@ def _measured(one: Orbit) -> _Array:
         warnings.warn(
             f"the orbit at {one.value:.9g} has no extremes: {Status(outcome).advice}",
             RuntimeWarning,
-            stacklevel=4,
+            stacklevel=6,
         )
     return result
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.continuation.arclength import distance, predicted, strays, unit_tangent
-from vibroimpact.continuation.closing import crossing
+from vibroimpact.continuation.closing import returned
 from vibroimpact.continuation.zero import zero_within
 from vibroimpact.stability.defining import SEEN, Defining, Spot, solve
 from vibroimpact.stability.fixed_points import beyond, images, seen_at
@@ -18,7 +18,6 @@ from vibroimpact.stability.trace import CLOSED, PHASES
 _Array = NDArray[np.float64]
 
 _PARAMETERS = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
-_SAME = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,12 +105,12 @@ class Locus:
             return False
         if phase not in self.marks:
             self.marks[phase] = self._marks(there.system)
-        for mark, tangent in self.marks[phase]:
-            guess = crossing(self, here, there, mark, tangent)
-            spot = None if guess is None else solve(there.system, guess, tangent)
-            if spot is not None and distance(self, spot.y, mark) <= _SAME:
-                return True
-        return False
+
+        def solved(guess: _Array, normal: _Array) -> _Array | None:
+            spot = solve(there.system, guess, normal)
+            return None if spot is None else spot.y
+
+        return returned(self, here, there, self.marks[phase], solved)
 
     def _marks(self, system: Defining) -> list[tuple[_Array, _Array]]:
         start = seen_at(self.first.spot.orbit, system.plane.family.phase)

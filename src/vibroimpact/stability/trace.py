@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.continuation.arclength import distance, predicted, strays
-from vibroimpact.continuation.closing import crossing
+from vibroimpact.continuation.closing import returned
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
@@ -38,7 +38,6 @@ CLOSED = "it is closed"
 """Why a branch is not followed further that has come back to its first orbit."""
 PHASES = (1.0, 2.1, 3.3, 0.4)
 """rad, by which the section is moved in turn."""
-_SAME = 1e-6
 _TOUCHES = 1e-8  # scaled margin of an orbit that grazes, to rounding
 _BISECTIONS = 55
 _LOOK = 12  # bisections after which a grazing must show
@@ -148,14 +147,13 @@ class Branch:
             return False
         if phase not in self.marks:
             self.marks[phase] = list(self._marks(phase))
-        for mark, tangent in self.marks[phase]:
-            guess = crossing(self, here, there, mark, tangent)
-            if guess is None:
-                continue
-            status, found = corrected(section, guess, there.orbit.facts[section_map.MODE], tangent)
-            if status is Status.DONE and distance(self, found.point, mark) <= _SAME:
-                return True
-        return False
+        mode = there.orbit.facts[section_map.MODE]
+
+        def solved(guess: _Array, normal: _Array) -> _Array | None:
+            status, found = corrected(section, guess, mode, normal)
+            return found.point if status is Status.DONE else None
+
+        return returned(self, here, there, self.marks[phase], solved)
 
     def _marks(self, phase: float) -> list[tuple[_Array, _Array]]:
         first = self.first.orbit
