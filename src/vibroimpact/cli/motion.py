@@ -163,7 +163,8 @@ def _found(
     what: Subject, excitation: Harmonic, branch: str, random: int, window: int, samples: int
 ) -> dict[str, xr.Dataset]:
     """The motions by name, with their spectra and sections."""
-    from vibroimpact.stability.coexisting import arrivals, coexisting
+    from vibroimpact.response.arrivals import arrivals
+    from vibroimpact.stability.coexisting import coexisting
     from vibroimpact.stability.steady import steady
 
     if branch == "all":

@@ -17,6 +17,7 @@ from vibroimpact.model import (
     laboratory,
     to_dimensionless,
 )
+from vibroimpact.response.arrivals import arrivals
 from vibroimpact.response.resonance import Features, features
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state
@@ -24,7 +25,7 @@ from vibroimpact.response.sweep import sweeps
 from vibroimpact.scenario.classify import Classification, classify
 from vibroimpact.scenario.map import scenario_map
 from vibroimpact.stability.branch import branch
-from vibroimpact.stability.coexisting import arrivals, coexisting
+from vibroimpact.stability.coexisting import coexisting
 from vibroimpact.stability.orbit import orbit
 from vibroimpact.stability.steady import steady
 

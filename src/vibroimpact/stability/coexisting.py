@@ -16,9 +16,9 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.arrivals import arrivals
 from vibroimpact.response.follow import grown
 from vibroimpact.response.start import as_state, engine_rig, state_from
-from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
 from vibroimpact.response.variables import describe
 from vibroimpact.stability.settled import (
     Settled,
@@ -237,40 +237,3 @@ def _displacements(found: Settled, max_events: int) -> NDArray[np.float64]:
     status, rows = grown(rig, found.excitation, state, _SEEN, max_events)
     # Fewer if it is given up: then it is another motion than one that goes on.
     return np.sort(rows[:, lyapunov.SECTION]) if status is Status.DONE else np.empty(0)
-
-
-def arrivals(
-    oscillator: Oscillator,
-    excitation: Harmonic,
-    frequencies: Iterable[float | str] | None = None,
-    max_cycles: int = 2000,
-    max_events: int = 10_000,
-) -> dict[str, State]:
-    """Where a forward and a backward sweep arrive: states by "forward branch", "backward branch".
-
-    Parameters are those of `coexisting`. A sweep that has no frequency to begin with is left out.
-    """
-    if frequencies is None:
-        # Never the natural frequency itself, which an undamped isolator forbids.
-        grid = oscillator.natural_frequency * (np.arange(0.3, 6.0, 0.01) + 0.005)
-    else:
-        grid = check_frequencies(frequencies)
-    aim = excitation.frequency
-    arrived = {}
-    for direction in DIRECTIONS:
-        forward = direction == "forward"
-        path = grid[grid < aim * (1 - 1e-12)] if forward else grid[grid > aim * (1 + 1e-12)]
-        if not len(path):
-            continue
-        data = sweep(
-            oscillator,
-            excitation.amplitude,
-            path,
-            direction,
-            phase=excitation.phase,
-            max_cycles=max_cycles,
-            max_events=max_events,
-        )
-        last = data["section"].isel(direction=0, frequency=-1 if forward else 0, drop=True)
-        arrived[f"{direction} branch"] = as_state(last)
-    return arrived
