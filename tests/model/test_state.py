@@ -32,7 +32,7 @@ def test_the_signs_of_the_deformations_are_the_paper_s():
 
 
 @pytest.mark.parametrize(
-    "contact", [-1, 0, 1, np.int8(-1), np.int64(1), 1.0, np.float64(0.0), np.array(1)]
+    "contact", [-1, 0, 1, 2, np.int8(-1), np.int64(1), 1.0, np.float64(0.0), np.array(1)]
 )
 def test_a_contact_from_a_dataset_is_taken(contact):
     state = State(contact=contact)
@@ -40,9 +40,9 @@ def test_a_contact_from_a_dataset_is_taken(contact):
     assert type(state.contact) is int
 
 
-@pytest.mark.parametrize("contact", [2, -2, 0.5, True, False, np.True_, "1", math.nan, [1]])
+@pytest.mark.parametrize("contact", [3, -2, 0.5, True, False, np.True_, "1", math.nan, [1]])
 def test_a_contact_is_a_side(contact):
-    with pytest.raises(InputError, match=r"^contact: .* -1 \(left\), 0 \(none\) or 1 \(right\)"):
+    with pytest.raises(InputError, match=r"^contact: .* 1 \(right\) or 2 \(both\) is accepted"):
         State(contact=contact)
 
 

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.response.start import engine_state
-from vibroimpact.stability.settled import apart, approach, later, mirrored, reach
+from vibroimpact.stability.settled import apart, approach, later, reach
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 1.2, 0.4)
@@ -38,10 +39,10 @@ def test_the_phase_of_a_start_is_that_of_the_section():
 def test_the_mirror_image_half_a_cycle_later_is_a_motion():
     found = approach(CASE.oscillator, SHAKEN, vi.State())
     _, half = later(found, found.state, 0.5)
-    image = approach(CASE.oscillator, SHAKEN, mirrored(half))
+    image = approach(CASE.oscillator, SHAKEN, mirror_image(half))
     assert image.cycles < found.cycles
     size = reach(found, found.state)
-    assert apart(found, image.state, mirrored(half), size) < 1e-10
+    assert apart(found, image.state, mirror_image(half), size) < 1e-10
     assert apart(found, image.state, found.state, size) > 1e-2  # one of a pair
 
 

@@ -7,11 +7,13 @@ arguments, so that their number changes no bit.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import parameters as par
+from vibroimpact.engine.entry import entry
+from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import (
     NOT_FINITE,
     OUTCOME,
@@ -20,13 +22,12 @@ from vibroimpact.engine.hold import (
     TOO_MUCH_WORK,
     hold,
 )
-from vibroimpact.engine.jit import Vector, entry, kernel
+from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.linear.advance import too_much_work
 from vibroimpact.engine.linear.pieces import acceleration
-from vibroimpact.engine.linear.tables import PLAN, build
+from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
-from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import LEFT, RIGHT, finite, pack, unpacked
+from vibroimpact.engine.motion import STATE, finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.record import (
     ACCELERATION,
@@ -34,6 +35,7 @@ from vibroimpact.engine.observers.record import (
     DISPLACEMENT,
     LEFT_FACE,
     RIGHT_FACE,
+    TOUCHING,
     VELOCITY,
     Record,
 )
@@ -41,6 +43,7 @@ from vibroimpact.engine.observers.record import (
 
 @entry("void(f8[::1], f8, f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])")
 def sweep(
+    given: Any,
     rig: Vector,
     amplitude: float,
     frequencies: Vector,
@@ -71,32 +74,14 @@ def sweep(
     progress : ndarray, shape (2,)
         [0] is raised by one a hold; the sweep stops when [1] becomes nonzero.
     """
-    memory = np.zeros(PLAN)
-    memory[: par.SIZE] = rig
     options = (tolerance, max_cycles, window, max_events)
-    _sweep(
-        pointer(memory), amplitude, frequencies, phase, state, options, results, states, progress
-    )
-    memory[0] = 0.0  # the pointer does not keep the memory alive; this does
-
-
-@kernel
-def _sweep(
-    plan: Vector,
-    amplitude: float,
-    frequencies: Vector,
-    phase: float,
-    state: Vector,
-    options: tuple[float, int, int, int],
-    results: Vector,
-    states: Vector,
-    progress: NDArray[np.int64],
-) -> None:
+    plan = planned(given, rig)
     clock = (math.sin(phase), math.cos(phase))
     motion = unpacked(state, clock)
     for i in range(len(frequencies)):
         if progress[1] != 0:
-            results[i:, OUTCOME] = STOPPED
+            for j in range(i, len(frequencies)):
+                results[j, OUTCOME] = STOPPED
             break
         motion = hold(plan, motion, amplitude, frequencies[i], clock, options, results[i])
         pack(motion, states[i])
@@ -104,13 +89,15 @@ def _sweep(
         outcome = results[i, OUTCOME]
         if outcome in (TOO_MANY_EVENTS, TOO_MUCH_WORK, NOT_FINITE):
             # Nothing sound to carry on: start the next frequency from rest.
-            state[:] = 0.0
+            for j in range(STATE):
+                state[j] = 0.0
             motion = unpacked(state, clock)
     pack(motion, state)
 
 
 @entry("UniTuple(i8, 3)(f8[::1], f8, f8, f8, f8[::1], f8, f8, i8, i8, f8[:, ::1], f8[:, ::1])")
 def trajectory(
+    given: Any,
     rig: Vector,
     amplitude: float,
     frequency: float,
@@ -141,39 +128,8 @@ def trajectory(
     next, count, outcome
         The cycle to go on with, the number of events written, a `Status`.
     """
-    memory = np.zeros(PLAN)
-    memory[: par.SIZE] = rig
-    ended = _trajectory(
-        pointer(memory),
-        amplitude,
-        frequency,
-        phase,
-        state,
-        int(first),
-        cycles,
-        samples,
-        max_events,
-        out,
-        events,
-    )
-    memory[0] = 0.0  # keeps it alive until here
-    return ended
-
-
-@kernel
-def _trajectory(
-    plan: Vector,
-    amplitude: float,
-    frequency: float,
-    phase: float,
-    state: Vector,
-    start: int,
-    cycles: float,
-    samples: int,
-    max_events: int,
-    out: Vector,
-    events: Vector,
-) -> tuple[int, int, int]:
+    plan = planned(given, rig)
+    start = int(first)
     period = 1.0 / frequency
     build(plan, amplitude, 2.0 * math.pi * frequency)
     if too_much_work(plan, period):
@@ -216,6 +172,6 @@ def _trajectory(
         last[DISPLACEMENT], last[VELOCITY] = motion.u, motion.v
         last[ACCELERATION] = acceleration(plan, motion)
         last[RIGHT_FACE], last[LEFT_FACE] = motion.right, -motion.left
-        last[CONTACT] = 1.0 if motion.mode == RIGHT else (-1.0 if motion.mode == LEFT else 0.0)
+        last[CONTACT] = TOUCHING[motion.mode]
     pack(motion, state)
     return number, count, outcome

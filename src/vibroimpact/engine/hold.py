@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import too_much_work
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
+from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, aged, finite
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.extremes import Extremes
@@ -38,6 +37,9 @@ _RECENT = 0.2  # share of the cycles so far in which it must have come twice as 
 # What a hold writes.
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME = range(9)
 RESULTS = 9
+
+past_memory = stack(LONGEST * 4)
+distances = stack(LONGEST + 1)
 
 DONE = int(Status.DONE)
 NOT_SETTLED = int(Status.NOT_SETTLED)
@@ -92,11 +94,11 @@ def settle(
         `n` is the period in forcing cycles, 0 if the motion did not settle.
     """
     weight = math.sqrt(plan[par.STIFFNESS])
-    past = np.zeros((LONGEST, 4))
-    block = np.zeros(LONGEST + 1)
-    former = np.full(LONGEST + 1, math.inf)
-    recent = np.full(LONGEST + 1, math.inf)  # ratios of successive blocks
-    earlier = np.full(LONGEST + 1, math.inf)
+    past = past_memory()
+    block, former = distances(), distances()
+    recent, earlier = distances(), distances()  # ratios of successive blocks
+    for i in range(LONGEST + 1):
+        block[i], former[i], recent[i], earlier[i] = 0.0, math.inf, math.inf, math.inf
     best = math.inf
     stalled = 0
     scale = 0.0
@@ -111,8 +113,8 @@ def settle(
         and best <= _CLOSING * scale
     ):
         at = k % LONGEST
-        past[at, 0], past[at, 1] = motion.u, motion.v
-        past[at, 2], past[at, 3] = motion.right, motion.left
+        past[at * 4], past[at * 4 + 1] = motion.u, motion.v
+        past[at * 4 + 2], past[at * 4 + 3] = motion.right, motion.left
         section = motion
         events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
         u, v, right, left = motion.u, motion.v, motion.right, motion.left
@@ -131,8 +133,13 @@ def settle(
         for i in range(1, longest + 1):
             q = (k - i) % LONGEST
             d = max(
-                weight * max(abs(u - past[q, 0]), abs(right - past[q, 2]), abs(left - past[q, 3])),
-                abs(v - past[q, 1]),
+                weight
+                * max(
+                    abs(u - past[q * 4]),
+                    abs(right - past[q * 4 + 2]),
+                    abs(left - past[q * 4 + 3]),
+                ),
+                abs(v - past[q * 4 + 1]),
             )
             block[i] = max(block[i], d)
         if k % _BLOCK:
@@ -154,7 +161,7 @@ def settle(
             # A slowly alternating approach closes on 2 before 1: take the least that fits now.
             for i in range(1, n):
                 q = (k - i) % LONGEST
-                d = max(weight * abs(u - past[q, 0]), abs(v - past[q, 1]))
+                d = max(weight * abs(u - past[q * 4]), abs(v - past[q * 4 + 1]))
                 if n % i == 0 and d <= _SAME * scale:
                     n = i
                     break

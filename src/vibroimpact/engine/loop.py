@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from vibroimpact.engine.flows import advance
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import advance
-from vibroimpact.engine.motion import LIMIT, Clock, Motion, at_section
+from vibroimpact.engine.motion import LIMIT, Clock, Motion, Stretch, at_section
 from vibroimpact.engine.observe import observe
 
 
@@ -34,8 +34,9 @@ def cycle(
     events = 0
     while True:
         before = motion
-        event, step, motion = advance(plan, before, length - t)
-        notes = observe(plan, notes, before, t, event, step, motion)
+        event, step, arrival, motion = advance(plan, before, length - t)
+        stretch = Stretch(before, t, event, step, arrival, motion)
+        notes = observe(plan, notes, stretch)
         if event == LIMIT:
             break
         t += step

@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import math
-
-import numpy as np
+from typing import Any
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.entry import entry
+from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
-from vibroimpact.engine.jit import Vector, entry, kernel
+from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.tables import PLAN, build
+from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
-from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import FLIGHT, finite, pack, unpacked
+from vibroimpact.engine.memory import pointer, workspace
+from vibroimpact.engine.motion import finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.growth import AREA, Growth, normalise
-from vibroimpact.engine.observers.tangent import DISTURBANCE, Tangent, press_area
+from vibroimpact.engine.observers.tangent import (
+    DISTURBANCE,
+    Tangent,
+    press_area,
+    tie,
+    unit_disturbances,
+)
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
 # the damping, and the state at the section behind the cycle.
@@ -24,9 +31,10 @@ FIRST, SECOND, DISSIPATION, SECTION = range(4)
 GROWTH = SECTION + 4
 
 
-@kernel
-def _growth(
-    plan: Vector,
+@entry("UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[::1], i8, i8, i8, f8[:, ::1])")
+def growth(
+    given: Any,
+    rig: Vector,
     amplitude: float,
     frequency: float,
     phase: float,
@@ -36,6 +44,25 @@ def _growth(
     max_events: int,
     out: Vector,
 ) -> tuple[int, int]:
+    """Follow a motion and the growth of its two fastest disturbances, cycle by cycle.
+
+    Parameters
+    ----------
+    rig, amplitude, frequency, phase, state, max_events
+        As in `batch.trajectory`; the state is carried on.
+    transient : int
+        Forcing cycles before anything is watched.
+    discard : int
+        Cycles in which the disturbances turn into their directions.
+    out : ndarray, shape (cycles, GROWTH)
+        Written, a row a cycle.
+
+    Returns
+    -------
+    outcome, done
+        A `Status`, and the number of rows written.
+    """
+    plan = planned(given, rig)
     period = 1.0 / frequency
     build(plan, amplitude, 2.0 * math.pi * frequency)
     if too_much_work(plan, period):
@@ -43,11 +70,14 @@ def _growth(
     clock = (math.sin(phase), math.cos(phase))
     motion = unpacked(state, clock)
     weight = math.sqrt(plan[par.STIFFNESS])
-    q = np.zeros((1, DISTURBANCE))
-    w = np.zeros(AREA)
-    q[0, 0], q[0, 1], w[0] = 1.0, weight, 1.0
-    if motion.mode != FLIGHT:
-        q[0, 1 + motion.mode] = 1.0
+    q = workspace()
+    w = workspace()
+    for i in range(DISTURBANCE):
+        q[i] = 0.0
+    for i in range(AREA):
+        w[i] = 0.0
+    q[0], q[1], w[0] = 1.0, weight, 1.0
+    tie(motion.mode, q, 0)
     press_area(motion.mode, w)
     normalise(q, w, weight, motion.mode)
     outcome = DONE
@@ -78,47 +108,9 @@ def _growth(
     return outcome, max(number, 0)
 
 
-@entry("UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[::1], i8, i8, i8, f8[:, ::1])")
-def growth(
-    rig: Vector,
-    amplitude: float,
-    frequency: float,
-    phase: float,
-    state: Vector,
-    transient: int,
-    discard: int,
-    max_events: int,
-    out: Vector,
-) -> tuple[int, int]:
-    """Follow a motion and the growth of its two fastest disturbances, cycle by cycle.
-
-    Parameters
-    ----------
-    rig, amplitude, frequency, phase, state, max_events
-        As in `batch.trajectory`; the state is carried on.
-    transient : int
-        Forcing cycles before anything is watched.
-    discard : int
-        Cycles in which the disturbances turn into their directions.
-    out : ndarray, shape (cycles, GROWTH)
-        Written, a row a cycle.
-
-    Returns
-    -------
-    outcome, done
-        A `Status`, and the number of rows written.
-    """
-    memory = np.zeros(PLAN)
-    memory[: par.SIZE] = rig
-    ended = _growth(
-        pointer(memory), amplitude, frequency, phase, state, transient, discard, max_events, out
-    )
-    memory[0] = 0.0  # keeps it alive until here
-    return ended
-
-
 @entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, i8, f8[:, ::1], f8[::1])")
 def monodromy(
+    given: Any,
     rig: Vector,
     amplitude: float,
     frequency: float,
@@ -147,9 +139,7 @@ def monodromy(
     outcome
         A `Status`.
     """
-    memory = np.zeros(PLAN)
-    memory[: par.SIZE] = rig
-    plan = pointer(memory)
+    plan = planned(given, rig)
     period = 1.0 / frequency
     build(plan, amplitude, 2.0 * math.pi * frequency)
     outcome = DONE
@@ -157,21 +147,16 @@ def monodromy(
         outcome = TOO_MUCH_WORK
     clock = (math.sin(phase), math.cos(phase))
     motion = unpacked(state, clock)
+    q = pointer(columns)
+    unit_disturbances(motion.mode, q)
     damping[0] = 0.0
-    columns[:] = 0.0
-    for i in range(DISTURBANCE):
-        columns[i, i] = 1.0
-    if motion.mode != FLIGHT:
-        columns[0, 1 + motion.mode] = 1.0
-        columns[1 + motion.mode] = 0.0
     done = 0
     while outcome == DONE and done < cycles:
-        notes = Tangent(columns, 0.0, 0, 0)
+        notes = Tangent(q, 0.0, 0, 0)
         events, motion, notes = cycle(plan, motion, clock, period, max_events, notes)
         damping[0] += notes.damping
         done += 1
         if events > max_events:
             outcome = TOO_MANY_EVENTS
     pack(motion, state)
-    memory[0] = 0.0  # keeps the memory alive until here
     return outcome

@@ -7,11 +7,14 @@ points integrates a product of two such series without error.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import Vector, entry, kernel
+from vibroimpact.engine.entry import entry
+from vibroimpact.engine.flows import planned
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner
 from vibroimpact.engine.linear.pieces import (
     accelerated,
@@ -22,16 +25,17 @@ from vibroimpact.engine.linear.pieces import (
     window,
 )
 from vibroimpact.engine.linear.tables import (
-    PLAN,
+    AMPLITUDE,
     RATE,
+    RESTING,
     SCALED_W,
     SIZE,
     TABLES,
     H,
     build,
 )
-from vibroimpact.engine.memory import pointer, workspace
-from vibroimpact.engine.motion import FLIGHT, LEFT
+from vibroimpact.engine.memory import workspace
+from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT
 from vibroimpact.engine.observers.extremes import series_extremes
 
 _X, _W = np.polynomial.legendre.leggauss(12)
@@ -50,18 +54,31 @@ MEASURES = 9
 
 
 @kernel
+def rest_level(plan: Vector, mode: int) -> float:
+    """What presses a resting mass on its rigid stop but for the base: the force per unit mass."""
+    side = LEFT if mode in (LEFT, SEEN_LEFT) else RIGHT
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    level: float = -plan[par.STIFFNESS] * plan[at + par.GAP]
+    if mode in (BOTH, SEEN_LEFT):
+        other = par.BUMPER + par.WIDTH * (2 - side)
+        level -= plan[other + par.BUMPER_STIFFNESS] * (plan[at + par.GAP] + plan[other + par.GAP])
+    return level
+
+
+@kernel
 def measure_phase(
     plan: Vector, mode: int, x: float, v: float, s: float, c: float, length: float, out: Vector
 ) -> None:
     """Measure one phase from its start; x, v, s, c are mirrored for a left contact."""
     series = workspace()
     x_least, x_most = x, x
-    a = absolute_acceleration(plan, mode, x, v)
+    a = absolute_acceleration(plan, mode, x, v, s)
     a_least, a_most, a_time = a, a, 0.0
     force = 0.0
     impulse = 0.0
     squares = 0.0
     work = 0.0
+    level = rest_level(plan, mode)
     cursor = window(plan, TABLES + SIZE * mode, length, 0.0, 0.0, x, v, s, c)
     while more(cursor):
         h = plan[cursor.table + H]
@@ -76,7 +93,7 @@ def measure_phase(
             squares += _WEIGHTS[n] * width * h * rate * rate
             work += _WEIGHTS[n] * width * h * rate * base
         x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
-        unit = accelerated(plan, cursor, series)
+        unit = accelerated(plan, cursor, ms, mc, series)
         was_least, was_most = a_least / unit, a_most / unit
         least, most, at_least, at_most = series_extremes(series, -0.5, high, was_least, was_most)
         a_least, a_most = least * unit, most * unit
@@ -84,14 +101,21 @@ def measure_phase(
             a_time = cursor.t + (cursor.i + 0.5 + at_least) * h
         if most > was_most and most >= -least:
             a_time = cursor.t + (cursor.i + 0.5 + at_most) * h
-        if mode != FLIGHT:
+        if plan[cursor.table + RESTING] != 0.0:
+            for n in range(len(_WEIGHTS)):
+                turned = turn * (width * _ABSCISSAE[n] - 0.5)
+                push = level - plan[AMPLITUDE] * (ms * math.cos(turned) + mc * math.sin(turned))
+                impulse += _WEIGHTS[n] * width * h * push
+            least, _, _, _ = series_extremes(series, -0.5, high, math.inf, -math.inf)
+            force = max(force, level - least * unit)
+        elif mode != FLIGHT:
             expanded_force(plan, cursor, series)
             for n in range(len(_WEIGHTS)):
                 value, _ = horner(series, width * _ABSCISSAE[n] - 0.5)
                 impulse += _WEIGHTS[n] * width * h * value
             _, force, _, _ = series_extremes(series, -0.5, high, 0.0, force)
         cursor = following(plan, cursor)
-    if mode == LEFT:
+    if mode in (LEFT, SEEN_LEFT):
         a_least, a_most = -a_most, -a_least
     out[X_LEAST], out[X_MOST] = x_least, x_most
     out[A_LEAST], out[A_MOST], out[A_TIME] = a_least, a_most, a_time
@@ -101,7 +125,7 @@ def measure_phase(
 
 @entry("void(f8[::1], f8, f8, f8[:, ::1], f8[:, ::1])")
 def measure_phases(
-    rig: Vector, amplitude: float, frequency: float, phases: Vector, out: Vector
+    given: Any, rig: Vector, amplitude: float, frequency: float, phases: Vector, out: Vector
 ) -> None:
     """Measure phases of a motion.
 
@@ -114,14 +138,11 @@ def measure_phases(
     out : ndarray, shape (phase, MEASURES)
         Written.
     """
-    memory = np.zeros(PLAN)
-    memory[: par.SIZE] = rig
-    plan = pointer(memory)
+    plan = planned(given, rig)
     build(plan, amplitude, 2.0 * math.pi * frequency)
     for i in range(len(phases)):
         given = phases[i]
         mode = int(given[P_MODE])
-        sign = -1.0 if mode == LEFT else 1.0
+        sign = -1.0 if mode in (LEFT, SEEN_LEFT) else 1.0
         s, c = sign * math.sin(given[P_ANGLE]), sign * math.cos(given[P_ANGLE])
         measure_phase(plan, mode, given[P_X], given[P_V], s, c, given[P_LENGTH], out[i])
-    memory[0] = 0.0  # keeps the memory alive until here

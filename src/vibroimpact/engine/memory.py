@@ -33,28 +33,29 @@ def pointer(array: Vector) -> Vector:
     return array
 
 
-@intrinsic
-def _on_the_stack(typing: Any) -> Any:
-    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        room = cgutils.alloca_once(  # type: ignore[no-untyped-call]
-            builder, ir.ArrayType(ir.DoubleType(), TERMS)
-        )
-        return builder.bitcast(room, ir.DoubleType().as_pointer())
+def stack(size: int) -> Callable[[], Vector]:
+    """Make a function that gives room for so many numbers, on the stack of the kernel that asks.
 
-    return _DOUBLES(), build
+    It is an intrinsic itself: behind a function the room would be gone with that function's frame.
+    """
+    if config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return lambda: np.empty(size)
+
+    @intrinsic
+    def room(typing: Any) -> Any:
+        def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            array = cgutils.alloca_once(  # type: ignore[no-untyped-call]
+                builder, ir.ArrayType(ir.DoubleType(), size)
+            )
+            return builder.bitcast(array, ir.DoubleType().as_pointer())
+
+        return _DOUBLES(), build
+
+    return room  # type: ignore[return-value]
 
 
-def _on_the_heap() -> Vector:
-    return np.empty(TERMS)
-
-
-workspace: Callable[[], Vector] = (
-    _on_the_heap if config.DISABLE_JIT else _on_the_stack  # type: ignore[attr-defined, assignment]
-)
-"""Room for the TERMS coefficients of a series, on the stack of the kernel that asks.
-
-An intrinsic itself: behind a function it would be gone with that function's frame.
-"""
+workspace = stack(TERMS)
+"""Room for the coefficients of a long series."""
 
 
 @intrinsic
@@ -92,12 +93,20 @@ def _pointer(array: Any) -> Any:
     return implementation
 
 
+def _indexed(memory: Any, index: Any) -> bool:
+    return isinstance(memory, types.CPointer) and isinstance(index, types.Integer)
+
+
 @overload(operator.getitem)
 def _getitem(memory: Any, index: Any) -> Any:
     def implementation(memory: Any, index: Any) -> Any:
         return _load(memory, index)  # type: ignore[call-arg]
 
-    return implementation if memory == _DOUBLES and isinstance(index, types.Integer) else None
+    return (
+        implementation
+        if isinstance(memory, types.CPointer) and isinstance(index, types.Integer)
+        else None
+    )
 
 
 @overload(operator.setitem)
@@ -105,4 +114,8 @@ def _setitem(memory: Any, index: Any, value: Any) -> Any:
     def implementation(memory: Any, index: Any, value: Any) -> Any:
         _store(memory, index, value)  # type: ignore[call-arg]
 
-    return implementation if memory == _DOUBLES and isinstance(index, types.Integer) else None
+    return (
+        implementation
+        if isinstance(memory, types.CPointer) and isinstance(index, types.Integer)
+        else None
+    )

@@ -10,11 +10,17 @@ from typing import NamedTuple
 
 from vibroimpact.engine.jit import Vector, kernel
 
-FLIGHT, RIGHT, LEFT = 0, 1, 2
-"""The discrete mode: which bumper the mass touches, if any."""
+FLIGHT, RIGHT, LEFT, BOTH = 0, 1, 2, 3
+"""The discrete mode: which stops the mass touches, a bit each. Touching a rigid one is resting."""
+
+SEEN_LEFT = 4
+"""The table of BOTH in the left bumper's coordinates; that of the right one is BOTH itself."""
 
 LIMIT, DETACHED = 0, 3
-"""What ends a stretch: the time limit, a contact (RIGHT or LEFT), or a detachment."""
+"""What ends a stretch: the time limit, a contact or an impact (RIGHT or LEFT), or a detachment."""
+
+RELEASED = 4
+"""Added to the side that has just been left if the mass was at rest there."""
 
 MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, AGE = range(7)
 STATE = 7
@@ -27,10 +33,10 @@ Clock = tuple[float, float]
 class Motion(NamedTuple):
     """The state of a rig and of its forcing.
 
-    `fresh` is in flight the side that has just been left (0 if none), in contact whether it
-    begins here. `right` and `left` are the bumpers' deformations; in contact the pressed
-    bumper's is the primary quantity, the displacement `u` follows from it. `age` says how long
-    the mode has lasted (s).
+    `fresh` is the side at which something has just happened (0 if nothing): the mode tells
+    whether it was touched or left. `right` and `left` are the bumpers' deformations; in contact
+    the pressed bumper's is the primary quantity, the displacement `u` follows from it. `age`
+    says how long the mode has lasted (s).
     """
 
     mode: int
@@ -41,6 +47,21 @@ class Motion(NamedTuple):
     left: float
     age: float
     clock: Clock
+
+
+class Stretch(NamedTuple):
+    """What lies between two events.
+
+    `t` is the time since the section at its start, `step` its length (s), `arrival` the velocity
+    just before the event that ends it, which an impact changes.
+    """
+
+    before: Motion
+    t: float
+    event: int
+    step: float
+    arrival: float
+    after: Motion
 
 
 @kernel
@@ -85,10 +106,24 @@ def aged(motion: Motion, age: float) -> Motion:
 def mirrored(motion: Motion) -> Motion:
     """The mirror image; the clock is left as it is."""
     mode, fresh, u, v, right, left, age, clock = motion
-    if mode == FLIGHT:
-        fresh = LEFT if fresh == RIGHT else (RIGHT if fresh == LEFT else 0)
-    mode = LEFT if mode == RIGHT else (RIGHT if mode == LEFT else FLIGHT)
-    return Motion(mode, fresh, -u, -v, left, right, age, clock)
+    return Motion(_swapped(mode), _swapped(fresh), -u, -v, left, right, age, clock)
+
+
+@kernel
+def _swapped(sides: int) -> int:
+    """Right for left, other bits as they are."""
+    return (sides & ~BOTH) | ((sides & RIGHT) << 1) | ((sides & LEFT) >> 1)
+
+
+def mirror_image(state: Vector) -> Vector:
+    """The mirror image of a state vector: what moves right moves left."""
+    image = state.copy()
+    for at in (MODE, FRESH):
+        sides = int(state[at])
+        image[at] = (sides & ~BOTH) | ((sides & RIGHT) << 1) | ((sides & LEFT) >> 1)
+    image[U], image[V] = -state[U], -state[V]
+    image[RIGHT_BUMPER], image[LEFT_BUMPER] = state[LEFT_BUMPER], state[RIGHT_BUMPER]
+    return image
 
 
 @kernel
@@ -105,10 +140,11 @@ def coordinates(motion: Motion) -> tuple[float, float, float, float, float]:
     -------
     sign, x, v, s, c
         x is the displacement in flight, the pressed bumper's deformation in contact; a left
-        contact is given as the mirror image of a right one, with `sign` −1.
+        contact is given as the mirror image of a right one, with `sign` −1. Pressed on both
+        sides, it is the right one's.
     """
     s, c = motion.clock
-    if motion.mode == RIGHT:
+    if motion.mode & RIGHT:
         return 1.0, motion.right, motion.v, s, c
     if motion.mode == LEFT:
         return -1.0, motion.left, -motion.v, -s, -c

@@ -2,10 +2,9 @@
 
 An observer is a named tuple of what it has noted, and one kernel
 
-    note(plan, notes, before, t, event, step, after) -> notes
+    note(plan, notes, stretch) -> notes
 
-that the event loop calls for each stretch between two events: the motion at its start, the time
-since the section there (s), what ended it, its length (s), and the motion behind it.
+that the event loop calls for each stretch between two events.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from typing import Any, NamedTuple
 from numba.extending import overload
 
 from vibroimpact.engine.jit import OPTIONS, Vector, kernel
-from vibroimpact.engine.motion import Motion
+from vibroimpact.engine.motion import Stretch
 
 _OBSERVERS: dict[type, Any] = {}
 
@@ -31,23 +30,14 @@ def observer(notes: type) -> Callable[[Callable[..., Any]], Any]:
     return register
 
 
-def observe(
-    plan: Vector, notes: Any, before: Motion, t: float, event: int, step: float, after: Motion
-) -> Any:
+def observe(plan: Vector, notes: Any, stretch: Stretch) -> Any:
     """Let the observer of these notes see one stretch."""
-    return _OBSERVERS[type(notes)].py_func(plan, notes, before, t, event, step, after)
+    return _OBSERVERS[type(notes)](plan, notes, stretch)
 
 
-@overload(observe, jit_options=OPTIONS)  # type: ignore[arg-type]
-def _observe(plan: Any, notes: Any, before: Any, t: Any, event: Any, step: Any, after: Any) -> Any:
-    note = _OBSERVERS[notes.instance_class]
-
-    def implementation(
-        plan: Any, notes: Any, before: Any, t: Any, event: Any, step: Any, after: Any
-    ) -> Any:
-        return note(plan, notes, before, t, event, step, after)
-
-    return implementation
+@overload(observe, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]
+def _observe(plan: Any, notes: Any, stretch: Any) -> Any:
+    return _OBSERVERS[notes.instance_class].py_func
 
 
 class Unobserved(NamedTuple):
@@ -57,15 +47,7 @@ class Unobserved(NamedTuple):
 
 
 @observer(Unobserved)
-def _unobserved(
-    plan: Vector,
-    notes: Unobserved,
-    before: Motion,
-    t: float,
-    event: int,
-    step: float,
-    after: Motion,
-) -> Unobserved:
+def _unobserved(plan: Vector, notes: Unobserved, stretch: Stretch) -> Unobserved:
     return notes
 
 

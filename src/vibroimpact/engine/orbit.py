@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
-import numpy as np
-
-from vibroimpact.engine.hold import DONE, NOT_FINITE, NOT_SETTLED, RESULTS, measure
-from vibroimpact.engine.jit import Vector, entry, kernel
+from vibroimpact.engine.entry import entry
+from vibroimpact.engine.flows import planned
+from vibroimpact.engine.hold import DONE, NOT_FINITE, NOT_SETTLED, measure
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.tables import PLAN
+from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
-from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.memory import pointer, stack, workspace
 from vibroimpact.engine.observers.margin import Margin
 from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.section_map import (
     AMPLITUDE,
     CONTACTS_LEFT,
     CONTACTS_RIGHT,
+    FACTS,
     FREQUENCY,
     MODE,
     PARAMETER,
@@ -35,6 +37,16 @@ _GOOD = 1e-14  # residual over the scale at which nothing is left to gain
 _DIFFERENCE = 1e-7  # of the parameter's scale
 _FARTHEST = 0.5  # scaled length of a Newton step
 
+system_memory = stack(SYSTEM)
+matrix_memory = stack(POINT * POINT)
+
+
+@kernel
+def copy(source: Vector, target: Vector, n: int) -> None:
+    """Copy n numbers."""
+    for i in range(n):
+        target[i] = source[i]
+
 
 @kernel
 def solve(a: Vector, b: Vector, n: int) -> bool:
@@ -42,24 +54,24 @@ def solve(a: Vector, b: Vector, n: int) -> bool:
     for k in range(n):
         best = k
         for i in range(k + 1, n):
-            if abs(a[i, k]) > abs(a[best, k]):
+            if abs(a[i * n + k]) > abs(a[best * n + k]):
                 best = i
-        if not abs(a[best, k]) > 1e-300:
+        if not abs(a[best * n + k]) > 1e-300:
             return False
         if best != k:
             for j in range(n):
-                a[k, j], a[best, j] = a[best, j], a[k, j]
+                a[k * n + j], a[best * n + j] = a[best * n + j], a[k * n + j]
             b[k], b[best] = b[best], b[k]
         for i in range(k + 1, n):
-            factor = a[i, k] / a[k, k]
+            factor = a[i * n + k] / a[k * n + k]
             if factor != 0.0:
                 for j in range(k, n):
-                    a[i, j] -= factor * a[k, j]
+                    a[i * n + j] -= factor * a[k * n + j]
                 b[i] -= factor * b[k]
     for k in range(n - 1, -1, -1):
         for j in range(k + 1, n):
-            b[k] -= a[k, j] * b[j]
-        b[k] /= a[k, k]
+            b[k] -= a[k * n + j] * b[j]
+        b[k] /= a[k * n + k]
     return True
 
 
@@ -78,13 +90,11 @@ def _newton(
     slope: Vector,
 ) -> int:
     base, direction, phase, count, mirror, max_events, scale = line
-    system = np.empty(SYSTEM)
-    image = np.empty(DISTURBANCE)
-    aim = point.copy()
+    system, matrix = system_memory(), matrix_memory()
+    image, right = workspace(), workspace()
+    aim, found = workspace(), workspace()
+    copy(point, aim, POINT)
     best = math.inf
-    found = np.empty(POINT)
-    matrix = np.empty((POINT, POINT))
-    right = np.empty(POINT)
     facts[STEPS] = 0.0
     last = False
     while True:
@@ -101,26 +111,26 @@ def _newton(
             residual = max(residual, abs(image[i] - point[i]) / scale[i])
         if residual < best:
             best = residual
-            found[:] = point
+            copy(point, found, POINT)
         elif last:
             # Rounding lets it come no closer.
-            point[:] = found
+            copy(found, point, POINT)
         if last or residual <= _GOOD or facts[STEPS] >= _NEWTON_STEPS:
             break
         if facts[STEPS] >= 4 and residual > 0.25 * best and best < 1e-12:
             last = True
-            point[:] = found
+            copy(found, point, POINT)
             continue
         _slope(plan, line, point, facts, image, slope)
         for i in range(DISTURBANCE):
             for j in range(DISTURBANCE):
-                matrix[i, j] = columns[j, i] * scale[j] / scale[i]
-            matrix[i, i] -= 1.0
-            matrix[i, PARAMETER] = slope[i] * scale[PARAMETER] / scale[i]
+                matrix[i * POINT + j] = columns[j * DISTURBANCE + i] * scale[j] / scale[i]
+            matrix[i * POINT + i] -= 1.0
+            matrix[i * POINT + PARAMETER] = slope[i] * scale[PARAMETER] / scale[i]
             right[i] = -(image[i] - point[i]) / scale[i]
         right[PARAMETER] = 0.0
         for j in range(POINT):
-            matrix[PARAMETER, j] = tangent[j]
+            matrix[PARAMETER * POINT + j] = tangent[j]
             right[PARAMETER] -= tangent[j] * (point[j] - aim[j]) / scale[j]
         if not solve(matrix, right, POINT):
             return NOT_SETTLED
@@ -147,11 +157,11 @@ def _slope(
     At a grazing the derivative may jump. It only steers: a step's end is judged by P alone.
     """
     base, direction, phase, count, mirror, max_events, scale = line
-    system = np.empty(SYSTEM)
-    other = np.empty(DISTURBANCE)
-    ignored = np.empty((DISTURBANCE, DISTURBANCE))
+    system, ignored = system_memory(), matrix_memory()
+    other, trial, seen = workspace(), workspace(), workspace()
     for sign in range(2):
-        trial, seen = point.copy(), facts.copy()
+        copy(point, trial, POINT)
+        copy(facts, seen, FACTS)
         step = (1.0 if sign == 0 else -1.0) * _DIFFERENCE * scale[PARAMETER]
         system_plan(base, direction, point[PARAMETER] + step, plan, system)
         outcome = section_map(
@@ -174,6 +184,7 @@ def _slope(
     " f8[::1])"
 )
 def correct(
+    given: Any,
     base: Vector,
     direction: Vector,
     phase: float,
@@ -217,11 +228,17 @@ def correct(
     outcome
         DONE, NOT_SETTLED (the residual stays above 1e-12 of the scale), or what went wrong.
     """
-    memory = np.zeros(PLAN)
-    line = (base, direction, phase, count, mirror, max_events, scale)
-    outcome = _newton(pointer(memory), line, tangent, point, facts, columns, slope)
-    memory[0] = 0.0  # keeps it alive until here
-    return outcome
+    plan = planned(given, base)
+    line = (pointer(base), pointer(direction), phase, count, mirror, max_events, pointer(scale))
+    return _newton(
+        plan,
+        line,
+        pointer(tangent),
+        pointer(point),
+        pointer(facts),
+        pointer(columns),
+        pointer(slope),
+    )
 
 
 @entry(
@@ -229,6 +246,7 @@ def correct(
     " f8[::1])"
 )
 def evaluate(
+    given: Any,
     base: Vector,
     direction: Vector,
     phase: float,
@@ -246,24 +264,22 @@ def evaluate(
 
     The state is moved to where it can be; `image`, shape (DISTURBANCE,), receives P.
     """
-    memory = np.zeros(PLAN)
-    plan = pointer(memory)
-    system = np.empty(SYSTEM)
-    system_plan(base, direction, point[PARAMETER], plan, system)
-    outcome = section_map(
-        plan, system, phase, count, mirror, max_events, point, facts, image, columns
-    )
+    plan = planned(given, base)
+    line = (pointer(base), pointer(direction), phase, count, mirror, max_events, pointer(scale))
+    system = system_memory()
+    at, seen, found, q = pointer(point), pointer(facts), pointer(image), pointer(columns)
+    system_plan(line[0], line[1], at[PARAMETER], plan, system)
+    outcome = section_map(plan, system, phase, count, mirror, max_events, at, seen, found, q)
     for i in range(DISTURBANCE):
-        facts[RESIDUAL] = max(facts[RESIDUAL], abs(image[i] - point[i]) / scale[i])
+        seen[RESIDUAL] = max(seen[RESIDUAL], abs(found[i] - at[i]) / scale[i])
     if outcome == DONE:
-        line = (base, direction, phase, count, mirror, max_events, scale)
-        _slope(plan, line, point, facts, image, slope)
-    memory[0] = 0.0  # keeps it alive until here
+        _slope(plan, line, at, seen, found, pointer(slope))
     return outcome
 
 
 @entry("i8(f8[::1], f8, f8[::1], f8[::1], i8, i8, f8[::1])")
 def measure_orbit(
+    given: Any,
     system: Vector,
     phase: float,
     point: Vector,
@@ -273,45 +289,24 @@ def measure_orbit(
     result: Vector,
 ) -> int:
     """Exact extremes and contact counts of an orbit, as `hold.measure` writes them."""
-    memory = np.zeros(PLAN)
-    plan = pointer(memory)
-    still = np.zeros(SYSTEM)
-    used = np.empty(SYSTEM)
-    system_plan(system, still, 0.0, plan, used)
+    plan = planned(given, system)
+    build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
     clock = (math.sin(phase), math.cos(phase))
     motion = placed(plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], clock)
-    period = 1.0 / used[FREQUENCY]
-    outcome, _ = measure(plan, motion, clock, period, cycles, max_events, result[:RESULTS])
-    memory[0] = 0.0  # keeps the memory alive until here
+    period = 1.0 / system[FREQUENCY]
+    outcome, _ = measure(plan, motion, clock, period, cycles, max_events, pointer(result))
     return outcome
 
 
-@kernel
-def _margin(
-    plan: Vector,
+@entry("f8(f8[::1], f8, i8, i8, f8[::1], f8[::1])")
+def grazing_margin(
+    given: Any,
     system: Vector,
     phase: float,
     cycles: int,
     max_events: int,
     point: Vector,
     facts: Vector,
-) -> float:
-    period = 1.0 / system[FREQUENCY]
-    if too_much_work(plan, period):
-        return math.nan
-    clock = (math.sin(phase), math.cos(phase))
-    motion = placed(plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], clock)
-    notes = Margin(math.inf)
-    for _ in range(cycles):
-        events, motion, notes = cycle(plan, motion, clock, period, max_events, notes)
-        if events > max_events:
-            return math.nan
-    return notes.least
-
-
-@entry("f8(f8[::1], f8, i8, i8, f8[::1], f8[::1])")
-def grazing_margin(
-    system: Vector, phase: float, cycles: int, max_events: int, point: Vector, facts: Vector
 ) -> float:
     """Signed distance of a motion from grazing (m).
 
@@ -334,10 +329,16 @@ def grazing_margin(
         Positive: the least clearance at which the mass turns back in flight. Negative: the least
         depth at which it turns back in a contact. The one of least size; NaN if given up.
     """
-    memory = np.zeros(PLAN)
-    plan = pointer(memory)
-    used = np.empty(SYSTEM)
-    system_plan(system, np.zeros(SYSTEM), 0.0, plan, used)
-    found = _margin(plan, used, phase, cycles, max_events, point, facts)
-    memory[0] = 0.0  # keeps the memory alive until here
-    return found
+    plan = planned(given, system)
+    build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
+    period = 1.0 / system[FREQUENCY]
+    if too_much_work(plan, period):
+        return math.nan
+    clock = (math.sin(phase), math.cos(phase))
+    motion = placed(plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], clock)
+    notes = Margin(math.inf)
+    for _ in range(cycles):
+        events, motion, notes = cycle(plan, motion, clock, period, max_events, notes)
+        if events > max_events:
+            return math.nan
+    return notes.least

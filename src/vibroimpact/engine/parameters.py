@@ -10,19 +10,23 @@ from numpy.typing import NDArray
 STIFFNESS = 0  # K/M, 1/s²
 DAMPING = 1  # C/M, 1/s
 BUMPER = 2
-WIDTH = 5
-PRESENT = 0  # 1.0 or 0.0
+WIDTH = 6
+KIND = 0  # ABSENT, KELVIN_VOIGT or RIGID
 BUMPER_STIFFNESS = 1  # K_j/M, 1/s²
 BUMPER_DAMPING = 2  # C_j/M, 1/s
 GAP = 3  # G0_j, m; infinite where there is no bumper
 RATE = 4  # K_j/C_j, 1/s: how fast the free bumper relaxes; infinite where C_j = 0
+RESTITUTION = 5  # of a rigid stop
 SIZE = BUMPER + 2 * WIDTH
 
-Bumper = tuple[float, float, float]
+ABSENT, KELVIN_VOIGT, RIGID = 0.0, 1.0, 2.0
+
+Stop = tuple[float, ...]
+"""K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop."""
 
 
 def rig_vector(
-    mass: float, stiffness: float, damping: float, right: Bumper | None, left: Bumper | None
+    mass: float, stiffness: float, damping: float, right: Stop | None, left: Stop | None
 ) -> NDArray[np.float64]:
     """Pack a rig for the kernels.
 
@@ -31,7 +35,7 @@ def rig_vector(
     mass, stiffness, damping : float
         M (kg), K (N/m) and C (N s/m) of the mass and its isolator.
     right, left : tuple of float or None
-        K_j (N/m), C_j (N s/m) and G0_j (m) of each bumper; None where there is none.
+        Each stop; None where there is none.
 
     Returns
     -------
@@ -40,16 +44,24 @@ def rig_vector(
     vector = np.zeros(SIZE)
     vector[STIFFNESS] = stiffness / mass
     vector[DAMPING] = damping / mass
-    for side, bumper in ((1, right), (2, left)):
+    for side, stop in ((1, right), (2, left)):
         at = BUMPER + WIDTH * (side - 1)
-        if bumper is None:
-            vector[at + GAP] = np.inf
-            vector[at + RATE] = np.inf
+        vector[at + GAP] = stop[-1] if stop else np.inf
+        vector[at + RATE] = np.inf
+        if stop is None:
             continue
-        bumper_stiffness, bumper_damping, gap = bumper
-        vector[at + PRESENT] = 1.0
+        if len(stop) == 2:
+            vector[at + KIND], vector[at + RESTITUTION] = RIGID, stop[0]
+            continue
+        bumper_stiffness, bumper_damping, _ = stop
+        vector[at + KIND] = KELVIN_VOIGT
         vector[at + BUMPER_STIFFNESS] = bumper_stiffness / mass
         vector[at + BUMPER_DAMPING] = bumper_damping / mass
-        vector[at + GAP] = gap
-        vector[at + RATE] = bumper_stiffness / bumper_damping if bumper_damping else np.inf
+        if bumper_damping:
+            vector[at + RATE] = bumper_stiffness / bumper_damping
     return vector
+
+
+def free_rig() -> NDArray[np.float64]:
+    """A rig without stops, of unit mass and stiffness."""
+    return rig_vector(1.0, 1.0, 0.0, None, None)

@@ -16,7 +16,7 @@ from vibroimpact.engine.linear.advance import too_much_work
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import FLIGHT, RIGHT, Clock, Motion, mirrored
-from vibroimpact.engine.observers.tangent import DISTURBANCE, Tangent
+from vibroimpact.engine.observers.tangent import DISTURBANCE, Tangent, unit_disturbances
 
 # The system vector: the rig (`parameters`), then the forcing.
 AMPLITUDE = par.SIZE
@@ -41,7 +41,7 @@ def system_plan(base: Vector, direction: Vector, p: float, plan: Vector, system:
         system[i] = base[i] + p * direction[i] if direction[i] != 0.0 else base[i]
     for side in range(2):
         at = par.BUMPER + par.WIDTH * side
-        if system[at + par.PRESENT] != 0.0 and system[at + par.BUMPER_DAMPING] > 0.0:
+        if system[at + par.KIND] == par.KELVIN_VOIGT and system[at + par.BUMPER_DAMPING] > 0.0:
             system[at + par.RATE] = (
                 system[at + par.BUMPER_STIFFNESS] / system[at + par.BUMPER_DAMPING]
             )
@@ -62,25 +62,32 @@ def placed(
     found = FLIGHT
     for side in range(1, 3):
         at = par.BUMPER + par.WIDTH * (side - 1)
-        if plan[at + par.PRESENT] == 0.0:
+        kind = plan[at + par.KIND]
+        if kind == par.ABSENT:
             continue
         sign = 1.0 if side == RIGHT else -1.0
         deformation = right if side == RIGHT else left
         reach = sign * u - plan[at + par.GAP]
-        if mode == side or reach > deformation:
-            force = plan[at + par.BUMPER_STIFFNESS] * reach
-            force += plan[at + par.BUMPER_DAMPING] * sign * v
-            deformation = max(reach, 0.0)
-            if reach >= 0.0 and force >= 0.0:
-                found = side
-        if plan[at + par.BUMPER_DAMPING] == 0.0 and found != side:
+        if kind == par.RIGID:
             deformation = 0.0
+            if reach > 0.0:
+                u = sign * plan[at + par.GAP]
+            if mode & side and reach >= 0.0 and v == 0.0:
+                found |= side
+        else:
+            if mode & side or reach > deformation:
+                force = plan[at + par.BUMPER_STIFFNESS] * reach
+                force += plan[at + par.BUMPER_DAMPING] * sign * v
+                deformation = max(reach, 0.0)
+                if reach >= 0.0 and force >= 0.0:
+                    found |= side
+            if plan[at + par.BUMPER_DAMPING] == 0.0 and not found & side:
+                deformation = 0.0
         if side == RIGHT:
             right = deformation
         else:
             left = deformation
-    fresh = 1 if found != FLIGHT else 0
-    return Motion(found, fresh, u, v, right, left, 0.0, clock)
+    return Motion(found, found, u, v, right, left, 0.0, clock)
 
 
 @kernel
@@ -110,12 +117,7 @@ def section_map(
     period = (0.5 if mirror else 1.0) / system[FREQUENCY]
     if too_much_work(plan, period):
         return TOO_MUCH_WORK
-    q[:] = 0.0
-    for i in range(DISTURBANCE):
-        q[i, i] = 1.0
-    if motion.mode != FLIGHT:
-        q[0, 1 + motion.mode] = 1.0
-        q[1 + motion.mode] = 0.0
+    unit_disturbances(motion.mode, q)
     facts[CONTACTS_RIGHT], facts[CONTACTS_LEFT], facts[DAMPING] = 0.0, 0.0, 0.0
     for _ in range(count):
         notes = Tangent(q, 0.0, 0, 0)
@@ -128,8 +130,9 @@ def section_map(
         if mirror:
             motion = mirrored(motion)
             for i in range(DISTURBANCE):
-                q[i, 0], q[i, 1] = -q[i, 0], -q[i, 1]
-                q[i, 2], q[i, 3] = -q[i, 3], -q[i, 2]
+                at = i * DISTURBANCE
+                q[at], q[at + 1] = -q[at], -q[at + 1]
+                q[at + 2], q[at + 3] = -q[at + 3], -q[at + 2]
     image[0], image[1], image[2], image[3] = motion.u, motion.v, motion.right, -motion.left
     if motion.mode != FLIGHT:
         facts[MODE] = motion.mode

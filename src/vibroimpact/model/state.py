@@ -16,10 +16,12 @@ def _contact(value: Any) -> int | None:
         return None
     if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
         value = value.item()  # a numpy scalar or an array of no dimension
-    for side in (-1, 0, 1):
+    for side in (-1, 0, 1, 2):
         if not isinstance(value, bool | str) and value == side:
             return side
-    raise InputError(f"{shown(value)} is not a side; -1 (left), 0 (none) or 1 (right) is accepted")
+    raise InputError(
+        f"{shown(value)} is not a side; -1 (left), 0 (none), 1 (right) or 2 (both) is accepted"
+    )
 
 
 class State(Model):
@@ -42,7 +44,7 @@ class State(Model):
     phase
         Phase of the excitation at this instant in rad. None: the excitation's own.
     contact
-        Bumper that the mass touches: -1 left, 0 none, 1 right. None: deduced from the
+        Stop that the mass touches: -1 left, 0 none, 1 right, 2 both. None: deduced from the
         displacement and the deformations.
 
     Raises
@@ -56,7 +58,7 @@ class State(Model):
     right_bumper: Annotated[float | None, Accepts(LENGTH, minimum=0.0, optional=True)] = None
     left_bumper: Annotated[float | None, Accepts(LENGTH, maximum=0.0, optional=True)] = None
     phase: Annotated[float | None, Accepts(ANGLE, optional=True)] = None
-    contact: Annotated[Literal[-1, 0, 1] | None, BeforeValidator(_contact)] = None
+    contact: Annotated[Literal[-1, 0, 1, 2] | None, BeforeValidator(_contact)] = None
 
     @constructor
     def __init__(

@@ -155,7 +155,11 @@ def _samples(
         gap: float | None, distance: NDArray[np.float64], side: int
     ) -> NDArray[np.float64]:
         # Eq. 4; no bumper, no clearance; in contact it is zero by definition.
-        return absent if gap is None else np.where(touching == side, 0.0, gap + distance)
+        return (
+            absent
+            if gap is None
+            else np.where((touching == side) | (touching == 2), 0.0, gap + distance)
+        )
 
     right_gap = oscillator.right.gap if oscillator.right else None
     left_gap = oscillator.left.gap if oscillator.left else None

@@ -11,59 +11,32 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, RigidStop, State
-from vibroimpact.model.units import LENGTH, pretty
+from vibroimpact.model import Bumper, Oscillator, RigidStop, State, Stop
 from vibroimpact.response.variables import COMPONENTS
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
 
 
-def followed(oscillator: Oscillator) -> tuple[Bumper | None, Bumper | None]:
-    """The right and the left bumper, if the engine can follow the rig.
-
-    Raises
-    ------
-    InputError
-        If a stop is rigid, or a bumper preloaded.
-    """
-    sides = []
-    for side, stop in (("right", oscillator.right), ("left", oscillator.left)):
-        if isinstance(stop, RigidStop):
-            raise InputError(
-                f"{side}: {stop} cannot be followed by this version; a Bumper is accepted"
-            )
-        if stop is not None and stop.gap < 0.0:
-            raise InputError(
-                f"{side}.gap: {pretty(stop.gap, LENGTH)} is a preload, which cannot be followed by "
-                "this version; a length of at least 0 is accepted"
-            )
-        sides.append(stop)
-    right, left = sides
-    return right, left
-
-
 def engine_rig(oscillator: Oscillator) -> NDArray[np.float64]:
-    """The oscillator as the vector that the engine reads.
+    """The oscillator as the vector that the engine reads."""
 
-    Raises
-    ------
-    InputError
-        If the engine cannot follow it.
-    """
-    right, left = followed(oscillator)
-
-    def numbers(bumper: Bumper | None) -> tuple[float, float, float] | None:
-        return None if bumper is None else (bumper.stiffness, bumper.damping, bumper.gap)
+    def numbers(stop: Stop | None) -> tuple[float, ...] | None:
+        if stop is None:
+            return None
+        if isinstance(stop, RigidStop):
+            return stop.restitution, stop.gap
+        return stop.stiffness, stop.damping, stop.gap
 
     return rig_vector(
         oscillator.mass,
         oscillator.isolator.stiffness,
         oscillator.isolator.damping,
-        numbers(right),
-        numbers(left),
+        numbers(oscillator.right),
+        numbers(oscillator.left),
     )
 
 
@@ -95,65 +68,119 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
         If the mass lies inside a bumper, or is said to touch one that it does not touch.
     """
     u, v = state.displacement, state.velocity
-    right, left = followed(oscillator)
     deformations = [0.0, 0.0]
-    contact = FLIGHT
-    # Seen from each side in turn: s = +1 towards the right bumper, −1 towards the left one.
-    for i, (name, bumper, given, sign) in enumerate(
+    mode = FLIGHT
+    # Seen from each side in turn: s = +1 towards the right stop, −1 towards the left one.
+    for i, (name, stop, given, sign) in enumerate(
         (
-            ("right_bumper", right, state.right_bumper, 1),
-            ("left_bumper", left, state.left_bumper, -1),
+            ("right_bumper", oscillator.right, state.right_bumper, 1),
+            ("left_bumper", oscillator.left, state.left_bumper, -1),
         )
     ):
-        if bumper is None:
+        said = None if state.contact is None else state.contact in (sign, 2)
+        if stop is None:
             if given:
                 raise InputError(
                     f"start.{name}: {given:g} m, but the oscillator has no such bumper; "
                     "0 or nothing is accepted"
                 )
-            if state.contact == sign:
+            if said:
                 raise InputError(
-                    f"start.contact: {sign}, but the oscillator has no bumper there; 0 is accepted"
+                    f"start.contact: {state.contact}, but the oscillator has no bumper there; "
+                    "0 is accepted"
                 )
             continue
-        reach = sign * u - bumper.gap
-        slack = TOUCHING * max(bumper.gap, abs(u), abs(v) / oscillator.angular_frequency)
-        deformation = max(reach, 0.0) if given is None else sign * given
-        if reach > deformation + slack:
-            raise InputError(
-                f"start.{name}: {sign * deformation:g} m puts the mass at {u:g} m inside the "
-                f"bumper; {sign * reach:g} m or more is accepted"
-            )
-        touches = deformation - reach <= slack
-        if state.contact == sign and not touches:
-            raise InputError(
-                f"start.contact: {sign}, but the bumper is {deformation - reach:g} m away; "
-                "0 is accepted"
-            )
-        force = bumper.stiffness * deformation + bumper.damping * sign * v
-        if bumper.damping == 0.0 and not touches:
-            deformation = 0.0  # without a dashpot a free bumper is at rest at once
-        rounding = TOUCHING * (bumper.stiffness * deformation + bumper.damping * abs(v))
-        if state.contact == sign and force < -rounding:
-            raise InputError(
-                f"start.contact: {sign}, but the bumper would pull with {-force:g} N; "
-                "0 is accepted, or a velocity at which it presses"
-            )
-        if state.contact == 0 and touches and bumper.damping == 0.0 and deformation > slack:
-            raise InputError(
-                f"start.contact: 0, but the mass presses the {name} by {deformation:g} m, which "
-                f"has no dashpot to lag behind; {sign} is accepted"
-            )
-        presses = force > 0.0 or (deformation == 0.0 and bumper.damping == 0.0 and sign * v > 0.0)
-        if state.contact == sign or (state.contact is None and touches and presses):
-            contact = RIGHT if sign == 1 else LEFT
+        slack = TOUCHING * max(abs(stop.gap), abs(u), abs(v) / oscillator.angular_frequency)
+        reach = sign * u - stop.gap
+        if isinstance(stop, RigidStop):
+            touches, deformation = _on_wall(stop, sign, state, name, reach, slack, said)
+            if touches:
+                u = sign * stop.gap
+        else:
+            touches, deformation = _on_bumper(stop, sign, state, name, reach, slack, said, sign * v)
+        if touches:
+            mode |= RIGHT if sign == 1 else LEFT
         deformations[i] = deformation
     vector = np.zeros(layout.STATE)
-    vector[layout.MODE] = contact
-    vector[layout.FRESH] = 1.0 if contact != FLIGHT else 0.0
+    vector[layout.MODE] = mode
+    vector[layout.FRESH] = mode  # what touches begins to
     vector[layout.U], vector[layout.V] = u, v
     vector[layout.RIGHT_BUMPER], vector[layout.LEFT_BUMPER] = deformations
     return vector
+
+
+def _on_wall(
+    stop: RigidStop,
+    sign: int,
+    state: State,
+    name: str,
+    reach: float,
+    slack: float,
+    said: bool | None,
+) -> tuple[bool, float]:
+    """Whether the mass rests on a rigid stop, and its deformation, 0.
+
+    A mass at rest there that nothing presses is let go by the engine at once.
+    """
+    given = state.right_bumper if sign == 1 else state.left_bumper
+    if given:
+        raise InputError(
+            f"start.{name}: {given:g} m, but a rigid stop does not deform; 0 is accepted"
+        )
+    if reach > slack:
+        raise InputError(
+            f"start.displacement: {state.displacement:g} m lies {reach:g} m inside the rigid stop; "
+            f"{sign * stop.gap:g} m and less far is accepted"
+        )
+    rests = reach >= -slack and state.velocity == 0.0
+    if said and not rests:
+        raise InputError(
+            f"start.contact: {state.contact}, but the mass does not rest on the rigid stop "
+            f"({-reach:g} m away, {state.velocity:g} m/s); 0 is accepted"
+        )
+    return rests and said is not False, 0.0
+
+
+def _on_bumper(
+    stop: Bumper,
+    sign: int,
+    state: State,
+    name: str,
+    reach: float,
+    slack: float,
+    said: bool | None,
+    closing: float,
+) -> tuple[bool, float]:
+    """Whether the mass presses a bumper, and the bumper's deformation away from the mass (m)."""
+    given = state.right_bumper if sign == 1 else state.left_bumper
+    deformation = max(reach, 0.0) if given is None else sign * given
+    if reach > deformation + slack:
+        raise InputError(
+            f"start.{name}: {sign * deformation:g} m puts the mass at {state.displacement:g} m "
+            f"inside the bumper; {sign * reach:g} m or more is accepted"
+        )
+    touches = deformation - reach <= slack
+    if said and not touches:
+        raise InputError(
+            f"start.contact: {state.contact}, but the bumper is {deformation - reach:g} m away; "
+            "0 is accepted"
+        )
+    force = stop.stiffness * deformation + stop.damping * closing
+    if stop.damping == 0.0 and not touches:
+        deformation = 0.0  # without a dashpot a free bumper is at rest at once
+    rounding = TOUCHING * (stop.stiffness * deformation + stop.damping * abs(closing))
+    if said and force < -rounding:
+        raise InputError(
+            f"start.contact: {state.contact}, but the bumper would pull with {-force:g} N; "
+            "0 is accepted, or a velocity at which it presses"
+        )
+    if said is False and touches and stop.damping == 0.0 and deformation > slack:
+        raise InputError(
+            f"start.contact: {state.contact}, but the mass presses the {name} by "
+            f"{deformation:g} m, which has no dashpot to lag behind; {sign} is accepted"
+        )
+    presses = force > 0.0 or (deformation == 0.0 and stop.damping == 0.0 and closing > 0.0)
+    return bool(said) or (said is None and touches and presses), deformation
 
 
 def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
@@ -168,7 +195,7 @@ def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]
             deformations[..., 0],
             -deformations[..., 1],
             np.broadcast_to(phase % (2.0 * math.pi), mode.shape),
-            np.where(mode == RIGHT, 1.0, np.where(mode == LEFT, -1.0, 0.0)),
+            np.take(record.TOUCHING, mode.astype(np.int64)),
         ],
         axis=-1,
     )

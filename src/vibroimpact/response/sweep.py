@@ -207,7 +207,9 @@ def sweeps(
         results[r, d] = found[order]
         states[r, d] = reached[order]
 
-    batch.sweep.prepare()  # once, before the threads would queue for it
+    batch.sweep.prepare(
+        *(rig for rig, _, _ in prepared)
+    )  # once, before the threads would queue for it
     run(one, counter, len(grid) * len(counter), threads, progress)
     data = _dataset(results, states, free, largest, angle)
     data = data.assign_coords(

@@ -11,6 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
+from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State
@@ -25,7 +26,6 @@ from vibroimpact.stability.settled import (
     apart,
     approach,
     later,
-    mirrored,
     reach,
     reach_at_rest,
 )
@@ -202,7 +202,7 @@ def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int,
 def _image(found: Settled, max_events: int) -> Settled | None:
     """The mirror image, half a cycle later; None if a limit is met on the way."""
     status, state = later(found, found.state, 0.5, max_events)
-    return found._replace(state=mirrored(state)) if status is Status.DONE else None
+    return found._replace(state=mirror_image(state)) if status is Status.DONE else None
 
 
 def _mirrors(one: Settled, other: Settled, max_events: int) -> bool:

@@ -58,7 +58,7 @@ class Family(NamedTuple):
         moving = self.direction != 0.0
         vector[moving] += value * self.direction[moving]
         for at in _BUMPERS:
-            if vector[at + par.PRESENT] and vector[at + par.BUMPER_DAMPING] > 0.0:
+            if vector[at + par.KIND] == par.KELVIN_VOIGT and vector[at + par.BUMPER_DAMPING] > 0.0:
                 rate = vector[at + par.BUMPER_STIFFNESS] / vector[at + par.BUMPER_DAMPING]
                 vector[at + par.RATE] = rate
         return vector

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import orbit, section_map
-from vibroimpact.engine.motion import FLIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.response.follow import moved_on
@@ -247,7 +246,7 @@ def vector_of(found: Orbit) -> _Array:
     mode = float(found.facts[section_map.MODE])
     u, v, right, left = found.point[:4]
     state = np.zeros(layout.STATE)
-    state[layout.MODE], state[layout.FRESH] = mode, float(mode != FLIGHT)
+    state[layout.MODE], state[layout.FRESH] = mode, mode
     state[layout.U], state[layout.V] = u, v
     state[layout.RIGHT_BUMPER], state[layout.LEFT_BUMPER] = right, -left
     return state

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.counts import share
@@ -83,24 +82,6 @@ def approach(
         int(result[0, hold.CYCLES]),
         outcome,
     )
-
-
-def mirrored(state: _Array) -> _Array:
-    """The mirror image of a state of the engine: what moves right moves left."""
-    image = state.copy()
-    other = {float(FLIGHT): FLIGHT, float(RIGHT): LEFT, float(LEFT): RIGHT}
-    image[layout.MODE] = other[float(state[layout.MODE])]
-    if state[layout.MODE] == FLIGHT:  # then it is the side that was just left
-        image[layout.FRESH] = other[float(state[layout.FRESH])]
-    image[layout.U], image[layout.V] = (
-        -state[layout.U],
-        -state[layout.V],
-    )
-    image[layout.RIGHT_BUMPER], image[layout.LEFT_BUMPER] = (
-        state[layout.LEFT_BUMPER],
-        state[layout.RIGHT_BUMPER],
-    )
-    return image
 
 
 def later(

@@ -11,6 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import measure
+from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, State, equilibrium
@@ -31,7 +32,6 @@ from vibroimpact.stability.settled import (
     apart,
     approach,
     later,
-    mirrored,
     reach,
     settled_on,
 )
@@ -194,7 +194,7 @@ def _mirror_distance(found: Settled, state: _Array, period: int, max_events: int
     status, half = later(found, state, 0.5 * period, max_events)
     if status is not Status.DONE:
         return math.nan  # seen from there a cycle has more events than are allowed
-    return apart(found, mirrored(half), state, reach(found, state))
+    return apart(found, mirror_image(half), state, reach(found, state))
 
 
 def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:

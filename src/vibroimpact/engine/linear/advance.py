@@ -1,56 +1,109 @@
-"""From one event to the next: flight, then contact, then flight."""
+"""From one event to the next, between bumpers that cannot be touched at once."""
 
 from __future__ import annotations
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.contact import contact
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.flight import flight
-from vibroimpact.engine.linear.tables import SIZE, TABLES, VALID_FROM, H
-from vibroimpact.engine.motion import DETACHED, FLIGHT, LIMIT, RIGHT, Motion, coordinates
+from vibroimpact.engine.linear.tables import LATE_TABLES, SIZE, SLOTS, TABLES, VALID_FROM, H
+from vibroimpact.engine.linear.walk import WITHIN, Bounds
+from vibroimpact.engine.motion import (
+    BOTH,
+    DETACHED,
+    FLIGHT,
+    LEFT,
+    LIMIT,
+    RELEASED,
+    RIGHT,
+    SEEN_LEFT,
+    Motion,
+    coordinates,
+)
 
 WORK_LIMIT = 3e7
 """Table steps that one forcing cycle may take, about a second of computing."""
 
+Ended = tuple[int, float, float, Motion]
+"""event, t, arrival, motion: what ended a stretch (see `motion`), its length (s), the velocity
+just before, and the motion just behind."""
 
-@kernel
-def advance(plan: Vector, motion: Motion, limit: float) -> tuple[int, float, Motion]:
-    """Go on to the next contact or detachment, or for the time `limit` if that comes first.
 
-    Returns
-    -------
-    event, t, motion
-        What ended the stretch (see `motion`), its length (s), and the motion behind it.
-    """
-    mode, fresh, u, v, right, left, age, clock = motion
+@inlined
+def bumpers(plan: Vector) -> tuple[float, float, float, float]:
+    """Gaps (m) and relaxation rates (1/s) of both sides."""
+    left = par.BUMPER + par.WIDTH
+    return (
+        plan[par.BUMPER + par.GAP],
+        plan[left + par.GAP],
+        plan[par.BUMPER + par.RATE],
+        plan[left + par.RATE],
+    )
+
+
+@inlined
+def fly(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """Free of both stops until one of them is touched."""
+    _, fresh, u, v, right, left, age, clock = motion
+    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
     s, c = clock
-    if mode == FLIGHT:
-        event, t, u, v, s, c, right, left = flight(plan, u, v, s, c, right, left, fresh, limit, age)
-        if event == LIMIT:
-            return event, t, Motion(mode, 0, u, v, right, left, age + t, (s, c))
-        return event, t, Motion(event, 1, u, v, right, left, 0.0, (s, c))
+    way, t, u, v, s, c, right, left = flight(
+        plan,
+        FLIGHT,
+        u,
+        v,
+        s,
+        c,
+        Bounds(gap_r, -gap_l, right, left, rate_r, rate_l),
+        fresh & BOTH,
+        fresh & RELEASED != 0,
+        limit,
+        age,
+    )
+    if way == WITHIN:
+        return LIMIT, t, v, Motion(FLIGHT, 0, u, v, right, left, age + t, (s, c))
+    return way, t, v, Motion(way, way, u, v, right, left, 0.0, (s, c))
+
+
+@inlined
+def press(plan: Vector, motion: Motion, side: int, limit: float) -> Ended:
+    """Pressed at least on this side until its bumper lets go."""
+    mode, fresh, u, v, right, left, age, clock = motion
+    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
     sign, x, v, s, c = coordinates(motion)
-    event, t, x, v, s, c = contact(plan, mode, x, v, s, c, fresh == 1, limit, age)
-    if mode == RIGHT:
+    slot = mode
+    if mode == BOTH and side == LEFT:
+        slot, sign, x, v, s, c = SEEN_LEFT, -1.0, left, -v, -s, -c
+    event, t, x, v, s, c = contact(plan, slot, side, x, v, s, c, fresh == side, limit, age)
+    if side == RIGHT:
         right = x
-        left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
+        left = -x - (gap_r + gap_l) if mode == BOTH else relaxed(left, rate_l, t)
+        u = gap_r + x
     else:
         left = x
-        right = relaxed(right, plan[par.BUMPER + par.RATE], t)
-    gap = plan[par.BUMPER + par.WIDTH * (mode - 1) + par.GAP]
-    u, v, s, c = sign * (gap + x), sign * v, sign * s, sign * c
+        right = -x - (gap_r + gap_l) if mode == BOTH else relaxed(right, rate_r, t)
+        u = -(gap_l + x)
+    v, clock = sign * v, (sign * s, sign * c)
     if event == DETACHED:
-        return event, t, Motion(FLIGHT, mode, u, v, right, left, 0.0, (s, c))
-    return event, t, Motion(mode, 0, u, v, right, left, age + t, (s, c))
+        return event, t, v, Motion(mode & ~side, side, u, v, right, left, 0.0, clock)
+    return event, t, v, Motion(mode, 0, u, v, right, left, age + t, clock)
+
+
+@inlined
+def advance_apart(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """Go on to the next contact or detachment, or for the time `limit` if that comes first."""
+    if motion.mode == FLIGHT:
+        return fly(plan, motion, limit)
+    return press(plan, motion, motion.mode, limit)
 
 
 @kernel
 def too_much_work(plan: Vector, period: float) -> bool:
     """Whether one cycle could take more than WORK_LIMIT table steps."""
-    for mode in range(3):
-        early = TABLES + SIZE * mode
-        late = early + 3 * SIZE
+    for slot in range(SLOTS):
+        early = TABLES + SIZE * slot
+        late = early + LATE_TABLES
         if plan[early + H] > 0.0:
             steps = min(period, plan[late + VALID_FROM]) / plan[early + H]
             if plan[late + VALID_FROM] < period:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+import math
+
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.crossing import NONE, crossing_guess, first_root, quick_root
-from vibroimpact.engine.linear.evaluate import expand, moved, node, row, travel
+from vibroimpact.engine.linear.crossing import NONE, first_root
+from vibroimpact.engine.linear.evaluate import expand, travel
 from vibroimpact.engine.linear.tables import (
-    DETACHED,
     FORCE,
     FORCE_0,
     FORCE_V,
     FORCE_X,
     LATE,
-    LIMIT,
-    MIDDLE,
-    NODE,
+    LATE_TABLES,
     NODES,
     RATE,
     REST,
@@ -27,15 +26,19 @@ from vibroimpact.engine.linear.tables import (
     TABLES,
     TAYLOR_F,
     VALID_FROM,
-    WIDTH,
     H,
 )
+from vibroimpact.engine.linear.walk import WITHIN, Bounds, Watched, ended, next_window, walk
 from vibroimpact.engine.memory import workspace
+from vibroimpact.engine.motion import DETACHED, LIMIT
+
+_PRESSING = Bounds(math.inf, 0.0, 0.0, 0.0, math.inf, math.inf)
 
 
 @kernel
 def contact(
     plan: Vector,
+    slot: int,
     side: int,
     x: float,
     v: float,
@@ -49,6 +52,8 @@ def contact(
 
     Parameters
     ----------
+    slot : int
+        Which table of the plan describes the motion.
     side : int
         RIGHT or LEFT.
     x, v, s, c : float
@@ -64,12 +69,12 @@ def contact(
     event, t, x, v, s, c
         DETACHED or LIMIT, the elapsed time (s), and the state there, mirrored as given.
     """
+    series = workspace()
     at = par.BUMPER + par.WIDTH * (side - 1)
     stiffness = plan[at + par.BUMPER_STIFFNESS]
     damping = plan[at + par.BUMPER_DAMPING]
-    early = TABLES + SIZE * side
-    late = early + 3 * SIZE
-    series = workspace()
+    early = TABLES + SIZE * slot
+    late = early + LATE_TABLES
     t = 0.0
     while True:
         table = late if age + t >= plan[late + VALID_FROM] else early
@@ -104,69 +109,14 @@ def contact(
                     return DETACHED, h * y, 0.0 if damping == 0.0 else x, v, s, c
                 clear = max(clear, high)
         fresh = False
-        before = f
-        earlier = f
-        j = 0
-        done = -1
-        while True:
-            while True:
-                if f < band and j + 1.0 > clear:
-                    break
-                if j >= span or j == NODES:
-                    j = -1
-                    break
-                earlier = before
-                before = f
-                f = row(plan, table + FORCE + j * 5, x, v, s, c)
-                j += 1
-            if j < 0:
-                break
-            i = j - 1 if j - 1 > done else j
-            if i >= span or i == NODES:
-                break
-            nx, nv, ns, nc = node(plan, table, i, x, v, s, c)
-            y = NONE
-            if i == j - 1 and f < 0.0 and plan[table + LATE] == 0.0 and before > 0.0:
-                guess = crossing_guess(earlier, before, f, 0.0, j)
-                y, ex, ev, es, ec = quick_root(
-                    plan,
-                    table,
-                    -stiffness,
-                    -damping * plan[table + RATE],
-                    0.0,
-                    guess,
-                    second,
-                    nx,
-                    nv,
-                    ns,
-                    nc,
-                )
-                if y != NONE and i + y > span:
-                    break
-            if y == NONE:
-                mx, mv, ms, mc = moved(plan, table + MIDDLE, nx, nv, ns, nc)
-                expand(plan, table + TAYLOR_F, mx, mv, ms, mc, series)
-                low = max(-0.5, min(clear - i - 0.5, 0.5))
-                y = first_root(series, 0.0, 1.0, 0.0, 0.0, False, low, min(0.5, span - i - 0.5))
-                if y != NONE:
-                    y += 0.5
-                    ex, ev, es, ec = travel(plan, table, y, nx, nv, ns, nc)
-            if y != NONE:
-                if damping == 0.0:
-                    ex = 0.0
-                return DETACHED, t + (i + y) * h, ex, ev, es, ec
-            done = i
-            if i == j:
-                if j == NODES:
-                    break
-                earlier = before
-                before = f
-                f = row(plan, table + FORCE + j * 5, x, v, s, c)
-                j += 1
+        force = Watched(stiffness, damping * plan[table + RATE], FORCE, 5, TAYLOR_F)
+        way, i, y, ex, ev, es, ec, _, _ = walk(
+            plan, table, force, _PRESSING, f, band, x, v, s, c, span, math.inf, clear, 0.0, series
+        )
+        if way != WITHIN:
+            return DETACHED, t + (i + y) * h, 0.0 if damping == 0.0 else ex, ev, es, ec
         if span <= NODES:
-            i = min(int(span), NODES - 1)
-            nx, nv, ns, nc = node(plan, table, i, x, v, s, c)
-            x, v, s, c = travel(plan, table, span - i, nx, nv, ns, nc)
+            x, v, s, c = ended(plan, table, x, v, s, c, span)
             return LIMIT, limit, x, v, s, c
-        x, v, s, c = moved(plan, table + NODE + (NODES - 1) * WIDTH, x, v, s, c)
+        x, v, s, c = next_window(plan, table, x, v, s, c)
         t += NODES * h

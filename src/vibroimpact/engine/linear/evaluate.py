@@ -6,6 +6,7 @@ import math
 
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.tables import (
+    AMPLITUDE,
     COSINE,
     FINE,
     FINE_NODE,
@@ -14,6 +15,7 @@ from vibroimpact.engine.linear.tables import (
     NODE,
     ORDER,
     RATE,
+    RESTING,
     ROW_V,
     SCALED_A,
     SCALED_C,
@@ -135,9 +137,12 @@ def short_series(
 
 
 @kernel
-def absolute_acceleration(plan: Vector, mode: int, x: float, v: float) -> float:
-    """ü + A_t from the state (mirrored for a left contact, as in `contact`)."""
+def absolute_acceleration(plan: Vector, mode: int, x: float, v: float, s: float) -> float:
+    """ü + A_t from the state (mirrored for a left contact, as in `contact`); at rest it is A_t."""
     table = TABLES + SIZE * mode
+    if plan[table + RESTING] != 0.0:
+        base: float = plan[AMPLITUDE] * s
+        return base
     rate = plan[table + RATE]
     scaled: float = (plan[table + SCALED_D] - plan[table + SCALED_K] * x) - plan[
         table + SCALED_C

@@ -19,14 +19,18 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, expand, moved, node
 from vibroimpact.engine.linear.tables import (
+    LATE_TABLES,
     MIDDLE,
     NODE,
     NODES,
     ORDER,
     RATE,
+    RESTING,
+    SCALED_A,
     SCALED_C,
     SCALED_D,
     SCALED_K,
+    SCALED_W,
     SIZE,
     TABLES,
     TAYLOR,
@@ -72,7 +76,7 @@ def window(
     c: float,
 ) -> Cursor:
     """The first piece of a window that begins t seconds behind the stretch's start."""
-    late = early + 3 * SIZE
+    late = early + LATE_TABLES
     table = late if age + t >= plan[late + VALID_FROM] else early
     span = (length - t) * plan[table + RATE]
     return Cursor(early, table, 0, length, age, t, span, x, v, s, c)
@@ -143,13 +147,24 @@ def expanded_force(plan: Vector, cursor: Cursor, series: Vector) -> None:
 
 
 @kernel
-def accelerated(plan: Vector, cursor: Cursor, series: Vector) -> float:
-    """Turn the series of x into that of ü + A sin θ = d − k x − c x′; return its unit, 1/step²."""
+def accelerated(plan: Vector, cursor: Cursor, s: float, c: float, series: Vector) -> float:
+    """Turn the series of x into that of the absolute acceleration; return its unit, 1/step².
+
+    ü + A sin θ = d − k x − c x′; at rest it is what is left, A sin θ, from the phasor s, c in the
+    piece's middle.
+    """
     table = cursor.table
-    for n in range(ORDER):
-        after = series[n + 1] * (n + 1) if n + 1 < ORDER else 0.0
-        series[n] = -plan[table + SCALED_K] * series[n] - plan[table + SCALED_C] * after
-    series[0] += plan[table + SCALED_D]
+    if plan[table + RESTING] != 0.0:
+        now, after = plan[table + SCALED_A] * s, plan[table + SCALED_A] * plan[table + SCALED_W] * c
+        turn = plan[table + SCALED_W] * plan[table + SCALED_W]
+        for n in range(ORDER):
+            series[n] = now
+            now, after = after, -turn * now / ((n + 1) * (n + 2))
+    else:
+        for n in range(ORDER):
+            behind = series[n + 1] * (n + 1) if n + 1 < ORDER else 0.0
+            series[n] = -plan[table + SCALED_K] * series[n] - plan[table + SCALED_C] * behind
+        series[0] += plan[table + SCALED_D]
     rate: float = plan[table + RATE]
     return rate * rate
 
@@ -157,7 +172,7 @@ def accelerated(plan: Vector, cursor: Cursor, series: Vector) -> float:
 @kernel
 def displacement(plan: Vector, mode: int, x: float) -> float:
     """The displacement of the mass from the mode's own coordinate."""
-    if mode == RIGHT:
+    if mode & RIGHT:
         u: float = plan[par.BUMPER + par.GAP] + x
         return u
     if mode == LEFT:
@@ -169,12 +184,12 @@ def displacement(plan: Vector, mode: int, x: float) -> float:
 @kernel
 def acceleration(plan: Vector, motion: Motion) -> float:
     """Absolute acceleration of the mass, in the direction of u."""
-    sign, x, v, _, _ = coordinates(motion)
-    return sign * absolute_acceleration(plan, motion.mode, x, v)
+    sign, x, v, s, _ = coordinates(motion)
+    return sign * absolute_acceleration(plan, motion.mode, x, v, s)
 
 
 @kernel
-def acceleration_in(plan: Vector, mode: int, motion: Motion) -> float:
-    """Absolute acceleration that the motion would have in another mode, in the direction of u."""
-    _, fresh, u, v, right, left, age, clock = motion
+def acceleration_in(plan: Vector, mode: int, motion: Motion, v: float) -> float:
+    """Absolute acceleration that it would have in another mode, with another velocity."""
+    _, fresh, u, _, right, left, age, clock = motion
     return acceleration(plan, Motion(mode, fresh, u, v, right, left, age, clock))

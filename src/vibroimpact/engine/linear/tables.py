@@ -15,11 +15,10 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.memory import TERMS
+from vibroimpact.engine.memory import TERMS, stack
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SEEN_LEFT
 
 NODES = 16
 """Intervals in a table; node j is j steps after the table's start."""
@@ -55,7 +54,8 @@ SCALED_A = 12  # A h²
 SCALED_W = 13  # ω h
 LATE = 14  # 1 where the fast part of the motion is projected out
 RATE = 15  # 1 / h
-HEADER = 16
+RESTING = 16  # 1 where a rigid stop holds the mass
+HEADER = 17
 
 # A node's rows: x and x′ as functions of the state row at the start, then the cosine and
 # sine of the angle that the forcing turns until there.
@@ -71,34 +71,43 @@ TAYLOR = FORCE + NODES * 5  # long series of x: 5 columns of ORDER
 TAYLOR_F = TAYLOR + 5 * ORDER  # long series of the contact force
 SIZE = TAYLOR_F + 5 * ORDER
 
-FLIGHT, RIGHT, LEFT = 0, 1, 2
-"""The phase, also called mode: in contact with which side, if any."""
+SLOTS = 5
+"""Tables from the start of a mode: flight, pressed right, pressed left, and pressed on both sides
+as seen from the right and from the left. As many again hold once a mode's fast part is gone."""
 
-LIMIT, DETACHED = 0, 3
-"""What ends a phase: the time limit, a contact (RIGHT or LEFT), or the detachment."""
-TABLES = par.SIZE
-"""Where the tables begin in a plan. Two a mode: `mode` from the start of a phase, `mode + 3`
-once its fast part is gone."""
+LATE_TABLES = SLOTS * SIZE
+"""From a mode's early table to its late one."""
 
-PLAN = TABLES + 6 * SIZE
-"""Length of a plan: the rig's numbers (`parameters`), and the tables for one forcing.
+AMPLITUDE = par.SIZE  # of the base acceleration, m/s²
+OMEGA = par.SIZE + 1  # rad/s
+TABLES = par.SIZE + 2
+"""Where the tables begin in a plan."""
+
+PLAN = TABLES + 2 * LATE_TABLES
+"""Length of a plan: the rig's numbers (`parameters`), the forcing, and the tables.
 
 One vector holds everything that the kernels read: they pass it on as one argument, and a table
 is the position where it begins.
 """
 
+COLUMNS = 5
+"""Of a state row: x, x′, sin θ, cos θ, 1."""
+
 _SERIES = ORDER + 6
+
+coefficients = stack(_SERIES * COLUMNS)
+"""Room for the series that the tables are made from, a row a term."""
 
 
 @kernel
 def _series(
     h: float, c: float, k: float, d: float, amplitude: float, omega: float, out: Vector
 ) -> None:
-    """Taylor coefficients (times hⁿ) of x from each unit state row: out[n, column]."""
+    """Taylor coefficients (times hⁿ) of x from each unit state row: out[n COLUMNS + column]."""
     wh = omega * h
     for column in range(5):
-        out[0, column] = 1.0 if column == 0 else 0.0
-        out[1, column] = h if column == 1 else 0.0
+        out[column] = 1.0 if column == 0 else 0.0
+        out[COLUMNS + column] = h if column == 1 else 0.0
         constant = d if column == 4 else 0.0
         # Taylor coefficients of sin(θ + ωt) from the unit phasor; (sin)″ = −ω² sin.
         now = 1.0 if column == 2 else 0.0
@@ -106,8 +115,10 @@ def _series(
         for n in range(_SERIES - 2):
             force = constant - amplitude * now
             constant = 0.0
-            out[n + 2, column] = (
-                -c * h * (n + 1) * out[n + 1, column] - k * h * h * out[n, column] + force * h * h
+            out[(n + 2) * COLUMNS + column] = (
+                -c * h * (n + 1) * out[(n + 1) * COLUMNS + column]
+                - k * h * h * out[n * COLUMNS + column]
+                + force * h * h
             ) / ((n + 1) * (n + 2))
             now, after = after, -wh * wh * now / ((n + 1) * (n + 2))
 
@@ -148,9 +159,9 @@ def _late_series(
             )
         now, after = p * s + q * co, wh * (p * co - q * s)
         for n in range(_SERIES):
-            out[n, column] = now + z
+            out[n * COLUMNS + column] = now + z
             if n == 0:
-                out[n, column] += one * d / k
+                out[n * COLUMNS + column] += one * d / k
             now, after = after, -wh * wh * now / ((n + 1) * (n + 2))
             z *= -slow * h / (n + 1)
 
@@ -162,9 +173,9 @@ def _at(series: Vector, y: float, h: float, omega: float, plan: Vector, at: int)
         x = 0.0
         v = 0.0
         for n in range(_SERIES - 1, 0, -1):
-            x = x * y + series[n, column]
-            v = v * y + n * series[n, column]
-        plan[at + column] = x * y + series[0, column]
+            x = x * y + series[n * COLUMNS + column]
+            v = v * y + n * series[n * COLUMNS + column]
+        plan[at + column] = x * y + series[column]
         plan[at + ROW_V + column] = v / h
     plan[at + COSINE] = math.cos(omega * h * y)
     plan[at + SINE] = math.sin(omega * h * y)
@@ -211,7 +222,7 @@ def _fill(
         _compose(plan, table + NODE, table + NODE + (n - 1) * WIDTH, table + NODE + n * WIDTH)
     for column in range(5):
         for n in range(ORDER):
-            plan[table + TAYLOR + column * ORDER + n] = series[n, column]
+            plan[table + TAYLOR + column * ORDER + n] = series[n * COLUMNS + column]
     if not contact:
         return
     for n in range(NODES):
@@ -221,13 +232,28 @@ def _fill(
     for column in range(5):
         for n in range(ORDER):
             plan[table + TAYLOR_F + column * ORDER + n] = (
-                stiffness * series[n, column] + damping * (n + 1) * series[n + 1, column] / h
+                stiffness * series[n * COLUMNS + column]
+                + damping * (n + 1) * series[(n + 1) * COLUMNS + column] / h
             )
 
 
 @kernel
+def overlapping(plan: Vector) -> bool:
+    """Whether both stops can be touched at once."""
+    return bool(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP] < 0.0)
+
+
+@kernel
+def resting(plan: Vector, mode: int) -> bool:
+    """Whether a rigid stop holds the mass in this mode."""
+    right = mode & RIGHT and plan[par.BUMPER + par.KIND] == par.RIGID
+    left = mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.RIGID
+    return bool(right or left)
+
+
+@kernel
 def build(plan: Vector, amplitude: float, omega: float) -> None:
-    """Make the tables of all phases for one forcing.
+    """Make the tables of all modes for one forcing.
 
     Parameters
     ----------
@@ -236,75 +262,99 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
     amplitude, omega : float
         A (m/s²) and ω (rad/s) of the base acceleration A sin θ.
     """
-    series = np.empty((_SERIES, 5))
-    for mode in range(3):
-        stiffness = 0.0
-        damping = 0.0
-        gap = 0.0
-        if mode:
-            at = par.BUMPER + par.WIDTH * (mode - 1)
-            if plan[at + par.PRESENT] == 0.0:
-                continue
-            stiffness = plan[at + par.BUMPER_STIFFNESS]
-            damping = plan[at + par.BUMPER_DAMPING]
-            gap = plan[at + par.GAP]
+    plan[AMPLITUDE], plan[OMEGA] = amplitude, omega
+    series = coefficients()
+    for slot in range(SLOTS):
+        mode = min(slot, BOTH)
+        if mode == BOTH and not overlapping(plan):
+            break
+        side = LEFT if slot in (LEFT, SEEN_LEFT) else RIGHT
+        at = par.BUMPER + par.WIDTH * (side - 1)
+        other = par.BUMPER + par.WIDTH * (2 - side)
+        if mode and (
+            plan[at + par.KIND] == par.ABSENT
+            or (mode == BOTH and plan[other + par.KIND] == par.ABSENT)
+        ):
+            continue
+        stiffness = plan[at + par.BUMPER_STIFFNESS] if mode else 0.0
+        damping = plan[at + par.BUMPER_DAMPING] if mode else 0.0
         k = plan[par.STIFFNESS] + stiffness
         c = plan[par.DAMPING] + damping
-        d = -plan[par.STIFFNESS] * gap
-        root = math.sqrt(k)
-        square = 0.25 * c * c - k
-        fast = 0.5 * c + math.sqrt(square) if square > 0.0 else root
-        slow = k / fast if square > 0.0 else 0.0
-        decay = fast if square > 0.0 else 0.5 * c
-        for late in range(2):
-            table = TABLES + SIZE * (mode + 3 * late)
-            plan[table + REST] = d / k
-            plan[table + LATE] = late
-            if late:
-                rate = max(slow, omega)
-                # Worth a table of its own only where steps become much longer.
-                if rate > 0.2 * fast or decay == 0.0:
-                    plan[table + VALID_FROM] = math.inf
-                    continue
-                h = STEP / rate
-                plan[table + H] = h
-                plan[table + VALID_FROM] = FORGOTTEN / decay
-                _late_series(h, c, k, d, amplitude, omega, fast, slow, series)
-                norm = (k - omega * omega) ** 2 + (c * omega) ** 2
-                swing = amplitude / math.sqrt(norm)
-                # |z| ≤ (|v| + ω swing + fast (|x − x_s| + swing)) / (fast − slow)
-                zx = fast / (fast - slow) if slow > 0.0 else 0.0
-                zv = 1.0 / (fast - slow) if slow > 0.0 else 0.0
-                z0 = (omega + fast) * swing * zv
-                w2 = omega * omega * swing
-                second_x, second_v = slow * slow * zx, slow * slow * zv
-                second_0 = slow * slow * z0 + w2
-                third_x, third_v = slow * second_x, slow * second_v
-                third_0 = slow**3 * z0 + omega * w2
-            else:
-                h = STEP / max(fast, omega)
-                plan[table + H] = h
-                plan[table + VALID_FROM] = 0.0
-                _series(h, c, k, d, amplitude, omega, series)
-                # E = √k |x − x_s| + |x′| bounds the energy norm, which the forcing can
-                # raise by no more than A t; |x″| ≤ (c + √k) E + A and so on follow.
-                grown = amplitude * h * (NODES + 1)
-                second_x, second_v = (c + root) * root, c + root
-                second_0 = (c + root) * grown + amplitude
-                third_x = c * second_x + k * root
-                third_v = c * second_v + k
-                third_0 = c * second_0 + k * grown + amplitude * omega
-            eighth = h * h / 8.0
-            plan[table + BAND_X], plan[table + BAND_V] = second_x * eighth, second_v * eighth
-            plan[table + BAND_0] = second_0 * eighth
-            plan[table + FORCE_X] = (stiffness * second_x + damping * third_x) * eighth
-            plan[table + FORCE_V] = (stiffness * second_v + damping * third_v) * eighth
-            plan[table + FORCE_0] = (stiffness * second_0 + damping * third_0) * eighth
-            plan[table + SCALED_C], plan[table + SCALED_K], plan[table + SCALED_D] = (
-                c * h,
-                k * h * h,
-                d * h * h,
-            )
-            plan[table + SCALED_A], plan[table + SCALED_W] = amplitude * h * h, omega * h
-            plan[table + RATE] = 1.0 / h
-            _fill(plan, table, series, omega, stiffness, damping, mode > 0)
+        d = -plan[par.STIFFNESS] * plan[at + par.GAP] if mode else 0.0
+        if mode == BOTH:
+            k += plan[other + par.BUMPER_STIFFNESS]
+            c += plan[other + par.BUMPER_DAMPING]
+            d -= plan[other + par.BUMPER_STIFFNESS] * (plan[at + par.GAP] + plan[other + par.GAP])
+        _table(plan, TABLES + SIZE * slot, k, c, d, stiffness, damping, mode, series)
+
+
+@kernel
+def _table(
+    plan: Vector,
+    table: int,
+    k: float,
+    c: float,
+    d: float,
+    stiffness: float,
+    damping: float,
+    mode: int,
+    series: Vector,
+) -> None:
+    """Lay out the early and the late table of x″ = −c x′ − k x + d − A s."""
+    amplitude, omega = plan[AMPLITUDE], plan[OMEGA]
+    held = resting(plan, mode)
+    if held:
+        # Nothing moves; what is left of the forcing is what the mass feels of the base.
+        k, c, d, amplitude = 0.0, 0.0, 0.0, 0.0
+    root = math.sqrt(k)
+    square = 0.25 * c * c - k
+    fast = 0.5 * c + math.sqrt(square) if square > 0.0 else root
+    slow = k / fast if square > 0.0 else 0.0
+    decay = fast if square > 0.0 else 0.5 * c
+    for late in range(2):
+        at = table + late * LATE_TABLES
+        plan[at + REST] = d / k if k > 0.0 else 0.0
+        plan[at + LATE] = late
+        plan[at + RESTING] = 1.0 if held else 0.0
+        if late:
+            rate = max(slow, omega)
+            # Worth a table of its own only where steps become much longer.
+            if rate > 0.2 * fast or decay == 0.0:
+                plan[at + VALID_FROM] = math.inf
+                continue
+            h = STEP / rate
+            plan[at + VALID_FROM] = FORGOTTEN / decay
+            _late_series(h, c, k, d, amplitude, omega, fast, slow, series)
+            norm = (k - omega * omega) ** 2 + (c * omega) ** 2
+            swing = amplitude / math.sqrt(norm)
+            # |z| ≤ (|v| + ω swing + fast (|x − x_s| + swing)) / (fast − slow)
+            zx = fast / (fast - slow) if slow > 0.0 else 0.0
+            zv = 1.0 / (fast - slow) if slow > 0.0 else 0.0
+            z0 = (omega + fast) * swing * zv
+            w2 = omega * omega * swing
+            second_x, second_v = slow * slow * zx, slow * slow * zv
+            second_0 = slow * slow * z0 + w2
+            third_x, third_v = slow * second_x, slow * second_v
+            third_0 = slow**3 * z0 + omega * w2
+        else:
+            h = STEP / max(fast, omega)
+            plan[at + VALID_FROM] = 0.0
+            _series(h, c, k, d, amplitude, omega, series)
+            # E = √k |x − x_s| + |x′| bounds the energy norm, which the forcing can
+            # raise by no more than A t; |x″| ≤ (c + √k) E + A and so on follow.
+            grown = amplitude * h * (NODES + 1)
+            second_x, second_v = (c + root) * root, c + root
+            second_0 = (c + root) * grown + amplitude
+            third_x = c * second_x + k * root
+            third_v = c * second_v + k
+            third_0 = c * second_0 + k * grown + amplitude * omega
+        eighth = h * h / 8.0
+        plan[at + H], plan[at + RATE] = h, 1.0 / h
+        plan[at + BAND_X], plan[at + BAND_V] = second_x * eighth, second_v * eighth
+        plan[at + BAND_0] = second_0 * eighth
+        plan[at + FORCE_X] = (stiffness * second_x + damping * third_x) * eighth
+        plan[at + FORCE_V] = (stiffness * second_v + damping * third_v) * eighth
+        plan[at + FORCE_0] = (stiffness * second_0 + damping * third_0) * eighth
+        plan[at + SCALED_C], plan[at + SCALED_K], plan[at + SCALED_D] = c * h, k * h * h, d * h * h
+        plan[at + SCALED_A], plan[at + SCALED_W] = plan[AMPLITUDE] * h * h, omega * h
+        _fill(plan, at, series, omega, stiffness, damping, mode > 0)

@@ -22,7 +22,7 @@ from vibroimpact.engine.linear.pieces import (
 )
 from vibroimpact.engine.linear.tables import ORDER
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import LEFT, RIGHT, Motion, coordinates
+from vibroimpact.engine.motion import LEFT, RIGHT, Stretch, coordinates
 from vibroimpact.engine.observe import observer
 
 _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
@@ -99,16 +99,9 @@ class Extremes(NamedTuple):
 
 
 @observer(Extremes)
-def extremes(
-    plan: Vector,
-    notes: Extremes,
-    before: Motion,
-    t: float,
-    event: int,
-    step: float,
-    after: Motion,
-) -> Extremes:
+def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
     """Widen the ranges by one stretch. One-sided values at both its ends count."""
+    before, event, step = stretch.before, stretch.event, stretch.step
     u_least, u_most, a_least, a_most, hits_right, hits_left = notes
     series = workspace()
     sign, x, _, _, _ = coordinates(before)
@@ -117,9 +110,9 @@ def extremes(
     least_a, most_a = a, a
     cursor = begin(plan, before, step)
     while more(cursor):
-        high, _, _ = expanded(plan, cursor, series)
+        high, s, c = expanded(plan, cursor, series)
         x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
-        unit = accelerated(plan, cursor, series)
+        unit = accelerated(plan, cursor, s, c, series)
         least, most, _, _ = series_extremes(series, -0.5, high, least_a / unit, most_a / unit)
         least_a, most_a = least * unit, most * unit
         cursor = following(plan, cursor)

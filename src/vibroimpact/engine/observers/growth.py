@@ -6,13 +6,16 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import LEFT, LIMIT, RIGHT, Motion
+from vibroimpact.engine.motion import LEFT, LIMIT, RIGHT, Stretch
 from vibroimpact.engine.observe import observer
 from vibroimpact.engine.observers.tangent import (
     DISTURBANCE,
+    contraction,
     damping,
     disturb,
     disturb_area,
+    press_area,
+    tie,
 )
 
 AREA = 6
@@ -29,20 +32,35 @@ def normalise(q: Vector, w: Vector, weight: float, mode: int) -> tuple[float, fl
     belongs to it. A pressed bumper moves with the mass and is left out.
     """
     w2 = weight * weight
-    right = 0.0 if mode == RIGHT else 1.0
-    left = 0.0 if mode == LEFT else 1.0
-    length = math.sqrt(
-        (w2 * q[0, 0] ** 2 + q[0, 1] ** 2) + w2 * (right * q[0, 2] ** 2 + left * q[0, 3] ** 2)
-    )
+    right = 0.0 if mode & RIGHT else 1.0
+    left = 0.0 if mode & LEFT else 1.0
+    length = math.sqrt((w2 * q[0] ** 2 + q[1] ** 2) + w2 * (right * q[2] ** 2 + left * q[3] ** 2))
     area = weight * math.sqrt(
         (w[0] ** 2 + right * w[3] ** 2 + left * w[4] ** 2)
         + w2 * (right * w[1] ** 2 + left * w[2] ** 2 + right * left * w[5] ** 2)
     )
+    if length == 0.0:  # a rest forgets everything: begin anew
+        fresh_directions(q, w, weight, mode)
+        return -math.inf, -math.inf
     for j in range(DISTURBANCE):
-        q[0, j] /= length
+        q[j] /= length
+    if area == 0.0:
+        return math.log(length), -math.inf
     for j in range(AREA):
         w[j] /= area
     return math.log(length), math.log(area)
+
+
+@kernel
+def fresh_directions(q: Vector, w: Vector, weight: float, mode: int) -> None:
+    """A disturbance and an area of displacement and velocity, of about unit size."""
+    for j in range(DISTURBANCE):
+        q[j] = 0.0
+    for j in range(AREA):
+        w[j] = 0.0
+    q[0], q[1], w[0] = 1.0 / weight, 1.0, 1.0 / weight
+    tie(mode, q, 0)
+    press_area(mode, w)
 
 
 class Growth(NamedTuple):
@@ -64,23 +82,23 @@ class Growth(NamedTuple):
 
 
 @observer(Growth)
-def growth(
-    plan: Vector, notes: Growth, before: Motion, t: float, event: int, step: float, after: Motion
-) -> Growth:
+def growth(plan: Vector, notes: Growth, stretch: Stretch) -> Growth:
     """Carry both through one stretch."""
+    before, t, event, step, arrival, after = stretch
     q, w, weight, length, first, both, dissipation, shrunk = notes
     here = damping(plan, before.mode)
     # In pieces over which nothing shrinks below the range of numbers.
     pieces = 1 + int((here + weight) * step / _RANGE)
     for piece in range(1, pieces + 1):
         last = piece == pieces
-        end, behind = (event, after.mode) if last else (LIMIT, before.mode)
-        disturb(plan, before.mode, end, behind, step / pieces, q)
-        disturb_area(plan, before.mode, end, behind, step / pieces, w)
+        end, behind = (event, after) if last else (LIMIT, before)
+        disturb(plan, before.mode, end, arrival, behind, step / pieces, q, 1)
+        disturb_area(plan, before.mode, end, arrival, behind, step / pieces, w)
         shrunk += (here + weight) * step / pieces
         if shrunk > _RANGE or (last and (event == LIMIT or t + step >= length)):
-            more, more_both = normalise(q, w, weight, behind)
+            more, more_both = normalise(q, w, weight, behind.mode)
             first += more
             both += more_both
             shrunk = 0.0
-    return Growth(q, w, weight, length, first, both, dissipation + here * step, shrunk)
+    dissipation += here * step + contraction(plan, event, after)
+    return Growth(q, w, weight, length, first, both, dissipation, shrunk)

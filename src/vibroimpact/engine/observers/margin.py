@@ -10,7 +10,7 @@ from vibroimpact.engine.linear.evaluate import horner, relaxed
 from vibroimpact.engine.linear.pieces import begin, expanded, following, more
 from vibroimpact.engine.linear.tables import H
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, Motion
+from vibroimpact.engine.motion import FLIGHT, Stretch
 from vibroimpact.engine.observe import observer
 
 
@@ -36,15 +36,14 @@ class Margin(NamedTuple):
 
 
 @observer(Margin)
-def margin(
-    plan: Vector, notes: Margin, before: Motion, t: float, event: int, step: float, after: Motion
-) -> Margin:
+def margin(plan: Vector, notes: Margin, stretch: Stretch) -> Margin:
     """Take the turning points of one stretch into account."""
+    before = stretch.before
     gap_r, rate_r = plan[par.BUMPER + par.GAP], plan[par.BUMPER + par.RATE]
     gap_l, rate_l = plan[par.BUMPER + par.WIDTH + par.GAP], plan[par.BUMPER + par.WIDTH + par.RATE]
     best = notes.least
     series = workspace()
-    cursor = begin(plan, before, step)
+    cursor = begin(plan, before, stretch.step)
     while more(cursor):
         high, _, _ = expanded(plan, cursor, series)
         _, first = horner(series, -0.5)

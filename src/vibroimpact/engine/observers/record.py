@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner, relaxed
 from vibroimpact.engine.linear.pieces import (
     acceleration,
@@ -16,14 +16,20 @@ from vibroimpact.engine.linear.pieces import (
     expanded_at_node,
     following_window,
 )
-from vibroimpact.engine.linear.tables import NODES, RATE
+from vibroimpact.engine.linear.tables import AMPLITUDE, NODES, OMEGA, RATE, resting
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, LEFT, LIMIT, RIGHT, Motion
+from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
 # Columns of a sample.
 DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE, CONTACT = range(6)
 SAMPLE = 6
+
+TOUCHING = (0.0, 1.0, -1.0, 2.0)
+"""The column CONTACT by mode: none, right, left, both."""
+
+DETACHMENT, CONTACT_BEGINS, IMPACT = 0.0, 1.0, 2.0
+"""The column E_KIND."""
 
 # Columns of an event: the state there, and the absolute acceleration just before and behind.
 E_CYCLE, E_TIME, E_KIND, E_SIDE, E_U, E_V, E_RIGHT, E_LEFT, E_BEFORE, E_BEHIND = range(10)
@@ -47,19 +53,28 @@ class Record(NamedTuple):
     number: int
 
 
-@kernel
+@inlined
 def write_sample(plan: Vector, motion: Motion, x: float, v: float, t: float, out: Vector) -> None:
     """Write the sample t seconds behind the start of a stretch, x and v as its pieces give them."""
     mode = motion.mode
     sign = -1.0 if mode == LEFT else 1.0
     out[DISPLACEMENT] = displacement(plan, mode, x)
     out[VELOCITY] = sign * v
-    out[ACCELERATION] = sign * absolute_acceleration(plan, mode, x, v)
+    if resting(plan, mode):
+        turned = plan[OMEGA] * t
+        s, c = motion.clock
+        out[ACCELERATION] = plan[AMPLITUDE] * (s * math.cos(turned) + c * math.sin(turned))
+    else:
+        out[ACCELERATION] = sign * absolute_acceleration(plan, mode, x, v, 0.0)
     rate_r = plan[par.BUMPER + par.RATE]
     rate_l = plan[par.BUMPER + par.WIDTH + par.RATE]
+    out[CONTACT] = TOUCHING[mode]
+    if mode == BOTH:
+        gaps = plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP]
+        out[RIGHT_FACE], out[LEFT_FACE] = x, x + gaps
+        return
     out[RIGHT_FACE] = x if mode == RIGHT else relaxed(motion.right, rate_r, t)
     out[LEFT_FACE] = -x if mode == LEFT else -relaxed(motion.left, rate_l, t)
-    out[CONTACT] = 1.0 if mode == RIGHT else (-1.0 if mode == LEFT else 0.0)
 
 
 @kernel
@@ -92,21 +107,23 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
 
 
 @observer(Record)
-def record(
-    plan: Vector, notes: Record, before: Motion, t: float, event: int, step: float, after: Motion
-) -> Record:
+def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
     """Write down one stretch and the event that ends it."""
+    before, t, event, step, arrival, after = stretch
     samples, spacing, n, i, events, written, last, number = notes
     if n:
         i = sample(plan, notes, before, t, math.inf if event == LIMIT else step)
     if event != LIMIT and written < last:
         row = events[written]
         row[E_CYCLE], row[E_TIME] = number, t + step
-        row[E_KIND] = 1.0 if after.mode != FLIGHT else 0.0
-        row[E_SIDE] = 1.0 if RIGHT in (after.mode, before.mode) else -1.0
-        row[E_U], row[E_V] = after.u, after.v
+        side = after.fresh & BOTH
+        row[E_KIND] = DETACHMENT
+        if event != DETACHED:
+            row[E_KIND] = CONTACT_BEGINS if after.mode & side else IMPACT
+        row[E_SIDE] = 1.0 if side == RIGHT else -1.0
+        row[E_U], row[E_V] = after.u, arrival
         row[E_RIGHT], row[E_LEFT] = after.right, -after.left
-        row[E_BEFORE] = acceleration_in(plan, before.mode, after)
+        row[E_BEFORE] = acceleration_in(plan, before.mode, after, arrival)
         row[E_BEHIND] = acceleration(plan, after)
         written += 1
     return Record(samples, spacing, n, i, events, written, last, number)

@@ -19,7 +19,9 @@ from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import FLIGHT, LEFT, LIMIT, RIGHT, Motion
+from vibroimpact.engine.linear.stops import acceleration_of
+from vibroimpact.engine.linear.tables import resting
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
 DISTURBANCE = 4
@@ -48,95 +50,180 @@ def transition(c: float, k: float, t: float) -> tuple[float, float, float, float
 
 
 @kernel
-def disturb(plan: Vector, mode: int, event: int, behind: int, t: float, q: Vector) -> None:
+def damping(plan: Vector, mode: int) -> float:
+    """Damping per unit mass in a mode, that of pressed bumpers included (1/s)."""
+    here: float = plan[par.DAMPING]
+    for side in range(1, 3):
+        if mode & side:
+            here += plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_DAMPING]
+    return here
+
+
+@kernel
+def phase_transition(plan: Vector, mode: int, t: float) -> tuple[float, float, float, float]:
+    """`transition` of the mode; at rest nothing is left of a disturbance."""
+    if resting(plan, mode):
+        return 0.0, 0.0, 0.0, 0.0
+    k = plan[par.STIFFNESS]
+    for side in range(1, 3):
+        if mode & side:
+            k += plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_STIFFNESS]
+    return transition(damping(plan, mode), k, t)
+
+
+@kernel
+def impact_slope(plan: Vector, event: int, arrival: float, after: Motion) -> float:
+    """κ = (ü⁺ + e ü⁻) / u̇⁻ of an impact on a rigid stop."""
+    mode, fresh, u, _, right, left, age, clock = after
+    before = Motion(mode, fresh, u, arrival, right, left, age, clock)
+    restitution = plan[par.BUMPER + par.WIDTH * (event - 1) + par.RESTITUTION]
+    slope: float = acceleration_of(plan, after) + restitution * acceleration_of(plan, before)
+    return slope / arrival
+
+
+@kernel
+def disturb(
+    plan: Vector,
+    mode: int,
+    event: int,
+    arrival: float,
+    after: Motion,
+    t: float,
+    q: Vector,
+    rows: int,
+) -> None:
     """Carry disturbances (rows of q) through one phase and the event that ends it.
 
     Parameters
     ----------
     mode : int
         The phase.
-    event : int
-        What ended it, as in `linear.advance`.
-    behind : int
-        The phase that follows.
+    event, arrival, after
+        What ended it, as in `flows.advance`.
     t : float
         How long it lasted (s).
     """
-    c, k = plan[par.DAMPING], plan[par.STIFFNESS]
-    if mode != FLIGHT:
-        at = par.BUMPER + par.WIDTH * (mode - 1)
-        c += plan[at + par.BUMPER_DAMPING]
-        k += plan[at + par.BUMPER_STIFFNESS]
-    uu, uv, vu, vv = transition(c, k, t)
+    uu, uv, vu, vv = phase_transition(plan, mode, t)
     for side in range(1, 3):
         rate = plan[par.BUMPER + par.WIDTH * (side - 1) + par.RATE]
         fading = math.exp(-rate * t) if rate < math.inf else 0.0
-        for i in range(len(q)):
-            q[i, 1 + side] *= fading
-    for i in range(len(q)):
-        u, v = q[i, 0], q[i, 1]
-        q[i, 0] = uu * u + uv * v
-        q[i, 1] = vu * u + vv * v
-        if mode != FLIGHT:
-            q[i, 1 + mode] = q[i, 0]
-    if event != LIMIT and behind != FLIGHT:
-        damping = plan[par.BUMPER + par.WIDTH * (behind - 1) + par.BUMPER_DAMPING]
-        for i in range(len(q)):
-            q[i, 1] -= damping * (q[i, 0] - q[i, 1 + behind])
-            q[i, 1 + behind] = q[i, 0]
+        for i in range(rows):
+            q[i * DISTURBANCE + 1 + side] *= fading
+    for i in range(rows):
+        at = i * DISTURBANCE
+        u, v = q[at], q[at + 1]
+        q[at] = uu * u + uv * v
+        q[at + 1] = vu * u + vv * v
+        tie(mode, q, at)
+    if event not in (RIGHT, LEFT):
+        return
+    stop = par.BUMPER + par.WIDTH * (event - 1)
+    if plan[stop + par.KIND] == par.RIGID:
+        held = after.mode & event != 0
+        e = 0.0 if held else plan[stop + par.RESTITUTION]
+        slope = 0.0 if held else impact_slope(plan, event, arrival, after)
+        for i in range(rows):
+            at = i * DISTURBANCE
+            u, v = q[at], q[at + 1]
+            q[at] = -e * u
+            q[at + 1] = -e * v - slope * u
+            tie(after.mode, q, at)
+    else:
+        pressed = plan[stop + par.BUMPER_DAMPING]
+        for i in range(rows):
+            at = i * DISTURBANCE
+            q[at + 1] -= pressed * (q[at] - q[at + 1 + event])
+            q[at + 1 + event] = q[at]
 
 
 @kernel
-def disturb_area(plan: Vector, mode: int, event: int, behind: int, t: float, w: Vector) -> None:
+def tie(mode: int, q: Vector, at: int) -> None:
+    """A pressed bumper's disturbance is that of the displacement."""
+    if mode & RIGHT:
+        q[at + 2] = q[at]
+    if mode & LEFT:
+        q[at + 3] = q[at]
+
+
+@kernel
+def disturb_area(
+    plan: Vector, mode: int, event: int, arrival: float, after: Motion, t: float, w: Vector
+) -> None:
     """Carry the area that two disturbances span, as `disturb` carries each.
 
     The components are the 2 × 2 minors u∧v, u∧R, u∧L, v∧R, v∧L, R∧L of the two. Where one
     disturbance dies out much faster than the other, the area keeps the digits that their
     difference loses: in flight u∧v only shrinks by exp(−c t).
     """
-    c, k = plan[par.DAMPING], plan[par.STIFFNESS]
-    if mode != FLIGHT:
-        at = par.BUMPER + par.WIDTH * (mode - 1)
-        c += plan[at + par.BUMPER_DAMPING]
-        k += plan[at + par.BUMPER_STIFFNESS]
-    uu, uv, vu, vv = transition(c, k, t)
+    uu, uv, vu, vv = phase_transition(plan, mode, t)
     rate_r = plan[par.BUMPER + par.RATE]
     rate_l = plan[par.BUMPER + par.WIDTH + par.RATE]
     right = math.exp(-rate_r * t) if rate_r < math.inf else 0.0
     left = math.exp(-rate_l * t) if rate_l < math.inf else 0.0
-    w[0] *= math.exp(-c * t)
+    w[0] *= 0.0 if resting(plan, mode) else math.exp(-damping(plan, mode) * t)
     w[1], w[3] = right * (uu * w[1] + uv * w[3]), right * (vu * w[1] + vv * w[3])
     w[2], w[4] = left * (uu * w[2] + uv * w[4]), left * (vu * w[2] + vv * w[4])
     w[5] *= right * left
-    pressed = mode
-    if event != LIMIT and behind != FLIGHT:
-        damping = plan[par.BUMPER + par.WIDTH * (behind - 1) + par.BUMPER_DAMPING]
-        if behind == RIGHT:
-            w[0] += damping * w[1]
-            w[4] += damping * (w[5] - w[2])
+    if event not in (RIGHT, LEFT):
+        press_area(mode, w)
+        return
+    stop = par.BUMPER + par.WIDTH * (event - 1)
+    if plan[stop + par.KIND] == par.RIGID:
+        held = after.mode & event != 0
+        e = 0.0 if held else plan[stop + par.RESTITUTION]
+        slope = 0.0 if held else impact_slope(plan, event, arrival, after)
+        w[0] *= e * e
+        w[1], w[3] = -e * w[1], -e * w[3] - slope * w[1]
+        w[2], w[4] = -e * w[2], -e * w[4] - slope * w[2]
+    else:
+        if mode & (BOTH - event):  # the other bumper moves with the mass
+            press_area(mode, w)
+        pressed = plan[stop + par.BUMPER_DAMPING]
+        if event == RIGHT:
+            w[0] += pressed * w[1]
+            w[4] += pressed * (w[5] - w[2])
         else:
-            w[0] += damping * w[2]
-            w[3] -= damping * (w[5] + w[1])
-        pressed = behind
-    press_area(pressed, w)
+            w[0] += pressed * w[2]
+            w[3] -= pressed * (w[5] + w[1])
+    press_area(after.mode, w)
 
 
 @kernel
 def press_area(mode: int, w: Vector) -> None:
     """A pressed bumper's disturbance is that of the displacement."""
-    if mode == RIGHT:
+    if mode & RIGHT:
         w[1], w[3], w[5] = 0.0, -w[0], w[2]
-    elif mode == LEFT:
+    if mode & LEFT:
         w[2], w[4], w[5] = 0.0, -w[0], -w[1]
+    if mode == BOTH:
+        w[5] = 0.0
 
 
 @kernel
-def damping(plan: Vector, mode: int) -> float:
-    """Damping per unit mass in a mode, that of a pressed bumper included (1/s)."""
-    here: float = plan[par.DAMPING]
-    if mode != FLIGHT:
-        here += plan[par.BUMPER + par.WIDTH * (mode - 1) + par.BUMPER_DAMPING]
-    return here
+def unit_disturbances(mode: int, q: Vector) -> None:
+    """Write a unit disturbance of each component into the rows of q.
+
+    A pressed bumper has none of its own: its row is zero, and that of the displacement moves it.
+    """
+    for i in range(DISTURBANCE):
+        for j in range(DISTURBANCE):
+            q[i * DISTURBANCE + j] = 1.0 if i == j else 0.0
+    for side in range(1, 3):
+        if mode & side:
+            q[1 + side] = 1.0
+            q[(1 + side) * DISTURBANCE + 1 + side] = 0.0
+
+
+@kernel
+def contraction(plan: Vector, event: int, after: Motion) -> float:
+    """Minus the logarithm of the area that an event leaves of (u, u̇): 2 ln(1/e) at an impact."""
+    if event not in (RIGHT, LEFT):
+        return 0.0
+    stop = par.BUMPER + par.WIDTH * (event - 1)
+    if plan[stop + par.KIND] != par.RIGID:
+        return 0.0
+    e: float = plan[stop + par.RESTITUTION]
+    return math.inf if after.mode & event or e == 0.0 else -2.0 * math.log(e)
 
 
 class Tangent(NamedTuple):
@@ -149,15 +236,14 @@ class Tangent(NamedTuple):
 
 
 @observer(Tangent)
-def tangent(
-    plan: Vector, notes: Tangent, before: Motion, t: float, event: int, step: float, after: Motion
-) -> Tangent:
+def tangent(plan: Vector, notes: Tangent, stretch: Stretch) -> Tangent:
     """Carry the disturbances through one stretch."""
+    before, _, event, step, arrival, after = stretch
     q, integral, hits_right, hits_left = notes
-    disturb(plan, before.mode, event, after.mode, step, q)
+    disturb(plan, before.mode, event, arrival, after, step, q, DISTURBANCE)
     return Tangent(
         q,
-        integral + damping(plan, before.mode) * step,
+        integral + damping(plan, before.mode) * step + contraction(plan, event, after),
         hits_right + (event == RIGHT),
         hits_left + (event == LEFT),
     )

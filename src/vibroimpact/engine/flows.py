@@ -1,0 +1,114 @@
+"""Which flow carries a rig: found by its laws in Python, by the type of its plan in kernels.
+
+A flow is one kernel
+
+    advance(plan, motion, limit) -> event, t, arrival, motion
+
+that goes on to the next event, and a rule which rigs it can carry. Everything above it — the event
+loop, settling, orbits — is compiled for one flow at a time, when a rig first asks for it: a rig
+pays nothing for laws that it does not have.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba.core import cgutils, types
+from numba.core.datamodel import models
+from numba.extending import intrinsic, overload, register_model
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.jit import OPTIONS, Vector
+from vibroimpact.engine.linear.advance import Ended, advance_apart
+from vibroimpact.engine.linear.stops import advance_any
+from vibroimpact.engine.linear.tables import PLAN
+from vibroimpact.engine.motion import Motion
+
+
+class Apart(NamedTuple):
+    """Bumpers that cannot be touched at once."""
+
+    memory: Vector
+
+
+class AnyStops(NamedTuple):
+    """Rigid stops, and bumpers that overlap."""
+
+    memory: Vector
+
+
+_ADVANCE: dict[type, Callable[..., Any]] = {Apart: advance_apart, AnyStops: advance_any}
+
+
+def flow_of(rig: Vector) -> Any:
+    """Room for the plan of a rig, of the type that chooses its flow."""
+    right, left = par.BUMPER, par.BUMPER + par.WIDTH
+    rigid = par.RIGID in (rig[right + par.KIND], rig[left + par.KIND])
+    overlapping = rig[right + par.GAP] + rig[left + par.GAP] < 0.0
+    return (AnyStops if rigid or overlapping else Apart)(np.zeros(PLAN))
+
+
+class PlanType(types.CPointer):
+    """The memory of a plan, told apart by its flow."""
+
+    def __init__(self, flow: type) -> None:
+        self.flow = flow
+        super().__init__(types.float64)  # type: ignore[no-untyped-call]
+        self.name = f"Plan({flow.__name__})"
+
+    @property
+    def key(self) -> Any:
+        """What makes two types the same."""
+        return self.flow
+
+
+register_model(PlanType)(models.PointerModel)
+
+
+@intrinsic
+def _plan(typing: Any, given: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        array = builder.extract_value(args[0], 0)
+        return cgutils.create_struct_proxy(signature.args[0][0])(  # type: ignore[no-untyped-call]
+            context, builder, value=array
+        ).data
+
+    return PlanType(given.instance_class)(given), build
+
+
+def planned(given: Any, rig: Vector) -> Vector:
+    """The plan in this memory, with the numbers of a rig; its tables are still to be built."""
+    plan = given.memory
+    for i in range(par.SIZE):
+        plan[i] = rig[i]
+    return plan  # type: ignore[no-any-return]
+
+
+@overload(planned, jit_options=OPTIONS)  # type: ignore[arg-type]
+def _planned(given: Any, rig: Any) -> Any:
+    def implementation(given: Any, rig: Any) -> Any:
+        plan: Any = _plan(given)  # type: ignore[call-arg]
+        for i in range(par.SIZE):
+            plan[i] = rig[i]
+        return plan
+
+    return implementation
+
+
+def advance(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """Go on to the next event, or for the time `limit` if that comes first.
+
+    Returns
+    -------
+    event, t, arrival, motion
+        What ended the stretch (see `motion`), its length (s), the velocity just before the event,
+        and the motion just behind it.
+    """
+    return advance_any(plan, motion, limit)
+
+
+@overload(advance, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]
+def _advance(plan: Any, motion: Any, limit: Any) -> Any:
+    return _ADVANCE[plan.flow].py_func  # type: ignore[attr-defined]

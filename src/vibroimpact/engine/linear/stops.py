@@ -1,0 +1,212 @@
+"""From one event to the next, for any stops: rigid ones, and bumpers that overlap.
+
+Each stop that is touched may let go, each that is free may be touched: every one is asked in
+turn, and only for the time until the earliest of those asked before.
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.advance import Ended, bumpers, fly, press
+from vibroimpact.engine.linear.evaluate import relaxed
+from vibroimpact.engine.linear.flight import flight
+from vibroimpact.engine.linear.tables import AMPLITUDE, OMEGA, overlapping, resting
+from vibroimpact.engine.linear.walk import BELOW, WITHIN, Bounds
+from vibroimpact.engine.motion import (
+    BOTH,
+    DETACHED,
+    FLIGHT,
+    LEFT,
+    LIMIT,
+    RELEASED,
+    RIGHT,
+    Motion,
+)
+
+_CHATTERED = 1e-6
+"""A chatter is completed where its rest lasts for less than this share of the time in which the
+force that presses the mass could change: the end of the geometric series is then right to 1e-12
+of that time, and the rest that follows does not depend on it."""
+
+
+@kernel
+def rigid(plan: Vector, side: int) -> bool:
+    """Whether the stop on this side is a rigid one."""
+    return bool(plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.RIGID)
+
+
+@kernel
+def acceleration_of(plan: Vector, motion: Motion) -> float:
+    """Acceleration ü relative to the base, from the forces of the isolator and pressed bumpers."""
+    s, _ = motion.clock
+    a: float = -plan[par.STIFFNESS] * motion.u - plan[par.DAMPING] * motion.v
+    a -= plan[AMPLITUDE] * s
+    for side in range(1, 3):
+        at = par.BUMPER + par.WIDTH * (side - 1)
+        if motion.mode & side and plan[at + par.KIND] == par.KELVIN_VOIGT:
+            sign = 1.0 if side == RIGHT else -1.0
+            deformation = motion.right if side == RIGHT else motion.left
+            a -= sign * plan[at + par.BUMPER_STIFFNESS] * deformation
+            a -= plan[at + par.BUMPER_DAMPING] * motion.v
+    return a
+
+
+@kernel
+def turned(plan: Vector, clock: tuple[float, float], t: float) -> tuple[float, float]:
+    """The clock after the time t."""
+    s, c = clock
+    sine, cosine = math.sin(plan[OMEGA] * t), math.cos(plan[OMEGA] * t)
+    return s * cosine + c * sine, c * cosine - s * sine
+
+
+@kernel
+def impact(
+    plan: Vector, event: int, t: float, arrival: float, motion: Motion, limit: float
+) -> Ended:
+    """What follows when the mass meets a rigid stop: u̇ → −e u̇, or rest."""
+    mode, _, u, v, right, left, _, clock = motion
+    side = event
+    sign = 1.0 if side == RIGHT else -1.0
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    restitution = plan[at + par.RESTITUTION]
+    v = -restitution * v
+    bounced = Motion(mode & ~side, side, u, v, right, left, 0.0, clock)
+    push = sign * acceleration_of(plan, bounced)  # towards the stop
+    if not push > 0.0 or restitution == 1.0:
+        return event, t, arrival, bounced
+    rest = 2.0 * abs(v) / (push * (1.0 - restitution))  # the geometric series of flights
+    # How fast the push may change meanwhile, and the rig's own rates.
+    change = plan[par.DAMPING] * push + plan[AMPLITUDE] * plan[OMEGA]
+    change += plan[par.STIFFNESS] * abs(v)
+    rate = plan[OMEGA] + math.sqrt(plan[par.STIFFNESS]) + plan[par.DAMPING]
+    for other in range(2):
+        stop = par.BUMPER + par.WIDTH * other
+        if plan[stop + par.KIND] == par.KELVIN_VOIGT and mode & (other + 1):
+            rate += math.sqrt(plan[stop + par.BUMPER_STIFFNESS]) + plan[stop + par.BUMPER_DAMPING]
+            change += plan[stop + par.BUMPER_STIFFNESS] * abs(v)
+            change += plan[stop + par.BUMPER_DAMPING] * push
+    if rest * rate > _CHATTERED or rest * change > _CHATTERED * push:
+        return event, t, arrival, bounced
+    rest = min(rest, limit - t)
+    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
+    right = right if mode & RIGHT else relaxed(right, rate_r, rest)
+    left = left if mode & LEFT else relaxed(left, rate_l, rest)
+    if side == RIGHT:
+        u, right = gap_r, 0.0
+    else:
+        u, left = -gap_l, 0.0
+    held = Motion(mode | side, side, u, 0.0, right, left, 0.0, turned(plan, clock, rest))
+    return event, t + rest, arrival, held
+
+
+@kernel
+def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """At rest on a rigid stop until the force lets go of the mass, or a bumper reaches it."""
+    mode, _, u, _, right, left, age, clock = motion
+    side = RIGHT if mode & RIGHT and rigid(plan, RIGHT) else LEFT
+    sign = 1.0 if side == RIGHT else -1.0
+    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    other = BOTH - side
+    facing = par.BUMPER + par.WIDTH * (other - 1)
+    # It is pressed by `level` − A s, with the phasor as seen from this side.
+    level = -plan[par.STIFFNESS] * plan[at + par.GAP]
+    if mode & other:
+        level += plan[facing + par.BUMPER_STIFFNESS] * (left if side == RIGHT else right)
+    s, c = sign * clock[0], sign * clock[1]
+    amplitude = plan[AMPLITUDE]
+    event, t = LIMIT, limit
+    if level - amplitude * s < 0.0 or (level - amplitude * s == 0.0 and c >= 0.0):
+        event, t = DETACHED, 0.0
+    elif level < amplitude:
+        angle = math.asin(max(level / amplitude, -1.0)) - math.atan2(s, c)
+        if angle < 0.0:  # by rounding only, on the point of letting go, or else a turn ahead
+            angle = 0.0 if angle > -1e-9 and c > 0.0 else angle + 2.0 * math.pi
+        if angle / plan[OMEGA] < limit:
+            event, t = DETACHED, angle / plan[OMEGA]
+            s = level / amplitude
+            c = math.sqrt(max(1.0 - s * s, 0.0))
+    if overlapping(plan) and not mode & other and plan[facing + par.KIND] != par.ABSENT:
+        # The free bumper comes back to where the mass rests.
+        deformation = left if side == RIGHT else right
+        rate = rate_l if side == RIGHT else rate_r
+        pressed = -(gap_r + gap_l)
+        meets = math.log(deformation / pressed) / rate if deformation > pressed else 0.0
+        if meets < t:
+            event, t = other, meets
+    clock = (sign * s, sign * c) if event == DETACHED else turned(plan, clock, t)
+    if mode & other:
+        pass
+    elif event == other:
+        if side == RIGHT:
+            left = -(gap_r + gap_l)
+        else:
+            right = -(gap_r + gap_l)
+    elif side == RIGHT:
+        left = relaxed(left, rate_l, t)
+    else:
+        right = relaxed(right, rate_r, t)
+    if event == DETACHED:
+        return event, t, 0.0, Motion(mode & ~side, side | RELEASED, u, 0.0, right, left, 0.0, clock)
+    if event == other:
+        return event, t, 0.0, Motion(BOTH, other, u, 0.0, right, left, 0.0, clock)
+    return event, t, 0.0, Motion(mode, 0, u, 0.0, right, left, age + t, clock)
+
+
+@kernel
+def approach(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """Pressed on one side, free of the other until that is touched as well."""
+    mode, fresh, _, v, right, left, age, clock = motion
+    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
+    sign = 1.0 if mode == RIGHT else -1.0
+    x, free = (right, left) if mode == RIGHT else (left, right)
+    rate = rate_l if mode == RIGHT else rate_r
+    other = BOTH - mode
+    s, c = clock
+    # Seen from the pressed side, the other stop lies below.
+    way, t, x, v, s, c, _, free = flight(
+        plan,
+        mode,
+        x,
+        sign * v,
+        sign * s,
+        sign * c,
+        Bounds(math.inf, -(gap_r + gap_l), 0.0, free, math.inf, rate),
+        BELOW if fresh & BOTH == other else WITHIN,
+        fresh & RELEASED != 0,
+        limit,
+        age,
+    )
+    v, clock = sign * v, (sign * s, sign * c)
+    right, left = (x, free) if mode == RIGHT else (free, x)
+    u = gap_r + x if mode == RIGHT else -(gap_l + x)
+    if way == WITHIN:
+        return LIMIT, t, v, Motion(mode, 0, u, v, right, left, age + t, clock)
+    return other, t, v, Motion(BOTH, other, u, v, right, left, 0.0, clock)
+
+
+@kernel
+def advance_any(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """Go on to the next event, or for the time `limit` if that comes first."""
+    mode = motion.mode
+    if resting(plan, mode):
+        return rest(plan, motion, limit)
+    if mode == FLIGHT:
+        event, t, arrival, after = fly(plan, motion, limit)
+    else:
+        event, t, arrival, after = LIMIT, limit, motion.v, motion
+        for side in range(1, 3):
+            if mode & side:
+                one = press(plan, motion, side, t)
+                if one[0] != LIMIT or event == LIMIT:
+                    event, t, arrival, after = one
+        if mode != BOTH and overlapping(plan):
+            one = approach(plan, motion, t)
+            if one[0] != LIMIT:
+                event, t, arrival, after = one
+    if event in (RIGHT, LEFT) and rigid(plan, event):
+        return impact(plan, event, t, arrival, after, limit)
+    return event, t, arrival, after
