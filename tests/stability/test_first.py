@@ -42,3 +42,25 @@ def test_without_a_guess_it_is_the_motion_from_rest_with_its_period():
     data = vi.branch(rig, shaken, low=1.1, high=1.2)
     between = data["stable"].values >= 0  # in the doubling itself it is that of period 1
     assert set(data["period"].values[between]) == {2}
+
+
+@pytest.mark.parametrize("period", [1, 2, 3])
+def test_orbits_are_found_in_chaos(period):
+    """From one state of a motion that does not settle it would be a matter of luck."""
+    rig, shaken = doubled()
+    for frequency in (1.04, 1.05, 1.06, 1.075):
+        for phase in (0.0, 1.0, 2.5, 4.0):
+            here = shaken.replace(frequency=frequency, phase=phase)
+            with pytest.warns(RuntimeWarning, match="which does not settle"):
+                data = vi.orbit(rig, here, period=period, samples=1)
+            assert int(data["period"]) == period
+
+
+def test_a_branch_begins_in_chaos():
+    rig, shaken = doubled()
+    for frequency in (1.05, 1.06):
+        with pytest.warns(RuntimeWarning, match="which does not settle"):
+            data = vi.branch(
+                rig, shaken.replace(frequency=frequency), low=1.04, high=1.08, period=2
+            )
+        assert set(data["period"].values) <= {1, 2}

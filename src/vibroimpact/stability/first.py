@@ -14,7 +14,7 @@ from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import State, equilibrium
-from vibroimpact.response.start import as_state
+from vibroimpact.response.start import as_state, engine_state
 from vibroimpact.stability.bifurcations import own_mirror
 from vibroimpact.stability.family import Family
 from vibroimpact.stability.fixed_points import (
@@ -24,12 +24,16 @@ from vibroimpact.stability.fixed_points import (
     is_fixed,
     vector_of,
 )
-from vibroimpact.stability.settled import Settled, apart, approach, reach
+from vibroimpact.stability.settled import Settled, apart, approach, later, reach
 
 _Array = NDArray[np.float64]
 
 _SAME = 1e-6
 """Distance, over the motion's size, from the motion from rest of an orbit that is it."""
+_RETURNS = 400
+"""Forcing cycles over which the motion from rest is watched for close returns."""
+_TRIES = 16
+"""Close returns from which Newton's method is tried."""
 
 
 def first_orbit(
@@ -46,47 +50,90 @@ def first_orbit(
     InputError
         If Newton's method finds none.
     """
-    rest = None
     if start is None:
-        begin = equilibrium(fam.oscillator).replace(phase=fam.phase)
-        rest = approach(fam.oscillator, fam.excitation, begin)
-        vector = rest.state
-        point = np.array([vector[2], vector[3], vector[4], -vector[5], fam.value])
-        mode = float(vector[layout.MODE])
-        if rest.status not in (Status.DONE, Status.NOT_SETTLED):
-            raise InputError(f"start: the motion from rest is given up: {rest.status.advice}")
-        if period is None and not rest.period:
-            raise InputError(
-                f"start: the motion from rest does not settle at {fam.excitation.frequency:g} Hz; "
-                "a state near an orbit, and its period, are accepted"
-            )
-        period = period or rest.period
+        found = _from_rest(fam, span, period)
     else:
         state = as_state(start)
         if state.phase is not None:
             fam = fam._replace(excitation=fam.excitation.replace(phase=state.phase))
-        point = np.array(
-            [
-                state.displacement,
-                state.velocity,
-                state.right_bumper or 0.0,
-                state.left_bumper or 0.0,
-                fam.value,
-            ]
-        )
+        bumpers = (state.right_bumper or 0.0, state.left_bumper or 0.0)
+        point = np.array([state.displacement, state.velocity, *bumpers, fam.value])
         mode = float({1: RIGHT, -1: LEFT}.get(state.contact or 0, FLIGHT))
-    period = period or 1
+        status, found = _least(fam, span, period or 1, point, mode)
+        if status is not Status.DONE:
+            raise _no_orbit(period or 1, status)
+    return symmetric_if_so(found) if symmetric else found
+
+
+def _no_orbit(period: int, status: Status) -> InputError:
+    return InputError(
+        f"start: Newton's method finds no orbit of period {period} near it "
+        f"({told(status)}); a state nearer to one is accepted"
+    )
+
+
+def _least(
+    fam: Family, span: tuple[float, float], period: int, point: _Array, mode: float
+) -> tuple[Status, Orbit]:
+    """Newton's method from a point; the orbit with its least period."""
     section = Section(fam, period, False, scales(fam, span, point))
-    status, orbit_found = corrected(section, point, mode)
-    if status is not Status.DONE:
+    status, found = corrected(section, point, mode)
+    return status, reduced(found) if status is Status.DONE else found
+
+
+def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Orbit:
+    """The orbit on which the motion from rest settles, or one of a given period close to it."""
+    begin = engine_state(fam.oscillator, equilibrium(fam.oscillator))
+    rest = approach(fam.oscillator, fam.excitation, begin)
+    if rest.status not in (Status.DONE, Status.NOT_SETTLED):
+        raise InputError(f"start: the motion from rest is given up: {rest.status.advice}")
+    if period is None and not rest.period:
         raise InputError(
-            f"start: Newton's method finds no orbit of period {period} near it "
-            f"({told(status)}); a state nearer to one is accepted"
+            f"start: the motion from rest does not settle at {fam.excitation.frequency:g} Hz; "
+            "a state near an orbit, and its period, are accepted"
         )
-    orbit_found = reduced(orbit_found)
-    if rest is not None:
-        _tell_another(rest, orbit_found)
-    return symmetric_if_so(orbit_found) if symmetric else orbit_found
+    period = period or rest.period
+    repeats = rest.period and period % rest.period == 0
+    least, status = None, Status.NOT_SETTLED
+    for vector in [rest.state] if repeats else _returns(rest, begin, period):
+        point = np.array([vector[2], vector[3], vector[4], -vector[5], fam.value])
+        outcome, found = _least(fam, span, period, point, float(vector[layout.MODE]))
+        if outcome is not Status.DONE:
+            status = outcome
+            continue
+        # A close return over several cycles may be due to an orbit of fewer.
+        if least is None or found.section.period == period:
+            least = found
+        if repeats or found.section.period == period:
+            break
+    if least is None:
+        raise _no_orbit(period, status)
+    _tell_another(rest, least)
+    return least
+
+
+def _returns(rest: Settled, begin: _Array, period: int) -> list[_Array]:
+    """Where the motion from rest comes back to itself most closely after so many cycles.
+
+    A motion that does not settle passes near every orbit in its reach again and again, and is
+    then nearest to itself a period later.
+    """
+    sections = [begin]
+    for _ in range(_RETURNS + period):
+        status, vector = later(rest, sections[-1], 1.0)
+        if status is not Status.DONE:
+            break
+        sections.append(vector)
+    size = reach(rest, rest.state)
+    missed = [apart(rest, *pair, size) for pair in zip(sections, sections[period:], strict=False)]
+    best: list[int] = []
+    for i in np.argsort(missed, kind="stable"):
+        # Its neighbours belong to the same passage.
+        if all(abs(i - other) > period for other in best):
+            best.append(int(i))
+        if len(best) == _TRIES:
+            break
+    return [sections[i] for i in best]
 
 
 def _tell_another(rest: Settled, found: Orbit) -> None:
@@ -101,7 +148,7 @@ def _tell_another(rest: Settled, found: Orbit) -> None:
     warnings.warn(
         f"this orbit of period {found.section.period} is not the motion from rest, which {it}",
         RuntimeWarning,
-        stacklevel=4,
+        stacklevel=5,
     )
 
 
