@@ -1,0 +1,54 @@
+"""Which flow carries which rig, and that a rig compiles its own flow only."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from vibroimpact.engine.entry import Entry
+from vibroimpact.engine.flows import AnyStops, Apart, flow_of, planned
+from vibroimpact.engine.linear.tables import PLAN
+from vibroimpact.engine.parameters import SIZE, Stop, free_rig, rig_vector
+
+BUMPER, WALL = (20.0, 0.4, 1.0), (0.5, 1.0)
+
+
+def rig(right: Stop | None, left: Stop | None) -> np.ndarray:
+    return rig_vector(1.0, 1.0, 0.1, right, left)
+
+
+@pytest.mark.parametrize(
+    ("right", "left", "flow"),
+    [
+        (None, None, Apart),
+        (BUMPER, BUMPER, Apart),
+        (BUMPER, (20.0, 0.4, -0.5), Apart),  # preloaded, but out of the other one's reach
+        (BUMPER, (20.0, 0.4, -1.0), Apart),  # touched at one place both, pressed never
+        (None, (20.0, 0.4, -1.0), Apart),
+        (BUMPER, (20.0, 0.4, -1.5), AnyStops),
+        ((20.0, 0.4, -0.1), (20.0, 0.4, -0.1), AnyStops),
+        (WALL, None, AnyStops),
+        (BUMPER, WALL, AnyStops),
+    ],
+)
+def test_the_flow_follows_from_the_stops(right: Stop | None, left: Stop | None, flow: type) -> None:
+    for sides in ((right, left), (left, right)):
+        given = flow_of(rig(*sides))
+        assert type(given) is flow
+        assert given.memory.shape == (PLAN,)
+
+
+def _gap(given, vector):
+    plan = planned(given, vector)
+    return plan[5] + 0.0 * given.memory[0]
+
+
+def test_a_rig_pays_for_its_own_flow_only() -> None:
+    entry = Entry(_gap, "f8(f8[::1])")
+    assert entry(free_rig()) == math.inf
+    assert set(entry._compiled) == {Apart}
+    assert entry(rig(WALL, None)) == WALL[1]
+    assert set(entry._compiled) == {Apart, AnyStops}
+    assert SIZE > 5

@@ -1,0 +1,48 @@
+"""A Newton step may land where no motion can be; it is put where one can."""
+
+from __future__ import annotations
+
+import pytest
+
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
+from vibroimpact.engine.parameters import Stop, rig_vector
+from vibroimpact.engine.section_map import placed
+
+CLOCK = (0.0, 1.0)
+DAMPED, PLAIN, WALL = (20.0, 0.4, 1.0), (20.0, 0.0, 1.0), (0.5, 1.0)
+
+
+def put(
+    right: Stop | None, left: Stop | None, mode: int, u: float, v: float, r: float, lft: float
+) -> Motion:
+    return placed(rig_vector(1.0, 1.0, 0.1, right, left), mode, u, v, r, lft, CLOCK)
+
+
+@pytest.mark.parametrize(
+    ("right", "left", "given", "mode", "u", "deformations"),
+    [
+        # In flight a bumper's deformation is its own, but it does not pull.
+        (DAMPED, DAMPED, (FLIGHT, 0.5, 0.0, 0.1, -0.1), FLIGHT, 0.5, (0.1, 0.0)),
+        # Without a dashpot it is gone at once.
+        (PLAIN, DAMPED, (FLIGHT, 0.5, 0.0, 0.1, 0.2), FLIGHT, 0.5, (0.0, 0.2)),
+        # A mass inside a bumper presses it.
+        (DAMPED, DAMPED, (FLIGHT, 1.25, 0.0, 0.1, 0.0), RIGHT, 1.25, (0.25, 0.0)),
+        (DAMPED, DAMPED, (FLIGHT, -1.25, 0.0, 0.0, 0.1), LEFT, -1.25, (0.0, 0.25)),
+        # Flung back too fast it has left it already: the force would pull.
+        (DAMPED, DAMPED, (RIGHT, 1.25, -100.0, 0.25, 0.0), FLIGHT, 1.25, (0.25, 0.0)),
+        # Out of a contact that is none.
+        (DAMPED, DAMPED, (RIGHT, 0.75, 0.0, 0.3, 0.0), FLIGHT, 0.75, (0.0, 0.0)),
+        # No mass inside a wall; at rest only who rests.
+        (WALL, DAMPED, (FLIGHT, 1.25, 0.5, 0.3, 0.0), FLIGHT, 1.0, (0.0, 0.0)),
+        (WALL, DAMPED, (RIGHT, 1.0, 0.0, 0.0, 0.0), RIGHT, 1.0, (0.0, 0.0)),
+        (WALL, DAMPED, (RIGHT, 1.0, -0.5, 0.0, 0.0), FLIGHT, 1.0, (0.0, 0.0)),
+        # Where there is no stop there is nothing to press.
+        (None, DAMPED, (FLIGHT, 9.0, 0.0, 0.0, 0.0), FLIGHT, 9.0, (0.0, 0.0)),
+    ],
+)
+def test_the_nearest_state_that_can_be(right, left, given, mode, u, deformations) -> None:
+    found = put(right, left, *given)
+    assert found.mode == found.fresh == mode
+    assert found.u == u
+    assert found.v == given[2]
+    assert (found.right, found.left) == pytest.approx(deformations, abs=1e-15)

@@ -1,0 +1,74 @@
+"""Kernels are plain arithmetic: nothing is allocated, built or raised in them."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import vibroimpact.engine
+
+ENGINE = Path(vibroimpact.engine.__file__).parent
+COMPILED = {"kernel", "inlined", "observer", "entry"}
+BUILT = (
+    ast.List,
+    ast.Dict,
+    ast.Set,
+    ast.ListComp,
+    ast.SetComp,
+    ast.DictComp,
+    ast.GeneratorExp,
+    ast.JoinedStr,
+)
+
+
+def decorators(function: ast.FunctionDef) -> set[str]:
+    found = (d.func if isinstance(d, ast.Call) else d for d in function.decorator_list)
+    return {d.id for d in found if isinstance(d, ast.Name)}
+
+
+def forbidden(source: str) -> list[str]:
+    """What stands in the compiled functions of a source and must not, with its line."""
+    wrong = []
+    for function in ast.walk(ast.parse(source)):
+        if not isinstance(function, ast.FunctionDef) or not decorators(function) & COMPILED:
+            continue
+        for statement in function.body:
+            for node in ast.walk(statement):
+                numpy = isinstance(node, ast.Name) and node.id == "np"
+                # A slice assigns element by element through a temporary view; entries pass
+                # rows of what they were given on.
+                sliced = isinstance(node, ast.Slice) and "entry" not in decorators(function)
+                annotated = any(
+                    isinstance(s, ast.AnnAssign) and node in ast.walk(s.annotation)
+                    for s in ast.walk(statement)
+                )
+                bad = numpy or sliced or isinstance(node, (*BUILT, ast.Raise, ast.Try))
+                if bad and not annotated:
+                    wrong.append(f"{function.name}, line {node.lineno}: {ast.unparse(node)}")
+    return wrong
+
+
+def test_no_kernel_allocates() -> None:
+    files = sorted(ENGINE.rglob("*.py"))
+    assert len(files) > 20
+    wrong = {p.name: found for p in files if (found := forbidden(p.read_text(encoding="utf-8")))}
+    assert wrong == {}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "room = np.zeros(3)",
+        "a[:] = 0.0",
+        "b = a[1:]",
+        "b = [0.0, 1.0]",
+        "raise ValueError(a)",
+        "b = f'{a}'",
+    ],
+)
+@pytest.mark.parametrize("decorator", ["kernel", "inlined", "observer(Notes)"])
+def test_the_search_finds_what_it_is_for(line: str, decorator: str) -> None:
+    assert forbidden(f"@{decorator}\ndef f(a):\n    {line}\n")
+    assert not forbidden(f"def f(a):\n    {line}\n")
