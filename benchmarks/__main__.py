@@ -6,11 +6,13 @@ from rich.console import Console
 
 from benchmarks.branches import branches
 from benchmarks.campaign import campaign
+from benchmarks.laws import laws, sampling
 from benchmarks.machine import load, machine
 from benchmarks.memory import memory
 from benchmarks.motions import motions
 from benchmarks.report import Table, show, write
 from benchmarks.scenarios import scenarios
+from benchmarks.size import size
 from benchmarks.startup import compiling, startup
 from benchmarks.trajectory import many, peers, short_runs, trajectory
 
@@ -41,6 +43,7 @@ def main() -> None:
     with console.status("trajectories ..."):
         add(*trajectory(others, compiled.text()))
         add(short_runs(others), many())
+        add(laws(), sampling())
     with console.status("the campaign ..."):
         add(campaign())
     with console.status("motions ..."):
@@ -50,7 +53,7 @@ def main() -> None:
     with console.status("scenarios ..."):
         add(scenarios())
     with console.status("starting and memory ..."):
-        add(startup(compiled), memory())
+        add(startup(compiled), memory(), size())
     about.add("load when it ended", f"{load():.1f}")
     missed = [row[0] for table in tables for row in table.rows if "NOT MET" in row]
     console.print(f"Not met: {'; '.join(missed)}." if missed else "All targets are met.")

@@ -11,14 +11,15 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 from numpy.typing import NDArray
-from vibroimpact.engine.evaluate import node, travel
 
 import vibroimpact as vi
 from benchmarks import ours
 from benchmarks.peers.problem import P
 from vibroimpact.engine.jit import OPTIONS
+from vibroimpact.engine.linear.evaluate import node, travel
+from vibroimpact.engine.linear.tables import NODES, PLAN, SIZE, TABLES, H, build
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import FLIGHT, LEFT, NODES, PLAN, RIGHT, SIZE, TABLES, H, build
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.parameters import SIZE as RIG
 
 _Vector = NDArray[np.float64]

@@ -10,7 +10,8 @@ from benchmarks.peers.problem import P, Problem
 from vibroimpact.engine import batch
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.observers import record
-from vibroimpact.engine.parameters import rig_vector
+from vibroimpact.engine.parameters import Stop, rig_vector
+from vibroimpact.engine.status import Status
 
 # a cos(Ωt) on the right-hand side is a base acceleration A sin(ωt + φ) with A = a, φ = −π/2.
 PHASE = -0.5 * math.pi
@@ -24,8 +25,12 @@ def frequency(problem: Problem = P) -> float:
 
 def vector(problem: Problem = P) -> np.ndarray:
     """Return the rig as the engine takes it."""
-    bumper = (problem.bumper_stiffness, problem.bumper_damping, problem.gap)
-    return rig_vector(1.0, 1.0, 2.0 * problem.damping_ratio, bumper, bumper)
+    return stopped((problem.bumper_stiffness, problem.bumper_damping, problem.gap), problem)
+
+
+def stopped(stop: Stop, problem: Problem = P) -> np.ndarray:
+    """Return the same mass and isolator between two others of these stops."""
+    return rig_vector(1.0, 1.0, 2.0 * problem.damping_ratio, stop, stop)
 
 
 def oscillator(problem: Problem = P) -> vi.Oscillator:
@@ -34,19 +39,23 @@ def oscillator(problem: Problem = P) -> vi.Oscillator:
     return vi.Oscillator(1.0, vi.Isolator(1.0, 2.0 * problem.damping_ratio), bumper, bumper)
 
 
-def engine(periods: int, problem: Problem = P) -> Callable[[], tuple[float, float]]:
+def engine(
+    periods: int, problem: Problem = P, rig: np.ndarray | None = None
+) -> Callable[[], tuple[float, float]]:
     """Return a call of the engine from rest over a number of forcing periods.
 
     It is the call that `vi.simulate(..., samples=0)` makes, and returns x and x′ at the end.
+    Another rig may take the place of the problem's.
     """
-    rig, hertz = vector(problem), frequency(problem)
+    hertz = frequency(problem)
+    rig = vector(problem) if rig is None else rig
     state = np.zeros(layout.STATE)
     out = np.empty((0, record.SAMPLE))
     events = np.empty((_MAX_EVENTS + 1, record.EVENT))
 
     def call() -> tuple[float, float]:
         state[:] = 0.0
-        batch.trajectory(
+        _, _, outcome = batch.trajectory(
             rig,
             problem.amplitude,
             hertz,
@@ -59,18 +68,34 @@ def engine(periods: int, problem: Problem = P) -> Callable[[], tuple[float, floa
             out,
             events,
         )
+        if outcome:
+            raise RuntimeError(Status(outcome).advice)
         return float(state[layout.U]), float(state[layout.V])
 
     return call
 
 
-def simulate(periods: int, problem: Problem = P) -> Callable[[], tuple[float, float]]:
+def events(periods: int, rig: np.ndarray, problem: Problem = P) -> int:
+    """Count what happens in so many forcing periods from rest."""
+    state = np.zeros(layout.STATE)
+    room = np.empty(((periods + 1) * _MAX_EVENTS, record.EVENT))
+    out = np.empty((0, record.SAMPLE))
+    shaking = (problem.amplitude, frequency(problem), PHASE)
+    _, count, _ = batch.trajectory(
+        rig, *shaking, state, 0.0, float(periods), 0, _MAX_EVENTS, out, room
+    )
+    return int(count)
+
+
+def simulate(
+    periods: int, problem: Problem = P, samples: int = 0
+) -> Callable[[], tuple[float, float]]:
     """Return the same by the public function, which checks, labels and describes."""
     rig = oscillator(problem)
     shaking = vi.Harmonic(problem.amplitude, frequency(problem), PHASE)
 
     def call() -> tuple[float, float]:
-        data = vi.simulate(rig, shaking, cycles=periods, samples=0)
+        data = vi.simulate(rig, shaking, cycles=periods, samples=samples)
         x, v = data["final_state"].values[:2].tolist()
         return x, v
 

@@ -4,6 +4,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
 from benchmarks import fresh
 from benchmarks.fresh import Ended
@@ -20,6 +21,40 @@ _SWEEP = """
 import vibroimpact as vi
 case = vi.laboratory.case("B2-G1-A3")
 vi.sweep(case.oscillator, case.amplitude, case.frequencies)
+"""
+_RIGID = """
+import vibroimpact as vi
+case = vi.laboratory.case("B2-G1-A3")
+rig = case.oscillator.replace(right={"kind": "rigid", "restitution": 0.6, "gap": "15 mm"})
+vi.sweep(rig, case.amplitude, case.frequencies)
+"""
+_EVERYTHING = """
+import vibroimpact as vi
+case = vi.laboratory.case("B2-G1-A3")
+rig, amplitude = case.oscillator, case.amplitude
+shaken = vi.Harmonic(amplitude, 1.2)
+vi.sweep(rig, amplitude, case.frequencies)
+vi.sweeps([case], case.frequencies)
+vi.simulate(rig, shaken, 10)
+motion = vi.steady(rig, shaken)
+vi.contacts(motion), vi.spectrum(motion)
+vi.stroboscopic_section(motion), vi.impact_section(motion)
+vi.coexisting(rig, shaken)
+vi.lyapunov_exponents([case], [1.2], 100)
+vi.orbit(rig, shaken)
+vi.branch(rig, shaken, low=1.1, high=1.3)
+followed = vi.resonance_diagram(rig, amplitude, 1.0, 4.0)
+(fold, *_) = (followed["bifurcation_kind"].values == "fold").nonzero()[0]
+vi.bifurcation_curve(
+    rig,
+    shaken,
+    followed.isel(bifurcation=fold),
+    parameters=("frequency", "amplitude"),
+    low=(1.0, 0.5 * amplitude),
+    high=(4.0, amplitude),
+)
+vi.classify(rig, amplitude)
+vi.scenario_map(("stiffness_ratio", [5.0, 10.0]), ("gap_ratio", [0.2, 0.4]))
 """
 _PREPARE = """
 import time
@@ -73,6 +108,7 @@ def startup(compiled: Compiling) -> Table:
             "under 15 s",
             met(first.seconds < 15.0),
         )
+        parts = _compiled(environment)
         said = "compiling" in first.errors
         table.add("it says that it compiles", "yes" if said else "no", "yes", met(said))
         again = [fresh.python(_SWEEP, environment) for _ in range(_PROCESSES)]
@@ -104,6 +140,30 @@ def startup(compiled: Compiling) -> Table:
             "under 15 s",
             met(first.seconds < 15.0),
         )
+    with _empty_cache() as environment:
+        rigid = fresh.python(_RIGID, environment)
+        before = _compiled(environment)
+        again = fresh.python(_SWEEP, environment)
+        more = _compiled(environment) - before
+    table.add("first vi.sweep of a rig with a rigid stop, whole process, s", _once(rigid), "", "")
+    table.add(
+        "first vi.sweep of a rig with bumpers behind it, s, and functions compiled",
+        f"{_once(again)}; {more}",
+        f"{parts} compiled, as without",
+        met(more == parts),
+    )
+    with _empty_cache() as environment:
+        everything = fresh.python(_EVERYTHING, environment)
+        warm = fresh.python(_EVERYTHING, environment)
+    table.add(
+        "every public function in one process, after installing, s",
+        _once(everything),
+        "under 45 s",
+        met(everything.seconds < 45.0),
+    )
+    messages = everything.errors.count("compiling")
+    table.add("messages that it compiles, in that process", str(messages), "1", met(messages == 1))
+    table.add("the same process, cached, s", _once(warm), "", "")
     for entry, public in (("sweep", "vi.sweep"), ("trajectory", "vi.simulate")):
         value = f"{compiled.cold[entry]:.1f}, then {compiled.cached[entry]:.2f}"
         table.add(f"compiling for {public}, then loading, s", value, "", "")
@@ -113,6 +173,11 @@ def startup(compiled: Compiling) -> Table:
         "are for the time on the wall, which on a quiet machine is near the processor time."
     )
     return table
+
+
+def _compiled(environment: dict[str, str]) -> int:
+    """Count the functions in a cache, one for each flow that asked for it."""
+    return len(list(Path(environment[_CACHE]).rglob("*.nbi")))
 
 
 def _once(process: Ended) -> str:

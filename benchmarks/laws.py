@@ -1,0 +1,75 @@
+"""What samples cost, and what other stops cost: beside the plain trajectory of problem P."""
+
+import time
+
+from benchmarks import ours
+from benchmarks.peers.problem import P
+from benchmarks.report import Table, met, targets
+from benchmarks.rounds import Spread, interleave
+
+_PERIODS, _SAMPLES = 1_000, 256
+_ROUNDS = 21
+_NANOSECONDS = 30.0
+_PLAIN = "problem P"
+_STOPS = {
+    "rigid stops, restitution 0.6, in the place of its bumpers": (0.6, P.gap),
+    "its bumpers moved in by 1.005, so that both are pressed at u = 0": (
+        P.bumper_stiffness,
+        P.bumper_damping,
+        -0.005,
+    ),
+}
+
+
+def sampling() -> Table:
+    """Time `vi.simulate` with samples and without."""
+    table = targets("A time history of problem P, warm")
+    seconds = interleave(
+        {
+            "with": ours.simulate(_PERIODS, samples=_SAMPLES),
+            "without": ours.simulate(_PERIODS),
+        },
+        _ROUNDS,
+        clock=time.thread_time,
+    )
+    count = _PERIODS * _SAMPLES
+    spread = Spread.of(
+        [(a - b) / count for a, b in zip(seconds["with"], seconds["without"], strict=True)]
+    )
+    table.add(
+        "vi.simulate, ns a sample",
+        spread.text(1e9),
+        f"under {_NANOSECONDS:g} ns",
+        met(1e9 * spread.median < _NANOSECONDS),
+    )
+    table.notes.append(
+        f"{_PERIODS:,} periods with {_SAMPLES} samples each, less the same without samples; "
+        "displacement, velocity, acceleration, both bumpers and the contact of each sample, all "
+        "events, and the labelled dataset are in the difference."
+    )
+    return table
+
+
+def laws() -> Table:
+    """Time the engine on problem P with its own and with other stops."""
+    rigs = {_PLAIN: ours.vector()} | {name: ours.stopped(stop) for name, stop in _STOPS.items()}
+    calls = {name: ours.engine(_PERIODS, rig=rig) for name, rig in rigs.items()}
+    seconds = interleave(calls, _ROUNDS, clock=time.thread_time)
+    table = Table(
+        f"Other stops, {_PERIODS:,} forcing periods, one thread, the engine alone",
+        ("Stops", "µs a period", "Events a period", "ns an event"),
+    )
+    for name, values in seconds.items():
+        events = ours.events(_PERIODS, rigs[name]) / _PERIODS
+        spread = Spread.of(values)
+        table.add(
+            name,
+            spread.text(1e6 / _PERIODS),
+            f"{events:.2f}",
+            f"{1e9 * spread.median / (_PERIODS * events):.0f}",
+        )
+    table.notes.append(
+        "Mass, isolator and forcing are those of P. The motions differ, and so does the number of "
+        "their events, contacts, impacts and detachments."
+    )
+    return table
