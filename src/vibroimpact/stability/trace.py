@@ -30,7 +30,7 @@ from vibroimpact.stability.fixed_points import (
     margin_of,
     seen_at,
 )
-from vibroimpact.stability.parents import parent, slid
+from vibroimpact.stability.parents import parent, shrinks_onto, slid
 
 _Array = NDArray[np.float64]
 
@@ -187,6 +187,11 @@ class Branch:
 
     def lost(self, here: Station) -> str:
         """See `Path`."""
+        if (met := shrinks_onto(here.orbit)) is not None:
+            whose = (
+                "their own mirror image" if met.section.mirror else f"period {met.section.period}"
+            )
+            return f"it is born at {met.value:.9g}, in a grazing of the orbits of {whose}"
         return beyond(here.orbit, "orbit", f"{here.orbit.value:.9g}")
 
     def corner(self, here: Station, length: float) -> list[Station]:
