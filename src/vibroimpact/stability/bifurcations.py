@@ -90,24 +90,25 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
                 other.orbit.contacts,
             )
             continue
+        met = parent(here.orbit, there.orbit)
         for kind, function in _tests(here):
             if kind == FOLD:  # the tangents are known
                 first, second = float(here.tangent[4]), float(there.tangent[4])
             else:
                 first, second = function(here.orbit), function(there.orbit)
             # A zero at the end belongs to the next step.
-            if not (first * second < 0.0 or (first == 0.0 and second != 0.0)):
+            turns = kind == FOLD and met is not None
+            if not (turns or first * second < 0.0 or (first == 0.0 and second != 0.0)):
                 continue
             if kind == NEIMARK and (-1.0 in (first, second) or not remembers(here.orbit)):
                 continue  # a pair became complex, or only rounding passes the unit circle
-            turns = kind == FOLD
-            if turns and (met := parent(here.orbit, there.orbit)) is not None:
+            if kind == FOLD and met is not None:
                 # The branch turns where it meets that of the motions which it left.
                 kind, orbit = BREAKING if met.section.mirror else DOUBLING, met
                 arclength = 0.5 * (here.arclength + there.arclength)
             else:
                 orbit, arclength = _locate(here, there, function)
-            yield Bifurcation(kind, orbit, arclength, turns, orbit.contacts)
+            yield Bifurcation(kind, orbit, arclength, turns or kind == FOLD, orbit.contacts)
 
 
 def _tests(here: Station) -> list[tuple[str, Callable[[Orbit], float]]]:

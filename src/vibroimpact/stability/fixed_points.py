@@ -145,6 +145,18 @@ class Orbit:
         """Unit tangent (by `SEEN`) of the branch in scaled components, in the sense of `along`."""
         return unit_tangent(self.jacobian, along, SEEN)
 
+    @cached_property
+    def missed(self) -> tuple[float, _Array] | None:
+        """By how much it is no fixed point of the simpler map, and from it to its image, scaled."""
+        simpler = self.section.parent()
+        if simpler is None:
+            return None
+        status, seen, image = evaluated(simpler, self.point, self.facts[section_map.MODE])
+        if status is not Status.DONE:
+            return None
+        miss = (image - seen.point) / simpler.scale * SEEN
+        return float(seen.facts[section_map.RESIDUAL]), miss
+
     @property
     def setting(self) -> tuple[Oscillator, Harmonic]:
         """The rig and its forcing."""

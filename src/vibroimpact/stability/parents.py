@@ -8,6 +8,7 @@ onto the orbit that grazes, in proportion to the distance of the parameter.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -18,10 +19,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
     SEEN,
     Orbit,
-    Section,
     corrected,
-    evaluated,
-    is_fixed,
     margin_of,
 )
 
@@ -44,8 +42,7 @@ def half_plus(orbit: Orbit) -> float:
 
 def slid(found: Orbit) -> bool:
     """Whether an orbit has become one of a simpler map: its own mirror image, or half as long."""
-    simpler = found.section.parent()
-    return simpler is not None and is_fixed(simpler, found, _SLID)
+    return found.missed is not None and found.missed[0] <= _SLID
 
 
 def parent(here: Orbit, there: Orbit) -> Orbit | None:
@@ -54,56 +51,47 @@ def parent(here: Orbit, there: Orbit) -> Orbit | None:
     On its two sides the orbits are each other's images under the simpler map, whose fixed point
     lies between an orbit and its image.
     """
-    section = here.section
-    simpler = section.parent()
-    if simpler is None:
+    if here.missed is None or there.missed is None or here.missed[1] @ there.missed[1] >= 0.0:
         return None
-    first, second = _miss(simpler, here), _miss(simpler, there)
-    if first is None or second is None or first @ second >= 0.0:
+    nearer = min(here, there, key=_miss)
+    found = _zero(nearer, half_plus)
+    if found is None:
         return None
-    nearer, miss = min(
-        ((here, first), (there, second)), key=lambda pair: float(np.linalg.norm(pair[1]))
-    )
-    return _zero(simpler, nearer, miss, half_plus)
+    # From afar the images may have changed sides elsewhere.
+    scale = here.section.scale
+    step = np.linalg.norm((there.point - here.point) / scale * SEEN)
+    away = np.linalg.norm((found.point - nearer.point) / scale * SEEN)
+    return found if away <= step else None
 
 
 def shrinks_onto(last: Orbit) -> Orbit | None:
     """The simpler orbit in whose grazing the branch of an orbit ends, if it does."""
-    simpler = last.section.parent()
-    miss = None if simpler is None else _miss(simpler, last)
-    if simpler is None or miss is None:
-        return None
-    grazing = _zero(simpler, last, miss, margin_of)
+    grazing = None if last.missed is None else _zero(last, margin_of)
     if grazing is None:
         return None
     here = last
     for _ in range(_HALVINGS):
         middle = 0.5 * (here.point + grazing.point)
         status, nearer = corrected(here.section, middle, here.facts[section_map.MODE])
-        now = _miss(simpler, nearer) if status is Status.DONE else None
-        if now is None:
+        if status is not Status.DONE or nearer.missed is None:
             return None
-        share = float(np.linalg.norm(now) / np.linalg.norm(miss))
-        if not _SHRINKS[0] <= share <= _SHRINKS[1]:
+        if not _SHRINKS[0] <= _miss(nearer) / _miss(here) <= _SHRINKS[1]:
             return None
-        here, miss = nearer, now
+        here = nearer
     return grazing
 
 
-def _miss(simpler: Section, orbit: Orbit) -> _Array | None:
-    """From an orbit to its image under a simpler map, scaled."""
-    status, other, image = evaluated(simpler, orbit.point, orbit.facts[section_map.MODE])
-    if status is not Status.DONE:
+def _miss(orbit: Orbit) -> float:
+    """Distance of an orbit from its image under the simpler map, scaled."""
+    return math.inf if orbit.missed is None else float(np.linalg.norm(orbit.missed[1]))
+
+
+def _zero(near: Orbit, test: Callable[[Orbit], float]) -> Orbit | None:
+    """The orbit of the simpler map near another at which a test function is zero: by secants."""
+    section = near.section.parent()
+    if section is None or near.missed is None:
         return None
-    miss: _Array = (image - other.point) / simpler.scale * SEEN
-    return miss
-
-
-def _zero(
-    section: Section, near: Orbit, miss: _Array, test: Callable[[Orbit], float]
-) -> Orbit | None:
-    """The orbit of a simpler map near another at which a test function is zero: by secants."""
-    guess = near.point + 0.5 * miss * section.scale
+    guess = near.point + 0.5 * near.missed[1] * section.scale
     mode = float(near.facts[section_map.MODE])
     first = float(guess[section_map.PARAMETER])
     values = [first, first + 1e-6 * section.scale[4]]

@@ -118,12 +118,11 @@ class Branch:
             return self._on_bound(here, bound), f"the range ends at {bound:.9g}"
         if self._returned(here, there):
             return [there], CLOSED
-        if here.tangent[4] * there.tangent[4] < 0.0:
-            met = parent(here.orbit, there.orbit)
-            if met is not None and not met.section.mirror:
-                # Beyond, the same orbits come again, half a period later.
-                cycles = met.section.period
-                return [there], f"it is born at {met.value:.9g}, from the orbits of period {cycles}"
+        met = None if here.orbit.section.count % 2 else parent(here.orbit, there.orbit)
+        if met is not None:
+            # Beyond, the same orbits come again, half a period later.
+            cycles = met.section.period
+            return [there], f"it is born at {met.value:.9g}, from the orbits of period {cycles}"
         return None
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:
