@@ -65,11 +65,11 @@ def sweep(
         From `parameters.rig_vector`.
     amplitude, frequencies, phase : float, ndarray, float
         m/s², Hz in the order of the sweep, rad at the stroboscopic section.
-    state : ndarray, shape (hold.STATE,)
+    state : ndarray, shape (motion.STATE,)
         Where the sweep starts; carried on in place.
     tolerance, max_cycles, window, max_events
         See `hold.settle`.
-    results, states : ndarray, shape (frequency, hold.RESULTS), (frequency, hold.STATE)
+    results, states : ndarray, shape (frequency, hold.RESULTS), (frequency, motion.STATE)
         Written: the measurements, and the state at the end of each hold.
     progress : ndarray, shape (2,)
         [0] is raised by one a hold; the sweep stops when [1] becomes nonzero.

@@ -141,8 +141,8 @@ def measure_phases(
     plan = planned(given, rig)
     build(plan, amplitude, 2.0 * math.pi * frequency)
     for i in range(len(phases)):
-        given = phases[i]
-        mode = int(given[P_MODE])
+        phase = phases[i]
+        mode = int(phase[P_MODE])
         sign = -1.0 if mode in (LEFT, SEEN_LEFT) else 1.0
-        s, c = sign * math.sin(given[P_ANGLE]), sign * math.cos(given[P_ANGLE])
-        measure_phase(plan, mode, given[P_X], given[P_V], s, c, given[P_LENGTH], out[i])
+        s, c = sign * math.sin(phase[P_ANGLE]), sign * math.cos(phase[P_ANGLE])
+        measure_phase(plan, mode, phase[P_X], phase[P_V], s, c, phase[P_LENGTH], out[i])

@@ -93,10 +93,6 @@ def _pointer(array: Any) -> Any:
     return implementation
 
 
-def _indexed(memory: Any, index: Any) -> bool:
-    return isinstance(memory, types.CPointer) and isinstance(index, types.Integer)
-
-
 @overload(operator.getitem)
 def _getitem(memory: Any, index: Any) -> Any:
     def implementation(memory: Any, index: Any) -> Any:

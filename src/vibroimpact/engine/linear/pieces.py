@@ -6,7 +6,7 @@ about the interval's middle, in y = (t − t_middle) / step, right to rounding.
 
     cursor = begin(plan, motion, length)
     while more(cursor):
-        high = expanded(plan, cursor, series)     # the piece covers −1/2 ≤ y ≤ high
+        high, s, c = expanded(plan, cursor, series)     # the piece covers −1/2 ≤ y ≤ high
         ...
         cursor = following(plan, cursor)
 """

@@ -1,6 +1,6 @@
 """Closed-form motion of one phase, kept as small matrices (docs/theory.md, section 2).
 
-Within a phase (flight, contact on the right, contact on the left) the motion obeys
+Within a phase (flight, pressed on the right, on the left or on both sides) the motion obeys
 
     x″ = −c x′ − k x + d − A s,    s = sin θ,    θ′ = ω,
 

@@ -1,0 +1,36 @@
+"""CONTRIBUTING names files and folders that exist; the contents name every decision."""
+
+from __future__ import annotations
+
+import re
+
+from docs.snippets import ROOT
+
+PAGE = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+PACKAGE = ROOT / "src" / "vibroimpact"
+BELOW = (ROOT, PACKAGE, PACKAGE / "engine")
+
+
+def test_the_paths_are_there():
+    paths = set(re.findall(r"`((?:[\w.-]+/)*[\w-]+(?:\.py|\.txt|\.toml|\.md|/))`", PAGE))
+    assert len(paths) > 40
+    missing = {path for path in paths if not any((at / path).exists() for at in BELOW)}
+    assert missing == set()
+
+
+def test_a_folder_of_the_package_has_its_row():
+    folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
+    assert folders <= set(re.findall(r"^\| `(\w+)/` \|", PAGE, re.M))
+
+
+def test_every_module_of_the_engine_has_its_row():
+    rows = re.findall(r"^\| (`.*?) \| ", PAGE, re.M)
+    named = {name for row in rows for name in re.findall(r"`(\w+)\.py`", row)}
+    modules = {path.stem for path in (PACKAGE / "engine").glob("*.py")} - {"__init__"}
+    assert modules <= named | {"entry"}
+
+
+def test_decisions_are_listed():
+    pages = {path.name for path in (ROOT / "docs" / "decisions").glob("*.md")}
+    contents = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    assert pages == set(re.findall(r"decisions/([\w-]+\.md)", contents))
