@@ -16,6 +16,8 @@ from vibroimpact.engine.motion import (
     RIGHT,
     STATE,
     Motion,
+    aged,
+    at_section,
     coordinates,
     mirror_image,
     mirrored,
@@ -63,3 +65,9 @@ def test_a_left_contact_is_seen_as_the_mirror_image_of_a_right_one() -> None:
     assert coordinates(motion(RIGHT)) == (1.0, 0.3, -0.2, s, c)
     assert coordinates(motion(LEFT)) == (-1.0, 0.4, 0.2, -s, -c)
     assert coordinates(motion(BOTH)) == (1.0, 0.3, -0.2, s, c)
+
+
+def test_what_is_set_anew_is_set_alone() -> None:
+    one = motion(RIGHT, RIGHT)
+    assert at_section(one, (0.0, 1.0)) == one._replace(clock=(0.0, 1.0))
+    assert aged(one, 9.0) == one._replace(age=9.0)
