@@ -1,0 +1,48 @@
+"""Extremes and turning points of series whose shape is known."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from vibroimpact.engine.linear.tables import ORDER
+from vibroimpact.engine.observers.extremes import series_extremes
+from vibroimpact.engine.observers.margin import turning_point
+
+
+def series(*coefficients: float) -> np.ndarray:
+    return np.array([*coefficients, *[0.0] * (ORDER - len(coefficients))])
+
+
+def test_both_extremes_of_a_cubic_lie_inside() -> None:
+    """y³ − 0.12 y has them at ±0.2, off any dyadic point."""
+    least, most, at_least, at_most = series_extremes(
+        series(0.0, -0.12, 0.0, 1.0), -0.35, 0.3, math.inf, -math.inf
+    )
+    assert (at_least, at_most) == pytest.approx((0.2, -0.2), abs=1e-9)
+    assert (least, most) == pytest.approx((-0.016, 0.016), rel=1e-14)
+
+
+def test_what_was_wider_before_stays() -> None:
+    found = series_extremes(series(0.0, 1.0), -0.5, 0.5, -3.0, 0.25)
+    assert found == (-3.0, 0.5, -0.5, 0.5)
+
+
+def test_no_sample_lies_outside_and_the_ends_are_values() -> None:
+    rng = np.random.default_rng(1)
+    y = np.linspace(-0.5, 0.5, 4001)
+    for _ in range(200):
+        one = rng.normal(size=ORDER) * 3.0 ** rng.integers(0, 3, ORDER)
+        p = np.polynomial.Polynomial(one)
+        least, most, at_least, at_most = series_extremes(one, -0.5, 0.5, math.inf, -math.inf)
+        size = abs(one).max()
+        assert least <= p(y).min() + 1e-14 * size
+        assert most >= p(y).max() - 1e-14 * size
+        assert (least, most) == pytest.approx((p(at_least), p(at_most)), abs=1e-13 * size)
+
+
+def test_where_a_series_turns() -> None:
+    assert turning_point(series(0.0, -0.2, 1.0), 0.5) == pytest.approx(0.1, abs=1e-15)
+    assert turning_point(series(0.0, 0.2, 1.0), 0.3) == pytest.approx(-0.1, abs=1e-15)
