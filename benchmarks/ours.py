@@ -50,7 +50,7 @@ def engine(
     hertz = frequency(problem)
     rig = vector(problem) if rig is None else rig
     state = np.zeros(layout.STATE)
-    out = np.empty((0, record.SAMPLE))
+    out = np.empty((record.SAMPLE, 0))
     events = np.empty((_MAX_EVENTS + 1, record.EVENT))
 
     def call() -> tuple[float, float]:
@@ -79,7 +79,7 @@ def events(periods: int, rig: np.ndarray, problem: Problem = P) -> int:
     """Count what happens in so many forcing periods from rest."""
     state = np.zeros(layout.STATE)
     room = np.empty(((periods + 1) * _MAX_EVENTS, record.EVENT))
-    out = np.empty((0, record.SAMPLE))
+    out = np.empty((record.SAMPLE, 0))
     shaking = (problem.amplitude, frequency(problem), PHASE)
     _, count, _ = batch.trajectory(
         rig, *shaking, state, 0.0, float(periods), 0, _MAX_EVENTS, out, room

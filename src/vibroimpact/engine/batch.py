@@ -29,16 +29,7 @@ from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import STATE, finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.record import (
-    ACCELERATION,
-    CONTACT,
-    DISPLACEMENT,
-    LEFT_FACE,
-    RIGHT_FACE,
-    TOUCHING,
-    VELOCITY,
-    Record,
-)
+from vibroimpact.engine.observers.record import Record, write_sample
 
 
 @entry("void(f8[::1], f8, f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])")
@@ -118,7 +109,7 @@ def trajectory(
         Cycle to begin with, and how many in all; only the last may be incomplete.
     samples : int
         Samples per cycle; 0 for none.
-    out : ndarray, shape (samples from `first` to the end, and one for the end, record.SAMPLE)
+    out : ndarray, shape (record.SAMPLE, samples from cycle 0 to the end, and one for the end)
     events : ndarray, shape (capacity > max_events, record.EVENT)
     rig, amplitude, phase, state, max_events
         As in `sweep`; the phase is that at whole cycles.
@@ -150,7 +141,8 @@ def trajectory(
         else:
             n = int(math.ceil(share * samples - 1e-9))  # noqa: RUF046 (a float to numba)
             notes = Record(
-                out[(number - start) * samples :],
+                out,
+                number * samples,
                 period / samples if samples else 0.0,
                 n,
                 0,
@@ -168,10 +160,16 @@ def trajectory(
             outcome = NOT_FINITE
         number += 1
     if number >= cycles and samples and outcome == 0:
-        last = out[len(out) - 1]
-        last[DISPLACEMENT], last[VELOCITY] = motion.u, motion.v
-        last[ACCELERATION] = acceleration(plan, motion)
-        last[RIGHT_FACE], last[LEFT_FACE] = motion.right, -motion.left
-        last[CONTACT] = TOUCHING[motion.mode]
+        write_sample(
+            plan,
+            motion.mode,
+            motion.u,
+            motion.v,
+            acceleration(plan, motion),
+            motion.right,
+            motion.left,
+            out,
+            out.shape[1] - 1,
+        )
     pack(motion, state)
     return number, count, outcome

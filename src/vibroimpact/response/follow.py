@@ -28,7 +28,7 @@ def moved_on(
         cycles,
         0,
         max_events,
-        np.empty((0, record.SAMPLE)),
+        np.empty((record.SAMPLE, 0)),
         np.empty((max_events + 1, record.EVENT)),
     )
     return Status(outcome), later

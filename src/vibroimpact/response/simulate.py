@@ -73,7 +73,7 @@ def simulate(
     vector = engine_state(oscillator, state)
 
     count = math.ceil(length * samples - 1e-9) + 1 if samples else 0
-    out = np.full((count, record.SAMPLE), np.nan)
+    out = np.empty((record.SAMPLE, count))
     capacity = max_events + 1 + (_EVENTS_AT_ONCE if samples else 0)
     buffer = np.empty((capacity, record.EVENT))
     found = []
@@ -91,7 +91,7 @@ def simulate(
             length,
             samples,
             max_events,
-            out[at * samples :],
+            out,
             buffer,
         )
         if samples:
@@ -103,7 +103,7 @@ def simulate(
         warnings.warn(
             f"simulate stopped in cycle {finished}: {status.advice}", RuntimeWarning, stacklevel=3
         )
-        out = out[: finished * samples]
+        out = out[:, : finished * samples]
         length = float(finished)
     variables: dict[str, Any] = {
         "final_state": ("component", components(vector, phase + 2.0 * math.pi * (length % 1.0)))
@@ -111,10 +111,12 @@ def simulate(
     coordinates: dict[str, Any] = {"component": COMPONENTS}
     if samples:
         complete = status is Status.DONE
-        cycle = _cycles(len(out), samples, length if complete else None)
+        cycle = _cycles(out.shape[1], samples, length if complete else None)
         coordinates["time"] = cycle / excitation.frequency
         coordinates["cycle"] = ("time", cycle)
-        variables |= _samples(oscillator, excitation, phase, out, cycle)
+        variables |= _samples(out)
+        base = _base(excitation, phase, cycle, samples)
+        variables["base_acceleration"] = ("time", base)
         variables |= _events(np.concatenate(found), 1.0 / excitation.frequency)
     data = xr.Dataset(variables, coordinates)
     data.attrs["status"] = status.advice
@@ -139,45 +141,30 @@ def _cycles(count: int, samples: int, length: float | None) -> NDArray[np.float6
     return cycle
 
 
-def _samples(
-    oscillator: Oscillator,
-    excitation: Harmonic,
-    phase: float,
-    out: NDArray[np.float64],
-    cycle: NDArray[np.float64],
-) -> dict[str, Any]:
-    u = out[:, record.DISPLACEMENT]
-    right, left = out[:, record.RIGHT_FACE], out[:, record.LEFT_FACE]
-    touching = out[:, record.CONTACT]
-    absent = np.full(len(u), np.nan)
-
-    def clearance(
-        gap: float | None, distance: NDArray[np.float64], side: int
-    ) -> NDArray[np.float64]:
-        # Eq. 4; no bumper, no clearance; in contact it is zero by definition.
-        return (
-            absent
-            if gap is None
-            else np.where((touching == side) | (touching == 2), 0.0, gap + distance)
-        )
-
-    right_gap = oscillator.right.gap if oscillator.right else None
-    left_gap = oscillator.left.gap if oscillator.left else None
-    values = {
-        "displacement": u,
-        "velocity": out[:, record.VELOCITY],
-        "acceleration": out[:, record.ACCELERATION],
-        "base_acceleration": excitation.amplitude * np.sin(2.0 * np.pi * (cycle % 1.0) + phase),
-        "right_bumper": right,
-        "left_bumper": left,
-        "right_clearance": clearance(right_gap, right - u, 1),
-        "left_clearance": clearance(left_gap, u - left, -1),
-        "contact": touching,
+def _samples(out: NDArray[np.float64]) -> dict[str, Any]:
+    rows = {
+        "displacement": record.DISPLACEMENT,
+        "velocity": record.VELOCITY,
+        "acceleration": record.ACCELERATION,
+        "right_bumper": record.RIGHT_FACE,
+        "left_bumper": record.LEFT_FACE,
+        "right_clearance": record.RIGHT_CLEARANCE,
+        "left_clearance": record.LEFT_CLEARANCE,
     }
-    return {
-        name: ("time", value.astype(np.int64) if name == "contact" else value + 0.0)
-        for name, value in values.items()
-    }
+    samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
+    return {**samples, "contact": ("time", out[record.CONTACT].astype(np.int64))}
+
+
+def _base(
+    excitation: Harmonic, phase: float, cycle: NDArray[np.float64], samples: int
+) -> NDArray[np.float64]:
+    """Base acceleration at the samples, which are the same in every cycle but for the last one."""
+    one = excitation.amplitude * np.sin(2.0 * np.pi * (np.arange(samples) / samples) + phase)
+    base: NDArray[np.float64] = np.resize(one + 0.0, len(cycle))
+    if len(cycle):
+        angle = 2.0 * np.pi * (cycle[-1] % 1.0) + phase
+        base[-1] = excitation.amplitude * np.sin(angle) + 0.0
+    return base
 
 
 def _events(events: NDArray[np.float64], period: float) -> dict[str, Any]:

@@ -16,17 +16,19 @@ from vibroimpact.engine.linear.pieces import (
     expanded_at_node,
     following_window,
 )
-from vibroimpact.engine.linear.tables import AMPLITUDE, NODES, OMEGA, RATE, resting
+from vibroimpact.engine.linear.stops import turned
+from vibroimpact.engine.linear.tables import AMPLITUDE, NODES, RATE, resting
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
-# Columns of a sample.
-DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE, CONTACT = range(6)
-SAMPLE = 6
+# Rows of the samples: a row a variable, so that each is one piece of memory.
+DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE = range(5)
+RIGHT_CLEARANCE, LEFT_CLEARANCE, CONTACT = range(5, 8)
+SAMPLE = 8
 
 TOUCHING = (0.0, 1.0, -1.0, 2.0)
-"""The column CONTACT by mode: none, right, left, both."""
+"""The row CONTACT by mode: none, right, left, both."""
 
 DETACHMENT, CONTACT_BEGINS, IMPACT = 0.0, 1.0, 2.0
 """The column E_KIND."""
@@ -39,11 +41,13 @@ EVENT = 10
 class Record(NamedTuple):
     """Where to write.
 
-    Row i of `samples` is the next, of n in this cycle, `step` seconds apart; row `written` of
-    `events` is the next, in cycle `number`, and `last` the first that must not be written.
+    Column `begin` + i of `samples` is the next, of n in this cycle, `step` seconds apart; row
+    `written` of `events` is the next, in cycle `number`, and `last` the first that must not be
+    written.
     """
 
     samples: Vector
+    begin: int
     step: float
     n: int
     i: int
@@ -53,28 +57,35 @@ class Record(NamedTuple):
     number: int
 
 
+@kernel
+def seen(plan: Vector, side: int, mode: int, face: float, distance: float) -> float:
+    """Clearance of one side (the paper's eq. 4); zero in contact, NaN where there is no stop."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    if plan[at + par.KIND] == par.ABSENT:
+        return math.nan
+    return 0.0 if mode & side else plan[at + par.GAP] + (face - distance)
+
+
 @inlined
-def write_sample(plan: Vector, motion: Motion, x: float, v: float, t: float, out: Vector) -> None:
-    """Write the sample t seconds behind the start of a stretch, x and v as its pieces give them."""
-    mode = motion.mode
-    sign = -1.0 if mode == LEFT else 1.0
-    out[DISPLACEMENT] = displacement(plan, mode, x)
-    out[VELOCITY] = sign * v
-    if resting(plan, mode):
-        turned = plan[OMEGA] * t
-        s, c = motion.clock
-        out[ACCELERATION] = plan[AMPLITUDE] * (s * math.cos(turned) + c * math.sin(turned))
-    else:
-        out[ACCELERATION] = sign * absolute_acceleration(plan, mode, x, v, 0.0)
-    rate_r = plan[par.BUMPER + par.RATE]
-    rate_l = plan[par.BUMPER + par.WIDTH + par.RATE]
-    out[CONTACT] = TOUCHING[mode]
-    if mode == BOTH:
-        gaps = plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP]
-        out[RIGHT_FACE], out[LEFT_FACE] = x, x + gaps
-        return
-    out[RIGHT_FACE] = x if mode == RIGHT else relaxed(motion.right, rate_r, t)
-    out[LEFT_FACE] = -x if mode == LEFT else -relaxed(motion.left, rate_l, t)
+def write_sample(
+    plan: Vector,
+    mode: int,
+    u: float,
+    v: float,
+    acceleration: float,
+    right: float,
+    left: float,
+    out: Vector,
+    k: int,
+) -> None:
+    """Write sample k; the bumpers' deformations are given away from the mass."""
+    # Adding zero leaves no negative one.
+    out[DISPLACEMENT, k], out[VELOCITY, k] = u + 0.0, v + 0.0
+    out[ACCELERATION, k] = acceleration + 0.0
+    out[RIGHT_FACE, k], out[LEFT_FACE, k] = right + 0.0, 0.0 - left
+    out[RIGHT_CLEARANCE, k] = seen(plan, RIGHT, mode, right, u) + 0.0
+    out[LEFT_CLEARANCE, k] = seen(plan, LEFT, mode, left, -u) + 0.0
+    out[CONTACT, k] = 2.0 if mode == BOTH else (1.0 * (mode & RIGHT) - (mode >> 1))
 
 
 @kernel
@@ -87,6 +98,11 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
     if not (i < n and i * step < t + reach):
         return i
     series = workspace()
+    mode = before.mode
+    sign = -1.0 if mode == LEFT else 1.0
+    held = resting(plan, mode)
+    gap_r, rate_r = plan[par.BUMPER + par.GAP], plan[par.BUMPER + par.RATE]
+    gap_l, rate_l = plan[par.BUMPER + par.WIDTH + par.GAP], plan[par.BUMPER + par.WIDTH + par.RATE]
     cursor = begin(plan, before, reach)
     about = -1  # the node that the series is about
     while i < n and i * step < t + reach:
@@ -101,7 +117,18 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
             expanded_at_node(plan, cursor, j, series)
             about = j
         x, v = horner(series, y - j)
-        write_sample(plan, before, x, v * plan[cursor.table + RATE], tau, notes.samples[i])
+        v *= plan[cursor.table + RATE]
+        if held:
+            s, _ = turned(plan, before.clock, tau)
+            a = plan[AMPLITUDE] * s
+        else:
+            a = sign * absolute_acceleration(plan, mode, x, v, 0.0)
+        right = x if mode & RIGHT else relaxed(before.right, rate_r, tau)
+        left = x if mode == LEFT else relaxed(before.left, rate_l, tau)
+        if mode == BOTH:
+            left = -x - (gap_r + gap_l)
+        u = displacement(plan, mode, x)
+        write_sample(plan, mode, u, sign * v, a, right, left, notes.samples, notes.begin + i)
         i += 1
     return i
 
@@ -110,7 +137,7 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
 def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
     """Write down one stretch and the event that ends it."""
     before, t, event, step, arrival, after = stretch
-    samples, spacing, n, i, events, written, last, number = notes
+    samples, first, spacing, n, i, events, written, last, number = notes
     if n:
         i = sample(plan, notes, before, t, math.inf if event == LIMIT else step)
     if event != LIMIT and written < last:
@@ -126,4 +153,4 @@ def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
         row[E_BEFORE] = acceleration_in(plan, before.mode, after, arrival)
         row[E_BEHIND] = acceleration(plan, after)
         written += 1
-    return Record(samples, spacing, n, i, events, written, last, number)
+    return Record(samples, first, spacing, n, i, events, written, last, number)
