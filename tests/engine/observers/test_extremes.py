@@ -21,7 +21,7 @@ def test_both_extremes_of_a_cubic_lie_inside() -> None:
     least, most, at_least, at_most = series_extremes(
         series(0.0, -0.12, 0.0, 1.0), -0.35, 0.3, math.inf, -math.inf
     )
-    assert (at_least, at_most) == pytest.approx((0.2, -0.2), abs=1e-9)
+    assert (at_least, at_most) == pytest.approx((0.2, -0.2), abs=1e-7)
     assert (least, most) == pytest.approx((-0.016, 0.016), rel=1e-14)
 
 
