@@ -47,7 +47,7 @@ def flow_of(rig: Vector) -> Any:
     right, left = par.BUMPER, par.BUMPER + par.WIDTH
     rigid = par.RIGID in (rig[right + par.KIND], rig[left + par.KIND])
     overlapping = rig[right + par.GAP] + rig[left + par.GAP] < 0.0
-    return (AnyStops if rigid or overlapping else Apart)(np.zeros(PLAN))
+    return (AnyStops if rigid or overlapping else Apart)(np.empty(PLAN))
 
 
 class PlanType(types.CPointer):

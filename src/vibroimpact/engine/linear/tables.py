@@ -263,6 +263,8 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
         A (m/s²) and ω (rad/s) of the base acceleration A sin θ.
     """
     plan[AMPLITUDE], plan[OMEGA] = amplitude, omega
+    for slot in range(2 * SLOTS):
+        plan[TABLES + SIZE * slot + H] = 0.0  # not there
     series = coefficients()
     for slot in range(SLOTS):
         mode = min(slot, BOTH)
