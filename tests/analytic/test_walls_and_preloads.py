@@ -1,0 +1,158 @@
+"""Rigid stops and preloaded bumpers against the independent integration to fifty digits.
+
+After 20 cycles from a start far from the steady motion, the state at each stroboscopic section
+agrees within 1e-11 of the largest displacement (or velocity), and so do the events: contacts,
+detachments, beginnings and ends of rest, and all impacts but the last ones of a chatter, of which
+each of the two lists as many as it needs.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+import vibroimpact as vi
+from reference import fifty_digits
+from reference.public_motion import events, reference_rig
+from vibroimpact.model import equilibrium
+
+CYCLES = 20
+TOLERANCE = 1e-11
+SLOW = 1e-2
+"""An impact slower than this share of the fastest may belong to the end of a chatter."""
+
+Wall, Bumper = vi.RigidStop, vi.Bumper
+
+
+class Setup(NamedTuple):
+    """With M = K = 1; amplitude (m/s²), frequency (Hz) and phase of the base."""
+
+    right: vi.Bumper | vi.RigidStop | None
+    left: vi.Bumper | vi.RigidStop | None
+    shaken: tuple[float, float, float]
+    start: tuple[float, float] | None = None
+    """None: the equilibrium."""
+    damping: float = 0.1
+
+    @property
+    def rig(self) -> vi.Oscillator:
+        return vi.Oscillator(1.0, vi.Isolator(1.0, self.damping), self.right, self.left)
+
+
+SETUPS = {
+    "two walls": Setup(Wall(0.8, 0.5), Wall(0.6, 0.4), (1.0, 0.25, 0.3)),
+    "one wall": Setup(Wall(0.7, 0.3), None, (1.0, 0.3, 0.0)),
+    "one wall without gap": Setup(None, Wall(0.65, 0.0), (1.0, 0.31, 1.0), (0.2, 0.0)),
+    "held away by a wall": Setup(Wall(0.65, -0.2), None, (1.0, 0.35, 0.0)),
+    "a wall faces a bumper": Setup(Wall(0.7, 0.3), Bumper(20.0, 0.9, 0.1), (1.0, 0.25, 0.3)),
+    "a wall faces an elastic bumper": Setup(
+        Bumper(20.0, 0.0, 0.2), Wall(0.4, 0.2), (1.0, 0.2, 0.3)
+    ),
+    "plastic impacts": Setup(Wall(0.0, 0.2), Wall(0.0, 0.3), (1.0, 0.1, 0.0)),
+    "no loss": Setup(Wall(1.0, 0.3), None, (1.0, 0.3, 0.0), damping=0.3),
+    "chatter and rest": Setup(Wall(0.5, -0.4), None, (1.0, 0.08, 0.0), (-1.0, 0.0)),
+    "chatter and rest on both sides": Setup(Wall(0.3, 0.2), Wall(0.6, 0.1), (1.0, 0.05, 0.0)),
+    "long chatter": Setup(Wall(0.8, 0.1), None, (1.0, 0.03, 0.0)),
+    "chatter while a bumper presses": Setup(
+        Wall(0.6, 0.1), Bumper(5.0, 0.3, -0.4), (4.0, 0.06, 0.0), (0.05, 0.0)
+    ),
+    "one preload": Setup(Bumper(6.0, 0.8, -0.2), None, (1.0, 0.25, 0.3)),
+    "equal preloads": Setup(Bumper(6.0, 0.8, -0.2), Bumper(6.0, 0.8, -0.2), (6.0, 0.3, 0.3)),
+    "unequal preloads": Setup(
+        Bumper(6.0, 0.8, -0.3), Bumper(50.0, 2.0, -0.05), (2.0, 0.4, 1.0), (0.1, -0.2)
+    ),
+    "one preload reaches the other bumper": Setup(
+        Bumper(6.0, 0.1, -0.3), Bumper(30.0, 0.05, 0.2), (1.5, 0.3, 0.0)
+    ),
+    "elastic preloads": Setup(Bumper(6.0, 0.0, -0.3), Bumper(9.0, 0.0, -0.1), (5.0, 0.4, 0.3)),
+    "overdamped preloads": Setup(
+        Bumper(3.0, 20.0, -0.3), Bumper(9.0, 15.0, -0.2), (20.0, 0.25, 0.3)
+    ),
+}
+
+
+def reference_start(setup: Setup) -> tuple[float | mpf, ...]:
+    u, v = setup.start or (equilibrium(setup.rig).displacement, 0.0)
+    with mp.workdps(60):
+        deformations = [
+            sign * max(sign * mpf(float(u)) - mpf(stop.gap), mpf(0))
+            if isinstance(stop, vi.Bumper)
+            else 0.0
+            for sign, stop in ((1, setup.right), (-1, setup.left))
+        ]
+    return (float(u), v, *deformations)
+
+
+@pytest.mark.parametrize("name", SETUPS)
+def test_sections_and_events_agree_with_fifty_digits(name: str) -> None:
+    setup = SETUPS[name]
+    shaken = vi.Harmonic(*setup.shaken)
+    start = vi.State(*setup.start) if setup.start else None
+    data = vi.simulate(setup.rig, shaken, CYCLES, start, samples=1)
+    run = fifty_digits.integrate(
+        reference_rig(setup.rig), *setup.shaken, reference_start(setup), CYCLES
+    )
+    sampled = ("displacement", "velocity", "right_bumper", "left_bumper")
+    sections = np.stack([data[name].values for name in sampled], axis=-1)
+    known = [*run.states, *((event.u, event.v) for event in run.events)]
+    size, speed = (max(abs(float(state[i])) for state in known) for i in (0, 1))
+    for row, exact in zip(sections.tolist(), run.states, strict=True):
+        for value, other, unit in zip(row, exact, (size, speed, size, size), strict=True):
+            assert abs(float(value - other)) <= TOLERANCE * unit
+
+    fastest = max((abs(e.v) for e in run.events if e.kind.startswith("impact")), default=0)
+
+    def told(kind: str, v: float) -> bool:
+        return not kind.startswith("impact") or abs(v) > SLOW * fastest
+
+    exact = [event for event in run.events if told(event.kind, event.v)]
+    # To the reference, a contact at once is part of the start.
+    told_of = (e for e in events(data) if told(e.kind, e.v))
+    seen = [e for e in told_of if e.time > 0 or "contact" not in e.kind]
+    assert [e.kind for e in seen] == [e.kind for e in exact]
+    assert len(exact) >= 5
+    for one, other in zip(seen, exact, strict=True):
+        assert abs(float(one.time - other.time)) * shaken.frequency <= TOLERANCE
+        assert abs(float(one.u - other.u)) <= TOLERANCE * size
+        assert abs(float(one.v - other.v)) <= TOLERANCE * speed
+
+
+@pytest.mark.parametrize("name", SETUPS)
+def test_nothing_is_entered(name: str) -> None:
+    """Looked at 300 times a cycle, the mass is never behind a wall or a bumper's face."""
+    setup = SETUPS[name]
+    data = vi.simulate(setup.rig, vi.Harmonic(*setup.shaken), CYCLES, samples=300)
+    u = data["displacement"].values
+    size = np.abs(u).max()
+    for sign, stop, face in ((1, setup.right, "right"), (-1, setup.left, "left")):
+        if stop is not None:
+            inside = sign * (u - data[f"{face}_bumper"].values) - stop.gap
+            assert inside.max() <= 1e-14 * max(size, abs(stop.gap))
+            assert data[f"{face}_clearance"].values.min() >= 0.0
+    assert np.isfinite(data["acceleration"]).all()
+
+
+def test_rest_is_rest() -> None:
+    """While it rests the mass stands on the wall, and moves with the base."""
+    setup = SETUPS["chatter and rest"]
+    data = vi.simulate(setup.rig, vi.Harmonic(*setup.shaken), CYCLES, samples=500)
+    resting = data["contact"].values == 1
+    assert 0.2 < resting.mean() < 0.9
+    assert (data["displacement"].values[resting] == setup.right.gap).all()
+    assert (data["velocity"].values[resting] == 0.0).all()
+    np.testing.assert_array_equal(
+        data["acceleration"].values[resting], data["base_acceleration"].values[resting]
+    )
+
+
+def test_both_bumpers_may_be_in_contact_at_once() -> None:
+    setup = SETUPS["elastic preloads"]
+    data = vi.simulate(setup.rig, vi.Harmonic(*setup.shaken), CYCLES, samples=500)
+    both = (data["right_bumper"] > 0) & (data["left_bumper"] < 0)
+    assert both.any()
+    u = data["displacement"]
+    force = u + 6.0 * (u + 0.3) + 9.0 * (u - 0.1) + 0.1 * data["velocity"]
+    np.testing.assert_allclose(-force.values[both], data["acceleration"].values[both], atol=1e-12)
