@@ -52,8 +52,16 @@ def ratios(low: float, high: float) -> st.SearchStrategy[float]:
 
 
 @st.composite
-def motions(draw: st.DrawFn, least_damping: float = 0.0, most_damping: float = math.inf) -> Motion:
-    """A random motion; the limits are of the isolator's damping ratio."""
+def motions(
+    draw: st.DrawFn,
+    least_damping: float = 0.0,
+    most_damping: float = math.inf,
+    all_stops: bool = False,
+) -> Motion:
+    """A random motion; the limits are of the isolator's damping ratio.
+
+    With `all_stops`, preloaded bumpers and rigid stops are among the stops.
+    """
     mass, omega = draw(decades(-2, 4)), draw(decades(-1, 2))
     ratio = draw(decades(-0.7, 0.7))
     damping = min(max(draw(ratios(-3, 0.5)), least_damping), most_damping)
@@ -67,16 +75,35 @@ def motions(draw: st.DrawFn, least_damping: float = 0.0, most_damping: float = m
         gap = draw(st.floats(0.01, 1.2) | st.floats(0.01, 1.2) | st.just(0.0)) * swing
         return vi.Bumper(contact_stiffness * stiffness, draw(ratios(-3, 1)) * critical, gap)
 
+    def stop() -> vi.Bumper | vi.RigidStop:
+        kind = draw(st.sampled_from(["open", "preloaded", "rigid", "rigid"]))
+        if kind == "open":
+            return bumper()
+        gap = draw(st.floats(-0.6, -0.01)) * swing
+        if kind == "preloaded":
+            return bumper().replace(gap=gap)
+        gap = draw(st.floats(0.01, 1.2) | st.just(0.0) | st.just(gap / swing)) * swing
+        e = draw(st.floats(0.05, 0.95) | st.floats(0.05, 0.95) | st.sampled_from([0.0, 1.0]))
+        return vi.RigidStop(e, gap)
+
+    make = stop if all_stops else bumper
     sides = draw(st.sampled_from(["both", "both", "both", "right", "left"]))
-    right = bumper() if sides != "left" else None
-    left = bumper() if sides != "right" else None
+    right = make() if sides != "left" else None
+    left = make() if sides != "right" else None
+    if isinstance(right, vi.RigidStop) and isinstance(left, vi.RigidStop):
+        room = max(right.gap + left.gap, draw(st.floats(0.05, 1.0)) * swing)
+        left = left.replace(gap=room - right.gap)
     oscillator = vi.Oscillator(
         mass, vi.Isolator(stiffness, 2.0 * damping * mass * omega), right, left
     )
     # Within the gaps, or pressing a bumper.
     reach = draw(st.floats(-1.1, 1.1))
     side = right if reach > 0 else left
-    u = reach * (side.gap if side else swing)
+    u = reach * (swing if all_stops else side.gap if side else swing)
+    if isinstance(right, vi.RigidStop):
+        u = min(u, right.gap)
+    if isinstance(left, vi.RigidStop):
+        u = max(u, -left.gap)
     v = draw(st.floats(-1.0, 1.0)) * swing * omega * ratio
     phase = draw(st.floats(0.0, math.tau))
     excitation = vi.Harmonic(acceleration, ratio * omega / math.tau, phase)
