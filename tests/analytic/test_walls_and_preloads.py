@@ -156,3 +156,23 @@ def test_both_bumpers_may_be_in_contact_at_once() -> None:
     u = data["displacement"]
     force = u + 6.0 * (u + 0.3) + 9.0 * (u - 0.1) + 0.1 * data["velocity"]
     np.testing.assert_allclose(-force.values[both], data["acceleration"].values[both], atol=1e-12)
+
+
+@pytest.mark.parametrize("e", [0.0, 0.5])
+def test_a_rest_may_end_at_a_section(e: float) -> None:
+    """Without a gap and a phase it ends where sin θ = 0, with the cycle: once, not twice."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(e, 0.0))
+    data = vi.simulate(rig, vi.Harmonic(1.0, 0.16), CYCLES, vi.State(-1.0), samples=1)
+    run = fifty_digits.integrate(reference_rig(rig), 1.0, 0.16, 0.0, (-1.0, 0.0, 0.0, 0.0), CYCLES)
+    speed = max(abs(float(event.v)) for event in run.events)
+    for u, v, exact in zip(
+        data["displacement"].values, data["velocity"].values, run.states, strict=True
+    ):
+        assert abs(float(u - exact[0])) <= TOLERANCE
+        assert abs(float(v - exact[1])) <= TOLERANCE
+
+    def hits(found) -> list[str]:
+        return [e.kind for e in found if not ("impact" in e.kind and abs(e.v) < SLOW * speed)]
+
+    # The last rest may end just before or just behind the end of the run.
+    assert hits(events(data))[: 3 * (CYCLES - 1)] == hits(run.events)[: 3 * (CYCLES - 1)]
