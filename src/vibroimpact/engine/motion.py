@@ -22,6 +22,9 @@ LIMIT, DETACHED = 0, 3
 RELEASED = 4
 """Added to the side that has just been left if the mass was at rest there."""
 
+SETTLING = 8
+"""Added to the side of an impact behind which all others of a chatter follow at once."""
+
 MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, AGE = range(7)
 STATE = 7
 """A motion as a vector, between calls; its clock is the section's."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -10,14 +12,20 @@ from vibroimpact.engine import measure
 from vibroimpact.model import to_si
 from vibroimpact.model.units import DIMENSIONLESS
 from vibroimpact.response.phases import (
+    SIDES,
     Phases,
     Recorded,
     cut,
+    impact_loss,
     measured,
     recorded,
     relaxation_loss,
+    touches,
 )
 from vibroimpact.response.variables import describe, motion_parameters
+
+_Array = NDArray[np.float64]
+_Numbers = NDArray[np.int64]
 
 GRAZING = 1e-3
 """A contact grazes if it closes slower than this share of the motion's largest speed."""
@@ -42,6 +50,8 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     xarray.Dataset
         Dim ``contact_number``, in the order of their beginning. Velocities are relative to the
         base; forces press on the mass, positive; energies are lost in the bumper's dashpot.
+        An impact on a rigid stop lasts 0 s: its force has no finite peak (NaN), but an impulse,
+        and it loses energy at once. A rest on it is a contact of its own.
 
     Raises
     ------
@@ -68,20 +78,16 @@ def contact_log(
     motion, origin, every
         The motion, where it comes from, and its phases.
     rows
-        What `phases.measured` found of each phase; None if nobody has looked.
+        What `phases.measured` found of each phase by itself; None if nobody has looked.
     share
         As `grazing` of `contacts`.
     """
-    chosen, first = _whole_contacts(every, origin)
-    if rows is None:
-        found = measured(origin, chosen)
-    else:
-        found = rows[first]
-        if len(first) and chosen.length[-1] != every.length[first[-1]]:
-            # A contact that the section had cut in two.
-            found[-1] = measured(origin, chosen.take(np.array([len(first) - 1])))[0]
+    lasting = [_lasting(every, origin, side, rows) for side in SIDES]
+    every_kind = zip(*lasting, _impacts(motion, every, origin), strict=True)
+    chosen = _Contacts(*map(np.concatenate, every_kind))
+    chosen = chosen.take(np.argsort(chosen.order, kind="stable"))
     mass, period = origin.oscillator.mass, origin.excitation.period
-    side, begin = chosen.contact, chosen.begin
+    side, begin = chosen.side, chosen.begin
     damping = origin.of_side(side, "damping")
     closing, parting = chosen.first[:, 1], chosen.last[:, 1]
     # The bumper may still be relaxing towards the mass: u̇_j = −u_j K_j / C_j.
@@ -104,15 +110,13 @@ def contact_log(
         "duration_share": chosen.length / period,
         "start_velocity": closing,
         "end_velocity": parting,
-        "peak_force": mass * found[:, measure.FORCE],
-        "impulse": mass * found[:, measure.IMPULSE],
-        "penetration": found[:, measure.X_MOST],
-        "dissipated": damping * found[:, measure.SQUARES],
-        "dissipated_relaxing": _relaxing(every, first, origin),
-        "peak_acceleration": np.maximum(
-            np.abs(found[:, measure.A_LEAST]), np.abs(found[:, measure.A_MOST])
-        ),
-        "peak_time": begin + found[:, measure.A_TIME],
+        "peak_force": mass * chosen.force,
+        "impulse": mass * chosen.impulse,
+        "penetration": chosen.penetration,
+        "dissipated": chosen.dissipated,
+        "dissipated_relaxing": chosen.relaxing,
+        "peak_acceleration": chosen.peak,
+        "peak_time": begin + chosen.peak_time,
         "closing_speed": approach,
         # Of a mass that recedes as the bumper catches up with it there is none.
         "restitution": np.divide(
@@ -125,46 +129,139 @@ def contact_log(
     )
 
 
-def _whole_contacts(every: Phases, origin: Recorded) -> tuple[Phases, NDArray[np.int64]]:
-    """The contacts that the record holds from beginning to end, and the phase each begins in."""
-    inner = np.flatnonzero(every.contact)
-    last = len(every.contact) - 1
-    cut = [i for i in (0, last) if i in inner]
-    if origin.periodic and len(cut) < 2:
-        # Between a contact and a flight the section lies exactly at the event.
-        return every.take(inner), inner
-    kept = np.array([i for i in inner if i not in cut], dtype=np.int64)
-    if not origin.periodic or last == 0 or every.contact[0] != every.contact[last]:
-        return every.take(kept), kept
-    # One contact, cut in two by the section: the end of the record is its beginning.
-    first = np.append(kept, last)
-    chosen = every.take(first)
-    chosen.length[-1] += every.length[0]
-    chosen.last[-1] = every.last[0]
-    return chosen, first
+class _Contacts(NamedTuple):
+    """Contacts, one value each, or one row of a state; force and impulse per unit mass."""
+
+    order: NDArray[np.int64]
+    """The phase in which it begins."""
+    side: NDArray[np.int64]
+    begin: _Array
+    angle: _Array
+    length: _Array
+    first: _Array
+    last: _Array
+    force: _Array
+    impulse: _Array
+    penetration: _Array
+    dissipated: _Array
+    relaxing: _Array
+    peak: _Array
+    """Largest absolute acceleration."""
+    peak_time: _Array
+    """From the beginning of the contact."""
+
+    def take(self, chosen: NDArray[np.int64]) -> _Contacts:
+        """The chosen contacts."""
+        parts = {name: values[chosen] for name, values in self._asdict().items()}
+        return _Contacts(**parts)
 
 
-def _relaxing(every: Phases, first: NDArray[np.int64], origin: Recorded) -> NDArray[np.float64]:
-    """Energy that each free bumper loses between its contacts.
+def _lasting(
+    every: Phases, origin: Recorded, side: int, rows: NDArray[np.float64] | None
+) -> _Contacts:
+    """The contacts with a bumper, or rests on a rigid stop, of one side."""
+    runs = _runs(every, origin, side)
+    count = len(runs)
+    part = np.array([i for run in runs for i in run], dtype=np.int64)
+    owner = np.repeat(np.arange(count), [len(run) for run in runs])
+    first, last = (np.array([run[i] for run in runs], dtype=np.int64) for i in (0, -1))
+    chosen = every.take(part)
+    seen = np.full(len(part), side)
+    # Of phases in contact with both stops the rows tell what the right one sees.
+    if rows is None or (side == -1 and (chosen.contact == 2).any()):
+        found = measured(origin, chosen, seen)
+    else:
+        found = rows[part]
 
-    It is counted to the contact before, which is given by the phase in which it begins.
-    """
-    lost = np.zeros(len(every.contact))
-    last = len(every.contact) - 1
-    losses = relaxation_loss(origin, every)
-    for side, of_side in zip((1, -1), losses.T, strict=True):
-        pressed = np.flatnonzero(every.contact == side)
-        if not len(pressed):
-            continue
-        for i in np.flatnonzero(every.contact != side):
-            earlier = pressed[pressed < i]
-            if len(earlier):
-                owner = earlier[-1]
-            elif origin.periodic:
-                owner = pressed[-1]
-            else:
-                continue  # of a contact before the record
-            if owner == 0 and last in pressed and origin.periodic:
-                owner = last  # the contact that the end of the period cuts begins there
-            lost[owner] += of_side[i]
-    return lost[first]
+    def most(values: _Array) -> _Array:
+        out = np.full(count, -np.inf)
+        np.maximum.at(out, owner, values)
+        return out
+
+    def total(values: _Array) -> _Array:
+        return np.bincount(owner, values, count).astype(np.float64)
+
+    peaks = np.maximum(np.abs(found[:, measure.A_LEAST]), np.abs(found[:, measure.A_MOST]))
+    peak = most(peaks)
+    peak_time = np.zeros(count)
+    for n, run in enumerate(runs):
+        mine = owner == n
+        at = int(np.argmax(peaks[mine]))
+        peak_time[n] = every.length[run[:at]].sum() + found[mine, measure.A_TIME][at]
+    damping = origin.of_side(np.full(count, side), "damping")
+    return _Contacts(
+        first,
+        np.full(count, side),
+        every.begin[first],
+        every.angle[first],
+        total(chosen.length),
+        every.first[first],
+        every.last[last],
+        most(found[:, measure.FORCE]),
+        total(found[:, measure.IMPULSE]),
+        most(found[:, measure.X_MOST]),
+        damping * total(found[:, measure.SQUARES]),
+        _relaxing(every, origin, side, runs),
+        peak,
+        peak_time,
+    )
+
+
+def _runs(every: Phases, origin: Recorded, side: int) -> list[_Numbers]:
+    """The phases of each contact of a side that the record holds from beginning to end."""
+    touched = touches(every.contact, side)
+    end = len(touched) - 1
+    begins = np.flatnonzero(touched & ~np.append(False, touched[:-1]))
+    ends = np.flatnonzero(touched & ~np.append(touched[1:], False))
+    runs = [np.arange(i, j + 1) for i, j in zip(begins, ends, strict=True)]
+    if touched[0] and touched[end]:
+        # One contact, cut in two by the section: the end of the record is its beginning.
+        joined = [np.append(runs[-1], runs[0])] if origin.periodic and len(runs) > 1 else []
+        runs = [*runs[1:-1], *joined]
+    elif not origin.periodic:
+        # Else, between a contact and a flight the section lies exactly at the event.
+        runs = [run for run in runs if run[0] > 0 and run[-1] < end]
+    return runs
+
+
+def _impacts(motion: xr.Dataset, every: Phases, origin: Recorded) -> _Contacts:
+    """The impacts on rigid stops: contacts of no duration, whose force has no finite peak."""
+    at = np.flatnonzero(every.struck)
+    before, behind = every.last[at - 1], every.first[at]
+    sharp = np.maximum(
+        np.abs(motion["event_acceleration_before"].values[at - 1]),
+        np.abs(motion["event_acceleration_behind"].values[at - 1]),
+    )
+    none = np.zeros(len(at))
+    return _Contacts(
+        at,
+        every.struck[at],
+        every.begin[at],
+        every.angle[at],
+        none,
+        before,
+        behind,
+        np.full(len(at), np.nan),
+        np.abs(before[:, 1] - behind[:, 1]),
+        none,
+        impact_loss(origin, every)[at],
+        none,
+        sharp,
+        none,
+    )
+
+
+def _relaxing(every: Phases, origin: Recorded, side: int, runs: list[_Numbers]) -> _Array:
+    """Energy that the free bumper loses behind each contact, until it is pressed again."""
+    lost = np.zeros(len(runs))
+    touched = touches(every.contact, side)
+    number = np.full(len(touched), -1)
+    for n, run in enumerate(runs):
+        number[run] = n
+    before = np.maximum.accumulate(np.where(touched, np.arange(len(touched)), -1))
+    if origin.periodic and touched.any():
+        before[before < 0] = np.flatnonzero(touched)[-1]
+    owner = np.where(before < 0, -1, number[before])
+    told = owner >= 0  # others are of a contact before the record
+    np.add.at(lost, owner[told], relaxation_loss(origin, every)[told, SIDES.index(side)])
+    return lost

@@ -10,12 +10,15 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import measure
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT
+from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Harmonic, Oscillator, State, validate
+from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State, validate
 from vibroimpact.response.start import engine_rig
 
 _Array = NDArray[np.float64]
+
+SIDES = (1, -1)
 
 _COMPONENTS = ("displacement", "velocity", "right_bumper", "left_bumper")
 
@@ -32,18 +35,38 @@ class Recorded(NamedTuple):
     """Whether the record is one period of a periodic motion: its end is its beginning."""
 
     def of_side(self, side: NDArray[np.int64], name: str) -> _Array:
-        """A bumper's number for each phase by the bumper pressed; 0 in flight."""
+        """A stop's number for each phase by the stop touched, 0 where it has none.
+
+        Of both stops it is the sum, the gap that of the right one.
+        """
         right, left = (
             getattr(stop, name, 0.0) for stop in (self.oscillator.right, self.oscillator.left)
         )
-        return np.where(side == 1, right, np.where(side == -1, left, 0.0))
+        both = right if name == "gap" else right + left
+        return np.select([side == 1, side == -1, side == 2], [right, left, both], 0.0)
+
+    def resting(self, contact: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Whether the mass rests on a rigid stop in each phase."""
+        rests = np.zeros(len(contact), dtype=bool)
+        for side, stop in zip(SIDES, (self.oscillator.right, self.oscillator.left), strict=True):
+            if isinstance(stop, RigidStop):
+                rests |= touches(contact, side)
+        return rests
+
+
+def touches(contact: NDArray[np.int64], side: int) -> NDArray[np.bool_]:
+    """Whether the stop of a side is touched."""
+    touched: NDArray[np.bool_] = (contact == side) | (contact == 2)
+    return touched
 
 
 class Phases(NamedTuple):
     """Phases of a motion, in the order of time: one value each, or one row of a state each."""
 
     contact: NDArray[np.int64]
-    """Bumper pressed: -1 left, 0 none, 1 right."""
+    """Stop touched: -1 left, 0 none, 1 right, 2 both."""
+    struck: NDArray[np.int64]
+    """Side of the impact on a rigid stop with which the phase begins, or 0."""
     begin: _Array
     """s, from the beginning of the record."""
     angle: _Array
@@ -53,7 +76,7 @@ class Phases(NamedTuple):
     first: _Array
     """State at the beginning: u, u̇, u_R, u_L, shape (phase, 4)."""
     last: _Array
-    """State at the end, shape (phase, 4)."""
+    """State at the end, shape (phase, 4); an impact there is still to come."""
 
     def take(self, chosen: NDArray[np.int64]) -> Phases:
         """The chosen phases."""
@@ -117,30 +140,56 @@ def cut(motion: xr.Dataset, origin: Recorded) -> Phases:
     motion = motion.isel(event=at <= origin.cycles * (1.0 + 1e-12))
     at_events = np.stack([motion[f"event_{name}"].values for name in _COMPONENTS], axis=-1)
     ends = [np.array([motion[name].values[i] for name in _COMPONENTS]) for i in (0, -1)]
-    states = np.vstack([ends[0], at_events, ends[1]])
     kinds, sides = motion["event_contact"].values, motion["event_side"].values
-    contact = np.concatenate([motion["contact"].values[:1], kinds * sides])
-    if len(kinds):  # the first sample may lie behind an event at once
-        contact[0] = 0 if kinds[0] else sides[0]
+    struck = np.where(kinds == IMPACT, sides, 0)
+    behind = at_events.copy()
+    for side, stop in zip(SIDES, (origin.oscillator.right, origin.oscillator.left), strict=True):
+        if isinstance(stop, RigidStop):
+            behind[struck == side, 1] *= -stop.restitution
+            behind[(kinds == CONTACT_BEGINS) & (sides == side), 1] = 0.0
+    right, left = (_touched(side, kinds, sides, int(motion["contact"].values[0])) for side in SIDES)
+    contact = np.where(right & left, 2, right.astype(np.int64) - left)
     # Differences within cycles keep digits that absolute times lose.
     cycle = np.concatenate([[0], motion["event_cycle"].values, [np.floor(origin.cycles)]])
     within = np.concatenate(
         [[0.0], motion["event_cycle_time"].values, [(origin.cycles % 1.0) * period]]
     )
     return Phases(
-        contact.astype(np.int64),
+        contact,
+        np.append(0, struck).astype(np.int64),
         cycle[:-1] * period + within[:-1],
         origin.excitation.phase + 2.0 * np.pi * within[:-1] / period,
         np.maximum(np.diff(cycle) * period + np.diff(within), 0.0),
-        states[:-1],
-        states[1:],
+        np.vstack([ends[0], behind]),
+        np.vstack([at_events, ends[1]]),
     )
 
 
-def measured(origin: Recorded, parts: Phases) -> _Array:
-    """Measure phases: rows of `engine.measure`, per unit mass."""
-    side = parts.contact
-    mode = np.where(side == 1, RIGHT, np.where(side == -1, LEFT, FLIGHT))
+def _touched(
+    side: int, kinds: NDArray[np.int64], sides: NDArray[np.int64], sampled: int
+) -> NDArray[np.bool_]:
+    """Whether a side is touched before the first event and behind each.
+
+    Its first contact or detachment tells what was before; the first sample may lie behind it.
+    """
+    change = np.where(sides == side, (kinds == CONTACT_BEGINS) * 1 - (kinds == DETACHMENT), 0)
+    events = change[change != 0]
+    first = events[0] < 0 if len(events) else sampled in (side, 2)
+    return np.append(0, np.cumsum(change)) + first > 0
+
+
+def view(parts: Phases) -> NDArray[np.int64]:
+    """The side from which each phase is measured by itself: of both that of the right stop."""
+    return np.where(parts.contact == 2, 1, parts.contact)
+
+
+def measured(origin: Recorded, parts: Phases, side: NDArray[np.int64] | None = None) -> _Array:
+    """Measure phases: rows of `engine.measure`, per unit mass, as the stop on a side sees them."""
+    side = view(parts) if side is None else side
+    both = parts.contact == 2
+    mode = np.select(
+        [both & (side == 1), both, side == 1, side == -1], [BOTH, SEEN_LEFT, RIGHT, LEFT], FLIGHT
+    )
     x = np.where(side == 0, parts.first[:, 0], np.where(side == 1, parts.first[:, 2], 0.0))
     x = np.where(side == -1, -parts.first[:, 3], x)
     v = np.where(side == -1, -1.0, 1.0) * parts.first[:, 1]
@@ -153,6 +202,13 @@ def measured(origin: Recorded, parts: Phases) -> _Array:
         np.ascontiguousarray(table, dtype=np.float64),
         found,
     )
+    # A bumper that is pressed while the mass rests on the other stop is held as it is.
+    for at, stop in zip(SIDES, (origin.oscillator.right, origin.oscillator.left), strict=True):
+        if isinstance(stop, Bumper):
+            held = (side == at) & both & origin.resting(parts.contact)
+            force = stop.stiffness * np.abs(x[held]) / origin.oscillator.mass
+            found[held, measure.FORCE] = force
+            found[held, measure.IMPULSE] = force * parts.length[held]
     return found
 
 
@@ -166,5 +222,20 @@ def relaxation_loss(origin: Recorded, parts: Phases) -> _Array:
     for i, (side, bumper) in enumerate(zip((1, -1), bumpers, strict=True)):
         if isinstance(bumper, Bumper):
             squares = parts.first[:, 2 + i] ** 2 - parts.last[:, 2 + i] ** 2
-            lost[:, i] = np.where(parts.contact != side, 0.5 * bumper.stiffness * squares, 0.0)
+            lost[:, i] = np.where(
+                touches(parts.contact, side), 0.0, 0.5 * bumper.stiffness * squares
+            )
     return lost
+
+
+def impact_loss(origin: Recorded, parts: Phases) -> _Array:
+    """Energy (J) lost in the impact with which each phase begins; elsewhere nothing is."""
+    arrival = np.append(parts.first[0, 1], parts.last[:-1, 1])
+    return 0.5 * origin.oscillator.mass * (arrival**2 - parts.first[:, 1] ** 2)
+
+
+def settling(origin: Recorded, parts: Phases) -> NDArray[np.bool_]:
+    """Whether a phase is the end of a chatter, whose last impacts are not told one by one."""
+    rests = np.append(origin.resting(parts.contact)[1:], False)
+    last: NDArray[np.bool_] = rests & (parts.struck != 0) & (parts.last[:, 1] == 0.0)
+    return last

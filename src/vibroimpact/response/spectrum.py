@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
 from vibroimpact.model.units import DIMENSIONLESS
-from vibroimpact.response.phases import Phases, Recorded, phases, recorded
+from vibroimpact.response.phases import Phases, Recorded, phases, recorded, settling, view
 from vibroimpact.response.variables import describe, motion_parameters
 
 _Complex = NDArray[np.complex128]
@@ -27,6 +27,8 @@ _POINTS = 32
 
 def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     """Return the Fourier spectrum of displacement, velocity and absolute acceleration.
+
+    The acceleration is that of finite forces, without the impulses of impacts on rigid stops.
 
     Of a periodic motion the harmonics are exact: within each phase the integral of the motion
     times exp(−iνt) follows from the states at its two ends (docs/theory.md, section 7), so that
@@ -77,12 +79,18 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
 def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[_Complex]:
     """Complex amplitudes at the given orders: of u, u̇ and ü + A_t."""
     rig, shaken = origin.oscillator, origin.excitation
-    side = parts.contact
-    # In contact x = u − (±gap), the bumper's deformation.
+    contact, side = parts.contact, view(parts)
+    # In contact x = u − (±gap), the bumper's deformation; the right one's if both are pressed.
     face = (side * origin.of_side(side, "gap"))[:, np.newaxis]
-    k = (rig.isolator.stiffness + origin.of_side(side, "stiffness"))[:, np.newaxis] / rig.mass
-    c = (rig.isolator.damping + origin.of_side(side, "damping"))[:, np.newaxis] / rig.mass
-    load = -rig.isolator.stiffness / rig.mass * face
+    k = (rig.isolator.stiffness + origin.of_side(contact, "stiffness"))[:, np.newaxis] / rig.mass
+    c = (rig.isolator.damping + origin.of_side(contact, "damping"))[:, np.newaxis] / rig.mass
+    load = -rig.isolator.stiffness * face
+    if rig.right and rig.left:
+        overlap = -(rig.right.gap + rig.left.gap)
+        other = origin.of_side(-side, "stiffness") * overlap
+        load += np.where(contact == 2, other, 0.0)[:, np.newaxis]
+    load /= rig.mass
+    resting = (origin.resting(contact) | settling(origin, parts))[:, np.newaxis]
     pressed = np.where(side == 1, 2, 3)
     ends = []
     for states in (parts.first, parts.last):
@@ -96,15 +104,16 @@ def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[
     omega = shaken.angular_frequency
 
     def integrals(nu: Any) -> _Complex:
-        """∫ x e^(−iνt), ∫ x′ e^(−iνt), ∫ e^(−iνt) over each phase from its beginning."""
+        """∫ e^(−iνt) times x, x′, 1 and A_t over each phase from its beginning."""
         constant = length * _phi(-1j * nu * length)
         forward = np.exp(1j * angle) * length * _phi(1j * (omega - nu) * length)
         backward = np.exp(-1j * angle) * length * _phi(-1j * (omega + nu) * length)
-        forcing = load * constant - shaken.amplitude * (forward - backward) / 2j
+        base = shaken.amplitude * (forward - backward) / 2j
+        forcing = load * constant - base
         turned = np.exp(-1j * nu * length)
         rise, push = x1 * turned - x0, v1 * turned - v0
         x = (forcing - push - (1j * nu + c) * rise) / (k - nu * nu + 1j * c * nu)
-        return np.stack([x, rise + 1j * nu * x, constant])
+        return np.stack([x, rise + 1j * nu * x, constant, base])
 
     nu = order * omega
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -116,9 +125,14 @@ def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[
         # No larger than where exp(−iνt) begins to grow over the phase.
         radius = np.minimum(0.5 * np.sqrt(k), 1.0 / np.maximum(length, 1e-300))
         found = np.where(close, _circle_mean(integrals, nu, radius), found)
-    x, v, constant = found
-    u = face * constant + x
+    x, v, constant, base = found
     a = load * constant - k * x - c * v
+    x, v, a = (
+        np.where(resting, x0 * constant, x),
+        np.where(resting, 0.0, v),
+        np.where(resting, base, a),
+    )
+    u = face * constant + x
     turn = np.exp(-1j * nu * parts.begin[:, np.newaxis])
     whole = origin.cycles * shaken.period
     scale = np.where(order == 0.0, 1.0, 2.0) / whole

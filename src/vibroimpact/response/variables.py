@@ -56,8 +56,8 @@ VARIABLES: dict[str, Variable] = {
     "acceleration_max": Variable("m s-2", "largest absolute acceleration"),
     "acceleration_min": Variable("m s-2", "smallest absolute acceleration"),
     "eccentricity": Variable("m", "eccentricity", "half the sum of the displacement's extremes"),
-    "impacts_right": Variable("1", "contacts with the right bumper per forcing cycle"),
-    "impacts_left": Variable("1", "contacts with the left bumper per forcing cycle"),
+    "impacts_right": Variable("1", "contacts with the right stop per forcing cycle"),
+    "impacts_left": Variable("1", "contacts with the left stop per forcing cycle"),
     "motion": Variable(
         "1",
         "kind of motion",
@@ -94,21 +94,27 @@ VARIABLES: dict[str, Variable] = {
     "left_bumper": Variable("m", "deformation of the left bumper, negative when pressed"),
     "right_clearance": Variable("m", "clearance between mass and right bumper"),
     "left_clearance": Variable("m", "clearance between mass and left bumper"),
-    "contact": Variable("1", "bumper in contact: -1 left, 0 none, 1 right"),
+    "contact": Variable("1", "stop touched: -1 left, 0 none, 1 right, 2 both"),
     "final_state": Variable("1", "state at the end", "components in m, m/s, m, m, rad and 1"),
     "event_time": Variable("s", "time of the event"),
     "event_cycle": Variable("1", "forcing cycle of the event, counted from 0"),
     "event_cycle_time": Variable("s", "time of the event since the beginning of its cycle"),
-    "event_contact": Variable("1", "1 where a contact begins, 0 where one ends"),
-    "event_side": Variable("1", "bumper of the event: -1 left, 1 right"),
+    "event_contact": Variable(
+        "1",
+        "1 where a contact begins, 0 where one ends, 2 an impact",
+        "contact with a rigid stop is rest on it",
+    ),
+    "event_side": Variable("1", "stop of the event: -1 left, 1 right"),
     "event_displacement": Variable("m", "relative displacement at the event"),
-    "event_velocity": Variable("m s-1", "relative velocity at the event"),
+    "event_velocity": Variable(
+        "m s-1", "relative velocity at the event", "of an impact on a rigid stop that before it"
+    ),
     "event_right_bumper": Variable("m", "deformation of the right bumper at the event"),
     "event_left_bumper": Variable("m", "deformation of the left bumper at the event"),
     "event_acceleration_before": Variable("m s-2", "absolute acceleration just before the event"),
     "event_acceleration_behind": Variable("m s-2", "absolute acceleration just after the event"),
     # contacts
-    "contact_side": Variable("1", "bumper of the contact: -1 left, 1 right"),
+    "contact_side": Variable("1", "stop of the contact: -1 left, 1 right"),
     "contact_start": Variable("s", "time at which the contact begins"),
     "contact_end": Variable("s", "time at which the contact ends"),
     "contact_start_phase": Variable("rad", "phase of the excitation as the contact begins"),
@@ -117,10 +123,12 @@ VARIABLES: dict[str, Variable] = {
     "contact_duration_share": Variable("1", "duration of the contact over the forcing period"),
     "contact_start_velocity": Variable("m s-1", "relative velocity as the contact begins"),
     "contact_end_velocity": Variable("m s-1", "relative velocity as the contact ends"),
-    "contact_peak_force": Variable("N", "largest contact force"),
+    "contact_peak_force": Variable("N", "largest contact force", "NaN of an impact"),
     "contact_impulse": Variable("N s", "impulse of the contact force"),
     "contact_penetration": Variable("m", "largest deformation of the bumper during the contact"),
-    "contact_dissipated": Variable("J", "energy lost in the bumper's dashpot during the contact"),
+    "contact_dissipated": Variable(
+        "J", "energy lost in the bumper's dashpot during the contact, or in an impact"
+    ),
     "contact_dissipated_relaxing": Variable(
         "J",
         "energy lost in the bumper's dashpot after the contact",
@@ -207,7 +215,7 @@ VARIABLES: dict[str, Variable] = {
     "mirror_pair": Variable("1", "whether the mirror image of the motion is another motion"),
     "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),
     "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
-    "energy_bumpers": Variable("J", "energy lost in the bumpers per forcing cycle"),
+    "energy_bumpers": Variable("J", "energy lost in the stops per forcing cycle"),
     # maps
     "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
     "confidence": Variable(

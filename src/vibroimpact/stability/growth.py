@@ -70,7 +70,7 @@ def _rates(carried: _Array, damping: float) -> _Array:
     moduli = np.sort(np.abs(np.linalg.eigvals(carried[np.ix_(kept, kept)])))[::-1]
     with np.errstate(divide="ignore"):
         logarithms: _Array = np.log(moduli[:2])
-    if moduli[1] <= _TINY * moduli[0]:
+    if moduli[0] > 0.0 and moduli[1] <= _TINY * moduli[0]:  # a rest leaves nothing of either
         logarithms[1] = min(logarithms[0], -damping - logarithms[0])
     return logarithms
 

@@ -18,7 +18,14 @@ from vibroimpact.model import Harmonic, Oscillator, State, equilibrium
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.contacts import contact_log
-from vibroimpact.response.phases import Recorded, cut, measured, relaxation_loss
+from vibroimpact.response.phases import (
+    Recorded,
+    cut,
+    impact_loss,
+    measured,
+    relaxation_loss,
+    view,
+)
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, state_from
 from vibroimpact.response.variables import describe
@@ -204,7 +211,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     every = cut(data, origin)
     rows = measured(origin, every)
     rig, shaken = origin.oscillator, origin.excitation
-    side = every.contact
+    side = view(every)
     face = side * origin.of_side(side, "gap")
     # A left contact is measured towards the bumper.
     least = np.where(side == -1, -rows[:, measure.X_MOST], rows[:, measure.X_LEAST]) + face
@@ -213,7 +220,8 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     top, bottom = float(rows[:, measure.A_MOST].max()), float(rows[:, measure.A_LEAST].min())
     log = contact_log(data, origin, every, rows)
     cycles = max(origin.cycles, 1.0)
-    pressed = origin.of_side(side, "damping")
+    pressed = origin.of_side(every.contact, "damping")
+    lost = relaxation_loss(origin, every).sum() + impact_loss(origin, every).sum()
     squares = rows[:, measure.SQUARES]
     values: dict[str, Any] = {
         "displacement_max": high,
@@ -227,7 +235,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
         "impacts_left": int((log["contact_side"] == -1).sum()) / cycles,
         "energy_supplied": -rig.mass * shaken.amplitude * rows[:, measure.WORK].sum() / cycles,
         "energy_isolator": rig.isolator.damping * squares.sum() / cycles,
-        "energy_bumpers": float(pressed @ squares + relaxation_loss(origin, every).sum()) / cycles,
+        "energy_bumpers": float(pressed @ squares + lost) / cycles,
     }
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"

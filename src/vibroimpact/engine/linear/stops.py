@@ -23,6 +23,7 @@ from vibroimpact.engine.motion import (
     LIMIT,
     RELEASED,
     RIGHT,
+    SETTLING,
     Motion,
 )
 
@@ -77,7 +78,7 @@ def impact(
     push = sign * acceleration_of(plan, bounced)  # towards the stop
     if not push > 0.0 or restitution == 1.0:
         return event, t, arrival, bounced
-    rest = 2.0 * abs(v) / (push * (1.0 - restitution))  # the geometric series of flights
+    rest = chatter(v, restitution, push)
     # How fast the push may change meanwhile, and the rig's own rates.
     change = plan[par.DAMPING] * push + plan[AMPLITUDE] * plan[OMEGA]
     change += plan[par.STIFFNESS] * abs(v)
@@ -90,16 +91,36 @@ def impact(
             change += plan[stop + par.BUMPER_DAMPING] * push
     if rest * rate > _CHATTERED or rest * change > _CHATTERED * push:
         return event, t, arrival, bounced
-    rest = min(rest, limit - t)
+    last = Motion(bounced.mode, side | SETTLING, u, v, right, left, 0.0, clock)
+    if t < limit:
+        return event, t, arrival, last
+    _, _, _, held = settle(plan, last, 0.0)
+    return event, t, arrival, held
+
+
+@kernel
+def chatter(v: float, restitution: float, push: float) -> float:
+    """How long impacts go on behind a return with v, pressed so hard: a geometric series (s)."""
+    return 2.0 * abs(v) / (push * (1.0 - restitution))
+
+
+@kernel
+def settle(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """What is left of a chatter, and the rest to which it leads."""
+    mode, fresh, u, v, right, left, _, clock = motion
+    side = fresh & BOTH
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    push = acceleration_of(plan, motion) * (1.0 if side == RIGHT else -1.0)
+    t = min(chatter(v, plan[at + par.RESTITUTION], push), limit)
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
-    right = right if mode & RIGHT else relaxed(right, rate_r, rest)
-    left = left if mode & LEFT else relaxed(left, rate_l, rest)
+    right = right if mode & RIGHT else relaxed(right, rate_r, t)
+    left = left if mode & LEFT else relaxed(left, rate_l, t)
     if side == RIGHT:
         u, right = gap_r, 0.0
     else:
         u, left = -gap_l, 0.0
-    held = Motion(mode | side, side, u, 0.0, right, left, 0.0, turned(plan, clock, rest))
-    return event, t + rest, arrival, held
+    clock = turned(plan, clock, t)
+    return side, t, 0.0, Motion(mode | side, side, u, 0.0, right, left, 0.0, clock)
 
 
 @kernel
@@ -192,6 +213,8 @@ def approach(plan: Vector, motion: Motion, limit: float) -> Ended:
 def advance_any(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next event, or for the time `limit` if that comes first."""
     mode = motion.mode
+    if motion.fresh & SETTLING:
+        return settle(plan, motion, limit)
     if resting(plan, mode):
         return rest(plan, motion, limit)
     if mode == FLIGHT:

@@ -126,7 +126,7 @@ def disturb(
             at = i * DISTURBANCE
             u, v = q[at], q[at + 1]
             q[at] = -e * u
-            q[at + 1] = -e * v - slope * u
+            q[at + 1] = -e * v + slope * u
             tie(after.mode, q, at)
     else:
         pressed = plan[stop + par.BUMPER_DAMPING]
@@ -173,8 +173,8 @@ def disturb_area(
         e = 0.0 if held else plan[stop + par.RESTITUTION]
         slope = 0.0 if held else impact_slope(plan, event, arrival, after)
         w[0] *= e * e
-        w[1], w[3] = -e * w[1], -e * w[3] - slope * w[1]
-        w[2], w[4] = -e * w[2], -e * w[4] - slope * w[2]
+        w[1], w[3] = -e * w[1], -e * w[3] + slope * w[1]
+        w[2], w[4] = -e * w[2], -e * w[4] + slope * w[2]
     else:
         if mode & (BOTH - event):  # the other bumper moves with the mass
             press_area(mode, w)
