@@ -7,6 +7,7 @@ import json
 import pytest
 
 import vibroimpact as vi
+from cli.studies import QUAY
 
 COMMAND = "classify"
 
@@ -92,3 +93,11 @@ def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, w
     assert errors.count("\n") == 1
     assert named in errors
     assert list(tmp_path.iterdir()) == []
+
+
+def test_scenarios_are_those_of_bumpers(run, tmp_path):
+    (tmp_path / "quay.toml").write_text(QUAY, encoding="utf-8")
+    code, told, errors = run("quay.toml")
+    assert (code, told) == (2, "")
+    assert errors.count("\n") == 1
+    assert "a Bumper is accepted" in errors

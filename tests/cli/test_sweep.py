@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from cli.studies import QUAY
 from vibroimpact.cli import output
 
 COMMAND = "sweep"
@@ -222,3 +223,13 @@ def test_interrupted_while_writing_leaves_the_old_file(run, tmp_path, monkeypatc
     assert run("B2-G1-A3", *COARSE, "--to", "4Hz")[0] == 130
     assert (tmp_path / "out/B2-G1-A3-sweep.png").read_bytes() == before
     assert len(list((tmp_path / "out").iterdir())) == 3
+
+
+def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
+    (tmp_path / "quay.toml").write_text(QUAY, encoding="utf-8")
+    code, told, errors = run("quay.toml", "--from", "1Hz", "--to", "3Hz", *COARSE)
+    assert (code, errors) == (0, "")
+    assert "rigid, e = 0.6, gap 5 mm" in told
+    data = vi.load(tmp_path / "out/quay-sweep.nc")
+    assert float(data["impacts_right"].max()) >= 1.0
+    assert float(data["displacement_max"].max()) == pytest.approx(5e-3, rel=1e-12)

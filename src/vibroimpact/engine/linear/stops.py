@@ -140,7 +140,8 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
     s, c = sign * clock[0], sign * clock[1]
     amplitude = plan[AMPLITUDE]
     event, t = LIMIT, limit
-    if level - amplitude * s < 0.0 or (level - amplitude * s == 0.0 and c >= 0.0):
+    pulled = level - amplitude * s < 0.0  # let go at once, and not with zero acceleration
+    if pulled or (level - amplitude * s == 0.0 and c >= 0.0):
         event, t = DETACHED, 0.0
     elif level < amplitude:
         angle = math.asin(max(level / amplitude, -1.0)) - math.atan2(s, c)
@@ -158,7 +159,10 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
         meets = math.log(deformation / pressed) / rate if deformation > pressed else 0.0
         if meets < t:
             event, t = other, meets
-    clock = (sign * s, sign * c) if event == DETACHED else turned(plan, clock, t)
+    if event == DETACHED and not pulled:
+        clock = (sign * s, sign * c)
+    else:
+        clock = turned(plan, clock, t)
     if mode & other:
         pass
     elif event == other:
@@ -171,7 +175,8 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
     else:
         right = relaxed(right, rate_r, t)
     if event == DETACHED:
-        return event, t, 0.0, Motion(mode & ~side, side | RELEASED, u, 0.0, right, left, 0.0, clock)
+        fresh = side if pulled else side | RELEASED
+        return event, t, 0.0, Motion(mode & ~side, fresh, u, 0.0, right, left, 0.0, clock)
     if event == other:
         return event, t, 0.0, Motion(BOTH, other, u, 0.0, right, left, 0.0, clock)
     return event, t, 0.0, Motion(mode, 0, u, 0.0, right, left, age + t, clock)
