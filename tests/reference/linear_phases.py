@@ -73,6 +73,8 @@ def phases(rig: vi.Oscillator, shaken: vi.Harmonic, data: xr.Dataset) -> Iterato
     names = ("displacement", "velocity", "right_bumper", "left_bumper")
     first, last = ([float(data[name][i]) for name in names] for i in (0, -1))
     rows = np.stack([data[f"event_{name}"].values for name in names], axis=-1)
+    if len(rows) and data["event_time"][0] == 0.0:
+        first = rows[0].tolist()  # the first sample lies behind an event at once
     states = [Mechanics(*row) for row in [first, *rows.tolist(), last]]
     happened = [
         (EVENTS[what], side)

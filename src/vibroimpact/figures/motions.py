@@ -15,7 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import new_axes
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
 from vibroimpact.response.contacts import contacts
-from vibroimpact.response.phases import phases, recorded
+from vibroimpact.response.phases import phases, recorded, touches
 
 _Array = NDArray[np.float64]
 
@@ -156,8 +156,9 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         values[f"{name}_clearance"] = np.concatenate(parts)[order]
     every = phases(motion)
     touching = [
-        (int(every.contact[i]), begin, begin + float(every.length[i]) * frequency)
-        for i in np.flatnonzero(every.contact)
+        (side, begin, begin + float(every.length[i]) * frequency)
+        for side in (1, -1)
+        for i in np.flatnonzero(touches(every.contact, side))
         for begin in [float(every.begin[i]) * frequency]
     ]
     log = motion if "contact_peak_time" in motion else contacts(motion)

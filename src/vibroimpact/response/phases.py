@@ -141,6 +141,8 @@ def cut(motion: xr.Dataset, origin: Recorded) -> Phases:
     at_events = np.stack([motion[f"event_{name}"].values for name in _COMPONENTS], axis=-1)
     ends = [np.array([motion[name].values[i] for name in _COMPONENTS]) for i in (0, -1)]
     kinds, sides = motion["event_contact"].values, motion["event_side"].values
+    if len(at_events) and not motion["event_cycle"][0] and not motion["event_cycle_time"][0]:
+        ends[0] = at_events[0]  # the first sample lies behind an event at once
     struck = np.where(kinds == IMPACT, sides, 0)
     behind = at_events.copy()
     for side, stop in zip(SIDES, (origin.oscillator.right, origin.oscillator.left), strict=True):

@@ -159,10 +159,7 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
         meets = math.log(deformation / pressed) / rate if deformation > pressed else 0.0
         if meets < t:
             event, t = other, meets
-    if event == DETACHED and not pulled:
-        clock = (sign * s, sign * c)
-    else:
-        clock = turned(plan, clock, t)
+    clock = (sign * s, sign * c) if event == DETACHED else turned(plan, clock, t)
     if mode & other:
         pass
     elif event == other:
