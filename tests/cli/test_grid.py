@@ -87,3 +87,18 @@ def test_the_default_range_follows_from_the_rig(tmp_path):
     assert default_span(subject("B2-G1-A3", RigOptions())) == (0.3, 5.0)
     path.write_text('case = "B2-G1-A1"')
     assert default_range(subject(str(path), RigOptions())) == (0.5, 5.0, 0.01)
+
+
+@pytest.mark.parametrize(
+    ("table", "span"),
+    [
+        ('from = "0.2 Hz"\nto = "2 Hz"', (0.2, 2.0)),
+        ('to = "3 Hz"', (0.3, 3.0)),
+        ('frequencies = ["2 Hz", "1 Hz", "3 Hz"]', (1.0, 3.0)),
+        ('frequencies = ["2 Hz"]', (0.3, 5.0)),
+    ],
+)
+def test_branches_run_over_the_range_of_the_studys_sweep(tmp_path, table, span):
+    study = tmp_path / "study.toml"
+    study.write_text(f'case = "B2-G1-A3"\n[sweep]\n{table}\n')
+    assert default_span(subject(str(study), RigOptions(), None)) == span

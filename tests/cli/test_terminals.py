@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from vibroimpact.cli import main
+from vibroimpact.cli.terminal import in_columns
 
 PROGRAM = [sys.executable, "-m", "vibroimpact"]
 FEW = ["sweep", "B2-G1-A3", "--frequencies", "1Hz,2Hz,3Hz"]
@@ -36,6 +37,25 @@ def test_any_encoding(tmp_path, encoding):
             assert "?" not in told
     wrong = program(tmp_path, ["sweep", "B2-Gη-A3"], environment=environment)
     assert (wrong.returncode, b"Traceback" in wrong.stderr) == (2, False)
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "utf-8"])
+def test_a_pipe_gets_straight_columns_and_no_blanks_at_the_end(tmp_path, encoding):
+    told = program(tmp_path, FEW, environment={"PYTHONIOENCODING": encoding}).stdout
+    lines = told.decode(encoding).splitlines()
+    assert all(line == line.rstrip() for line in lines)
+    table = lines[lines.index("Resonances") + 1 :]
+    head, rows = table[0], table[1 : table.index("")]
+    assert rows
+    for row in rows:
+        assert row.index("ward") - len("for" if "forward" in row else "back") == head.index("sweep")
+
+
+def test_plain_letters_take_their_room_from_the_gaps():
+    assert in_columns("η_d      forward    1", "ascii") == "eta_d    forward    1"
+    assert in_columns("η   η   2", "ascii") == "eta  eta  2"
+    assert in_columns("u\u0307 in    out", "ascii") == "u' in   out"
+    assert in_columns("η_d      forward", "utf-8") == "η_d      forward"
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no full disk at hand")

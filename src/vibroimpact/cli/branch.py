@@ -39,7 +39,10 @@ def branch(
         _WITH_UNITS,
         Parameter(
             name="--from",
-            help="Least value; of a frequency 0.27 times the natural one (of a case 0.3Hz).",
+            help=(
+                "Least value; of a frequency that of the study's sweep, or 0.27 times the natural "
+                "one (of a case 0.3Hz)."
+            ),
         ),
     ] = None,
     stop: Annotated[
@@ -47,7 +50,10 @@ def branch(
         _WITH_UNITS,
         Parameter(
             name="--to",
-            help="Largest value; of a frequency 4.5 times the natural one (of a case 5Hz).",
+            help=(
+                "Largest value; of a frequency that of the study's sweep, or 4.5 times the natural "
+                "one (of a case 5Hz)."
+            ),
         ),
     ] = None,
     frequency: Annotated[

@@ -36,11 +36,20 @@ def default_range(what: Subject) -> tuple[float, float, float]:
 
 
 def default_span(what: Subject) -> tuple[float, float]:
-    """From and to in Hz of branches; lower than a sweep, for they cost little there."""
-    if what.published:
-        return _PUBLISHED_SPAN
+    """From and to in Hz of branches; lower than a sweep, for they cost little there.
+
+    An end that the study says for its sweep holds for its branches as well.
+    """
     natural = what.oscillator.natural_frequency
-    return _short(_SPAN_LOW * natural), _short(_HIGH * natural)
+    low, high = _PUBLISHED_SPAN
+    if not what.published:
+        low, high = _short(_SPAN_LOW * natural), _short(_HIGH * natural)
+    table = what.study.sweep if what.study else None
+    if table is None:
+        return low, high
+    if table.frequencies and len(table.frequencies) > 1:
+        return min(table.frequencies), max(table.frequencies)
+    return table.start or low, table.to or high
 
 
 def _short(value: float) -> float:

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from vibroimpact.cli.terminal import in_columns
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -120,12 +121,16 @@ def tell(
     lines = [f"  {path}{' (replaced)' if path in replaced else ''}" for path in files.values()]
 
     # A file or a pipe has no width of its own.
-    width = None if sys.stdout is None or sys.stdout.isatty() else WIDTH
-    console = Console(file=sys.stdout, width=width, highlight=False)
+    terminal = sys.stdout is None or sys.stdout.isatty()
+    console = Console(file=sys.stdout, width=None if terminal else WIDTH, highlight=False)
     console.width = _wide_enough(summary, console.width)
-    console.print(summary, Text(), sep="\n")
-    # A path is never broken, and never cut.
-    console.print(Text("\n".join(["Files", *lines])), soft_wrap=True)
+    with console.capture() as captured:
+        console.print(summary, Text(), sep="\n")
+        # A path is never broken, and never cut.
+        console.print(Text("\n".join(["Files", *lines])), soft_wrap=True)
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    for line in captured.get().splitlines():
+        print(in_columns(line if terminal else line.rstrip(), encoding))
 
 
 def _wide_enough(summary: RenderableType, width: int) -> int:

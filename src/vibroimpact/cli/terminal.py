@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import codecs
 import os
+import re
 import sys
+import unicodedata
 from contextlib import suppress
 
 _PLAIN = {
@@ -49,9 +51,35 @@ def _plainly(error: UnicodeError) -> tuple[str, int]:
     return "".join(_PLAIN.get(sign, "?") for sign in signs), error.end
 
 
+codecs.register_error("vibroimpact.plain", _plainly)
+
+
+def in_columns(line: str, encoding: str) -> str:
+    """Write in plain letters what an encoding lacks, without moving the columns of a table.
+
+    Plain letters need more room; it is taken from the next gaps, of which two blanks are kept.
+    """
+    owed = 0
+    parts = []
+    for part in re.split("( {3,})", line):
+        if part.startswith("   "):
+            kept = max(2, len(part) - owed)
+            owed -= len(part) - kept
+            parts.append(" " * kept)
+        else:
+            plain = part.encode(encoding, "vibroimpact.plain").decode(encoding)
+            owed += _columns(plain) - _columns(part)
+            parts.append(plain)
+    return "".join(parts)
+
+
+def _columns(text: str) -> int:
+    """How many columns text takes: a dot above a letter takes none."""
+    return sum(not unicodedata.combining(sign) for sign in text)
+
+
 def take_any_encoding() -> None:
     """Let stdout and stderr write what their encoding lacks in plain letters."""
-    codecs.register_error("vibroimpact.plain", _plainly)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="vibroimpact.plain")
