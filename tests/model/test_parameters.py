@@ -11,20 +11,22 @@ from vibroimpact.scenario.axes import NAMES
 
 CASE = vi.laboratory.case("B2-G1-A3")
 RIG, SHAKEN = CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)
+WALLS = RIG.replace(right=vi.RigidStop(0.4, 7.5e-3), left=vi.RigidStop(0.4, 7.5e-3))
 
 
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_what_is_written_is_read(name):
     one = parameter(name)
-    here = one.read(RIG, SHAKEN)
-    rig, shaken = one.write(RIG, SHAKEN, 1.5 * here)
+    start = WALLS if "restitution" in name else RIG
+    here = one.read(start, SHAKEN)
+    rig, shaken = one.write(start, SHAKEN, 1.5 * here)
     assert one.read(rig, shaken) == pytest.approx(1.5 * here, rel=1e-12)
     back = one.write(rig, shaken, here)
-    for found, value in zip(numbers(*back), numbers(RIG, SHAKEN), strict=True):
+    for found, value in zip(numbers(*back), numbers(start, SHAKEN), strict=True):
         assert found == pytest.approx(value, rel=1e-12)
     # A straight line, which is what branches are followed along.
-    third = one.write(RIG, SHAKEN, 2.0 * here)
-    for a, b, c in zip(numbers(RIG, SHAKEN), numbers(rig, shaken), numbers(*third), strict=True):
+    third = one.write(start, SHAKEN, 2.0 * here)
+    for a, b, c in zip(numbers(start, SHAKEN), numbers(rig, shaken), numbers(*third), strict=True):
         assert c - b == pytest.approx(b - a, rel=1e-9, abs=1e-12 * abs(a))
 
 
@@ -73,8 +75,21 @@ def test_a_branch_over_any_of_them_ends_on_the_orbit_of_that_rig(name):
     assert float(last["displacement_max"]) == pytest.approx(float(direct["displacement_max"]), 1e-9)
 
 
+def test_other_values_that_it_may_have():
+    gap, restitution = parameter("gap"), parameter("restitution")
+    assert gap.beside(2.0) == 4.0
+    assert gap.beside(0.0) == 1.0
+    assert gap.beside(-1.0, 3.0) == -3.0
+    assert restitution.beside(0.4) == 0.8
+    assert restitution.beside(1.0) == 0.5
+    assert restitution.beside(0.0, 6.0) == 1.0
+
+
 def test_ranges_that_cannot_be():
     assert bounds(parameter("gap"), "1 mm", 0.02) == (1e-3, 0.02)
+    assert bounds(parameter("gap"), "-1 mm", 0.02) == (-1e-3, 0.02)
+    with pytest.raises(vi.InputError, match=r"^high: 1\.2"):
+        bounds(parameter("restitution"), 0.5, 1.2)
     with pytest.raises(vi.InputError, match=r"high: .* does not lie above low"):
         bounds(parameter("gap"), 0.02, 0.01)
     with pytest.raises(vi.InputError, match=r"^low: "):

@@ -30,6 +30,7 @@ def branch(
             help=(
                 "What is varied: frequency, amplitude, gap, right-gap, left-gap, bumper-stiffness, "
                 "right-stiffness, left-stiffness, bumper-damping, right-damping, left-damping, "
+                "restitution, right-restitution, left-restitution, "
                 "stiffness, damping, stiffness-ratio, gap-ratio, relaxation-time, damping-ratio."
             ),
         ),

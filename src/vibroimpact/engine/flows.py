@@ -42,12 +42,21 @@ class AnyStops(NamedTuple):
 _ADVANCE: dict[type, Callable[..., Any]] = {Apart: advance_apart, AnyStops: advance_any}
 
 
-def flow_of(rig: Vector) -> Any:
-    """Room for the plan of a rig, of the type that chooses its flow."""
+def _flow(rig: Vector) -> type:
     right, left = par.BUMPER, par.BUMPER + par.WIDTH
     rigid = par.RIGID in (rig[right + par.KIND], rig[left + par.KIND])
     overlapping = rig[right + par.GAP] + rig[left + par.GAP] < 0.0
-    return (AnyStops if rigid or overlapping else Apart)(np.empty(PLAN))
+    return AnyStops if rigid or overlapping else Apart
+
+
+def flow_of(rig: Vector) -> Any:
+    """Room for the plan of a rig, of the type that chooses its flow."""
+    return _flow(rig)(np.empty(PLAN))
+
+
+def carries(rig: Vector, other: Vector) -> bool:
+    """Whether the flow of a rig carries another one as well."""
+    return _flow(rig) in (AnyStops, _flow(other))
 
 
 class PlanType(types.CPointer):

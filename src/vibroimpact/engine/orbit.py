@@ -180,11 +180,12 @@ def _slope(
 
 
 @entry(
-    "i8(f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[::1], f8[:, ::1],"
-    " f8[::1])"
+    "i8(f8[::1], f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[::1],"
+    " f8[:, ::1], f8[::1])"
 )
 def correct(
     given: Any,
+    rig: Vector,
     base: Vector,
     direction: Vector,
     phase: float,
@@ -202,6 +203,8 @@ def correct(
 
     Parameters
     ----------
+    rig : ndarray
+        The rig near the solution, which chooses the flow.
     base, direction : ndarray, shape (SYSTEM,)
         The system at p = 0, and how it moves with p.
     phase : float
@@ -228,7 +231,7 @@ def correct(
     outcome
         DONE, NOT_SETTLED (the residual stays above 1e-12 of the scale), or what went wrong.
     """
-    plan = planned(given, base)
+    plan = planned(given, rig)
     line = (pointer(base), pointer(direction), phase, count, mirror, max_events, pointer(scale))
     return _newton(
         plan,
@@ -242,11 +245,12 @@ def correct(
 
 
 @entry(
-    "i8(f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[:, ::1], f8[::1],"
-    " f8[::1])"
+    "i8(f8[::1], f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[:, ::1],"
+    " f8[::1], f8[::1])"
 )
 def evaluate(
     given: Any,
+    rig: Vector,
     base: Vector,
     direction: Vector,
     phase: float,
@@ -264,7 +268,7 @@ def evaluate(
 
     The state is moved to where it can be; `image`, shape (DISTURBANCE,), receives P.
     """
-    plan = planned(given, base)
+    plan = planned(given, rig)
     line = (pointer(base), pointer(direction), phase, count, mirror, max_events, pointer(scale))
     system = system_memory()
     at, seen, found, q = pointer(point), pointer(facts), pointer(image), pointer(columns)

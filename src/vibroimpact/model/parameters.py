@@ -58,11 +58,21 @@ class Parameter(NamedTuple):
     """Whether it may be 0."""
     comment: str = ""
     """Its definition."""
+    least: float | None = 0.0
+    most: float | None = None
+    """What it may not fall below and not exceed; None for no bound."""
 
     @property
     def units(self) -> str:
         """The SI unit, as datasets write it."""
         return _UNITS[self.quantity]
+
+    def beside(self, value: float, factor: float = 2.0) -> float:
+        """Another value that it may have, so many times as large or as small; 0 counts as 1."""
+        larger = factor * value if value else factor - 1.0
+        if self.most is None or larger <= self.most:
+            return larger
+        return value / factor if value else self.most
 
     @property
     def physical(self) -> bool:
@@ -92,7 +102,10 @@ def bounds(varied: Parameter, low: float | str, high: float | str) -> tuple[floa
     InputError
         If one cannot be used, or the range is empty.
     """
-    ends = [to_si(v, varied.quantity, f, minimum=0.0) for v, f in ((low, "low"), (high, "high"))]
+    ends = [
+        to_si(given, varied.quantity, field, minimum=varied.least, maximum=varied.most)
+        for given, field in ((low, "low"), (high, "high"))
+    ]
     if not ends[0] < ends[1]:
         raise InputError(
             f"high: {ends[1]:g} does not lie above low, {ends[0]:g}; a larger value is accepted"
@@ -105,7 +118,7 @@ def _number(stop: Stop, name: str) -> float:
     if name not in type(stop).model_fields:
         raise InputError(
             f"parameter: {stop} has no {name}; "
-            f"its {' or '.join(type(stop).model_fields)} is accepted, or a rig with bumpers"
+            f"its {' or '.join(type(stop).model_fields)} is accepted, or a rig whose stops have one"
         )
     return float(getattr(stop, name))
 
@@ -233,14 +246,20 @@ def _damping_ratio() -> tuple[Read, Write]:
     return lambda rig, shaken: rig.damping_ratio, write
 
 
-def _of_bumpers(
-    field: str, both: str, quantity: Quantity, zero: bool = True
+def _of_stops(
+    field: str,
+    both: str,
+    quantity: Quantity,
+    zero: bool = True,
+    stop: str = "bumper",
+    most: float | None = None,
 ) -> Iterator[Parameter]:
-    """A field of the bumpers: of both, and of each side."""
-    yield Parameter(both, quantity, f"{field} of both bumpers", *_bumpers(field), zero)
+    """A field of the stops: of both, and of each side."""
+    yield Parameter(both, quantity, f"{field} of both {stop}s", *_bumpers(field), zero, most=most)
     for side in ("right", "left"):
-        named = f"{field} of the {side} bumper"
-        yield Parameter(f"{side}_{field}", quantity, named, *_one_bumper(side, field), zero)
+        named = f"{field} of the {side} {stop}"
+        read, write = _one_bumper(side, field)
+        yield Parameter(f"{side}_{field}", quantity, named, read, write, zero, most=most)
 
 
 PARAMETERS: dict[str, Parameter] = {
@@ -250,11 +269,20 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "amplitude", ACCELERATION, "peak base acceleration", *_forcing("amplitude"), False
         ),
-        Parameter("gap", LENGTH, "gap of each side", *_bumpers("gap")),
-        Parameter("right_gap", LENGTH, "gap of the right side", *_one_bumper("right", "gap")),
-        Parameter("left_gap", LENGTH, "gap of the left side", *_one_bumper("left", "gap")),
-        *_of_bumpers("stiffness", "bumper_stiffness", STIFFNESS, False),
-        *_of_bumpers("damping", "bumper_damping", DAMPING),
+        Parameter("gap", LENGTH, "gap of each side", *_bumpers("gap"), least=None),
+        *(
+            Parameter(
+                f"{side}_gap",
+                LENGTH,
+                f"gap of the {side} side",
+                *_one_bumper(side, "gap"),
+                least=None,
+            )
+            for side in ("right", "left")
+        ),
+        *_of_stops("stiffness", "bumper_stiffness", STIFFNESS, False),
+        *_of_stops("damping", "bumper_damping", DAMPING),
+        *_of_stops("restitution", "restitution", DIMENSIONLESS, stop="rigid stop", most=1.0),
         Parameter(
             "stiffness", STIFFNESS, "stiffness of the isolator", *_isolator("stiffness"), False
         ),
@@ -273,6 +301,7 @@ PARAMETERS: dict[str, Parameter] = {
             "gap ratio of each side",
             *_gap_ratio(),
             comment="G / u_max",
+            least=None,
         ),
         Parameter(
             "relaxation_time",

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
+from vibroimpact.engine.observers import record
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.counts import whole
@@ -159,7 +160,7 @@ def _start(
     point = np.append(state[:4], p)
     scale = np.append(scales(over.family, spans[0], point), spans[1][1] - spans[1][0])
     own = kind == BREAKING or bool(int(start["bifurcation_antisymmetric"]))
-    mode = {1: 1.0, -1: 2.0}.get(int(state[5]), 0.0)
+    mode = float(record.TOUCHING.index(state[5]))
     period = int(start["bifurcation_period"])
     return Defining(over, kind, period, own, mode, scale), np.append(point, over.value)
 

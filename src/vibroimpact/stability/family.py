@@ -74,7 +74,7 @@ def family(oscillator: Oscillator, excitation: Harmonic, name: str) -> Family:
     """
     varied = parameter(name)
     value = varied.read(oscillator, excitation)
-    step = value or 1.0
+    step = varied.beside(value) - value
     here = system_vector(oscillator, excitation)
     there = system_vector(*varied.write(oscillator, excitation, value + step))
     # A rate follows from stiffness and damping, and is infinite without damping.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import section_map
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import State, equilibrium
@@ -58,7 +58,7 @@ def first_orbit(
             fam = fam._replace(excitation=fam.excitation.replace(phase=state.phase))
         bumpers = (state.right_bumper or 0.0, state.left_bumper or 0.0)
         point = np.array([state.displacement, state.velocity, *bumpers, fam.value])
-        mode = float({1: RIGHT, -1: LEFT}.get(state.contact or 0, FLIGHT))
+        mode = float(record.TOUCHING.index(state.contact or 0))
         status, found = _least(fam, span, period or 1, point, mode)
         if status is not Status.DONE:
             raise _no_orbit(period or 1, status)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import orbit, section_map
+from vibroimpact.engine.flows import carries
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.response.follow import moved_on
@@ -186,21 +187,28 @@ def corrected(
     normal
         Normal of the plane, scaled; of its components only those in `SEEN` count.
     """
-    found = _blank(section, point, mode)
-    outcome = orbit.correct(
-        section.family.base,
-        section.family.direction,
-        section.family.phase,
-        section.count,
-        section.mirror,
-        MAX_EVENTS,
-        section.scale,
-        normal * SEEN,
-        found.point,
-        found.facts,
-        found.carried,
-        found.slope,
-    )
+    fam = section.family
+    rig = fam.system(float(point[section_map.PARAMETER]))
+    for _ in range(2):
+        found = _blank(section, point, mode)
+        outcome = orbit.correct(
+            rig,
+            fam.base,
+            fam.direction,
+            fam.phase,
+            section.count,
+            section.mirror,
+            MAX_EVENTS,
+            section.scale,
+            normal * SEEN,
+            found.point,
+            found.facts,
+            found.carried,
+            found.slope,
+        )
+        if carries(rig, there := fam.system(found.value)):
+            break
+        rig = there  # Newton's method has gone from bumpers that are apart to such that overlap
     return Status(outcome), found
 
 
@@ -209,6 +217,7 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
     found = _blank(section, point, mode)
     image = found.point.copy()
     outcome = orbit.evaluate(
+        section.family.system(found.value),
         section.family.base,
         section.family.direction,
         section.family.phase,

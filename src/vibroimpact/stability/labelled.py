@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.motion import LEFT, RIGHT
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.response.free_flight import reference_excursions
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
@@ -126,9 +126,8 @@ def _contacts(found: Bifurcation) -> str:
 
 def state_of(one: Orbit) -> list[float]:
     """The state at the section as the components of a dataset's state."""
-    mode = int(one.facts[section_map.MODE])
-    side = {RIGHT: 1.0, LEFT: -1.0}.get(mode, 0.0)
-    return [*one.point[:4], one.section.family.phase, side]
+    contact = record.TOUCHING[int(one.facts[section_map.MODE])]
+    return [*one.point[:4], one.section.family.phase, contact]
 
 
 def _sizes(orbits: list[Orbit]) -> dict[str, _Array]:

@@ -49,7 +49,7 @@ def plane(oscillator: Oscillator, excitation: Harmonic, names: tuple[str, str]) 
         raise InputError(f"parameters: {names[0]!r} twice; two different ones are accepted")
     second = family(oscillator, excitation, names[1])
     made = Plane(first, other, second.value, second.direction)
-    p, q = 3.0 * (first.value or 1.0), 6.0 * (second.value or 1.0)
+    p, q = first.parameter.beside(first.value, 3.0), other.beside(second.value, 6.0)
     guess = made.at_vectors(q).system(p)
     writes = [(first.parameter, p), (other, q)]
     straight = np.ones(len(guess), dtype=bool)
