@@ -56,3 +56,56 @@ def test_other_parameters(parameter):
         state = data["section"].isel(point=i)
         moved = vi.simulate(rig, excitation, 1, state, 0)["final_state"]
         np.testing.assert_allclose(moved[:2], state[:2], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("frequency", [0.7, 3.0])
+def test_over_the_gap_into_preload(frequency):
+    """Where the gaps are negative both bumpers are pressed at once, which is another flow."""
+    case = vi.laboratory.case("B1-G1-A3")
+    shaken = vi.Harmonic(case.amplitude, frequency)
+
+    def rig(gap: float) -> vi.Oscillator:
+        bumper = vi.Bumper("100 kN/m", "10 kN s/m", gap)
+        return case.oscillator.replace(right=bumper, left=bumper)
+
+    ways = [
+        vi.branch(rig(gap), shaken, parameter="gap", low="-1 mm", high="1 mm")
+        for gap in (1e-3, -1e-3)
+    ]
+    for data in ways:
+        assert data.attrs["ended_low"] == "the range ends at -0.001"
+        assert data.attrs["ended_high"] == "the range ends at 0.001"
+        assert np.abs(np.diff(data["displacement_max"])).max() < 1e-4
+        for i in (0, -1):
+            last = data.isel(point=i)
+            phase = float(last["section"].sel(component="phase"))
+            settled = vi.steady(rig(float(last["gap"])), shaken.replace(phase=phase))
+            state = settled["final_state"].values
+            np.testing.assert_allclose(last["section"].values[:4], state[:4], atol=1e-12)
+            # The samples of the record come close to the exact extremes.
+            most = float(settled["displacement"].max())
+            assert most <= float(last["displacement_max"]) <= 1.0002 * most
+    for i in (0, -1):
+        one, other = (data.isel(point=i) for data in ways)
+        for name in ("displacement_max", "displacement_min", "acceleration_max"):
+            assert float(one[name]) == pytest.approx(float(other[name]), rel=1e-9)
+
+
+def test_over_the_restitution_of_a_wall():
+    case = vi.laboratory.case("B1-G1-A3")
+    shaken = vi.Harmonic(case.amplitude, 2.0)
+
+    def rig(restitution: float) -> vi.Oscillator:
+        return case.oscillator.replace(right=vi.RigidStop(restitution, "2 mm"), left=None)
+
+    data = vi.branch(rig(0.6), shaken, parameter="restitution", low=0.5, high=0.95)
+    assert data.attrs["parameter"] == "restitution"
+    ends = {data.attrs["ended_low"], data.attrs["ended_high"]}
+    assert ends == {"the range ends at 0.5", "the range ends at 0.95"}
+    for i in np.linspace(0, data.sizes["point"] - 1, 6).astype(int):
+        here = data.isel(point=i)
+        alone = vi.orbit(rig(float(here["restitution"])), shaken, here["section"])
+        assert float(alone["displacement_min"]) == pytest.approx(
+            float(here["displacement_min"]), rel=1e-9
+        )
+        np.testing.assert_allclose(alone["multiplier_real"], here["multiplier_real"], atol=1e-6)

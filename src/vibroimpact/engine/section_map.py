@@ -45,6 +45,9 @@ def system_plan(base: Vector, direction: Vector, p: float, plan: Vector, system:
             system[at + par.RATE] = (
                 system[at + par.BUMPER_STIFFNESS] / system[at + par.BUMPER_DAMPING]
             )
+
+        # Newton's method may look beyond what can be; above 1 the mass bounces all the same.
+        system[at + par.RESTITUTION] = max(system[at + par.RESTITUTION], 0.0)
     for i in range(par.SIZE):
         plan[i] = system[i]
     build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])

@@ -90,9 +90,15 @@ class Branch:
     def stepped(self, here: Station, length: float) -> Orbit | None:
         """Predict and correct: an orbit of the same branch, whatever its contacts."""
         section = here.orbit.section
-        aim = predicted(self, here, length)
+        aim, normal = predicted(self, here, length), here.tangent
         mode = here.orbit.facts[section_map.MODE]
-        status, found = corrected(section, aim, mode, here.tangent)
+        bound = min(max(aim[4], self.low), self.high)
+        if section.family.parameter.most is not None and bound not in (aim[4], here.orbit.value):
+            # Beyond the bound there may be no such rig.
+            length = (bound - here.orbit.value) / (here.tangent[4] * self.scale[4])
+            aim, normal = predicted(self, here, length), HELD
+            aim[4] = bound
+        status, found = corrected(section, aim, mode, normal)
         if status is not Status.DONE or strays(self, found.point, aim, length) or slid(found):
             return None
         return found
@@ -116,6 +122,8 @@ class Branch:
         if not self.low <= value <= self.high:
             bound = self.low if value < self.low else self.high
             return self._on_bound(here, bound), f"the range ends at {bound:.9g}"
+        if value in (self.low, self.high):
+            return [there], f"the range ends at {value:.9g}"
         if self._returned(here, there):
             return [there], CLOSED
         met = None if here.orbit.section.count % 2 else parent(here.orbit, there.orbit)

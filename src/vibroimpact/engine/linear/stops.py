@@ -76,7 +76,7 @@ def impact(
     v = -restitution * v
     bounced = Motion(mode & ~side, side, u, v, right, left, 0.0, clock)
     push = sign * acceleration_of(plan, bounced)  # towards the stop
-    if not push > 0.0 or restitution == 1.0:
+    if not push > 0.0 or restitution >= 1.0:
         return event, t, arrival, bounced
     rest = chatter(v, restitution, push)
     # How fast the push may change meanwhile, and the rig's own rates.
