@@ -133,7 +133,7 @@ WRONG = [
     (["--stiffness", "-1"], "--stiffness"),
     (["--bumper-stiffness", "nan"], "--bumper-stiffness"),
     (["--gap", "15 kg"], "'15 kg' is a mass"),
-    (["--gap", "-1mm"], "--gap"),
+    (["--gap", "nan"], "--gap"),
     (["--amplitude", "0.05 m"], "is a length"),
     (["--from", "0Hz"], "--from"),
     (["--from", "3Hz", "--to", "2Hz"], "--from"),
