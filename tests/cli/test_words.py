@@ -53,8 +53,8 @@ def test_no_hint_where_none_is_needed(refused):
     ("words", "begins"),
     [
         (("sweep", CASE, "--max-cycles", "0"), "--max-cycles: 0; a whole number"),
-        (("sweep", CASE, "--gap", "-1mm"), "--gap: "),
-        (("sweep", CASE, "--gap", "9mm", "--left-gap=-1mm"), "--left-gap: "),
+        (("sweep", CASE, "--gap", "nan"), "--gap: "),
+        (("sweep", CASE, "--gap", "9mm", "--left-gap=nan"), "--left-gap: "),
         (("sweep", CASE, "--max-cycles=0"), "--max-cycles: 0; a whole number"),
         (("sweep", CASE, "--tolerance", "2"), "--tolerance: 2"),
         (("sweep", CASE, "--threads", "-1"), "--threads: -1"),

@@ -145,7 +145,8 @@ def test_what_is_not_reproduced_has_a_reason():
         ("upward-jump-fades", "along the gap 5 of 12 sequences"),
         ("upward-jump-fades", "along the acceleration 4 of 16 sequences"),
         ("jumps-along-stiffness", "up 1.365 to 1.365 Hz"),
-        ("no-secondary-for-g3-a1", "10000kN/m-G3-A1 31% at 1.10 Hz"),
+        # Its motion at 1.1 Hz is chaotic: the height of that peak hangs on rounding.
+        ("no-secondary-for-g3-a1", "left out, for contact begins there: 10000kN/m-G3-A1"),
         ("secondary-only-small-gaps-large-accelerations", "B4-G2-A1 16% at 1.00 Hz, B4-G4-A2"),
         ("s2-impact-range", "fitted parameters 0.8 to 2.1 Hz, those of Table 1 0.6 to 2.0 Hz"),
         ("s4-pair-settles", "changes of sign 4, then 2"),
