@@ -29,7 +29,7 @@ from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import STATE, finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.record import Record, write_sample
+from vibroimpact.engine.observers.record import TOUCHING, Record, write_sample
 
 
 @entry("void(f8[::1], f8, f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])")
@@ -163,6 +163,7 @@ def trajectory(
         write_sample(
             plan,
             motion.mode,
+            TOUCHING[motion.mode],
             motion.u,
             motion.v,
             acceleration(plan, motion),

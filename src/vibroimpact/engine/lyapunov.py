@@ -16,14 +16,8 @@ from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer, workspace
 from vibroimpact.engine.motion import finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.growth import AREA, Growth, normalise
-from vibroimpact.engine.observers.tangent import (
-    DISTURBANCE,
-    Tangent,
-    press_area,
-    tie,
-    unit_disturbances,
-)
+from vibroimpact.engine.observers.growth import Growth, begin
+from vibroimpact.engine.observers.tangent import Tangent, unit_disturbances
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
 # the damping, and the state at the section behind the cycle.
@@ -72,14 +66,7 @@ def growth(
     weight = math.sqrt(plan[par.STIFFNESS])
     q = workspace()
     w = workspace()
-    for i in range(DISTURBANCE):
-        q[i] = 0.0
-    for i in range(AREA):
-        w[i] = 0.0
-    q[0], q[1], w[0] = 1.0, weight, 1.0
-    tie(motion.mode, q, 0)
-    press_area(motion.mode, w)
-    normalise(q, w, weight, motion.mode)
+    begin(q, w, weight, motion.mode)
     outcome = DONE
     number = -transient - discard
     while outcome == DONE and number < len(out):

@@ -105,6 +105,14 @@ def aged(motion: Motion, age: float) -> Motion:
     return Motion(mode, fresh, u, v, right, left, age, clock)
 
 
+def swapped(sides: int) -> int:
+    """Right for left, other bits as they are."""
+    return (sides & ~BOTH) | ((sides & RIGHT) << 1) | ((sides & LEFT) >> 1)
+
+
+_swapped = kernel(swapped)
+
+
 @kernel
 def mirrored(motion: Motion) -> Motion:
     """The mirror image; the clock is left as it is."""
@@ -112,18 +120,11 @@ def mirrored(motion: Motion) -> Motion:
     return Motion(_swapped(mode), _swapped(fresh), -u, -v, left, right, age, clock)
 
 
-@kernel
-def _swapped(sides: int) -> int:
-    """Right for left, other bits as they are."""
-    return (sides & ~BOTH) | ((sides & RIGHT) << 1) | ((sides & LEFT) >> 1)
-
-
 def mirror_image(state: Vector) -> Vector:
     """The mirror image of a state vector: what moves right moves left."""
     image = state.copy()
     for at in (MODE, FRESH):
-        sides = int(state[at])
-        image[at] = (sides & ~BOTH) | ((sides & RIGHT) << 1) | ((sides & LEFT) >> 1)
+        image[at] = swapped(int(state[at]))
     image[U], image[V] = -state[U], -state[V]
     image[RIGHT_BUMPER], image[LEFT_BUMPER] = state[LEFT_BUMPER], state[RIGHT_BUMPER]
     return image

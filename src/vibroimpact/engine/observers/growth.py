@@ -25,8 +25,8 @@ _RANGE = 150.0  # twice this may pass between two looks; the square of exp(−30
 
 
 @kernel
-def normalise(q: Vector, w: Vector, weight: float, mode: int) -> tuple[float, float]:
-    """Bring a disturbance and an area to unit size; return the logarithms of their sizes.
+def sizes(q: Vector, w: Vector, weight: float, mode: int) -> tuple[float, float]:
+    """Sizes of a disturbance and of an area.
 
     The norm of a disturbance is weight² (u² + u_R² + u_L²) + v², that of an area the one that
     belongs to it. A pressed bumper moves with the mass and is left out.
@@ -39,28 +39,41 @@ def normalise(q: Vector, w: Vector, weight: float, mode: int) -> tuple[float, fl
         (w[0] ** 2 + right * w[3] ** 2 + left * w[4] ** 2)
         + w2 * (right * w[1] ** 2 + left * w[2] ** 2 + right * left * w[5] ** 2)
     )
-    if length == 0.0:  # a rest forgets everything: begin anew
-        fresh_directions(q, w, weight, mode)
-        return -math.inf, -math.inf
-    for j in range(DISTURBANCE):
-        q[j] /= length
-    if area == 0.0:
-        return math.log(length), -math.inf
-    for j in range(AREA):
-        w[j] /= area
-    return math.log(length), math.log(area)
+    return length, area
 
 
 @kernel
-def fresh_directions(q: Vector, w: Vector, weight: float, mode: int) -> None:
-    """A disturbance and an area of displacement and velocity, of about unit size."""
+def scale(q: Vector, w: Vector, length: float, area: float) -> None:
+    """Divide a disturbance and an area by sizes."""
+    for j in range(DISTURBANCE):
+        q[j] /= length
+    for j in range(AREA):
+        w[j] /= area
+
+
+@kernel
+def begin(q: Vector, w: Vector, weight: float, mode: int) -> None:
+    """A disturbance and an area of displacement and velocity, of unit size."""
     for j in range(DISTURBANCE):
         q[j] = 0.0
     for j in range(AREA):
         w[j] = 0.0
-    q[0], q[1], w[0] = 1.0 / weight, 1.0, 1.0 / weight
+    q[0], q[1], w[0] = 1.0, weight, 1.0
     tie(mode, q, 0)
     press_area(mode, w)
+    length, area = sizes(q, w, weight, mode)
+    scale(q, w, length, area)
+
+
+@kernel
+def normalise(q: Vector, w: Vector, weight: float, mode: int) -> tuple[float, float]:
+    """Bring a disturbance and an area to unit size; return the logarithms of their sizes."""
+    length, area = sizes(q, w, weight, mode)
+    if length == 0.0:  # a rest forgets everything
+        begin(q, w, weight, mode)
+        return -math.inf, -math.inf
+    scale(q, w, length, area if area > 0.0 else 1.0)
+    return math.log(length), math.log(area) if area > 0.0 else -math.inf
 
 
 class Growth(NamedTuple):

@@ -70,6 +70,7 @@ def seen(plan: Vector, side: int, mode: int, face: float, distance: float) -> fl
 def write_sample(
     plan: Vector,
     mode: int,
+    contact: float,
     u: float,
     v: float,
     acceleration: float,
@@ -78,14 +79,14 @@ def write_sample(
     out: Vector,
     k: int,
 ) -> None:
-    """Write sample k; the bumpers' deformations are given away from the mass."""
+    """Write sample k; `contact` is that of the mode, deformations are given away from the mass."""
     # Adding zero leaves no negative one.
     out[DISPLACEMENT, k], out[VELOCITY, k] = u + 0.0, v + 0.0
     out[ACCELERATION, k] = acceleration + 0.0
     out[RIGHT_FACE, k], out[LEFT_FACE, k] = right + 0.0, 0.0 - left
     out[RIGHT_CLEARANCE, k] = seen(plan, RIGHT, mode, right, u) + 0.0
     out[LEFT_CLEARANCE, k] = seen(plan, LEFT, mode, left, -u) + 0.0
-    out[CONTACT, k] = 2.0 if mode == BOTH else (1.0 * (mode & RIGHT) - (mode >> 1))
+    out[CONTACT, k] = contact
 
 
 @kernel
@@ -100,6 +101,7 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
     series = workspace()
     mode = before.mode
     sign = -1.0 if mode == LEFT else 1.0
+    contact = TOUCHING[mode]
     held = resting(plan, mode)
     gap_r, rate_r = plan[par.BUMPER + par.GAP], plan[par.BUMPER + par.RATE]
     gap_l, rate_l = plan[par.BUMPER + par.WIDTH + par.GAP], plan[par.BUMPER + par.WIDTH + par.RATE]
@@ -128,7 +130,8 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
         if mode == BOTH:
             left = -x - (gap_r + gap_l)
         u = displacement(plan, mode, x)
-        write_sample(plan, mode, u, sign * v, a, right, left, notes.samples, notes.begin + i)
+        k = notes.begin + i
+        write_sample(plan, mode, contact, u, sign * v, a, right, left, notes.samples, k)
         i += 1
     return i
 

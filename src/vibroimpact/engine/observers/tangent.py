@@ -82,6 +82,15 @@ def impact_slope(plan: Vector, event: int, arrival: float, after: Motion) -> flo
 
 
 @kernel
+def rebound(plan: Vector, event: int, arrival: float, after: Motion) -> tuple[float, float]:
+    """E and κ of an event at a rigid stop; where the mass stays there, nothing is left: 0 and 0."""
+    if after.mode & event:
+        return 0.0, 0.0
+    e: float = plan[par.BUMPER + par.WIDTH * (event - 1) + par.RESTITUTION]
+    return e, impact_slope(plan, event, arrival, after)
+
+
+@kernel
 def disturb(
     plan: Vector,
     mode: int,
@@ -119,9 +128,7 @@ def disturb(
         return
     stop = par.BUMPER + par.WIDTH * (event - 1)
     if plan[stop + par.KIND] == par.RIGID:
-        held = after.mode & event != 0
-        e = 0.0 if held else plan[stop + par.RESTITUTION]
-        slope = 0.0 if held else impact_slope(plan, event, arrival, after)
+        e, slope = rebound(plan, event, arrival, after)
         for i in range(rows):
             at = i * DISTURBANCE
             u, v = q[at], q[at + 1]
@@ -169,9 +176,7 @@ def disturb_area(
         return
     stop = par.BUMPER + par.WIDTH * (event - 1)
     if plan[stop + par.KIND] == par.RIGID:
-        held = after.mode & event != 0
-        e = 0.0 if held else plan[stop + par.RESTITUTION]
-        slope = 0.0 if held else impact_slope(plan, event, arrival, after)
+        e, slope = rebound(plan, event, arrival, after)
         w[0] *= e * e
         w[1], w[3] = -e * w[1], -e * w[3] + slope * w[1]
         w[2], w[4] = -e * w[2], -e * w[4] + slope * w[2]
