@@ -61,10 +61,10 @@ def test_the_mirror_image_in_the_kernel_and_in_python(mode: int, fresh: int) -> 
 
 def test_a_left_contact_is_seen_as_the_mirror_image_of_a_right_one() -> None:
     s, c = CLOCK
-    assert coordinates(motion(FLIGHT)) == (1.0, 0.1, -0.2, s, c)
-    assert coordinates(motion(RIGHT)) == (1.0, 0.3, -0.2, s, c)
-    assert coordinates(motion(LEFT)) == (-1.0, 0.4, 0.2, -s, -c)
-    assert coordinates(motion(BOTH)) == (1.0, 0.3, -0.2, s, c)
+    assert coordinates(motion(FLIGHT)) == (1.0, (0.1, -0.2, s, c))
+    assert coordinates(motion(RIGHT)) == (1.0, (0.3, -0.2, s, c))
+    assert coordinates(motion(LEFT)) == (-1.0, (0.4, 0.2, -s, -c))
+    assert coordinates(motion(BOTH)) == (1.0, (0.3, -0.2, s, c))
 
 
 def test_what_is_set_anew_is_set_alone() -> None:

@@ -35,7 +35,7 @@ from vibroimpact.engine.linear.tables import (
     build,
 )
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT
+from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT, Row
 from vibroimpact.engine.observers.extremes import series_extremes
 
 _X, _W = np.polynomial.legendre.leggauss(12)
@@ -66,20 +66,18 @@ def rest_level(plan: Vector, mode: int) -> float:
 
 
 @kernel
-def measure_phase(
-    plan: Vector, mode: int, x: float, v: float, s: float, c: float, length: float, out: Vector
-) -> None:
-    """Measure one phase from its start; x, v, s, c are mirrored for a left contact."""
+def measure_phase(plan: Vector, mode: int, row: Row, length: float, out: Vector) -> None:
+    """Measure one phase from its start, which is mirrored for a left contact."""
     series = workspace()
-    x_least, x_most = x, x
-    a = absolute_acceleration(plan, mode, x, v, s)
+    x_least, x_most = row.x, row.x
+    a = absolute_acceleration(plan, mode, row)
     a_least, a_most, a_time = a, a, 0.0
     force = 0.0
     impulse = 0.0
     squares = 0.0
     work = 0.0
     level = rest_level(plan, mode)
-    cursor = window(plan, TABLES + SIZE * mode, length, 0.0, 0.0, x, v, s, c)
+    cursor = window(plan, TABLES + SIZE * mode, length, 0.0, 0.0, row)
     while more(cursor):
         h = plan[cursor.table + H]
         turn = plan[cursor.table + SCALED_W]
@@ -145,4 +143,4 @@ def measure_phases(
         mode = int(phase[P_MODE])
         sign = -1.0 if mode in (LEFT, SEEN_LEFT) else 1.0
         s, c = sign * math.sin(phase[P_ANGLE]), sign * math.cos(phase[P_ANGLE])
-        measure_phase(plan, mode, phase[P_X], phase[P_V], s, c, phase[P_LENGTH], out[i])
+        measure_phase(plan, mode, Row(phase[P_X], phase[P_V], s, c), phase[P_LENGTH], out[i])

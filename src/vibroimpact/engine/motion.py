@@ -33,6 +33,19 @@ Clock = tuple[float, float]
 """Sine and cosine of the forcing's phase."""
 
 
+class Row(NamedTuple):
+    """The state row, but for its 1: a mode's own coordinate, its rate, and the forcing's phasor.
+
+    x is the displacement in flight and the pressed bumper's deformation in contact, measured
+    towards the bumper: what is pressed on the left is seen in the mirror.
+    """
+
+    x: float
+    v: float
+    s: float
+    c: float
+
+
 class Motion(NamedTuple):
     """The state of a rig and of its forcing.
 
@@ -137,19 +150,18 @@ def finite(motion: Motion) -> bool:
 
 
 @kernel
-def coordinates(motion: Motion) -> tuple[float, float, float, float, float]:
+def coordinates(motion: Motion) -> tuple[float, Row]:
     """The mode's own coordinates, in which its tables are written.
 
     Returns
     -------
-    sign, x, v, s, c
-        x is the displacement in flight, the pressed bumper's deformation in contact; a left
-        contact is given as the mirror image of a right one, with `sign` −1. Pressed on both
-        sides, it is the right one's.
+    sign, row
+        `sign` is −1 where it is the mirror image's. Pressed on both sides, the mass is seen from
+        the right.
     """
     s, c = motion.clock
     if motion.mode & RIGHT:
-        return 1.0, motion.right, motion.v, s, c
+        return 1.0, Row(motion.right, motion.v, s, c)
     if motion.mode == LEFT:
-        return -1.0, motion.left, -motion.v, -s, -c
-    return 1.0, motion.u, motion.v, s, c
+        return -1.0, Row(motion.left, -motion.v, -s, -c)
+    return 1.0, Row(motion.u, motion.v, s, c)

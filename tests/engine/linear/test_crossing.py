@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vibroimpact.engine.linear.crossing import NONE, first_root
+from vibroimpact.engine.linear.crossing import NONE, Clearance, first_root
 from vibroimpact.engine.linear.tables import ORDER
 
 
@@ -26,7 +26,7 @@ def search(
 ) -> float:
     series = np.zeros(ORDER)
     series[: len(coefficients)] = coefficients
-    return first_root(series, offset, sign, memory, rate, double, low, high)
+    return first_root(series, Clearance(offset, sign, memory, rate, double), low, high)
 
 
 def from_roots(roots: list[float]) -> list[float]:

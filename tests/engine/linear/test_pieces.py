@@ -41,9 +41,9 @@ def laid_out(plan: Vector, motion: Motion, length: float, out: Vector) -> int:
         start = cursor.t + cursor.i * h
         out[n, 0], out[n, 1] = start, start + (high + 0.5) * h
         out[n, 2], out[n, 3] = displacement(plan, motion.mode, x), v / h
-        x, v, s, c = middle(plan, cursor)
+        row = middle(plan, cursor)
         unit = accelerated(plan, cursor, s, c, series)
-        a = absolute_acceleration(plan, motion.mode, x, v, s)
+        a = absolute_acceleration(plan, motion.mode, row)
         out[n, 4] = series[0] * unit - a
         n += 1
         cursor = following(plan, cursor)

@@ -22,7 +22,7 @@ from vibroimpact.engine.linear.tables import (
     overlapping,
     resting,
 )
-from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT
+from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT, Row
 from vibroimpact.engine.parameters import SIZE as RIG
 from vibroimpact.engine.parameters import Stop, rig_vector
 
@@ -47,8 +47,8 @@ def test_free_vibration_at_and_between_the_nodes() -> None:
     h = made[TABLES + H]
     for i in (0, 1, 7, NODES - 1):
         for y in (0.0, 0.3, 0.999):
-            at = node(made, TABLES, i, 0.0, 1.0, 0.0, 1.0)
-            x, v, s, c = travel(made, TABLES, y, *at)
+            at = node(made, TABLES, i, Row(0.0, 1.0, 0.0, 1.0))
+            x, v, s, c = travel(made, TABLES, y, at)
             t = (i + y) * h
             expected = (math.sin(t), math.cos(t), math.sin(t), math.cos(t))
             assert (x, v, s, c) == pytest.approx(expected, abs=2e-15)
@@ -65,7 +65,7 @@ def test_forced_motion_at_the_steady_state() -> None:
         return float(turned.imag), float((2.0j * turned).imag)
 
     for i in range(NODES):
-        x, v, _, _ = node(made, TABLES, i, *steady(0.0), 0.0, 1.0)
+        x, v, _, _ = node(made, TABLES, i, Row(*steady(0.0), 0.0, 1.0))
         assert (x, v) == pytest.approx(steady(i * h), abs=1e-15)
 
 
@@ -79,7 +79,7 @@ def test_the_late_table_is_the_early_one_without_its_fast_part() -> None:
     assert made[late + VALID_FROM] == pytest.approx(FORGOTTEN / fast)
     assert made[late + H] > 5.0 * made[early + H]
     for y in (0.0, 0.4, 1.0):
-        x, v, _, _ = travel(made, late, y, 1.0, -slow, 0.0, 1.0)
+        x, v, _, _ = travel(made, late, y, Row(1.0, -slow, 0.0, 1.0))
         expected = math.exp(-slow * y * made[late + H])
         assert (x, v) == pytest.approx((expected, -slow * expected), rel=1e-13)
 
@@ -89,8 +89,8 @@ def test_pressed_on_both_sides_is_one_motion_seen_from_two() -> None:
     assert overlapping(made)
     x, v, s, c = 0.2, -0.3, 0.6, 0.8
     for i in range(1, NODES):
-        right = node(made, TABLES + SIZE * BOTH, i, x, v, s, c)
-        left = node(made, TABLES + SIZE * SEEN_LEFT, i, 0.5 - x, -v, -s, -c)
+        right = node(made, TABLES + SIZE * BOTH, i, Row(x, v, s, c))
+        left = node(made, TABLES + SIZE * SEEN_LEFT, i, Row(0.5 - x, -v, -s, -c))
         mirrored = (0.5 - left[0], -left[1], -left[2], -left[3])
         assert right == pytest.approx(mirrored, abs=5e-15)
 
@@ -101,7 +101,7 @@ def test_at_rest_only_the_forcing_moves() -> None:
     assert not resting(made, FLIGHT)
     assert not resting(made, LEFT)
     table = TABLES + SIZE * RIGHT
-    x, v, s, c = node(made, table, 5, 0.0, 0.0, 0.0, 1.0)
+    x, v, s, c = node(made, table, 5, Row(0.0, 0.0, 0.0, 1.0))
     assert (x, v) == (0.0, 0.0)
     angle = 5 * 1.2 * made[table + H]
     assert (s, c) == pytest.approx((math.sin(angle), math.cos(angle)), abs=1e-15)

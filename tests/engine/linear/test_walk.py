@@ -11,7 +11,7 @@ from vibroimpact.engine.linear.contact import contact
 from vibroimpact.engine.linear.flight import flight
 from vibroimpact.engine.linear.tables import PLAN, build
 from vibroimpact.engine.linear.walk import ABOVE, BELOW, WITHIN, Bounds
-from vibroimpact.engine.motion import DETACHED, FLIGHT, LIMIT, RIGHT
+from vibroimpact.engine.motion import DETACHED, FLIGHT, LIMIT, RIGHT, Row
 from vibroimpact.engine.parameters import SIZE, rig_vector
 
 INF = math.inf
@@ -26,7 +26,7 @@ def plan(stop: tuple[float, ...] | None = None) -> np.ndarray:
 
 
 def fly(v: float, bounds: Bounds, limit: float, launched: int = WITHIN) -> tuple:
-    return flight(plan(), FLIGHT, 0.0, v, 0.0, 1.0, bounds, launched, False, limit, 0.0)
+    return flight(plan(), FLIGHT, Row(0.0, v, 0.0, 1.0), bounds, launched, False, limit, 0.0)
 
 
 def levels(upper: float, lower: float, memory: float = 0.0, rate: float = INF) -> Bounds:
@@ -36,7 +36,7 @@ def levels(upper: float, lower: float, memory: float = 0.0, rate: float = INF) -
 @pytest.mark.parametrize("gap", [1e-6, 0.5, 0.99, 1.0 - 1e-9])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_the_first_contact_of_a_free_vibration(gap: float, sign: float) -> None:
-    way, t, x, v, _, _, _, _ = fly(sign, levels(gap, -gap), 100.0)
+    way, t, (x, v, _, _), _, _ = fly(sign, levels(gap, -gap), 100.0)
     assert way == (ABOVE if sign > 0 else BELOW)
     assert t == pytest.approx(math.asin(gap), rel=1e-7 if gap > 0.999 else 1e-14)
     assert x == sign * gap
@@ -45,14 +45,14 @@ def test_the_first_contact_of_a_free_vibration(gap: float, sign: float) -> None:
 
 def test_the_other_side_many_windows_later() -> None:
     """At 3π/2, in spite of a level above that is never reached."""
-    way, t, x, _, _, _, _, _ = fly(1.0, levels(1.001, -0.5), 100.0)
+    way, t, (x, _, _, _), _, _ = fly(1.0, levels(1.001, -0.5), 100.0)
     assert (way, x) == (BELOW, -0.5)
     assert t == pytest.approx(math.pi + math.asin(0.5), rel=1e-14)
 
 
 @pytest.mark.parametrize("gap", [1.0 + 1e-9, 2.0, INF])
 def test_no_contact_before_the_limit(gap: float) -> None:
-    way, t, x, v, s, c, _, _ = fly(1.0, levels(gap, -gap), 50.0)
+    way, t, (x, v, s, c), _, _ = fly(1.0, levels(gap, -gap), 50.0)
     assert (way, t) == (WITHIN, 50.0)
     assert (x, v) == pytest.approx((math.sin(50.0), math.cos(50.0)), abs=1e-13)
     assert (s, c) == pytest.approx((math.sin(50.0), math.cos(50.0)), abs=1e-13)
@@ -60,7 +60,7 @@ def test_no_contact_before_the_limit(gap: float) -> None:
 
 def test_a_relaxing_bumper_is_met_where_it_is_by_then() -> None:
     """The clearance is 0.2 + 0.5 exp(−t) − sin t, which falls: any zero is the first."""
-    way, t, x, _, _, _, memory, _ = fly(1.0, levels(0.2, -9.0, 0.5, 1.0), 100.0)
+    way, t, (x, _, _, _), memory, _ = fly(1.0, levels(0.2, -9.0, 0.5, 1.0), 100.0)
     assert way == ABOVE
     assert 0.2 + 0.5 * math.exp(-t) - math.sin(t) == pytest.approx(0.0, abs=1e-15)
     assert 0.0 < t < 0.5 * math.pi
@@ -70,7 +70,7 @@ def test_a_relaxing_bumper_is_met_where_it_is_by_then() -> None:
 
 def test_the_mass_may_leave_the_stop_that_it_has_just_left() -> None:
     """Launched from x = 0 it comes back after half a period, not at once."""
-    way, t, x, _, _, _, _, _ = fly(-1.0, levels(0.0, -INF), 100.0, launched=ABOVE)
+    way, t, (x, _, _, _), _, _ = fly(-1.0, levels(0.0, -INF), 100.0, launched=ABOVE)
     assert (way, x) == (ABOVE, 0.0)
     assert t == pytest.approx(math.pi, rel=1e-14)
 
@@ -78,11 +78,11 @@ def test_the_mass_may_leave_the_stop_that_it_has_just_left() -> None:
 def test_a_contact_without_a_dashpot_lasts_half_a_period() -> None:
     """x″ = −(1 + 24) x from the landing: the force is zero again after π/5."""
     made = plan((24.0, 0.0, 0.0))
-    event, t, x, v, _, _ = contact(made, RIGHT, RIGHT, 0.0, 2.0, 0.0, 1.0, True, 9.0, 0.0)
+    event, t, (x, v, _, _) = contact(made, RIGHT, RIGHT, Row(0.0, 2.0, 0.0, 1.0), True, 9.0, 0.0)
     assert event == DETACHED
     assert t == pytest.approx(math.pi / 5.0, rel=1e-14)
     assert (x, v) == (0.0, pytest.approx(-2.0, rel=1e-14))
-    event, t, x, _, _, _ = contact(made, RIGHT, RIGHT, 0.0, 2.0, 0.0, 1.0, True, 0.1, 0.0)
+    event, t, (x, _, _, _) = contact(made, RIGHT, RIGHT, Row(0.0, 2.0, 0.0, 1.0), True, 0.1, 0.0)
     assert (event, t) == (LIMIT, 0.1)
     assert x == pytest.approx(0.4 * math.sin(0.5), rel=1e-14)
 
@@ -90,7 +90,7 @@ def test_a_contact_without_a_dashpot_lasts_half_a_period() -> None:
 def test_a_contact_with_a_dashpot_ends_with_its_force() -> None:
     """F = 24 x + 2 x′ of the closed form is zero, with the bumper still deformed."""
     made = plan((24.0, 2.0, 0.0))
-    event, t, x, v, _, _ = contact(made, RIGHT, RIGHT, 0.0, 2.0, 0.0, 1.0, True, 9.0, 0.0)
+    event, t, (x, v, _, _) = contact(made, RIGHT, RIGHT, Row(0.0, 2.0, 0.0, 1.0), True, 9.0, 0.0)
     w = math.sqrt(25.0 - 1.0)
     assert event == DETACHED
     assert x == pytest.approx(2.0 / w * math.exp(-t) * math.sin(w * t), rel=1e-13)

@@ -19,6 +19,7 @@ from vibroimpact.engine.motion import (
     RIGHT,
     SEEN_LEFT,
     Motion,
+    Row,
     coordinates,
 )
 
@@ -48,19 +49,17 @@ def fly(plan: Vector, motion: Motion, limit: float) -> Ended:
     _, fresh, u, v, right, left, age, clock = motion
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
     s, c = clock
-    way, t, u, v, s, c, right, left = flight(
+    way, t, row, right, left = flight(
         plan,
         FLIGHT,
-        u,
-        v,
-        s,
-        c,
+        Row(u, v, s, c),
         Bounds(gap_r, -gap_l, right, left, rate_r, rate_l),
         fresh & BOTH,
         fresh & RELEASED != 0,
         limit,
         age,
     )
+    u, v, s, c = row
     if way == WITHIN:
         return LIMIT, t, v, Motion(FLIGHT, 0, u, v, right, left, age + t, (s, c))
     return way, t, v, Motion(way, way, u, v, right, left, 0.0, (s, c))
@@ -71,11 +70,12 @@ def press(plan: Vector, motion: Motion, side: int, limit: float) -> Ended:
     """Pressed at least on this side until its bumper lets go."""
     mode, fresh, u, v, right, left, age, clock = motion
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
-    sign, x, v, s, c = coordinates(motion)
+    sign, row = coordinates(motion)
     slot = mode
     if mode == BOTH and side == LEFT:
-        slot, sign, x, v, s, c = SEEN_LEFT, -1.0, left, -v, -s, -c
-    event, t, x, v, s, c = contact(plan, slot, side, x, v, s, c, fresh == side, limit, age)
+        slot, sign, row = SEEN_LEFT, -1.0, Row(left, -v, -clock[0], -clock[1])
+    event, t, row = contact(plan, slot, side, row, fresh == side, limit, age)
+    x, v, s, c = row
     if side == RIGHT:
         right = x
         left = -x - (gap_r + gap_l) if mode == BOTH else relaxed(left, rate_l, t)

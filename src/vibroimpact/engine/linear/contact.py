@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.crossing import NONE, first_root
+from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.linear.crossing import NONE, Clearance, first_root
 from vibroimpact.engine.linear.evaluate import expand, travel
 from vibroimpact.engine.linear.tables import (
     FORCE,
@@ -30,9 +30,16 @@ from vibroimpact.engine.linear.tables import (
 )
 from vibroimpact.engine.linear.walk import WITHIN, Bounds, Watched, ended, next_window, walk
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import DETACHED, LIMIT
+from vibroimpact.engine.motion import DETACHED, LIMIT, Row
 
 _PRESSING = Bounds(math.inf, 0.0, 0.0, 0.0, math.inf, math.inf)
+
+
+@inlined
+def relieved(row: Row, damping: float) -> Row:
+    """Where the force is zero; without a dashpot so is the deformation, exactly."""
+    x, v, s, c = row
+    return Row(0.0 if damping == 0.0 else x, v, s, c)
 
 
 @kernel
@@ -40,14 +47,11 @@ def contact(
     plan: Vector,
     slot: int,
     side: int,
-    x: float,
-    v: float,
-    s: float,
-    c: float,
+    row: Row,
     fresh: bool,
     limit: float,
     age: float,
-) -> tuple[int, float, float, float, float, float]:
+) -> tuple[int, float, Row]:
     """Stay in contact until the force stops pressing, or until the limit.
 
     Parameters
@@ -56,9 +60,8 @@ def contact(
         Which table of the plan describes the motion.
     side : int
         RIGHT or LEFT.
-    x, v, s, c : float
-        Deformation of the bumper (m), its rate (m/s), sin θ and cos θ, all measured towards
-        the bumper: a left contact is given as its mirror image.
+    row : Row
+        The state at the start.
     fresh : bool
         The contact begins here, so that its force is not negative by construction.
     plan, limit, age
@@ -66,7 +69,7 @@ def contact(
 
     Returns
     -------
-    event, t, x, v, s, c
+    event, t, row
         DETACHED or LIMIT, the elapsed time (s), and the state there, mirrored as given.
     """
     series = workspace()
@@ -79,6 +82,7 @@ def contact(
     while True:
         table = late if age + t >= plan[late + VALID_FROM] else early
         h = plan[table + H]
+        x, v, s, _ = row
         band = (
             plan[table + FORCE_X] * abs(x - plan[table + REST])
             + plan[table + FORCE_V] * abs(v)
@@ -101,22 +105,20 @@ def contact(
                 # Slow landing: search about the contact point itself, where the force is not
                 # negative by construction and the series has no rounding noise.
                 high = min(0.5, span)
-                expand(plan, table + TAYLOR_F, x, v, s, c, series)
+                expand(plan, table + TAYLOR_F, row, series)
                 series[0] = max(series[0], 0.0)
-                y = first_root(series, 0.0, 1.0, 0.0, 0.0, False, 0.0, high)
+                y = first_root(series, Clearance(0.0, 1.0, 0.0, 0.0, False), 0.0, high)
                 if y != NONE:
-                    x, v, s, c = travel(plan, table, y, x, v, s, c)
-                    return DETACHED, h * y, 0.0 if damping == 0.0 else x, v, s, c
+                    return DETACHED, h * y, relieved(travel(plan, table, y, row), damping)
                 clear = max(clear, high)
         fresh = False
         force = Watched(stiffness, damping * plan[table + RATE], FORCE, 5, TAYLOR_F)
-        way, i, y, ex, ev, es, ec, _, _ = walk(
-            plan, table, force, _PRESSING, f, band, x, v, s, c, span, math.inf, clear, 0.0, series
+        way, i, y, end, _, _ = walk(
+            plan, table, force, _PRESSING, f, band, row, span, math.inf, clear, 0.0, series
         )
         if way != WITHIN:
-            return DETACHED, t + (i + y) * h, 0.0 if damping == 0.0 else ex, ev, es, ec
+            return DETACHED, t + (i + y) * h, relieved(end, damping)
         if span <= NODES:
-            x, v, s, c = ended(plan, table, x, v, s, c, span)
-            return LIMIT, limit, x, v, s, c
-        x, v, s, c = next_window(plan, table, x, v, s, c)
+            return LIMIT, limit, ended(plan, table, row, span)
+        row = next_window(plan, table, row)
         t += NODES * h

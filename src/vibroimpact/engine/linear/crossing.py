@@ -20,10 +20,12 @@ reported there, always, and the search goes on behind it.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import moved, short_series, turn
 from vibroimpact.engine.linear.tables import FINE, FINE_NODE, ORDER, RATE, SCALED_W, WIDTH
+from vibroimpact.engine.motion import Row
 
 NONE = 9.0
 """Returned for "no root on the interval"; a root lies in [−1/2, 1/2]."""
@@ -46,18 +48,22 @@ def jet(series: Vector, y: float) -> tuple[float, float, float]:
     return p, p1, 2.0 * p2
 
 
+class Clearance(NamedTuple):
+    """f but for its series; `double` says that it leaves a double root."""
+
+    offset: float
+    sign: float
+    memory: float
+    rate: float
+    double: bool
+
+
 @kernel
 def value(
-    series: Vector,
-    offset: float,
-    sign: float,
-    memory: float,
-    rate: float,
-    start: float,
-    double: bool,
-    y: float,
+    series: Vector, clearance: Clearance, start: float, y: float
 ) -> tuple[float, float, float]:
     """f, f′ and f″ at y."""
+    offset, sign, memory, rate, double = clearance
     p, p1, p2 = jet(series, y)
     f = offset + sign * p
     f1 = sign * p1
@@ -98,21 +104,11 @@ def third_bound(series: Vector) -> float:
 
 
 @kernel
-def polish(
-    series: Vector,
-    offset: float,
-    sign: float,
-    memory: float,
-    rate: float,
-    start: float,
-    double: bool,
-    low: float,
-    high: float,
-) -> float:
+def polish(series: Vector, clearance: Clearance, start: float, low: float, high: float) -> float:
     """The only root between `low` (f > 0) and `high` (f ≤ 0), f falling: Newton, guarded."""
     y = 0.5 * (low + high)
     for _ in range(100):
-        f, f1, _ = value(series, offset, sign, memory, rate, start, double, y)
+        f, f1, _ = value(series, clearance, start, y)
         if f == 0.0:
             return y
         if f > 0.0:
@@ -129,21 +125,13 @@ def polish(
 
 
 @kernel
-def first_root(
-    series: Vector,
-    offset: float,
-    sign: float,
-    memory: float,
-    rate: float,
-    double: bool,
-    low: float,
-    high: float,
-) -> float:
+def first_root(series: Vector, clearance: Clearance, low: float, high: float) -> float:
     """The first y in [low, high] at which f falls through zero, or NONE.
 
     `double` says that f and f′ vanish at `low` by construction, with a₀ = a₁ = offset = 0;
     otherwise f(low) ≥ 0 up to rounding, zero included.
     """
+    _, _, memory, rate, double = clearance
     polynomial = third_bound(series)
     start = low
     p = low
@@ -152,7 +140,7 @@ def first_root(
         if p >= high:
             break
         width = min(width, high - p)
-        f, f1, f2 = value(series, offset, sign, memory, rate, start, double, p)
+        f, f1, f2 = value(series, clearance, start, p)
         if double and p == start:
             f = 0.0
             f1 = 0.0
@@ -174,9 +162,9 @@ def first_root(
             s1 = f1 + 0.5 * f2 * w
             s2 = f1 + f2 * w + 0.5 * jerk * w * w
             if f1 < 0.0 and s1 < 0.0 and s2 < 0.0:
-                end, _, _ = value(series, offset, sign, memory, rate, start, double, p + w)
+                end, _, _ = value(series, clearance, start, p + w)
                 if end <= 0.0:
-                    return polish(series, offset, sign, memory, rate, start, double, p, p + w)
+                    return polish(series, clearance, start, p, p + w)
             width = 0.5 * w
             if width < _SMALLEST:
                 break
@@ -207,11 +195,8 @@ def quick_root(
     level: float,
     y: float,
     second: float,
-    x: float,
-    v: float,
-    s: float,
-    c: float,
-) -> tuple[float, float, float, float, float]:
+    row: Row,
+) -> tuple[float, Row]:
     """The first time at which weight_x·x + weight_v·x′ rises through `level`, if beyond doubt.
 
     Parameters
@@ -219,22 +204,22 @@ def quick_root(
     weight_x, weight_v : float
         The latter per step.
     y : float
-        A guess, in steps after the node whose state (x, v, s, c) is given; at the node the
-        function is known to be below the level.
+        A guess, in steps after the node whose state is given; at the node the function is known
+        to be below the level.
     second : float
         Bound on the second derivative, per step squared.
 
     Returns
     -------
-    y, x, v, s, c
+    y, row
         The root and the state there; y = NONE where the root that is found is not certainly
         the first one. At a root with slope m the function stays below the level for
         2 m / second before it.
     """
     for _ in range(4):
         k = min(max(int(y * FINE + 0.5), 0), FINE - 1)
-        fx, fv, fs, fc = moved(plan, table + FINE_NODE + k * WIDTH, x, v, s, c)
-        a0, a1, a2, a3, a4, a5, a6 = short_series(plan, table, fx, fv, fs, fc)
+        point = moved(plan, table + FINE_NODE + k * WIDTH, row)
+        a0, a1, a2, a3, a4, a5, a6 = short_series(plan, table, point)
         f0 = weight_x * a0 + weight_v * a1
         f1 = weight_x * a1 + weight_v * 2 * a2
         f2 = weight_x * a2 + weight_v * 3 * a3
@@ -262,7 +247,7 @@ def quick_root(
         )
         fx = ((a0 + d * a1) + dd * (a2 + d * a3)) + dddd * ((a4 + d * a5) + dd * a6)
         fv = ((a1 + d * (2 * a2)) + dd * (3 * a3 + d * (4 * a4))) + dddd * (5 * a5 + d * (6 * a6))
-        fs, fc = turn(fs, fc, plan[table + SCALED_W] * d)
+        fs, fc = turn(point.s, point.c, plan[table + SCALED_W] * d)
         # What is left is below 1e-8 steps. Not to wait for another division: 1 / slope to
         # second order, where that is as good.
         q = d * (2.0 * b + 3.0 * d * (f3 * inverse))
@@ -274,5 +259,5 @@ def quick_root(
         fv += e * (2 * a2 + d * (6 * a3 + d * 12 * a4))
         e *= plan[table + SCALED_W]
         fs, fc = fs + e * fc, fc - e * fs
-        return y, fx, fv * plan[table + RATE], fs, fc
-    return NONE, x, v, s, c
+        return y, Row(fx, fv * plan[table + RATE], fs, fc)
+    return NONE, row

@@ -12,6 +12,7 @@ from vibroimpact.engine.linear.tables import (
     FINE_NODE,
     FORGOTTEN,
     LATE,
+    MIDDLE,
     NODE,
     ORDER,
     RATE,
@@ -30,6 +31,7 @@ from vibroimpact.engine.linear.tables import (
     H,
 )
 from vibroimpact.engine.memory import workspace
+from vibroimpact.engine.motion import Row
 
 _RADIUS = 1.0 / 40.0  # steps; how far a short series reaches
 
@@ -57,44 +59,43 @@ def turn(s: float, c: float, angle: float) -> tuple[float, float]:
 
 
 @kernel
-def row(plan: Vector, at: int, x: float, v: float, s: float, c: float) -> float:
+def product(plan: Vector, at: int, row: Row) -> float:
     """One linear function of the state row."""
+    x, v, s, c = row
     pairs: float = (plan[at] * x + plan[at + 1] * v) + (plan[at + 2] * s + plan[at + 3] * c)
     total: float = pairs + plan[at + 4]
     return total
 
 
 @kernel
-def moved(
-    plan: Vector, at: int, x: float, v: float, s: float, c: float
-) -> tuple[float, float, float, float]:
+def moved(plan: Vector, at: int, row: Row) -> Row:
     """The state at a node or fine point from the state at its origin."""
+    _, _, s, c = row
     cosine = plan[at + COSINE]
     sine = plan[at + SINE]
-    return (
-        row(plan, at, x, v, s, c),
-        row(plan, at + ROW_V, x, v, s, c),
+    return Row(
+        product(plan, at, row),
+        product(plan, at + ROW_V, row),
         s * cosine + c * sine,
         c * cosine - s * sine,
     )
 
 
 @kernel
-def node(
-    plan: Vector, table: int, i: int, x: float, v: float, s: float, c: float
-) -> tuple[float, float, float, float]:
+def node(plan: Vector, table: int, i: int, row: Row) -> Row:
     """The state at node i of the window."""
     if i == 0:
-        return x, v, s, c
-    return moved(plan, table + NODE + (i - 1) * WIDTH, x, v, s, c)
+        return row
+    return moved(plan, table + NODE + (i - 1) * WIDTH, row)
 
 
 @kernel
-def expand(plan: Vector, at: int, x: float, v: float, s: float, c: float, series: Vector) -> None:
+def expand(plan: Vector, at: int, row: Row, series: Vector) -> None:
     """Write the long series about a state.
 
     `at` is where TAYLOR (for x) or TAYLOR_F (for the contact force) of a table begins.
     """
+    x, v, s, c = row
     for n in range(ORDER):
         series[n] = (
             (plan[at + n] * x + plan[at + ORDER + n] * v)
@@ -115,12 +116,13 @@ def horner(series: Vector, y: float) -> tuple[float, float]:
 
 @kernel
 def short_series(
-    plan: Vector, table: int, x: float, v: float, s: float, c: float
+    plan: Vector, table: int, row: Row
 ) -> tuple[float, float, float, float, float, float, float]:
     """Taylor coefficients a₀…a₆ of x in steps, from the equation of motion (early tables).
 
     Written so that each coefficient waits for one product only.
     """
+    x, v, s, c = row
     sc = plan[table + SCALED_C]
     sk = plan[table + SCALED_K]
     wh = plan[table + SCALED_W]
@@ -137,8 +139,9 @@ def short_series(
 
 
 @kernel
-def absolute_acceleration(plan: Vector, mode: int, x: float, v: float, s: float) -> float:
-    """ü + A_t from the state (mirrored for a left contact, as in `contact`); at rest it is A_t."""
+def absolute_acceleration(plan: Vector, mode: int, row: Row) -> float:
+    """ü + A_t from the state, mirrored as it is; at rest it is A_t."""
+    x, v, s, _ = row
     table = TABLES + SIZE * mode
     if plan[table + RESTING] != 0.0:
         base: float = plan[AMPLITUDE] * s
@@ -152,26 +155,24 @@ def absolute_acceleration(plan: Vector, mode: int, x: float, v: float, s: float)
 
 
 @kernel
-def travel(
-    plan: Vector, table: int, y: float, x: float, v: float, s: float, c: float
-) -> tuple[float, float, float, float]:
+def travel(plan: Vector, table: int, y: float, row: Row) -> Row:
     """The state y steps after a node, 0 ≤ y ≤ 1."""
     if plan[table + LATE] == 0.0:
         k = min(int(y * FINE + 0.5), FINE - 1)
-        x, v, s, c = moved(plan, table + FINE_NODE + k * WIDTH, x, v, s, c)
+        row = moved(plan, table + FINE_NODE + k * WIDTH, row)
         d = y - k * (1.0 / FINE)
         # The last fine point serves up to the end of the interval: d is 1/FINE at most.
         if d > _RADIUS:
-            x, v, s, c = moved(plan, table + FINE_NODE + WIDTH, x, v, s, c)
+            row = moved(plan, table + FINE_NODE + WIDTH, row)
             d -= 1.0 / FINE
-        a0, a1, a2, a3, a4, a5, a6 = short_series(plan, table, x, v, s, c)
+        a0, a1, a2, a3, a4, a5, a6 = short_series(plan, table, row)
         x = a0 + d * (a1 + d * (a2 + d * (a3 + d * (a4 + d * (a5 + d * a6)))))
         v = a1 + d * (2 * a2 + d * (3 * a3 + d * (4 * a4 + d * (5 * a5 + d * (6 * a6)))))
-        s, c = turn(s, c, plan[table + SCALED_W] * d)
+        s, c = turn(row.s, row.c, plan[table + SCALED_W] * d)
     else:
-        x, v, s, c = moved(plan, table + FINE_NODE + FINE // 2 * WIDTH, x, v, s, c)
+        row = moved(plan, table + MIDDLE, row)
         series = workspace()
-        expand(plan, table + TAYLOR, x, v, s, c, series)
+        expand(plan, table + TAYLOR, row, series)
         x, v = horner(series, y - 0.5)
-        s, c = turn(s, c, plan[table + SCALED_W] * (y - 0.5))
-    return x, v * plan[table + RATE], s, c
+        s, c = turn(row.s, row.c, plan[table + SCALED_W] * (y - 0.5))
+    return Row(x, v * plan[table + RATE], s, c)

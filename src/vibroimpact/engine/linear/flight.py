@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.crossing import NONE, first_root
+from vibroimpact.engine.linear.crossing import NONE, Clearance, first_root
 from vibroimpact.engine.linear.evaluate import expand, relaxed, travel
 from vibroimpact.engine.linear.tables import (
     BAND_0,
@@ -39,6 +39,7 @@ from vibroimpact.engine.linear.walk import (
     walk,
 )
 from vibroimpact.engine.memory import workspace
+from vibroimpact.engine.motion import Row
 
 _WEAK_PULL = 0.45  # theory, section 3.3
 
@@ -75,7 +76,7 @@ def leave(
         series[1] = 0.0
     if released:
         series[2] = 0.0
-    return first_root(series, 0.0, sign, memory, rate, memory > 0.0, 0.0, high)
+    return first_root(series, Clearance(0.0, sign, memory, rate, memory > 0.0), 0.0, high)
 
 
 @kernel
@@ -90,49 +91,36 @@ def without(bounds: Bounds, side: int) -> Bounds:
 
 
 @inlined
-def placed(
-    way: int, t: float, x: float, v: float, s: float, c: float, bounds: Bounds
-) -> tuple[int, float, float, float, float, float, float, float]:
+def placed(way: int, t: float, row: Row, bounds: Bounds) -> tuple[int, float, Row, float, float]:
     """The mass exactly at the bumper that it touches."""
+    x, v, s, c = row
     if way == ABOVE:
         x = bounds.upper + bounds.memory_upper
     elif way == BELOW:
         x = bounds.lower - bounds.memory_lower
-    return way, t, x, v, s, c, bounds.memory_upper, bounds.memory_lower
+    return way, t, Row(x, v, s, c), bounds.memory_upper, bounds.memory_lower
 
 
 @kernel
 def touched(
-    plan: Vector,
-    table: int,
-    way: int,
-    y: float,
-    x: float,
-    v: float,
-    s: float,
-    c: float,
-    bounds: Bounds,
-) -> tuple[int, float, float, float, float, float, float, float]:
+    plan: Vector, table: int, way: int, y: float, row: Row, bounds: Bounds
+) -> tuple[int, float, Row, float, float]:
     """A contact y steps behind a state."""
-    x, v, s, c = travel(plan, table, y, x, v, s, c)
     later = plan[table + H] * y
-    return placed(way, later, x, v, s, c, faded(bounds, later))
+    return placed(way, later, travel(plan, table, y, row), faded(bounds, later))
 
 
 @kernel
 def flight(
     plan: Vector,
     slot: int,
-    x: float,
-    v: float,
-    s: float,
-    c: float,
+    row: Row,
     bounds: Bounds,
     launched: int,
     released: bool,
     limit: float,
     age: float,
-) -> tuple[int, float, float, float, float, float, float, float]:
+) -> tuple[int, float, Row, float, float]:
     """Go until the first contact or the limit.
 
     Parameters
@@ -141,8 +129,8 @@ def flight(
         From `tables.build`.
     slot : int
         Which of its tables describes the motion.
-    x, v, s, c : float
-        Coordinate (m), velocity (m/s), sin θ and cos θ at the start.
+    row : Row
+        The state at the start.
     bounds : Bounds
         Where the free bumpers are, and their deformations away from the mass (m, ≥ 0).
     launched : int
@@ -156,7 +144,7 @@ def flight(
 
     Returns
     -------
-    way, t, x, v, s, c, memory_upper, memory_lower
+    way, t, row, memory_upper, memory_lower
         ABOVE, BELOW or WITHIN, the elapsed time (s), the state and the deformations there.
     """
     series = workspace()
@@ -168,6 +156,7 @@ def flight(
         late = early + LATE_TABLES
         table = late if age + t >= plan[late + VALID_FROM] else early
         h = plan[table + H]
+        x, v = row.x, row.v
         band = plan[table + BAND_X] * abs(x) + plan[table + BAND_V] * abs(v) + plan[table + BAND_0]
         second = 8.0 * band  # per step squared
         span = (limit - t) * plan[table + RATE]
@@ -175,10 +164,10 @@ def flight(
             # The mass may touch a bumper: about the start itself the series is exact there,
             # and the signs of its coefficients tell a contact from a parting.
             high = min(0.5, span)
-            expand(plan, table + TAYLOR, x, v, s, c, series)
+            expand(plan, table + TAYLOR, row, series)
             y, way = search(series, bounds, h, 0.0, 0.0, high)
             if y != NONE:
-                return touched(plan, table, way, y, x, v, s, c, bounds)
+                return touched(plan, table, way, y, row, bounds)
             clear_upper = clear_lower = high
         if launched:
             # A lower bound of the clearance just after detachment (theory, section 3.3).
@@ -194,14 +183,14 @@ def flight(
                 clear = 2.0 * max(-v if above else v, 0.0) * h / second
             if clear < 1.0:
                 high = min(0.5, span)
-                expand(plan, table + TAYLOR, x, v, s, c, series)
+                expand(plan, table + TAYLOR, row, series)
                 # The other bumper may be as near: where both gaps are zero it is.
                 y, way = search(series, without(bounds, launched), h, 0.0, 0.0, high)
                 again = leave(series, launched, released, memory, rate, high)
                 if again < y:
                     y, way = again, launched
                 if y != NONE:
-                    return touched(plan, table, way, y, x, v, s, c, bounds)
+                    return touched(plan, table, way, y, row, bounds)
                 clear_upper = clear_lower = high
                 clear = max(clear, high)
             # The bound on the second derivative holds for this window only.
@@ -210,17 +199,14 @@ def flight(
             else:
                 clear_lower = min(clear, NODES)
             launched = WITHIN
-        way, i, y, ex, ev, es, ec, up, down = walk(
+        way, i, y, end, up, down = walk(
             plan,
             table,
             _DISPLACEMENT,
             bounds,
             x,
             band,
-            x,
-            v,
-            s,
-            c,
+            row,
             span,
             clear_upper,
             clear_lower,
@@ -230,12 +216,12 @@ def flight(
         if way != WITHIN:
             upper, lower, _, _, rate_upper, rate_lower = bounds
             here = Bounds(upper, lower, up, down, rate_upper, rate_lower)
-            return placed(way, t + (i + y) * h, ex, ev, es, ec, faded(here, y * h))
+            return placed(way, t + (i + y) * h, end, faded(here, y * h))
         if span <= NODES:
-            x, v, s, c = ended(plan, table, x, v, s, c, span)
+            row = ended(plan, table, row, span)
             bounds = faded(bounds, limit - t)
-            return WITHIN, limit, x, v, s, c, bounds.memory_upper, bounds.memory_lower
-        x, v, s, c = next_window(plan, table, x, v, s, c)
+            return WITHIN, limit, row, bounds.memory_upper, bounds.memory_lower
+        row = next_window(plan, table, row)
         bounds = faded(bounds, NODES * h)
         clear_upper = clear_lower = 0.0
         t += NODES * h

@@ -39,14 +39,14 @@ from vibroimpact.engine.linear.tables import (
     WIDTH,
     H,
 )
-from vibroimpact.engine.motion import LEFT, RIGHT, Motion, coordinates
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Row, coordinates
 
 
 class Cursor(NamedTuple):
     """Where on a stretch a piece lies.
 
     A window of NODES intervals of `table` begins `t` seconds behind the stretch's start, with
-    the state x, v, s, c in the mode's own coordinates; the piece is its interval `i`; `span` is
+    the state `start` in the mode's own coordinates; the piece is its interval `i`; `span` is
     how many intervals are left from the window's start.
     """
 
@@ -57,37 +57,23 @@ class Cursor(NamedTuple):
     age: float
     t: float
     span: float
-    x: float
-    v: float
-    s: float
-    c: float
+    start: Row
 
 
 @kernel
-def window(
-    plan: Vector,
-    early: int,
-    length: float,
-    age: float,
-    t: float,
-    x: float,
-    v: float,
-    s: float,
-    c: float,
-) -> Cursor:
+def window(plan: Vector, early: int, length: float, age: float, t: float, start: Row) -> Cursor:
     """The first piece of a window that begins t seconds behind the stretch's start."""
     late = early + LATE_TABLES
     table = late if age + t >= plan[late + VALID_FROM] else early
     span = (length - t) * plan[table + RATE]
-    return Cursor(early, table, 0, length, age, t, span, x, v, s, c)
+    return Cursor(early, table, 0, length, age, t, span, start)
 
 
 @kernel
 def begin(plan: Vector, motion: Motion, length: float) -> Cursor:
     """The first piece of the stretch of so many seconds that starts with this motion."""
-    _, x, v, s, c = coordinates(motion)
-    early = TABLES + SIZE * motion.mode
-    return window(plan, early, length, motion.age, 0.0, x, v, s, c)
+    _, row = coordinates(motion)
+    return window(plan, TABLES + SIZE * motion.mode, length, motion.age, 0.0, row)
 
 
 @kernel
@@ -99,34 +85,33 @@ def more(cursor: Cursor) -> bool:
 @kernel
 def following_window(plan: Vector, cursor: Cursor) -> Cursor:
     """The first piece of the next window."""
-    early, table, _, length, age, t, _, x, v, s, c = cursor
-    x, v, s, c = moved(plan, table + NODE + (NODES - 1) * WIDTH, x, v, s, c)
-    return window(plan, early, length, age, t + NODES * plan[table + H], x, v, s, c)
+    early, table, _, length, age, t, _, start = cursor
+    start = moved(plan, table + NODE + (NODES - 1) * WIDTH, start)
+    return window(plan, early, length, age, t + NODES * plan[table + H], start)
 
 
 @kernel
 def following(plan: Vector, cursor: Cursor) -> Cursor:
     """The next piece."""
-    early, table, i, length, age, t, span, x, v, s, c = cursor
+    early, table, i, length, age, t, span, start = cursor
     if i + 1 < NODES:
-        return Cursor(early, table, i + 1, length, age, t, span, x, v, s, c)
+        return Cursor(early, table, i + 1, length, age, t, span, start)
     return following_window(plan, cursor)
 
 
 @kernel
-def middle(plan: Vector, cursor: Cursor) -> tuple[float, float, float, float]:
+def middle(plan: Vector, cursor: Cursor) -> Row:
     """The state in the middle of a piece, in the mode's own coordinates."""
-    _, table, i, _, _, _, _, x, v, s, c = cursor
-    x, v, s, c = node(plan, table, i, x, v, s, c)
-    return moved(plan, table + MIDDLE, x, v, s, c)
+    here = node(plan, cursor.table, cursor.i, cursor.start)
+    return moved(plan, cursor.table + MIDDLE, here)
 
 
 @kernel
 def expanded(plan: Vector, cursor: Cursor, series: Vector) -> tuple[float, float, float]:
     """Write the series of x; return how far the piece reaches, and the phasor in its middle."""
-    x, v, s, c = middle(plan, cursor)
-    expand(plan, cursor.table + TAYLOR, x, v, s, c, series)
-    return min(0.5, cursor.span - cursor.i - 0.5), s, c
+    row = middle(plan, cursor)
+    expand(plan, cursor.table + TAYLOR, row, series)
+    return min(0.5, cursor.span - cursor.i - 0.5), row.s, row.c
 
 
 @kernel
@@ -135,15 +120,13 @@ def expanded_at_node(plan: Vector, cursor: Cursor, j: int, series: Vector) -> No
 
     Samples need it: just behind an event the coordinate is tiny, and from there it has no noise.
     """
-    x, v, s, c = node(plan, cursor.table, j, cursor.x, cursor.v, cursor.s, cursor.c)
-    expand(plan, cursor.table + TAYLOR, x, v, s, c, series)
+    expand(plan, cursor.table + TAYLOR, node(plan, cursor.table, j, cursor.start), series)
 
 
 @kernel
 def expanded_force(plan: Vector, cursor: Cursor, series: Vector) -> None:
     """Write the series of the contact force per unit mass."""
-    x, v, s, c = middle(plan, cursor)
-    expand(plan, cursor.table + TAYLOR_F, x, v, s, c, series)
+    expand(plan, cursor.table + TAYLOR_F, middle(plan, cursor), series)
 
 
 @kernel
@@ -184,8 +167,8 @@ def displacement(plan: Vector, mode: int, x: float) -> float:
 @kernel
 def acceleration(plan: Vector, motion: Motion) -> float:
     """Absolute acceleration of the mass, in the direction of u."""
-    sign, x, v, s, _ = coordinates(motion)
-    return sign * absolute_acceleration(plan, motion.mode, x, v, s)
+    sign, row = coordinates(motion)
+    return sign * absolute_acceleration(plan, motion.mode, row)
 
 
 @kernel

@@ -25,6 +25,7 @@ from vibroimpact.engine.motion import (
     RIGHT,
     SETTLING,
     Motion,
+    Row,
 )
 
 _CHATTERED = 1e-6
@@ -190,19 +191,17 @@ def approach(plan: Vector, motion: Motion, limit: float) -> Ended:
     other = BOTH - mode
     s, c = clock
     # Seen from the pressed side, the other stop lies below.
-    way, t, x, v, s, c, _, free = flight(
+    way, t, row, _, free = flight(
         plan,
         mode,
-        x,
-        sign * v,
-        sign * s,
-        sign * c,
+        Row(x, sign * v, sign * s, sign * c),
         Bounds(math.inf, -(gap_r + gap_l), 0.0, free, math.inf, rate),
         BELOW if fresh & BOTH == other else WITHIN,
         fresh & RELEASED != 0,
         limit,
         age,
     )
+    x, v, s, c = row
     v, clock = sign * v, (sign * s, sign * c)
     right, left = (x, free) if mode == RIGHT else (free, x)
     u = gap_r + x if mode == RIGHT else -(gap_l + x)

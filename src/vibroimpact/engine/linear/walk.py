@@ -14,9 +14,16 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.crossing import NONE, crossing_guess, first_root, quick_root
-from vibroimpact.engine.linear.evaluate import expand, moved, node, relaxed, row, travel
+from vibroimpact.engine.linear.crossing import (
+    NONE,
+    Clearance,
+    crossing_guess,
+    first_root,
+    quick_root,
+)
+from vibroimpact.engine.linear.evaluate import expand, moved, node, product, relaxed, travel
 from vibroimpact.engine.linear.tables import LATE, MIDDLE, NODE, NODES, WIDTH, H
+from vibroimpact.engine.motion import Row
 
 ABOVE, BELOW, WITHIN = 1, 2, 0
 """Where the function goes."""
@@ -54,27 +61,11 @@ def search(
     above = NONE
     below = NONE
     if low_upper < high and bounds.upper < math.inf:
-        above = first_root(
-            series,
-            bounds.upper,
-            -1.0,
-            bounds.memory_upper,
-            bounds.rate_upper * h,
-            False,
-            low_upper,
-            high,
-        )
+        clearance = Clearance(bounds.upper, -1.0, bounds.memory_upper, bounds.rate_upper * h, False)
+        above = first_root(series, clearance, low_upper, high)
     if low_lower < high and bounds.lower > -math.inf:
-        below = first_root(
-            series,
-            -bounds.lower,
-            1.0,
-            bounds.memory_lower,
-            bounds.rate_lower * h,
-            False,
-            low_lower,
-            high,
-        )
+        clearance = Clearance(-bounds.lower, 1.0, bounds.memory_lower, bounds.rate_lower * h, False)
+        below = first_root(series, clearance, low_lower, high)
     if above == NONE and below == NONE:
         return NONE, WITHIN
     if above <= below:
@@ -90,23 +81,20 @@ def walk(
     bounds: Bounds,
     q: float,
     band: float,
-    x: float,
-    v: float,
-    s: float,
-    c: float,
+    start: Row,
     span: float,
     clear_upper: float,
     clear_lower: float,
     quick_from: float,
     series: Vector,
-) -> tuple[int, int, float, float, float, float, float, float, float]:
+) -> tuple[int, int, float, Row, float, float]:
     """Walk over one window of NODES intervals, or `span` of them.
 
     Parameters
     ----------
     q, band : float
         The function at the start, and the bound on what it bends over an interval, q″ h²/8.
-    x, v, s, c : float
+    start : Row
         The state at the window's start.
     clear_upper, clear_lower : float
         Proven free of a crossing for so many steps.
@@ -115,7 +103,7 @@ def walk(
 
     Returns
     -------
-    way, i, y, x, v, s, c, up, down
+    way, i, y, row, up, down
         ABOVE or BELOW, the time i + y in steps and the state there, and the memories at node i;
         WITHIN if nothing happens.
     """
@@ -138,68 +126,46 @@ def walk(
                 break
             earlier = before
             before = q
-            q = row(plan, table + watched.rows + j * watched.apart, x, v, s, c)
+            q = product(plan, table + watched.rows + j * watched.apart, start)
             j += 1
         if j < 0:
             break
         i = j - 1 if j - 1 > done else j
         if i >= span or i == NODES:
             break
-        nx, nv, ns, nc = node(plan, table, i, x, v, s, c)
+        near = node(plan, table, i, start)
         up = relaxed(memory_upper, rate_upper, i * h)
         down = relaxed(memory_lower, rate_lower, i * h)
         y = NONE
+        end = near
         way = WITHIN
         if i == j - 1 and plan[table + LATE] == 0.0 and i >= quick_from:
             # The usual case: a clean crossing, no memory left on that side.
             if q > upper and up == 0.0 and before < upper:
                 way = ABOVE
                 guess = crossing_guess(earlier, before, q, upper, j)
-                y, ex, ev, es, ec = quick_root(
-                    plan,
-                    table,
-                    watched.weight_x,
-                    watched.weight_v,
-                    upper,
-                    guess,
-                    second,
-                    nx,
-                    nv,
-                    ns,
-                    nc,
+                y, end = quick_root(
+                    plan, table, watched.weight_x, watched.weight_v, upper, guess, second, near
                 )
             elif q < lower and down == 0.0 and before > lower:
                 way = BELOW
                 guess = crossing_guess(earlier, before, q, lower, j)
-                y, ex, ev, es, ec = quick_root(
-                    plan,
-                    table,
-                    -watched.weight_x,
-                    -watched.weight_v,
-                    -lower,
-                    guess,
-                    second,
-                    nx,
-                    nv,
-                    ns,
-                    nc,
+                y, end = quick_root(
+                    plan, table, -watched.weight_x, -watched.weight_v, -lower, guess, second, near
                 )
             if y != NONE and i + y > span:
                 break
         if y == NONE:
-            mx, mv, ms, mc = moved(plan, table + MIDDLE, nx, nv, ns, nc)
-            expand(plan, table + watched.series, mx, mv, ms, mc, series)
+            expand(plan, table + watched.series, moved(plan, table + MIDDLE, near), series)
             low_upper = max(0.0, clear_upper - i)
             low_lower = max(0.0, clear_lower - i)
             # A side is left out where both ends of the interval clear it.
-            near = (
-                before
-                if i == j - 1
-                else row(plan, table + watched.rows + i * watched.apart, x, v, s, c)
-            )
+            first = before
+            if i != j - 1:
+                first = product(plan, table + watched.rows + i * watched.apart, start)
             here = Bounds(
-                upper if max(q, near) > top else math.inf,
-                lower if min(q, near) < bottom else -math.inf,
+                upper if max(q, first) > top else math.inf,
+                lower if min(q, first) < bottom else -math.inf,
                 relaxed(up, rate_upper, low_upper * h),
                 relaxed(down, rate_lower, low_lower * h),
                 rate_upper,
@@ -209,33 +175,28 @@ def walk(
             y, way = search(series, here, h, low_upper - 0.5, low_lower - 0.5, high)
             if y != NONE:
                 y += 0.5
-                ex, ev, es, ec = travel(plan, table, y, nx, nv, ns, nc)
+                end = travel(plan, table, y, near)
         if y != NONE:
-            return way, i, y, ex, ev, es, ec, up, down
+            return way, i, y, end, up, down
         done = i
         if i == j:
             if j == NODES:
                 break
             earlier = before
             before = q
-            q = row(plan, table + watched.rows + j * watched.apart, x, v, s, c)
+            q = product(plan, table + watched.rows + j * watched.apart, start)
             j += 1
-    return WITHIN, NODES, 0.0, x, v, s, c, 0.0, 0.0
+    return WITHIN, NODES, 0.0, start, 0.0, 0.0
 
 
 @inlined
-def ended(
-    plan: Vector, table: int, x: float, v: float, s: float, c: float, span: float
-) -> tuple[float, float, float, float]:
+def ended(plan: Vector, table: int, start: Row, span: float) -> Row:
     """The state `span` ≤ NODES steps behind a window's start."""
     i = min(int(span), NODES - 1)
-    nx, nv, ns, nc = node(plan, table, i, x, v, s, c)
-    return travel(plan, table, span - i, nx, nv, ns, nc)
+    return travel(plan, table, span - i, node(plan, table, i, start))
 
 
 @inlined
-def next_window(
-    plan: Vector, table: int, x: float, v: float, s: float, c: float
-) -> tuple[float, float, float, float]:
+def next_window(plan: Vector, table: int, start: Row) -> Row:
     """The state at the end of a window."""
-    return moved(plan, table + NODE + (NODES - 1) * WIDTH, x, v, s, c)
+    return moved(plan, table + NODE + (NODES - 1) * WIDTH, start)

@@ -104,8 +104,8 @@ def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
     before, event, step = stretch.before, stretch.event, stretch.step
     u_least, u_most, a_least, a_most, hits_right, hits_left = notes
     series = workspace()
-    sign, x, _, _, _ = coordinates(before)
-    x_least, x_most = x, x
+    sign, row = coordinates(before)
+    x_least, x_most = row.x, row.x
     a = sign * acceleration(plan, before)
     least_a, most_a = a, a
     cursor = begin(plan, before, step)

@@ -19,7 +19,7 @@ from vibroimpact.engine.linear.pieces import (
 from vibroimpact.engine.linear.stops import turned
 from vibroimpact.engine.linear.tables import AMPLITUDE, NODES, RATE, resting
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion, Stretch
+from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion, Row, Stretch
 from vibroimpact.engine.observe import observer
 
 # Rows of the samples: a row a variable, so that each is one piece of memory.
@@ -124,7 +124,7 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
             s, _ = turned(plan, before.clock, tau)
             a = plan[AMPLITUDE] * s
         else:
-            a = sign * absolute_acceleration(plan, mode, x, v, 0.0)
+            a = sign * absolute_acceleration(plan, mode, Row(x, v, 0.0, 0.0))
         right = x if mode & RIGHT else relaxed(before.right, rate_r, tau)
         left = x if mode == LEFT else relaxed(before.left, rate_l, tau)
         if mode == BOTH:
