@@ -9,7 +9,7 @@ import pytest
 
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.flows import AnyStops, Apart, flow_of, planned
-from vibroimpact.engine.linear.tables import PLAN
+from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.parameters import SIZE, Stop, free_rig, rig_vector
 
 BUMPER, WALL = (20.0, 0.4, 1.0), (0.5, 1.0)

@@ -9,7 +9,7 @@ from vibroimpact.engine import parameters as par
 
 def test_each_number_has_its_place() -> None:
     rig = par.rig_vector(2.0, 6.0, 0.5, (8.0, 4.0, 0.3), (0.7, 0.1))
-    right, left = rig[par.BUMPER :][: par.WIDTH], rig[par.BUMPER + par.WIDTH :]
+    right, left = rig[par.BUMPER :][: par.WIDTH], rig[par.BUMPER + par.WIDTH : par.LOAD]
     assert (rig[par.STIFFNESS], rig[par.DAMPING]) == (3.0, 0.25)
     assert right[par.KIND] == par.KELVIN_VOIGT
     assert (right[par.BUMPER_STIFFNESS], right[par.BUMPER_DAMPING]) == (4.0, 2.0)

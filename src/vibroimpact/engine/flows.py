@@ -20,10 +20,11 @@ from numba.core.datamodel import models
 from numba.extending import intrinsic, overload, register_model
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import OPTIONS, Vector
 from vibroimpact.engine.linear.advance import Ended, advance_apart
+from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
-from vibroimpact.engine.linear.tables import PLAN
 from vibroimpact.engine.motion import Motion
 
 
@@ -39,10 +40,31 @@ class AnyStops(NamedTuple):
     memory: Vector
 
 
-_ADVANCE: dict[type, Callable[..., Any]] = {Apart: advance_apart, AnyStops: advance_any}
+class Several(NamedTuple):
+    """Any stops, shaken by several harmonics."""
+
+    memory: Vector
+
+
+class Recorded(NamedTuple):
+    """Any stops, shaken by a record."""
+
+    memory: Vector
+
+
+_ADVANCE: dict[type, Callable[..., Any]] = {
+    Apart: advance_apart,
+    AnyStops: advance_any,
+    Several: advance_any,
+    Recorded: advance_any,
+}
+_FORCING: dict[type, float] = {Several: par.SEVERAL, Recorded: par.RAMP}
 
 
 def _flow(rig: Vector) -> type:
+    for flow, forcing in _FORCING.items():
+        if rig[par.FORCING] == forcing:
+            return flow
     right, left = par.BUMPER, par.BUMPER + par.WIDTH
     rigid = par.RIGID in (rig[right + par.KIND], rig[left + par.KIND])
     overlapping = rig[right + par.GAP] + rig[left + par.GAP] < 0.0
@@ -51,12 +73,19 @@ def _flow(rig: Vector) -> type:
 
 def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
-    return _flow(rig)(np.empty(PLAN))
+    flow = _flow(rig)
+    if flow is not Several:
+        return flow(np.empty(PLAN))
+    weights = rig[par.WEIGHTS :]
+    memory = np.empty(several.room(len(weights) // 2))
+    memory[several.WEIGHTS : several.WEIGHTS + len(weights)] = weights
+    return flow(memory)
 
 
 def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
-    return _flow(rig) in (AnyStops, _flow(other))
+    same = rig[par.FORCING] == other[par.FORCING]
+    return same and _flow(rig) in (AnyStops, _flow(other))
 
 
 class PlanType(types.CPointer):
@@ -64,6 +93,7 @@ class PlanType(types.CPointer):
 
     def __init__(self, flow: type) -> None:
         self.flow = flow
+        self.forcing = _FORCING.get(flow, par.HARMONIC)
         super().__init__(types.float64)  # type: ignore[no-untyped-call]
         self.name = f"Plan({flow.__name__})"
 

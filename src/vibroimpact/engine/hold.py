@@ -10,10 +10,9 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.tables import build
+from vibroimpact.engine.linear.tables import build, stiff_rate
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, aged, finite
@@ -93,7 +92,7 @@ def settle(
     outcome, n, cycles, motion
         `n` is the period in forcing cycles, 0 if the motion did not settle.
     """
-    weight = math.sqrt(plan[par.STIFFNESS])
+    weight = stiff_rate(plan)
     past = past_memory()
     block, former = distances(), distances()
     recent, earlier = distances(), distances()  # ratios of successive blocks

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from vibroimpact.engine import parameters as par
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.tables import build
+from vibroimpact.engine.linear.tables import build, stiff_rate
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer, workspace
 from vibroimpact.engine.motion import finite, pack, unpacked
@@ -63,7 +62,7 @@ def growth(
         return TOO_MUCH_WORK, 0
     clock = (math.sin(phase), math.cos(phase))
     motion = unpacked(state, clock)
-    weight = math.sqrt(plan[par.STIFFNESS])
+    weight = stiff_rate(plan)
     q = workspace()
     w = workspace()
     begin(q, w, weight, motion.mode)

@@ -14,8 +14,10 @@ import numpy as np
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
+from vibroimpact.engine.forcing.dispatch import pull_series
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner
+from vibroimpact.engine.linear.layout import RATE, RESTING, SIZE, TABLES, H
 from vibroimpact.engine.linear.pieces import (
     accelerated,
     expanded,
@@ -24,16 +26,7 @@ from vibroimpact.engine.linear.pieces import (
     more,
     window,
 )
-from vibroimpact.engine.linear.tables import (
-    AMPLITUDE,
-    RATE,
-    RESTING,
-    SCALED_W,
-    SIZE,
-    TABLES,
-    H,
-    build,
-)
+from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT, Row
 from vibroimpact.engine.observers.extremes import series_extremes
@@ -58,7 +51,8 @@ def rest_level(plan: Vector, mode: int) -> float:
     """What presses a resting mass on its rigid stop but for the base: the force per unit mass."""
     side = LEFT if mode in (LEFT, SEEN_LEFT) else RIGHT
     at = par.BUMPER + par.WIDTH * (side - 1)
-    level: float = -plan[par.STIFFNESS] * plan[at + par.GAP]
+    load = plan[par.LOAD] if side == RIGHT else -plan[par.LOAD]
+    level: float = load - plan[par.STIFFNESS] * plan[at + par.GAP]
     if mode in (BOTH, SEEN_LEFT):
         other = par.BUMPER + par.WIDTH * (2 - side)
         level -= plan[other + par.BUMPER_STIFFNESS] * (plan[at + par.GAP] + plan[other + par.GAP])
@@ -68,7 +62,7 @@ def rest_level(plan: Vector, mode: int) -> float:
 @kernel
 def measure_phase(plan: Vector, mode: int, row: Row, length: float, out: Vector) -> None:
     """Measure one phase from its start, which is mirrored for a left contact."""
-    series = workspace()
+    series, shaking = workspace(), workspace()
     x_least, x_most = row.x, row.x
     a = absolute_acceleration(plan, mode, row)
     a_least, a_most, a_time = a, a, 0.0
@@ -80,16 +74,17 @@ def measure_phase(plan: Vector, mode: int, row: Row, length: float, out: Vector)
     cursor = window(plan, TABLES + SIZE * mode, length, 0.0, 0.0, row)
     while more(cursor):
         h = plan[cursor.table + H]
-        turn = plan[cursor.table + SCALED_W]
+        rate = plan[cursor.table + RATE]
         high, ms, mc = expanded(plan, cursor, series)
         width = high + 0.5
+        pull_series(plan, cursor.table, ms, mc, shaking)
         for n in range(len(_WEIGHTS)):
             y = width * _ABSCISSAE[n] - 0.5
             _, slope = horner(series, y)
-            rate = slope * plan[cursor.table + RATE]
-            base = ms * math.cos(turn * y) + mc * math.sin(turn * y)
-            squares += _WEIGHTS[n] * width * h * rate * rate
-            work += _WEIGHTS[n] * width * h * rate * base
+            v = slope * rate
+            drive, _ = horner(shaking, y)
+            squares += _WEIGHTS[n] * width * h * v * v
+            work += _WEIGHTS[n] * width * h * v * drive * rate * rate
         x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
         unit = accelerated(plan, cursor, ms, mc, series)
         was_least, was_most = a_least / unit, a_most / unit
@@ -101,11 +96,11 @@ def measure_phase(plan: Vector, mode: int, row: Row, length: float, out: Vector)
             a_time = cursor.t + (cursor.i + 0.5 + at_most) * h
         if plan[cursor.table + RESTING] != 0.0:
             for n in range(len(_WEIGHTS)):
-                turned = turn * (width * _ABSCISSAE[n] - 0.5)
-                push = level - plan[AMPLITUDE] * (ms * math.cos(turned) + mc * math.sin(turned))
+                drive, _ = horner(shaking, width * _ABSCISSAE[n] - 0.5)
+                push = level - drive * rate * rate
                 impulse += _WEIGHTS[n] * width * h * push
-            least, _, _, _ = series_extremes(series, -0.5, high, math.inf, -math.inf)
-            force = max(force, level - least * unit)
+            least, _, _, _ = series_extremes(shaking, -0.5, high, math.inf, -math.inf)
+            force = max(force, level - least * rate * rate)
         elif mode != FLIGHT:
             expanded_force(plan, cursor, series)
             for n in range(len(_WEIGHTS)):
@@ -118,7 +113,7 @@ def measure_phase(plan: Vector, mode: int, row: Row, length: float, out: Vector)
     out[X_LEAST], out[X_MOST] = x_least, x_most
     out[A_LEAST], out[A_MOST], out[A_TIME] = a_least, a_most, a_time
     out[FORCE], out[IMPULSE], out[SQUARES] = force, impulse, squares
-    out[WORK] = work  # ∫ v sin θ dt keeps its sign where both are mirrored
+    out[WORK] = work  # ∫ v A_t dt keeps its sign where both are mirrored
 
 
 @entry("void(f8[::1], f8, f8, f8[:, ::1], f8[:, ::1])")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,7 +19,19 @@ BUMPER_DAMPING = 2  # C_j/M, 1/s
 GAP = 3  # G0_j, m; infinite where there is no bumper
 RATE = 4  # K_j/C_j, 1/s: how fast the free bumper relaxes; infinite where C_j = 0
 RESTITUTION = 5  # of a rigid stop
-SIZE = BUMPER + 2 * WIDTH
+LOAD = BUMPER + 2 * WIDTH  # constant force on the mass, F/M, m/s²
+BASE = LOAD + 1  # 1 if the base moves; 0 if it stands still and a force shakes the mass
+SCALE = LOAD + 2  # A_t has the amplitude: what is given · SCALE · ω^POWER
+POWER = LOAD + 3
+FORCING = LOAD + 4  # HARMONIC, SEVERAL or RAMP
+HARMONICS = LOAD + 5  # how many
+INTERVAL = LOAD + 6  # between the samples of a record, s; infinite if there is none
+SIZE = LOAD + 7
+WEIGHTS = SIZE + 2
+"""Where a vector goes on if there are several harmonics: behind the amplitude and the frequency
+of a system vector come the weights of sin nθ and cos nθ, two for each n from 1 on."""
+
+HARMONIC, SEVERAL, RAMP = 0.0, 1.0, 2.0
 
 ABSENT, KELVIN_VOIGT, RIGID = 0.0, 1.0, 2.0
 
@@ -25,8 +39,37 @@ Stop = tuple[float, ...]
 """K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop."""
 
 
+class Drive(NamedTuple):
+    """What shakes the mass, but for its size and frequency.
+
+    Attributes
+    ----------
+    base
+        1 if the base moves, 0 if a force acts on the mass.
+    scale, power
+        A_t has the amplitude: what is given · scale · ω^power. The base acceleration itself has
+        1 and 0; a displacement of the base has −1 and 2, a force −1/M and 0.
+    weights
+        Of sin nθ and cos nθ, n from 1 on, if there are several harmonics.
+    interval
+        Between the samples of a record (s); None if there is none.
+    """
+
+    base: float = 1.0
+    scale: float = 1.0
+    power: float = 0.0
+    weights: tuple[tuple[float, float], ...] = ()
+    interval: float | None = None
+
+
 def rig_vector(
-    mass: float, stiffness: float, damping: float, right: Stop | None, left: Stop | None
+    mass: float,
+    stiffness: float,
+    damping: float,
+    right: Stop | None,
+    left: Stop | None,
+    load: float = 0.0,
+    drive: Drive = Drive(),  # noqa: B008 (it is immutable)
 ) -> NDArray[np.float64]:
     """Pack a rig for the kernels.
 
@@ -36,12 +79,23 @@ def rig_vector(
         M (kg), K (N/m) and C (N s/m) of the mass and its isolator.
     right, left : tuple of float or None
         Each stop; None where there is none.
+    load : float
+        Constant force on the mass (N).
+    drive : Drive
+        What shakes it.
 
     Returns
     -------
-    ndarray of float, shape (SIZE,)
+    ndarray of float, shape (SIZE,), or longer if there are several harmonics
     """
-    vector = np.zeros(SIZE)
+    vector = np.zeros(WEIGHTS + 2 * len(drive.weights) if drive.weights else SIZE)
+    vector[LOAD] = load / mass
+    vector[BASE], vector[SCALE], vector[POWER] = drive.base, drive.scale, drive.power
+    vector[HARMONICS], vector[INTERVAL] = max(len(drive.weights), 1), np.inf
+    if drive.weights:
+        vector[FORCING], vector[WEIGHTS:] = SEVERAL, np.ravel(drive.weights)
+    if drive.interval is not None:
+        vector[FORCING], vector[INTERVAL] = RAMP, drive.interval
     vector[STIFFNESS] = stiffness / mass
     vector[DAMPING] = damping / mass
     for side, stop in ((1, right), (2, left)):

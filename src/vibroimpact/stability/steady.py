@@ -233,7 +233,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
         "eccentricity": 0.5 * (high + low),
         "impacts_right": int((log["contact_side"] == 1).sum()) / cycles,
         "impacts_left": int((log["contact_side"] == -1).sum()) / cycles,
-        "energy_supplied": -rig.mass * shaken.amplitude * rows[:, measure.WORK].sum() / cycles,
+        "energy_supplied": -rig.mass * rows[:, measure.WORK].sum() / cycles,
         "energy_isolator": rig.isolator.damping * squares.sum() / cycles,
         "energy_bumpers": float(pressed @ squares + lost) / cycles,
     }

@@ -10,6 +10,7 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner
+from vibroimpact.engine.linear.layout import PLAN, H
 from vibroimpact.engine.linear.pieces import (
     accelerated,
     begin,
@@ -19,7 +20,7 @@ from vibroimpact.engine.linear.pieces import (
     middle,
     more,
 )
-from vibroimpact.engine.linear.tables import PLAN, H, build
+from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import FLIGHT, RIGHT, Motion
 from vibroimpact.engine.parameters import SIZE

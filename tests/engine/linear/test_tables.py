@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from vibroimpact.engine.linear.evaluate import horner, node, relaxed, travel, turn
-from vibroimpact.engine.linear.tables import (
+from vibroimpact.engine.forcing.harmonic import turn
+from vibroimpact.engine.linear.evaluate import horner, node, relaxed, travel
+from vibroimpact.engine.linear.layout import (
     FORGOTTEN,
     LATE_TABLES,
     NODES,
@@ -18,10 +19,8 @@ from vibroimpact.engine.linear.tables import (
     TABLES,
     VALID_FROM,
     H,
-    build,
-    overlapping,
-    resting,
 )
+from vibroimpact.engine.linear.tables import build, overlapping, resting
 from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT, Row
 from vibroimpact.engine.parameters import SIZE as RIG
 from vibroimpact.engine.parameters import Stop, rig_vector
@@ -115,7 +114,7 @@ def test_bumpers_out_of_reach_of_one_another_have_no_table_of_both() -> None:
 
 @pytest.mark.parametrize("angle", [0.0, 1e-9, -0.01, 0.125])
 def test_a_phasor_turned(angle: float) -> None:
-    s, c = turn(math.sin(1.0), math.cos(1.0), angle)
+    s, c = turn(np.empty(0), math.sin(1.0), math.cos(1.0), angle)
     assert (s, c) == pytest.approx((math.sin(1.0 + angle), math.cos(1.0 + angle)), abs=2e-16)
 
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from vibroimpact.engine.linear.tables import ORDER
+from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.observers.extremes import series_extremes
 from vibroimpact.engine.observers.margin import turning_point
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import expand, pull
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.crossing import NONE, Clearance, first_root
-from vibroimpact.engine.linear.evaluate import expand, travel
-from vibroimpact.engine.linear.tables import (
+from vibroimpact.engine.linear.evaluate import travel
+from vibroimpact.engine.linear.layout import (
     FORCE,
     FORCE_0,
     FORCE_V,
@@ -18,7 +18,6 @@ from vibroimpact.engine.linear.tables import (
     NODES,
     RATE,
     REST,
-    SCALED_A,
     SCALED_C,
     SCALED_D,
     SCALED_K,
@@ -28,6 +27,7 @@ from vibroimpact.engine.linear.tables import (
     VALID_FROM,
     H,
 )
+from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.walk import WITHIN, Bounds, Watched, ended, next_window, walk
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import DETACHED, LIMIT, Row
@@ -82,7 +82,7 @@ def contact(
     while True:
         table = late if age + t >= plan[late + VALID_FROM] else early
         h = plan[table + H]
-        x, v, s, _ = row
+        x, v, s, c = row
         band = (
             plan[table + FORCE_X] * abs(x - plan[table + REST])
             + plan[table + FORCE_V] * abs(v)
@@ -94,12 +94,12 @@ def contact(
         f = stiffness * x + damping * v
         if fresh and plan[table + LATE] == 0.0:
             # F(t) ≥ F + F′ t − second t²/2 keeps the first steps positive.
-            pull = (
-                (plan[table + SCALED_D] - plan[table + SCALED_A] * s)
+            push = (
+                (plan[table + SCALED_D] - pull(plan, table, s, c))
                 - plan[table + SCALED_K] * x
                 - plan[table + SCALED_C] * (v * h)
             )
-            slope = stiffness * (v * h) + damping * plan[table + RATE] * pull
+            slope = stiffness * (v * h) + damping * plan[table + RATE] * push
             clear = 2.0 * slope / second
             if not clear >= 1.0:
                 # Slow landing: search about the contact point itself, where the force is not

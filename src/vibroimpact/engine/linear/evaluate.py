@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import expand, product, pull, short_series, spun, turn
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.tables import (
-    AMPLITUDE,
-    COSINE,
+from vibroimpact.engine.linear.layout import (
     FINE,
     FINE_NODE,
     FORGOTTEN,
@@ -18,12 +18,10 @@ from vibroimpact.engine.linear.tables import (
     RATE,
     RESTING,
     ROW_V,
-    SCALED_A,
     SCALED_C,
     SCALED_D,
     SCALED_K,
     SCALED_W,
-    SINE,
     SIZE,
     TABLES,
     TAYLOR,
@@ -46,39 +44,10 @@ def relaxed(deformation: float, rate: float, t: float) -> float:
 
 
 @kernel
-def turn(s: float, c: float, angle: float) -> tuple[float, float]:
-    """The phasor (sin θ, cos θ) turned by a small angle (at most half a step)."""
-    q = angle * angle
-    sine = angle * (
-        1 - q * (1 / 6 - q * (1 / 120 - q * (1 / 5040 - q * (1 / 362880 - q / 39916800))))
-    )
-    cosine = 1 - q * (
-        1 / 2 - q * (1 / 24 - q * (1 / 720 - q * (1 / 40320 - q * (1 / 3628800 - q / 479001600))))
-    )
-    return s * cosine + c * sine, c * cosine - s * sine
-
-
-@kernel
-def product(plan: Vector, at: int, row: Row) -> float:
-    """One linear function of the state row."""
-    x, v, s, c = row
-    pairs: float = (plan[at] * x + plan[at + 1] * v) + (plan[at + 2] * s + plan[at + 3] * c)
-    total: float = pairs + plan[at + 4]
-    return total
-
-
-@kernel
 def moved(plan: Vector, at: int, row: Row) -> Row:
     """The state at a node or fine point from the state at its origin."""
-    _, _, s, c = row
-    cosine = plan[at + COSINE]
-    sine = plan[at + SINE]
-    return Row(
-        product(plan, at, row),
-        product(plan, at + ROW_V, row),
-        s * cosine + c * sine,
-        c * cosine - s * sine,
-    )
+    s, c = spun(plan, at, row.s, row.c)
+    return Row(product(plan, at, row), product(plan, at + ROW_V, row), s, c)
 
 
 @kernel
@@ -87,20 +56,6 @@ def node(plan: Vector, table: int, i: int, row: Row) -> Row:
     if i == 0:
         return row
     return moved(plan, table + NODE + (i - 1) * WIDTH, row)
-
-
-@kernel
-def expand(plan: Vector, at: int, row: Row, series: Vector) -> None:
-    """Write the long series about a state.
-
-    `at` is where TAYLOR (for x) or TAYLOR_F (for the contact force) of a table begins.
-    """
-    x, v, s, c = row
-    for n in range(ORDER):
-        series[n] = (
-            (plan[at + n] * x + plan[at + ORDER + n] * v)
-            + (plan[at + 2 * ORDER + n] * s + plan[at + 3 * ORDER + n] * c)
-        ) + plan[at + 4 * ORDER + n]
 
 
 @kernel
@@ -115,41 +70,18 @@ def horner(series: Vector, y: float) -> tuple[float, float]:
 
 
 @kernel
-def short_series(
-    plan: Vector, table: int, row: Row
-) -> tuple[float, float, float, float, float, float, float]:
-    """Taylor coefficients a₀…a₆ of x in steps, from the equation of motion (early tables).
-
-    Written so that each coefficient waits for one product only.
-    """
-    x, v, s, c = row
-    sc = plan[table + SCALED_C]
-    sk = plan[table + SCALED_K]
-    wh = plan[table + SCALED_W]
-    ww = wh * wh
-    force = plan[table + SCALED_A] * s
-    force1 = plan[table + SCALED_A] * wh * c
-    a1 = v * plan[table + H]
-    a2 = ((plan[table + SCALED_D] - force) * (1 / 2) - (sk * (1 / 2)) * x) - (sc * (1 / 2)) * a1
-    a3 = (-force1 * (1 / 6) - (sk * (1 / 6)) * a1) - (sc * (1 / 3)) * a2
-    a4 = (force * (ww * (1 / 24)) - (sk * (1 / 12)) * a2) - (sc * (1 / 4)) * a3
-    a5 = (force1 * (ww * (1 / 120)) - (sk * (1 / 20)) * a3) - (sc * (1 / 5)) * a4
-    a6 = (-force * (ww * ww * (1 / 720)) - (sk * (1 / 30)) * a4) - (sc * (1 / 6)) * a5
-    return x, a1, a2, a3, a4, a5, a6
-
-
-@kernel
 def absolute_acceleration(plan: Vector, mode: int, row: Row) -> float:
-    """ü + A_t from the state, mirrored as it is; at rest it is A_t."""
-    x, v, s, _ = row
+    """Acceleration in space from the state, mirrored as it is: ü + A_t, or ü on a still base."""
+    x, v, s, c = row
     table = TABLES + SIZE * mode
-    if plan[table + RESTING] != 0.0:
-        base: float = plan[AMPLITUDE] * s
-        return base
     rate = plan[table + RATE]
+    if plan[table + RESTING] != 0.0:
+        return plan[par.BASE] * (pull(plan, table, s, c) * (rate * rate))  # type: ignore[no-any-return]
     scaled: float = (plan[table + SCALED_D] - plan[table + SCALED_K] * x) - plan[
         table + SCALED_C
     ] * (v * plan[table + H])
+    if plan[par.BASE] == 0.0:
+        scaled -= pull(plan, table, s, c)
     acceleration: float = scaled * (rate * rate)
     return acceleration
 
@@ -168,11 +100,11 @@ def travel(plan: Vector, table: int, y: float, row: Row) -> Row:
         a0, a1, a2, a3, a4, a5, a6 = short_series(plan, table, row)
         x = a0 + d * (a1 + d * (a2 + d * (a3 + d * (a4 + d * (a5 + d * a6)))))
         v = a1 + d * (2 * a2 + d * (3 * a3 + d * (4 * a4 + d * (5 * a5 + d * (6 * a6)))))
-        s, c = turn(row.s, row.c, plan[table + SCALED_W] * d)
+        s, c = turn(plan, row.s, row.c, plan[table + SCALED_W] * d)
     else:
         row = moved(plan, table + MIDDLE, row)
         series = workspace()
         expand(plan, table + TAYLOR, row, series)
         x, v = horner(series, y - 0.5)
-        s, c = turn(row.s, row.c, plan[table + SCALED_W] * (y - 0.5))
+        s, c = turn(plan, row.s, row.c, plan[table + SCALED_W] * (y - 0.5))
     return Row(x, v * plan[table + RATE], s, c)

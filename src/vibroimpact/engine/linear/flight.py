@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine.forcing.dispatch import expand
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.crossing import NONE, Clearance, first_root
-from vibroimpact.engine.linear.evaluate import expand, relaxed, travel
-from vibroimpact.engine.linear.tables import (
+from vibroimpact.engine.linear.evaluate import relaxed, travel
+from vibroimpact.engine.linear.layout import (
     BAND_0,
     BAND_V,
     BAND_X,
@@ -20,6 +20,7 @@ from vibroimpact.engine.linear.tables import (
     NODE,
     NODES,
     RATE,
+    REST,
     SIZE,
     TABLES,
     TAYLOR,
@@ -27,6 +28,7 @@ from vibroimpact.engine.linear.tables import (
     WIDTH,
     H,
 )
+from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.walk import (
     ABOVE,
     BELOW,
@@ -157,7 +159,11 @@ def flight(
         table = late if age + t >= plan[late + VALID_FROM] else early
         h = plan[table + H]
         x, v = row.x, row.v
-        band = plan[table + BAND_X] * abs(x) + plan[table + BAND_V] * abs(v) + plan[table + BAND_0]
+        band = (
+            plan[table + BAND_X] * abs(x - plan[table + REST])
+            + plan[table + BAND_V] * abs(v)
+            + plan[table + BAND_0]
+        )
         second = 8.0 * band  # per step squared
         span = (limit - t) * plan[table + RATE]
         if not launched and t == 0.0 and (x > bounds.upper - band or x < band + bounds.lower):

@@ -16,9 +16,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import expand, pull_series
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.evaluate import absolute_acceleration, expand, moved, node
-from vibroimpact.engine.linear.tables import (
+from vibroimpact.engine.linear.evaluate import absolute_acceleration, moved, node
+from vibroimpact.engine.linear.layout import (
     LATE_TABLES,
     MIDDLE,
     NODE,
@@ -26,11 +27,9 @@ from vibroimpact.engine.linear.tables import (
     ORDER,
     RATE,
     RESTING,
-    SCALED_A,
     SCALED_C,
     SCALED_D,
     SCALED_K,
-    SCALED_W,
     SIZE,
     TABLES,
     TAYLOR,
@@ -39,6 +38,7 @@ from vibroimpact.engine.linear.tables import (
     WIDTH,
     H,
 )
+from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Row, coordinates
 
 
@@ -133,21 +133,25 @@ def expanded_force(plan: Vector, cursor: Cursor, series: Vector) -> None:
 def accelerated(plan: Vector, cursor: Cursor, s: float, c: float, series: Vector) -> float:
     """Turn the series of x into that of the absolute acceleration; return its unit, 1/step².
 
-    ü + A sin θ = d − k x − c x′; at rest it is what is left, A sin θ, from the phasor s, c in the
-    piece's middle.
+    ü + A_t = d − k x − c x′ on a base that moves, ü on one that stands still; at rest it is that
+    of the base. The clock s, c is that in the piece's middle.
     """
     table = cursor.table
+    base: float = plan[par.BASE]
     if plan[table + RESTING] != 0.0:
-        now, after = plan[table + SCALED_A] * s, plan[table + SCALED_A] * plan[table + SCALED_W] * c
-        turn = plan[table + SCALED_W] * plan[table + SCALED_W]
+        pull_series(plan, table, s, c, series)
         for n in range(ORDER):
-            series[n] = now
-            now, after = after, -turn * now / ((n + 1) * (n + 2))
+            series[n] *= base
     else:
         for n in range(ORDER):
             behind = series[n + 1] * (n + 1) if n + 1 < ORDER else 0.0
             series[n] = -plan[table + SCALED_K] * series[n] - plan[table + SCALED_C] * behind
         series[0] += plan[table + SCALED_D]
+        if base == 0.0:
+            shaking = workspace()
+            pull_series(plan, table, s, c, shaking)
+            for n in range(ORDER):
+                series[n] -= shaking[n]
     rate: float = plan[table + RATE]
     return rate * rate
 

@@ -9,11 +9,13 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import let_go, pace, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers, fly, press
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.flight import flight
-from vibroimpact.engine.linear.tables import AMPLITUDE, OMEGA, overlapping, resting
+from vibroimpact.engine.linear.layout import STEEPEST
+from vibroimpact.engine.linear.tables import overlapping, resting
 from vibroimpact.engine.linear.walk import BELOW, WITHIN, Bounds
 from vibroimpact.engine.motion import (
     BOTH,
@@ -43,9 +45,9 @@ def rigid(plan: Vector, side: int) -> bool:
 @kernel
 def acceleration_of(plan: Vector, motion: Motion) -> float:
     """Acceleration ü relative to the base, from the forces of the isolator and pressed bumpers."""
-    s, _ = motion.clock
-    a: float = -plan[par.STIFFNESS] * motion.u - plan[par.DAMPING] * motion.v
-    a -= plan[AMPLITUDE] * s
+    s, c = motion.clock
+    a: float = plan[par.LOAD] - plan[par.STIFFNESS] * motion.u - plan[par.DAMPING] * motion.v
+    a -= value(plan, s, c)
     for side in range(1, 3):
         at = par.BUMPER + par.WIDTH * (side - 1)
         if motion.mode & side and plan[at + par.KIND] == par.KELVIN_VOIGT:
@@ -54,14 +56,6 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
             a -= sign * plan[at + par.BUMPER_STIFFNESS] * deformation
             a -= plan[at + par.BUMPER_DAMPING] * motion.v
     return a
-
-
-@kernel
-def turned(plan: Vector, clock: tuple[float, float], t: float) -> tuple[float, float]:
-    """The clock after the time t."""
-    s, c = clock
-    sine, cosine = math.sin(plan[OMEGA] * t), math.cos(plan[OMEGA] * t)
-    return s * cosine + c * sine, c * cosine - s * sine
 
 
 @kernel
@@ -81,9 +75,9 @@ def impact(
         return event, t, arrival, bounced
     rest = chatter(v, restitution, push)
     # How fast the push may change meanwhile, and the rig's own rates.
-    change = plan[par.DAMPING] * push + plan[AMPLITUDE] * plan[OMEGA]
+    change = plan[par.DAMPING] * push + plan[STEEPEST]
     change += plan[par.STIFFNESS] * abs(v)
-    rate = plan[OMEGA] + math.sqrt(plan[par.STIFFNESS]) + plan[par.DAMPING]
+    rate = pace(plan) + math.sqrt(plan[par.STIFFNESS]) + plan[par.DAMPING]
     for other in range(2):
         stop = par.BUMPER + par.WIDTH * other
         if plan[stop + par.KIND] == par.KELVIN_VOIGT and mode & (other + 1):
@@ -120,7 +114,7 @@ def settle(plan: Vector, motion: Motion, limit: float) -> Ended:
         u, right = gap_r, 0.0
     else:
         u, left = -gap_l, 0.0
-    clock = turned(plan, clock, t)
+    clock = turned(plan, clock[0], clock[1], t)
     return side, t, 0.0, Motion(mode | side, side, u, 0.0, right, left, 0.0, clock)
 
 
@@ -134,24 +128,16 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
     at = par.BUMPER + par.WIDTH * (side - 1)
     other = BOTH - side
     facing = par.BUMPER + par.WIDTH * (other - 1)
-    # It is pressed by `level` − A s, with the phasor as seen from this side.
-    level = -plan[par.STIFFNESS] * plan[at + par.GAP]
+    # It is pressed by `level` − A_t, as seen from this side.
+    level = sign * plan[par.LOAD] - plan[par.STIFFNESS] * plan[at + par.GAP]
     if mode & other:
         level += plan[facing + par.BUMPER_STIFFNESS] * (left if side == RIGHT else right)
-    s, c = sign * clock[0], sign * clock[1]
-    amplitude = plan[AMPLITUDE]
+    s, c = clock
+    pulled = sign * value(plan, s, c) > level  # let go at once, and not with zero acceleration
     event, t = LIMIT, limit
-    pulled = level - amplitude * s < 0.0  # let go at once, and not with zero acceleration
-    if pulled or (level - amplitude * s == 0.0 and c >= 0.0):
-        event, t = DETACHED, 0.0
-    elif level < amplitude:
-        angle = math.asin(max(level / amplitude, -1.0)) - math.atan2(s, c)
-        if angle < 0.0:  # by rounding only, on the point of letting go, or else a turn ahead
-            angle = 0.0 if angle > -1e-9 and c > 0.0 else angle + 2.0 * math.pi
-        if angle / plan[OMEGA] < limit:
-            event, t = DETACHED, angle / plan[OMEGA]
-            s = level / amplitude
-            c = math.sqrt(max(1.0 - s * s, 0.0))
+    free, s, c = let_go(plan, sign, level, s, c, limit)
+    if free < math.inf:
+        event, t = DETACHED, free
     if overlapping(plan) and not mode & other and plan[facing + par.KIND] != par.ABSENT:
         # The free bumper comes back to where the mass rests.
         deformation = left if side == RIGHT else right
@@ -160,7 +146,7 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
         meets = math.log(deformation / pressed) / rate if deformation > pressed else 0.0
         if meets < t:
             event, t = other, meets
-    clock = (sign * s, sign * c) if event == DETACHED else turned(plan, clock, t)
+    clock = (s, c) if event == DETACHED else turned(plan, clock[0], clock[1], t)
     if mode & other:
         pass
     elif event == other:

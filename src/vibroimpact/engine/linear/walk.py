@@ -13,16 +13,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from vibroimpact.engine.forcing.dispatch import expand, product
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.crossing import (
-    NONE,
-    Clearance,
-    crossing_guess,
-    first_root,
-    quick_root,
-)
-from vibroimpact.engine.linear.evaluate import expand, moved, node, product, relaxed, travel
-from vibroimpact.engine.linear.tables import LATE, MIDDLE, NODE, NODES, WIDTH, H
+from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
+from vibroimpact.engine.linear.evaluate import moved, node, relaxed, travel
+from vibroimpact.engine.linear.layout import LATE, MIDDLE, NODE, NODES, WIDTH, H
+from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.motion import Row
 
 ABOVE, BELOW, WITHIN = 1, 2, 0

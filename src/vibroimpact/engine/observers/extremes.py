@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.crossing import jet
+from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.linear.pieces import (
     accelerated,
     acceleration,
@@ -20,7 +20,7 @@ from vibroimpact.engine.linear.pieces import (
     following,
     more,
 )
-from vibroimpact.engine.linear.tables import ORDER
+from vibroimpact.engine.linear.roots import jet
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import LEFT, RIGHT, Stretch, coordinates
 from vibroimpact.engine.observe import observer

@@ -7,8 +7,8 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner, relaxed
+from vibroimpact.engine.linear.layout import H
 from vibroimpact.engine.linear.pieces import begin, expanded, following, more
-from vibroimpact.engine.linear.tables import H
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import FLIGHT, Stretch
 from vibroimpact.engine.observe import observer

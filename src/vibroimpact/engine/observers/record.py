@@ -6,8 +6,10 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import turned, value
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner, relaxed
+from vibroimpact.engine.linear.layout import NODES, RATE
 from vibroimpact.engine.linear.pieces import (
     acceleration,
     acceleration_in,
@@ -16,8 +18,7 @@ from vibroimpact.engine.linear.pieces import (
     expanded_at_node,
     following_window,
 )
-from vibroimpact.engine.linear.stops import turned
-from vibroimpact.engine.linear.tables import AMPLITUDE, NODES, RATE, resting
+from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion, Row, Stretch
 from vibroimpact.engine.observe import observer
@@ -121,10 +122,13 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
         x, v = horner(series, y - j)
         v *= plan[cursor.table + RATE]
         if held:
-            s, _ = turned(plan, before.clock, tau)
-            a = plan[AMPLITUDE] * s
+            s, c = turned(plan, before.clock[0], before.clock[1], tau)
+            a = plan[par.BASE] * value(plan, s, c)
         else:
-            a = sign * absolute_acceleration(plan, mode, Row(x, v, 0.0, 0.0))
+            s, c = 0.0, 0.0
+            if plan[par.BASE] == 0.0:  # else the clock is not asked for
+                s, c = turned(plan, before.clock[0], before.clock[1], tau)
+            a = sign * absolute_acceleration(plan, mode, Row(x, v, sign * s, sign * c))
         right = x if mode & RIGHT else relaxed(before.right, rate_r, tau)
         left = x if mode == LEFT else relaxed(before.left, rate_l, tau)
         if mode == BOTH:

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vibroimpact.engine.linear.crossing import NONE, Clearance, first_root
-from vibroimpact.engine.linear.tables import ORDER
+from vibroimpact.engine.linear.layout import ORDER
+from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 
 
 def search(

@@ -1,0 +1,73 @@
+"""How a kernel finds the forcing: by the type of its plan.
+
+A forcing is a linear clock of two numbers (s, c) that goes on by itself, and A_t, the base
+acceleration that it stands for, which is linear in them. It is a module with these kernels:
+
+    begin(plan, amplitude, omega)          write AMPLITUDE, OMEGA, MOST, STEEPEST of the plan
+    pace(plan)                             its own rate (1/s), which limits a table's step
+    count(plan), wave(plan, n, mirrored)   the parts that it is a sum of, n from 1 on
+    plane(plan, n)                         how far behind the tables those of part n lie
+    value(plan, s, c)                      A_t
+    turned(plan, s, c, t)                  the clock after the time t
+    let_go(plan, sign, level, s, c, limit) when sign A_t first exceeds a level
+
+and, from a mode's table,
+
+    product(plan, at, row)                 a linear function of the state row
+    expand(plan, at, row, series)          the long series of one
+    short_series(plan, table, row)         seven terms of x, from the equation of motion
+    spun(plan, at, s, c)                   the clock at a node or fine point
+    turn(plan, s, c, angle)                the clock a part of a step later
+    nudged(plan, s, c, angle)              the same for an angle whose square is nothing
+    pull(plan, table, s, c)                A_t h² as the mode sees it, mirrored or not
+    pull_series(plan, table, s, c, series) the long series of that
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
+
+from numba.extending import overload
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing import harmonic, ramp, several
+from vibroimpact.engine.jit import OPTIONS
+
+FORCINGS: dict[float, ModuleType] = {
+    par.HARMONIC: harmonic,
+    par.SEVERAL: several,
+    par.RAMP: ramp,
+}
+
+
+def _by_forcing(name: str) -> Callable[..., Any]:
+    def plain(plan: Any, *args: Any) -> Any:
+        return getattr(FORCINGS[plan[par.FORCING]], name)(plan, *args)
+
+    plain.__name__ = name
+
+    @overload(plain, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]
+    def _chosen(plan: Any, *args: Any) -> Any:
+        return getattr(FORCINGS[getattr(plan, "forcing", par.HARMONIC)], name).py_func
+
+    return plain
+
+
+begin = _by_forcing("begin")
+pace = _by_forcing("pace")
+count = _by_forcing("count")
+plane = _by_forcing("plane")
+wave = _by_forcing("wave")
+value = _by_forcing("value")
+turned = _by_forcing("turned")
+let_go = _by_forcing("let_go")
+product = _by_forcing("product")
+expand = _by_forcing("expand")
+short_series = _by_forcing("short_series")
+spun = _by_forcing("spun")
+turn = _by_forcing("turn")
+nudged = _by_forcing("nudged")
+pull = _by_forcing("pull")
+pull_series = _by_forcing("pull_series")
