@@ -32,11 +32,13 @@ from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.record import TOUCHING, Record, write_sample
 
 
-@entry("void(f8[::1], f8, f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])")
+@entry(
+    "void(f8[::1], f8[::1], f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])"
+)
 def sweep(
     given: Any,
     rig: Vector,
-    amplitude: float,
+    amplitudes: Vector,
     frequencies: Vector,
     phase: float,
     state: Vector,
@@ -54,8 +56,8 @@ def sweep(
     ----------
     rig : ndarray
         From `parameters.rig_vector`.
-    amplitude, frequencies, phase : float, ndarray, float
-        m/s², Hz in the order of the sweep, rad at the stroboscopic section.
+    amplitudes, frequencies, phase : ndarray, ndarray, float
+        m/s² or what the rig's vector says, Hz in the order of the sweep, rad at the section.
     state : ndarray, shape (motion.STATE,)
         Where the sweep starts; carried on in place.
     tolerance, max_cycles, window, max_events
@@ -74,7 +76,7 @@ def sweep(
             for j in range(i, len(frequencies)):
                 results[j, OUTCOME] = STOPPED
             break
-        motion = hold(plan, motion, amplitude, frequencies[i], clock, options, results[i])
+        motion = hold(plan, motion, amplitudes[i], frequencies[i], clock, options, results[i])
         pack(motion, states[i])
         progress[0] += 1
         outcome = results[i, OUTCOME]

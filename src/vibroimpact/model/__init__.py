@@ -12,7 +12,7 @@ from vibroimpact.model.dimensionless import (
     to_dimensionless,
 )
 from vibroimpact.model.equilibrium import equilibrium
-from vibroimpact.model.excitation import Harmonic
+from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.state import State
@@ -31,6 +31,8 @@ __all__ = [
     "Isolator",
     "Model",
     "Oscillator",
+    "Periodic",
+    "Repeated",
     "Rig",
     "RigidStop",
     "State",

@@ -1,43 +1,65 @@
-"""The motion of the base that drives the oscillator."""
+"""What drives the oscillator over and over: one sine, or several harmonics.
+
+Either moves the base, by an acceleration or a displacement of given amplitude, or is a force on
+the mass. The amplitude's dimension says which.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeAlias
 
-from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import model_validator
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.units import (
+    ACCELERATION,
+    ANGLE,
+    FORCE,
+    FREQUENCY,
+    LENGTH,
+    Quantity,
+    one_of,
+    pretty,
+    shown,
+    to_si,
+)
 from vibroimpact.model.validation import Accepts, Model, constructor
 
+Of = Literal["acceleration", "displacement", "force"]
+"""What an amplitude is one of."""
 
-class Harmonic(Model):
-    """Harmonic base acceleration, A_t(t) = A sin(2π f t + φ).
+QUANTITIES: dict[Of, Quantity] = {
+    "acceleration": ACCELERATION,
+    "displacement": LENGTH,
+    "force": FORCE,
+}
 
-    Parameters
-    ----------
-    amplitude
-        Peak acceleration A in m/s², at least 0; or text such as ``"0.05 g"``, where g is
-        gravity.
-    frequency
-        f in Hz, greater than 0; or text such as ``"2.5 Hz"``. An angle over a time, such as
-        ``"15.7 rad/s"``, is converted to cycles per second.
-    phase
-        φ in rad; or text such as ``"90 deg"``.
 
-    Raises
-    ------
-    InputError
-        If a value is not finite, has a wrong unit or lies outside its bounds.
-    """
+MOST = 32
+"""How many harmonics there may be."""
 
-    amplitude: Annotated[float, Accepts(ACCELERATION, minimum=0.0)]
-    frequency: Annotated[float, Accepts(FREQUENCY, above=0.0)]
-    phase: Annotated[float, Accepts(ANGLE)] = 0.0
 
-    @constructor
-    def __init__(
-        self, amplitude: float | str, frequency: float | str, phase: float | str = 0.0
-    ) -> None:
-        super().__init__(amplitude=amplitude, frequency=frequency, phase=phase)
+class _Repeated(Model):
+    """What both have in common; `of` follows from the amplitude's unit, if it has one."""
+
+    if TYPE_CHECKING:
+        frequency: float
+        phase: float
+        of: Of
+
+    @property
+    def quantity(self) -> Quantity:
+        """What the amplitude is measured in."""
+        return QUANTITIES[self.of]
+
+    @property
+    def moves_base(self) -> bool:
+        """Whether the base moves; else a force acts on the mass, and the base stands still."""
+        return self.of != "force"
 
     @property
     def angular_frequency(self) -> float:
@@ -48,3 +70,228 @@ class Harmonic(Model):
     def period(self) -> float:
         """Forcing period, 1/f, in s."""
         return 1.0 / self.frequency
+
+    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
+        for name, value in super().__repr_args__():
+            if (name, value) != ("of", "acceleration"):
+                yield name, value
+
+    def _read(self) -> Iterator[tuple[str, Any, str]]:
+        for name, value, text in super()._read():
+            if name == "amplitude":
+                yield name, value, pretty(value, self.quantity)
+            elif name == "amplitudes":
+                parts = ", ".join(pretty(part, self.quantity) for part in value)
+                yield name, value, f"({parts})"
+            elif (name, value) != ("of", "acceleration"):
+                yield name, value, text
+
+
+class Harmonic(_Repeated):
+    """One sine, A sin(2π f t + φ).
+
+    Parameters
+    ----------
+    amplitude
+        A, at least 0. A number is an acceleration of the base in m/s². A text or a quantity with
+        a unit may be an acceleration such as ``"0.05 g"``, where g is gravity, a displacement of
+        the base such as ``"5 mm"``, or a force on the mass such as ``"120 N"``.
+    frequency
+        f in Hz, greater than 0; or text such as ``"2.5 Hz"``. An angle over a time, such as
+        ``"15.7 rad/s"``, is converted to cycles per second.
+    phase
+        φ in rad; or text such as ``"90 deg"``.
+    of
+        What a number is the amplitude of: ``"acceleration"`` (m/s²), ``"displacement"`` (m) or
+        ``"force"`` (N).
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or lies outside its bounds.
+    """
+
+    amplitude: float
+    frequency: Annotated[float, Accepts(FREQUENCY, above=0.0)]
+    phase: Annotated[float, Accepts(ANGLE)] = 0.0
+    of: Of = "acceleration"
+
+    @constructor
+    def __init__(
+        self,
+        amplitude: float | str,
+        frequency: float | str,
+        phase: float | str = 0.0,
+        of: Of | None = None,
+    ) -> None:
+        given = {} if of is None else {"of": of}
+        super().__init__(amplitude=amplitude, frequency=frequency, phase=phase, **given)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _dimension(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping) or "amplitude" not in data:
+            return data
+        value, of = sized(data["amplitude"], data.get("of"), "amplitude")
+        return {**data, "amplitude": value, "of": of}
+
+    @property
+    def half_wave(self) -> bool:
+        """Whether half a period later everything is the other way round: of a sine it is."""
+        return True
+
+    def at(self, angle: ArrayLike) -> NDArray[np.float64]:
+        """Base acceleration (m/s²), or the force (N), at angles ωt + φ (rad)."""
+        size = self.amplitude
+        if self.of == "displacement":
+            size *= -(self.angular_frequency**2)
+        return np.asarray(size * np.sin(angle))
+
+    def acceleration(self, mass: float, omega: ArrayLike) -> NDArray[np.float64]:
+        """Peak base acceleration (m/s²) that shakes this mass as much at ω (rad/s)."""
+        return _as_acceleration(self.of, np.asarray(self.amplitude), mass, np.asarray(omega))
+
+
+class Periodic(_Repeated):
+    """Several harmonics of one frequency, Σ A_n sin(n (2π f t + φ) + φ_n), n = 1, 2, ….
+
+    Parameters
+    ----------
+    frequency
+        f in Hz of the whole, greater than 0; or text such as ``"2.5 Hz"``.
+    amplitudes
+        A_1, A_2, …, each as the amplitude of a `Harmonic` and all of one dimension; at most 32.
+        0 leaves a harmonic out.
+    phases
+        φ_1, φ_2, … in rad, or texts such as ``"90 deg"``; none are zeros.
+    phase
+        φ in rad: where in its period it begins.
+    of
+        What numbers are amplitudes of, as in `Harmonic`.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or there are not as many phases as amplitudes.
+    """
+
+    frequency: Annotated[float, Accepts(FREQUENCY, above=0.0)]
+    amplitudes: tuple[float, ...]
+    phases: tuple[Annotated[float, Accepts(ANGLE)], ...] = ()
+    phase: Annotated[float, Accepts(ANGLE)] = 0.0
+    of: Of = "acceleration"
+
+    @constructor
+    def __init__(
+        self,
+        frequency: float | str,
+        amplitudes: Iterable[float | str],
+        phases: Iterable[float | str] | None = None,
+        phase: float | str = 0.0,
+        of: Of | None = None,
+    ) -> None:
+        given: dict[str, Any] = {} if of is None else {"of": of}
+        if phases is not None:
+            given["phases"] = phases
+        super().__init__(frequency=frequency, amplitudes=amplitudes, phase=phase, **given)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _dimension(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping) or "amplitudes" not in data:
+            return data
+        given, of = listed(data["amplitudes"], "amplitudes"), data.get("of")
+        if not 1 <= len(given) <= MOST:
+            raise InputError(f"amplitudes: {len(given)} of them; 1 to {MOST} are accepted")
+        values = []
+        for i, one in enumerate(given):
+            value, of = sized(one, of, f"amplitudes[{i}]")
+            values.append(value)
+        phases = data.get("phases")
+        turned = listed(phases, "phases") if phases is not None else (0.0,) * len(values)
+        if not turned:
+            turned = (0.0,) * len(values)
+        if len(turned) != len(values):
+            raise InputError(
+                f"phases: {len(turned)} of them, but {len(values)} amplitudes; as many as there "
+                "are amplitudes are accepted, or none"
+            )
+        if not any(values):
+            raise InputError(f"amplitudes: {values} are all 0; one greater than 0 is accepted")
+        return {**data, "amplitudes": tuple(values), "phases": tuple(turned), "of": of}
+
+    @property
+    def amplitude(self) -> float:
+        """The largest of the amplitudes: what is varied where the shape is kept."""
+        return max(self.amplitudes)
+
+    @property
+    def half_wave(self) -> bool:
+        """Whether half a period later everything is the other way round: no even harmonics."""
+        return not any(self.amplitudes[1::2])
+
+    def at(self, angle: ArrayLike) -> NDArray[np.float64]:
+        """Base acceleration (m/s²), or the force (N), at angles ωt + φ (rad)."""
+        order = np.arange(1, len(self.amplitudes) + 1)
+        sizes = np.array(self.amplitudes)
+        if self.of == "displacement":
+            sizes = -sizes * (order * self.angular_frequency) ** 2
+        turned = np.multiply.outer(np.asarray(angle), order) + np.array(self.phases)
+        return np.asarray(np.sin(turned) @ sizes)
+
+    def acceleration(self, mass: float, omega: ArrayLike) -> NDArray[np.float64]:
+        """Peak base accelerations (m/s²) of the harmonics that shake this mass as much at ω.
+
+        The last axis is that of the harmonics; ω (rad/s) is that of the fundamental.
+        """
+        sizes = np.asarray(self.amplitudes)
+        order = np.arange(1, len(sizes) + 1)
+        return _as_acceleration(self.of, sizes, mass, np.asarray(omega)[..., np.newaxis] * order)
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some fields changed; a new `amplitude` scales all harmonics."""
+        if "amplitude" in changes:
+            factor = to_si(changes.pop("amplitude"), self.quantity, "amplitude") / self.amplitude
+            changes["amplitudes"] = tuple(factor * one for one in self.amplitudes)
+        return super().replace(**changes)
+
+
+Repeated: TypeAlias = Harmonic | Periodic
+"""What drives the oscillator over and over."""
+
+
+def _as_acceleration(
+    of: str, size: NDArray[np.float64], mass: float, omega: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    if of == "displacement":
+        return np.asarray(size * omega**2)
+    return np.asarray((size / mass if of == "force" else size) + 0.0 * omega)
+
+
+def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[float, Of]:
+    """An amplitude in SI units, and what it is one of.
+
+    Raises
+    ------
+    InputError
+        If it cannot be used, or its unit is not that of what it is said to be.
+    """
+    if of is not None and of not in QUANTITIES:
+        raise InputError(f"of: {shown(of)}; {', '.join(map(repr, QUANTITIES))} is accepted")
+    allowed = QUANTITIES if of is None else {of: QUANTITIES[of]}
+    least = {"above": 0.0} if positive else {"minimum": 0.0}
+    number, quantity = one_of(value, list(allowed.values()), field, **least)
+    return number, next(name for name, one in allowed.items() if one is quantity)
+
+
+def listed(value: Any, field: str) -> tuple[Any, ...]:
+    """A list of values, of whatever kind.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    if isinstance(value, str) or not isinstance(value, Iterable):
+        raise InputError(f"{field}: {shown(value)} is not a list; a list is accepted")
+    return tuple(value)

@@ -17,7 +17,7 @@ class Isolator(Named):
     Parameters
     ----------
     stiffness
-        K in N/m, greater than 0; or text such as ``"26.8 kN/m"``.
+        K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
     damping
         C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
 
@@ -30,7 +30,7 @@ class Isolator(Named):
     kind: ClassVar[str] = "linear"
     usual: ClassVar[bool] = True
 
-    stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+    stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
     damping: Annotated[float, Accepts(DAMPING, minimum=0.0)]
 
     @constructor

@@ -16,7 +16,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.kinds import Kinds
 from vibroimpact.model.stops import STOPS, Bumper, RigidStop, Stop
-from vibroimpact.model.units import LENGTH, MASS, pretty
+from vibroimpact.model.units import FORCE, LENGTH, MASS, pretty
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 
@@ -34,6 +34,9 @@ class Oscillator(Model):
         fields of one (with its ``kind`` if it is no bumper), or None.
     left
         What is met at negative displacement, likewise.
+    force
+        A constant force on the mass in N, positive to the right, such as its weight or wind; or
+        text such as ``"-5.4 kN"``.
 
     Raises
     ------
@@ -46,6 +49,7 @@ class Oscillator(Model):
     isolator: Annotated[Isolator, Kinds(Isolator)]
     right: Annotated[Bumper | RigidStop | None, STOPS] = None
     left: Annotated[Bumper | RigidStop | None, STOPS] = None
+    force: Annotated[float, Accepts(FORCE)] = 0.0
 
     @constructor
     def __init__(
@@ -54,17 +58,34 @@ class Oscillator(Model):
         isolator: Isolator | Mapping[str, Any],
         right: Stop | Mapping[str, Any] | None = None,
         left: Stop | Mapping[str, Any] | None = None,
+        force: float | str = 0.0,
     ) -> None:
-        super().__init__(mass=mass, isolator=isolator, right=right, left=left)
+        super().__init__(mass=mass, isolator=isolator, right=right, left=left, force=force)
 
     @model_validator(mode="after")
     def _frequency_exists(self) -> Self:
         # Each may be a float while their ratio or product is none.
         k, m = self.isolator.stiffness, self.mass
+        if k == 0.0:
+            return self
         if not (0.0 < k / m < math.inf and 0.0 < k * m < math.inf):
             raise InputError(
                 f"an isolator of {k:g} N/m under {m:g} kg has a natural frequency or a critical "
                 "damping outside the range of floating-point numbers; moderate values are accepted"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _held(self) -> Self:
+        """Without a spring, stops or a dashpot must bound the motion."""
+        if self.isolator.stiffness > 0.0:
+            return self
+        against = self.right if self.force > 0.0 else self.left
+        if (self.force and against is None) or not self.stops:
+            raise InputError(
+                f"isolator.stiffness: 0, and nothing holds the mass against a force of "
+                f"{pretty(self.force, FORCE)}; a stop on that side or a stiffness greater than 0 "
+                "is accepted"
             )
         return self
 
@@ -102,11 +123,11 @@ class Oscillator(Model):
     @property
     def symmetric(self) -> bool:
         """Whether it is its own mirror image."""
-        return self.right == self.left
+        return self.right == self.left and self.force == 0.0
 
     def mirrored(self) -> Oscillator:
-        """Return the oscillator with its right and left stops exchanged."""
-        return self.replace(right=self.left, left=self.right)
+        """Return its mirror image: right and left exchanged, and the force turned round."""
+        return self.replace(right=self.left, left=self.right, force=-self.force + 0.0)
 
     def without_bumpers(self) -> Oscillator:
         """Return the same mass and isolator in free flight."""

@@ -13,13 +13,14 @@ from typing import NamedTuple
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.dimensionless import peak_displacement
-from vibroimpact.model.excitation import Harmonic
+from vibroimpact.model.excitation import Repeated
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.stops import Bumper, Stop
 from vibroimpact.model.units import (
     ACCELERATION,
     DAMPING,
     DIMENSIONLESS,
+    FORCE,
     FREQUENCY,
     LENGTH,
     STIFFNESS,
@@ -27,11 +28,11 @@ from vibroimpact.model.units import (
     to_si,
 )
 
-Setting = tuple[Oscillator, Harmonic]
+Setting = tuple[Oscillator, Repeated]
 """A rig and its forcing."""
 
-Read = Callable[[Oscillator, Harmonic], float]
-Write = Callable[[Oscillator, Harmonic, float], Setting]
+Read = Callable[[Oscillator, Repeated], float]
+Write = Callable[[Oscillator, Repeated, float], Setting]
 
 _UNITS = {
     FREQUENCY: "Hz",
@@ -40,6 +41,7 @@ _UNITS = {
     STIFFNESS: "N m-1",
     DAMPING: "N s m-1",
     DIMENSIONLESS: "1",
+    FORCE: "N",
 }
 """As datasets write them."""
 
@@ -126,7 +128,7 @@ def _number(stop: Stop, name: str) -> float:
 def _bumpers(name: str) -> tuple[Read, Write]:
     """Read and write a number that both bumpers share."""
 
-    def read(rig: Oscillator, shaken: Harmonic) -> float:
+    def read(rig: Oscillator, shaken: Repeated) -> float:
         values = {_number(stop, name) for stop in rig.stops}
         if len(values) != 1:
             told = "there is no bumper" if not values else f"they are {sorted(values)}"
@@ -136,7 +138,7 @@ def _bumpers(name: str) -> tuple[Read, Write]:
             )
         return float(values.pop())
 
-    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         changed = {
             side: bumper.replace(**{name: value})
             for side, bumper in (("right", rig.right), ("left", rig.left))
@@ -154,13 +156,20 @@ def _one_bumper(side: str, name: str) -> tuple[Read, Write]:
             raise InputError(f"parameter: there is no {side} bumper; one that is there is accepted")
         return found
 
-    def read(rig: Oscillator, shaken: Harmonic) -> float:
+    def read(rig: Oscillator, shaken: Repeated) -> float:
         return _number(bumper(rig), name)
 
-    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         return rig.replace(**{side: bumper(rig).replace(**{name: value})}), shaken
 
     return read, write
+
+
+def _rig(name: str) -> tuple[Read, Write]:
+    return (
+        lambda rig, shaken: float(getattr(rig, name)),
+        lambda rig, shaken, value: (rig.replace(**{name: value}), shaken),
+    )
 
 
 def _isolator(name: str) -> tuple[Read, Write]:
@@ -184,10 +193,10 @@ def _stiffness_ratio() -> tuple[Read, Write]:
     """λ = K_j/K at a fixed relaxation time C_j/K_j."""
     stiffness_of, _ = _bumpers("stiffness")
 
-    def read(rig: Oscillator, shaken: Harmonic) -> float:
+    def read(rig: Oscillator, shaken: Repeated) -> float:
         return stiffness_of(rig, shaken) / rig.isolator.stiffness
 
-    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         changed = {}
         for side, bumper in (("right", rig.right), ("left", rig.left)):
             if isinstance(bumper, Bumper):
@@ -203,10 +212,10 @@ def _gap_ratio() -> tuple[Read, Write]:
     """δ0 = G0_j/u_max at a fixed peak of free flight."""
     gap_of, with_gap = _bumpers("gap")
 
-    def read(rig: Oscillator, shaken: Harmonic) -> float:
+    def read(rig: Oscillator, shaken: Repeated) -> float:
         return gap_of(rig, shaken) / peak_displacement(rig, shaken.amplitude)
 
-    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         return with_gap(rig, shaken, value * peak_displacement(rig, shaken.amplitude))
 
     return read, write
@@ -215,7 +224,7 @@ def _gap_ratio() -> tuple[Read, Write]:
 def _relaxation_time() -> tuple[Read, Write]:
     """τ = ω0 C_j/K_j at a fixed stiffness."""
 
-    def read(rig: Oscillator, shaken: Harmonic) -> float:
+    def read(rig: Oscillator, shaken: Repeated) -> float:
         times = [_number(stop, "damping") / _number(stop, "stiffness") for stop in rig.stops]
         if not times or not math.isclose(min(times), max(times), rel_tol=1e-12):
             told = "there is no bumper" if not times else f"their C/K are {sorted(times)} s"
@@ -225,7 +234,7 @@ def _relaxation_time() -> tuple[Read, Write]:
             )
         return rig.angular_frequency * times[0]
 
-    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         changed = {
             side: bumper.replace(damping=value * bumper.stiffness / rig.angular_frequency)
             for side, bumper in (("right", rig.right), ("left", rig.left))
@@ -239,7 +248,7 @@ def _relaxation_time() -> tuple[Read, Write]:
 def _damping_ratio() -> tuple[Read, Write]:
     """ξ = C/(2√(K M)) at fixed stiffness and mass."""
 
-    def write(rig: Oscillator, shaken: Harmonic, value: float) -> Setting:
+    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         damping = 2.0 * value * math.sqrt(rig.isolator.stiffness * rig.mass)
         return rig.replace(isolator=rig.isolator.replace(damping=damping)), shaken
 
@@ -269,6 +278,7 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "amplitude", ACCELERATION, "peak base acceleration", *_forcing("amplitude"), False
         ),
+        Parameter("force", FORCE, "constant force on the mass", *_rig("force"), least=None),
         Parameter("gap", LENGTH, "gap of each side", *_bumpers("gap"), least=None),
         *(
             Parameter(
@@ -283,9 +293,7 @@ PARAMETERS: dict[str, Parameter] = {
         *_of_stops("stiffness", "bumper_stiffness", STIFFNESS, False),
         *_of_stops("damping", "bumper_damping", DAMPING),
         *_of_stops("restitution", "restitution", DIMENSIONLESS, stop="rigid stop", most=1.0),
-        Parameter(
-            "stiffness", STIFFNESS, "stiffness of the isolator", *_isolator("stiffness"), False
-        ),
+        Parameter("stiffness", STIFFNESS, "stiffness of the isolator", *_isolator("stiffness")),
         Parameter("damping", DAMPING, "damping of the isolator", *_isolator("damping")),
         Parameter(
             "stiffness_ratio",

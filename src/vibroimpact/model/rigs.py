@@ -10,13 +10,13 @@ from __future__ import annotations
 import contextlib
 import functools
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, TypeAlias, TypeVar, cast
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.excitation import Harmonic
+from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
 from vibroimpact.model.oscillator import Oscillator
-from vibroimpact.model.units import ACCELERATION, accepted, shown, to_si
+from vibroimpact.model.units import shown
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -28,7 +28,12 @@ _ACCEPTED = (
 
 class _Given(NamedTuple):
     oscillator: Oscillator
-    amplitude: float | str
+    amplitude: AnyShaking
+
+
+AnyShaking: TypeAlias = float | str | Harmonic | Periodic | Sequence[float | str]
+"""An amplitude, or a `Harmonic` or `Periodic` whose frequency is left open; in sweeps also an
+amplitude for each frequency."""
 
 
 class WithAmplitude(Protocol):
@@ -43,7 +48,7 @@ class WithAmplitude(Protocol):
         """Peak base acceleration A in m/s²."""
 
 
-AnyRig: TypeAlias = WithAmplitude | tuple[Oscillator, float | str] | str
+AnyRig: TypeAlias = WithAmplitude | tuple[Oscillator, AnyShaking] | str
 """A laboratory case, its code, a `Rig` or a pair (oscillator, amplitude)."""
 
 
@@ -73,6 +78,38 @@ def as_rig(value: Any, where: str = "oscillator", otherwise: str = "") -> _Given
     raise InputError(f"{where}: {shown(value)} is no rig; {otherwise}{_ACCEPTED}{why}")
 
 
+def as_shaking(value: Any, where: str) -> tuple[Repeated, tuple[float, ...] | None]:
+    """Read an amplitude, or what shakes at whatever frequency.
+
+    Returns
+    -------
+    shaking, sizes
+        Its frequency means nothing. `sizes` are the amplitudes if a list was given; that of the
+        shaking is the largest.
+
+    Raises
+    ------
+    InputError
+        If it cannot be used, or is 0.
+    """
+    if isinstance(value, Harmonic | Periodic):
+        if value.amplitude == 0.0:
+            raise InputError(f"{where}: 0; an amplitude greater than 0 is accepted")
+        return value, None
+    if _is_list(value):
+        sizes, of = [], None
+        for i, one in enumerate(value):
+            size, of = sized(one, of, f"{where}[{i}]", positive=True)
+            sizes.append(size)
+        if not sizes:
+            raise InputError(f"{where}: the list is empty; an amplitude for each is accepted")
+        return Harmonic.model_validate(
+            {"amplitude": max(sizes), "frequency": 1.0, "of": of}
+        ), tuple(sizes)
+    size, of = sized(value, None, where, positive=True)
+    return Harmonic.model_validate({"amplitude": size, "frequency": 1.0, "of": of}), None
+
+
 def takes_rig(function: _Function) -> _Function:
     """Let a function of an oscillator and an amplitude, or an excitation, take a case as well.
 
@@ -94,7 +131,7 @@ def takes_rig(function: _Function) -> _Function:
         if not args:
             return function(**kwargs)  # Python says what is missing
         rig, *rest = args
-        amplitude: float | str | None = None
+        amplitude: AnyShaking | None = None
         if not isinstance(rig, Oscillator):
             try:
                 rig, amplitude = as_rig(rig, first, "an oscillator, ")
@@ -138,19 +175,12 @@ def _told(
     return True
 
 
-def _second(name: str, value: Any, amplitude: float | str | None) -> Any:
+def _second(name: str, value: Any, amplitude: AnyShaking | None) -> Any:
     """The amplitude or the excitation, refused where it is something else."""
-    if name == "amplitude":
-        if _is_list(value):
-            raise InputError(
-                f"amplitude: {shown(value)} is a list; {accepted(ACCELERATION, above=0.0)}, and "
-                "lists, such as that of the frequencies, behind it"
-            )
-        return value
-    if isinstance(value, Harmonic):
+    if name == "amplitude" or isinstance(value, Harmonic | Periodic):
         return value
     if amplitude is not None and _is_number(value):
-        return Harmonic(to_si(amplitude, ACCELERATION, "amplitude"), value)
+        return as_shaking(amplitude, "amplitude")[0].replace(frequency=value)
     alone = "" if amplitude is not None else " (beside a laboratory case a frequency is enough)"
     raise InputError(
         f"{name}: {shown(value)} is no excitation; Harmonic(amplitude, frequency) is accepted, "

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 import numbers
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache
@@ -125,13 +126,20 @@ VELOCITY = Quantity(
     0.15,
     ((1.0, 1.0, "m/s"), (0.0, 1e-3, "mm/s")),
 )
+FORCE = Quantity(
+    "force",
+    (("kilogram", 1), ("meter", 1), ("second", -2)),
+    "N",
+    "120 N",
+    120,
+    ((1e6, 1e6, "MN"), (1e3, 1e3, "kN"), (0.0, 1.0, "N")),
+)
 ANGLE = Quantity("angle", (("radian", 1),), "rad", "90 deg", 1.5708, ((0.0, 1.0, "rad"),))
 DIMENSIONLESS = Quantity("dimensionless number", (), "", "0.15", 0.15, ((0.0, 1.0, ""),))
 
 # Named only so that a message can say what a text of the wrong dimension is.
 _ALSO_NAMED: dict[tuple[tuple[str, int], ...], str] = {
     (("radian", 1), ("second", -1)): "an angular frequency",
-    (("kilogram", 1), ("meter", 1), ("second", -2)): "a force",
     (("kilogram", 1), ("meter", 2), ("second", -2)): "an energy",
     (("kilogram", 1), ("meter", -1), ("second", -2)): "a pressure",
     (("meter", 2),): "an area",
@@ -210,6 +218,42 @@ def to_si(
         return read(value, quantity, above=above, minimum=minimum, maximum=maximum)
     except InputError as error:
         raise InputError(f"{field}: {error}") from None
+
+
+def one_of(
+    value: object,
+    quantities: Sequence[Quantity],
+    field: str,
+    *,
+    above: float | None = None,
+    minimum: float | None = None,
+) -> tuple[float, Quantity]:
+    """Read what may be of several quantities; a plain number is of the first.
+
+    Returns
+    -------
+    tuple
+        The value in SI units, and which of the quantities it is.
+
+    Raises
+    ------
+    InputError
+        As `to_si`; a wrong unit names all that are accepted.
+    """
+    for quantity in quantities:
+        try:
+            read(value, quantity)
+        except InputError:
+            continue  # of another dimension, or no number at all
+        return to_si(value, quantity, field, above=above, minimum=minimum), quantity
+    first, *others = quantities
+    try:
+        return to_si(value, first, field, above=above, minimum=minimum), first
+    except InputError as error:
+        also = "".join(
+            f', or {quantity.phrase} such as "{quantity.example}"' for quantity in others
+        )
+        raise InputError(f"{error}{also}") from None
 
 
 def read(

@@ -6,14 +6,14 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.response.start import as_state
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
 
 
 def arrivals(
     oscillator: Oscillator,
-    excitation: Harmonic,
+    excitation: Repeated,
     frequencies: Iterable[float | str] | None = None,
     max_cycles: int = 2000,
     max_events: int = 10_000,
@@ -36,7 +36,7 @@ def arrivals(
             continue
         data = sweep(
             oscillator,
-            excitation.amplitude,
+            excitation,
             path,
             direction,
             phase=excitation.phase,

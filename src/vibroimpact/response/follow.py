@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Harmonic
+from vibroimpact.model import Repeated
 
 _Array = NDArray[np.float64]
 
 
 def moved_on(
-    rig: _Array, excitation: Harmonic, vector: _Array, cycles: float, max_events: int = 10_000
+    rig: _Array, excitation: Repeated, vector: _Array, cycles: float, max_events: int = 10_000
 ) -> tuple[Status, _Array]:
     """The engine's state some forcing cycles later; of use only if `Status.DONE`."""
     later = vector.copy()
@@ -36,7 +36,7 @@ def moved_on(
 
 def grown(
     rig: _Array,
-    excitation: Harmonic,
+    excitation: Repeated,
     state: _Array,
     cycles: int,
     max_events: int = 10_000,

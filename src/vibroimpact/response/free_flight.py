@@ -1,67 +1,183 @@
-"""Steady motion without bumpers, in closed form: the reference of the normalised excursions."""
+"""Steady motion without stops, in closed form: the reference of the normalised excursions."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Oscillator, Periodic, Repeated
 from vibroimpact.model.dimensionless import largest_free_flight
 
 _RESONANT = 1e-14
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+
+_Array = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
 
 
 def free_flight_excursions(
-    oscillator: Oscillator, amplitude: float, frequencies: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    oscillator: Oscillator, shaken: Repeated, frequencies: _Array
+) -> tuple[_Array, _Array]:
     """Excursions of displacement (m) and absolute acceleration (m/s²) in steady free flight.
 
-    With r = ω/ω₀, the displacement's amplitude is A/ω₀² / √((1 − r²)² + (2ξr)²) and the
-    absolute acceleration's A √(1 + (2ξr)²) / √((1 − r²)² + (2ξr)²); an excursion is twice that.
+    With r = ω/ω₀ and A the peak base acceleration, or what does the same, the displacement's
+    amplitude is A/ω₀² / √((1 − r²)² + (2ξr)²). The absolute acceleration's is
+    A √(1 + (2ξr)²) / √((1 − r²)² + (2ξr)²), or A r² / √((1 − r²)² + (2ξr)²) where a force on the
+    mass takes the place of the base. An excursion of one sine is twice that.
 
     Raises
     ------
     InputError
         At the natural frequency of an undamped isolator, where the motion has no bound.
     """
+    for i, frequency in enumerate(frequencies):
+        _check(oscillator, shaken, float(frequency), f"frequencies[{i}]")
+    if isinstance(shaken, Periodic):
+        return tuple(
+            np.ptp(extremes(one), axis=0) for one in harmonics(oscillator, shaken, frequencies)
+        )
     omega = 2.0 * np.pi * frequencies
+    size = 2.0 * shaken.acceleration(oscillator.mass, omega)
+    if oscillator.isolator.stiffness == 0.0:
+        c = oscillator.isolator.damping / oscillator.mass
+        distance = np.hypot(omega, c)
+        return size / (omega * distance), size * (c if shaken.moves_base else omega) / distance
     ratio = omega / oscillator.angular_frequency
     damping = 2.0 * oscillator.damping_ratio * ratio
     # (1 − r)(1 + r) keeps the digits near resonance.
-    distance = np.hypot((1.0 - ratio) * (1.0 + ratio), damping)
-    for i in np.flatnonzero(distance <= _RESONANT):
-        raise InputError(unbounded(f"frequencies[{i}]", float(frequencies[i])))
-    gain = 2.0 * amplitude / distance
-    return gain / oscillator.angular_frequency**2, gain * np.sqrt(1.0 + damping**2)
+    gain = size / np.hypot((1.0 - ratio) * (1.0 + ratio), damping)
+    share = np.sqrt(1.0 + damping**2) if shaken.moves_base else ratio**2
+    return gain / oscillator.angular_frequency**2, gain * share
 
 
-def reference_excursions(
-    angular_frequency: float, damping_ratio: float, amplitude: float
-) -> tuple[float, float]:
+def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[float, float]:
     """Excursions of displacement (m) and absolute acceleration (m/s²) that η is taken over.
 
     Those of the largest free flight at any frequency, whatever range is swept (the maximum of
     the paper's free-flight sweep, Section 4). An undamped isolator has none: there they are
-    2A/ω0² and 2A, those under a base acceleration that changes slowly.
+    2A/ω0² and 2A, those under a base acceleration that changes slowly. Under a given displacement
+    of the base the acceleration grows on with the frequency: it is taken where the displacement
+    is largest. Without a spring there is no such scale, and both are NaN.
     """
-    if damping_ratio == 0.0:
-        return 2.0 * amplitude / angular_frequency**2, 2.0 * amplitude
-    swing, acceleration = largest_free_flight(angular_frequency, damping_ratio, amplitude)
-    return 2.0 * swing, 2.0 * acceleration
+    omega0 = oscillator.angular_frequency
+    if omega0 == 0.0:
+        return math.nan, math.nan
+    xi = oscillator.damping_ratio
+    peaked = 0.0 < xi < math.sqrt(0.5)
+    if isinstance(shaken, Periodic):
+        return _largest(oscillator, shaken) if xi > 0.0 else _slow(oscillator, shaken)
+    size = float(shaken.acceleration(oscillator.mass, omega0))
+    if xi == 0.0:
+        return 2.0 * size / omega0**2, 2.0 * size
+    if shaken.of == "acceleration":
+        swing, acceleration = largest_free_flight(omega0, xi, size)
+        return 2.0 * swing, 2.0 * acceleration
+    # Under a force the acceleration has the peak that the displacement has under a displacement.
+    peak = 1.0 / (2.0 * xi * math.sqrt(1.0 - xi**2)) if peaked else 1.0
+    if shaken.of == "force":
+        return 2.0 * peak * size / omega0**2, 2.0 * peak * size
+    if not peaked:
+        return 2.0 * size / omega0**2, 2.0 * size
+    at = 1.0 / math.sqrt(1.0 - 2.0 * xi**2)
+    share = math.hypot(1.0, 2.0 * xi * at)
+    return 2.0 * peak * size / omega0**2, 2.0 * peak * size * share
 
 
-def check_bounded(oscillator: Oscillator, frequency: float, field: str) -> None:
+def check_bounded(oscillator: Oscillator, shaken: Repeated, field: str = "frequency") -> None:
     """Refuse resonance of an undamped mass that no bumper stops."""
-    if oscillator.right is None and oscillator.left is None and oscillator.isolator.damping == 0.0:
-        ratio = frequency / oscillator.natural_frequency
-        if abs((1.0 - ratio) * (1.0 + ratio)) <= _RESONANT:
-            raise InputError(unbounded(field, frequency))
+    if not oscillator.stops:
+        _check(oscillator, shaken, shaken.frequency, field)
 
 
-def unbounded(field: str, frequency: float) -> str:
-    """The message of both."""
-    return (
-        f"{field}: {frequency!r} Hz is the natural frequency of an undamped isolator, where free "
-        "flight grows without bound; another frequency or some isolator damping is accepted"
-    )
+def _check(oscillator: Oscillator, shaken: Repeated, frequency: float, field: str) -> None:
+    """Refuse resonance of an undamped isolator."""
+    if oscillator.isolator.damping > 0.0 or oscillator.isolator.stiffness == 0.0:
+        return
+    sizes = shaken.amplitudes if isinstance(shaken, Periodic) else (shaken.amplitude,)
+    for n, size in enumerate(sizes, start=1):
+        ratio = n * frequency / oscillator.natural_frequency
+        if size and abs((1.0 - ratio) * (1.0 + ratio)) <= _RESONANT:
+            which = "" if n == 1 else f" over {n}"
+            raise InputError(
+                f"{field}: {frequency!r} Hz is the natural frequency{which} of an undamped "
+                "isolator, where free flight grows without bound; another frequency or some "
+                "isolator damping is accepted"
+            )
+
+
+def harmonics(
+    oscillator: Oscillator, shaken: Repeated, frequencies: _Array
+) -> tuple[_Complex, _Complex]:
+    """Steady free flight: displacement and absolute acceleration are Im Σ z_n exp(inθ).
+
+    Returns
+    -------
+    tuple of ndarray, shape (frequency, n)
+        z_n of both, n = 1, 2, ….
+    """
+    mass, (k, c) = oscillator.mass, (oscillator.isolator.stiffness, oscillator.isolator.damping)
+    omega = 2.0 * np.pi * frequencies
+    base = shaken.acceleration(mass, omega).reshape(len(omega), -1)
+    order = np.arange(1, base.shape[1] + 1)
+    base = base.astype(np.complex128)
+    if isinstance(shaken, Periodic):
+        base *= np.exp(1j * np.array(shaken.phases))
+    base *= 1.0 if shaken.of == "acceleration" else -1.0
+    omega = np.outer(omega, order)
+    natural = math.sqrt(k / mass)
+    stiff = (natural - omega) * (natural + omega)
+    swing = -base / (stiff + 1j * omega * c / mass)
+    swing = np.asarray(swing, dtype=np.complex128)
+    moved = base if shaken.moves_base else np.zeros_like(base)
+    return swing, np.asarray(moved - omega**2 * swing, dtype=np.complex128)
+
+
+def extremes(phasors: _Complex) -> _Array:
+    """Minimum and maximum of Im Σ z_n exp(inθ), for each row: at the zeros of its slope."""
+    found = np.empty((2, len(phasors)))
+    n = np.arange(1, phasors.shape[1] + 1)
+    for i, row in enumerate(phasors):
+        # Re Σ n z_n wⁿ = 0 on |w| = 1, times w^N: a polynomial of degree 2N.
+        slope = np.concatenate([(n * row)[::-1], [0.0], np.conj(n * row)])
+        angles = np.concatenate([np.angle(np.roots(slope)), np.pi * np.arange(8) / 4.0])
+        values = (np.exp(1j * np.outer(angles, n)) @ row).imag
+        found[:, i] = values.min(), values.max()
+    return found
+
+
+def _slow(oscillator: Oscillator, shaken: Periodic) -> tuple[float, float]:
+    """What an excitation that changes slowly does to displacement and acceleration."""
+    here = shaken.replace(frequency=oscillator.natural_frequency)
+    sizes = here.acceleration(oscillator.mass, here.angular_frequency)
+    turned: _Complex = sizes[np.newaxis] * np.exp(1j * np.array(shaken.phases))
+    low, high = extremes(turned)
+    wave = float(high[0] - low[0])
+    return wave / oscillator.angular_frequency**2, wave
+
+
+def _largest(oscillator: Oscillator, shaken: Periodic) -> tuple[float, float]:
+    """The largest excursion of displacement at any frequency, and of acceleration likewise.
+
+    Under a displacement of the base, the acceleration at the frequency of the former.
+    """
+    natural, count = oscillator.natural_frequency, len(shaken.amplitudes)
+    grid = natural * np.geomspace(0.02 / count, 5.0, 2000)
+
+    def peak(which: int) -> tuple[float, float]:
+        values = free_flight_excursions(oscillator, shaken, grid)[which]
+        i = int(np.argmax(values))
+        low, high = grid[max(i - 1, 0)], grid[min(i + 1, len(grid) - 1)]
+        for _ in range(60):
+            one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+            pair = free_flight_excursions(oscillator, shaken, np.array([one, other]))[which]
+            low, high = (low, other) if pair[0] > pair[1] else (one, high)
+        at = 0.5 * (low + high)
+        return at, float(free_flight_excursions(oscillator, shaken, np.array([at]))[which][0])
+
+    at, swing = peak(0)
+    if shaken.of == "displacement":
+        return swing, float(free_flight_excursions(oscillator, shaken, np.array([at]))[1][0])
+    return swing, peak(1)[1]

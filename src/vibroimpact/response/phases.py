@@ -13,8 +13,9 @@ from vibroimpact.engine import measure
 from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State, validate
+from vibroimpact.model import Bumper, Oscillator, Repeated, RigidStop, State, validate
 from vibroimpact.response.start import engine_rig
+from vibroimpact.response.variables import excitation_from
 
 _Array = NDArray[np.float64]
 
@@ -27,7 +28,7 @@ class Recorded(NamedTuple):
     """What a dataset of a motion says of its origin."""
 
     oscillator: Oscillator
-    excitation: Harmonic
+    excitation: Repeated
     """Its phase is that at the beginning of the record."""
     cycles: float
     """Length of the record."""
@@ -105,7 +106,7 @@ def recorded(motion: xr.Dataset) -> Recorded:
     assert isinstance(oscillator, Oscillator)
     return Recorded(
         oscillator,
-        Harmonic(parameters["amplitude"], parameters["frequency"], parameters["phase"]),
+        excitation_from(parameters),
         float(motion["cycle"].values[-1]),
         "period" in motion and int(motion["period"]) > 0,
     )
@@ -198,7 +199,7 @@ def measured(origin: Recorded, parts: Phases, side: NDArray[np.int64] | None = N
     table = np.column_stack([mode, x, v, parts.angle, parts.length])
     found = np.zeros((len(side), measure.MEASURES))
     measure.measure_phases(
-        engine_rig(origin.oscillator),
+        engine_rig(origin.oscillator, origin.excitation),
         origin.excitation.amplitude,
         origin.excitation.frequency,
         np.ascontiguousarray(table, dtype=np.float64),

@@ -55,7 +55,7 @@ def stroboscopic_section(
     count = max(1, math.floor(origin.cycles)) if cycles is None else whole(cycles, "cycles")
     start = beginning(motion)
     state = engine_state(origin.oscillator, start)
-    rig = engine_rig(origin.oscillator)
+    rig = engine_rig(origin.oscillator, origin.excitation)
     shaken = origin.excitation
     ahead = ((angle - shaken.phase) / (2.0 * math.pi)) % 1.0
     first = np.array(

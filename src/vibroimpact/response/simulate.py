@@ -13,13 +13,18 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Harmonic, Oscillator, State, equilibrium, to_si
+from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import DIMENSIONLESS
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
-from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
+from vibroimpact.response.variables import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
 
 _EVENTS_AT_ONCE = 20_000
 
@@ -27,7 +32,7 @@ _EVENTS_AT_ONCE = 20_000
 @takes_rig
 def simulate(
     oscillator: Oscillator,
-    excitation: Harmonic,
+    excitation: Repeated,
     cycles: float,
     start: State | xr.DataArray | xr.Dataset | None = None,
     samples: int = 256,
@@ -67,7 +72,7 @@ def simulate(
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
     samples, max_events = whole(samples, "samples", 0), whole(max_events, "max_events")
     check_samples(length, samples, "cycles")
-    check_bounded(oscillator, excitation.frequency, "frequency")
+    check_bounded(oscillator, excitation)
     state = equilibrium(oscillator) if start is None else as_state(start)
     phase = excitation.phase if state.phase is None else state.phase
     vector = engine_state(oscillator, state)
@@ -77,7 +82,7 @@ def simulate(
     capacity = max_events + 1 + (_EVENTS_AT_ONCE if samples else 0)
     buffer = np.empty((capacity, record.EVENT))
     found = []
-    rig = engine_rig(oscillator)
+    rig = engine_rig(oscillator, excitation)
     at = 0
     outcome = int(Status.DONE)
     while at < length and outcome == Status.DONE:
@@ -115,8 +120,8 @@ def simulate(
         coordinates["time"] = cycle / excitation.frequency
         coordinates["cycle"] = ("time", cycle)
         variables |= _samples(out)
-        base = _base(excitation, phase, cycle, samples)
-        variables["base_acceleration"] = ("time", base)
+        name, values = _shaking(excitation, phase, cycle, samples)
+        variables[name] = ("time", values)
         variables |= _events(np.concatenate(found), 1.0 / excitation.frequency)
     data = xr.Dataset(variables, coordinates)
     data.attrs["status"] = status.advice
@@ -125,9 +130,7 @@ def simulate(
         "vibroimpact.simulate",
         {
             "oscillator": oscillator_parameters(oscillator),
-            "amplitude": excitation.amplitude,
-            "frequency": excitation.frequency,
-            "phase": phase,
+            **excitation_parameters(excitation.replace(phase=phase)),
             "cycles": length,
         },
     )
@@ -155,16 +158,15 @@ def _samples(out: NDArray[np.float64]) -> dict[str, Any]:
     return {**samples, "contact": ("time", out[record.CONTACT].astype(np.int64))}
 
 
-def _base(
-    excitation: Harmonic, phase: float, cycle: NDArray[np.float64], samples: int
-) -> NDArray[np.float64]:
-    """Base acceleration at the samples, which are the same in every cycle but for the last one."""
-    one = excitation.amplitude * np.sin(2.0 * np.pi * (np.arange(samples) / samples) + phase)
-    base: NDArray[np.float64] = np.resize(one + 0.0, len(cycle))
+def _shaking(
+    excitation: Repeated, phase: float, cycle: NDArray[np.float64], samples: int
+) -> tuple[str, NDArray[np.float64]]:
+    """Base acceleration or force at the samples, every cycle the same but for the last sample."""
+    angles = 2.0 * np.pi * (np.arange(samples) / samples) + phase
+    values: NDArray[np.float64] = np.resize(excitation.at(angles) + 0.0, len(cycle))
     if len(cycle):
-        angle = 2.0 * np.pi * (cycle[-1] % 1.0) + phase
-        base[-1] = excitation.amplitude * np.sin(angle) + 0.0
-    return base
+        values[-1] = excitation.at(2.0 * np.pi * (cycle[-1] % 1.0) + phase) + 0.0
+    return "base_acceleration" if excitation.moves_base else "applied_force", values
 
 
 def _events(events: NDArray[np.float64], period: float) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import to_si
+from vibroimpact.model import Periodic, to_si
 from vibroimpact.model.units import DIMENSIONLESS
 from vibroimpact.response.phases import Phases, Recorded, phases, recorded, settling, view
 from vibroimpact.response.variables import describe, motion_parameters
@@ -89,7 +89,12 @@ def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[
         overlap = -(rig.right.gap + rig.left.gap)
         other = origin.of_side(-side, "stiffness") * overlap
         load += np.where(contact == 2, other, 0.0)[:, np.newaxis]
-    load /= rig.mass
+    load = (load + rig.force) / rig.mass
+    phases_of = shaken.phases if isinstance(shaken, Periodic) else (0.0,)
+    sizes = np.atleast_1d(shaken.acceleration(rig.mass, shaken.angular_frequency))
+    # What is given as a displacement of the base or as a force pulls the other way.
+    sign = 1.0 if shaken.of == "acceleration" else -1.0
+    waves = [(sign * float(size), shift) for size, shift in zip(sizes, phases_of, strict=True)]
     resting = (origin.resting(contact) | settling(origin, parts))[:, np.newaxis]
     pressed = np.where(side == 1, 2, 3)
     ends = []
@@ -106,9 +111,12 @@ def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[
     def integrals(nu: Any) -> _Complex:
         """∫ e^(−iνt) times x, x′, 1 and A_t over each phase from its beginning."""
         constant = length * _phi(-1j * nu * length)
-        forward = np.exp(1j * angle) * length * _phi(1j * (omega - nu) * length)
-        backward = np.exp(-1j * angle) * length * _phi(-1j * (omega + nu) * length)
-        base = shaken.amplitude * (forward - backward) / 2j
+        base = np.zeros_like(constant)
+        for n, (size, shift) in enumerate(waves, start=1):
+            turn, rate = n * angle + shift, n * omega
+            forward = np.exp(1j * turn) * length * _phi(1j * (rate - nu) * length)
+            backward = np.exp(-1j * turn) * length * _phi(-1j * (rate + nu) * length)
+            base = base + size * (forward - backward) / 2j
         forcing = load * constant - base
         turned = np.exp(-1j * nu * length)
         rise, push = x1 * turned - x0, v1 * turned - v0
@@ -120,17 +128,20 @@ def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[
         found = integrals(nu)
     # Where a line meets an undamped resonance of the phase, numerator and denominator vanish;
     # the integral is an entire function of ν, and so the mean of its values on a circle.
-    close = np.abs(k - nu * nu + 1j * c * nu) < _NEAR * (k + nu * nu)
+    close = np.abs(k - nu * nu + 1j * c * nu) <= _NEAR * (k + nu * nu)
     if close.any():
         # No larger than where exp(−iνt) begins to grow over the phase.
-        radius = np.minimum(0.5 * np.sqrt(k), 1.0 / np.maximum(length, 1e-300))
+        radius = np.minimum(
+            0.5 * np.sqrt(np.maximum(k, omega**2)), 1.0 / np.maximum(length, 1e-300)
+        )
         found = np.where(close, _circle_mean(integrals, nu, radius), found)
     x, v, constant, base = found
-    a = load * constant - k * x - c * v
+    moved = base if shaken.moves_base else np.zeros_like(base)
+    a = load * constant - k * x - c * v - (base - moved)
     x, v, a = (
         np.where(resting, x0 * constant, x),
         np.where(resting, 0.0, v),
-        np.where(resting, base, a),
+        np.where(resting, moved, a),
     )
     u = face * constant + x
     turn = np.exp(-1j * nu * parts.begin[:, np.newaxis])

@@ -12,17 +12,17 @@ from numpy.typing import NDArray
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
-from vibroimpact.engine.parameters import rig_vector
+from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, RigidStop, State, Stop
+from vibroimpact.model import Bumper, Oscillator, Periodic, Repeated, RigidStop, State, Stop
 from vibroimpact.response.variables import COMPONENTS
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
 
 
-def engine_rig(oscillator: Oscillator) -> NDArray[np.float64]:
-    """The oscillator as the vector that the engine reads."""
+def engine_rig(oscillator: Oscillator, shaken: Repeated) -> NDArray[np.float64]:
+    """The oscillator and what shakes it as the vector that the engine reads."""
 
     def numbers(stop: Stop | None) -> tuple[float, ...] | None:
         if stop is None:
@@ -37,7 +37,30 @@ def engine_rig(oscillator: Oscillator) -> NDArray[np.float64]:
         oscillator.isolator.damping,
         numbers(oscillator.right),
         numbers(oscillator.left),
+        oscillator.force,
+        _drive(oscillator, shaken),
     )
+
+
+def _drive(oscillator: Oscillator, shaken: Repeated) -> Drive:
+    """What shakes the mass, as the base acceleration that does the same.
+
+    A displacement X sin θ of the base is the acceleration −X ω² sin θ, a force F sin θ on the
+    mass −F/M sin θ.
+    """
+    scale, power = {
+        "acceleration": (1.0, 0.0),
+        "displacement": (-1.0, 2.0),
+        "force": (-1.0 / oscillator.mass, 0.0),
+    }[shaken.of]
+    weights: tuple[tuple[float, float], ...] = ()
+    if isinstance(shaken, Periodic):
+        sizes = [one / shaken.amplitude for one in shaken.amplitudes]
+        weights = tuple(
+            (size * math.cos(angle), size * math.sin(angle))
+            for size, angle in zip(sizes, shaken.phases, strict=True)
+        )
+    return Drive(1.0 if shaken.moves_base else 0.0, scale, power, weights)
 
 
 def as_state(start: State | xr.DataArray | xr.Dataset) -> State:
@@ -90,7 +113,9 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
                     "0 is accepted"
                 )
             continue
-        slack = TOUCHING * max(abs(stop.gap), abs(u), abs(v) / oscillator.angular_frequency)
+        slack = TOUCHING * max(
+            abs(stop.gap), abs(u), abs(v) / (oscillator.angular_frequency or np.inf)
+        )
         reach = sign * u - stop.gap
         if isinstance(stop, RigidStop):
             touches, deformation = _on_wall(stop, sign, state, name, reach, slack, said)

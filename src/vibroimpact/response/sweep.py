@@ -17,10 +17,18 @@ from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, State, equilibrium, to_si
+from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
 from vibroimpact.model.counts import share, whole
-from vibroimpact.model.rigs import AnyRig, as_rig, is_rig, rig_name, takes_rig
-from vibroimpact.model.units import ACCELERATION, ANGLE, FREQUENCY
+from vibroimpact.model.rigs import (
+    AnyRig,
+    AnyShaking,
+    as_rig,
+    as_shaking,
+    is_rig,
+    rig_name,
+    takes_rig,
+)
+from vibroimpact.model.units import ANGLE, FREQUENCY
 from vibroimpact.response.free_flight import (
     check_bounded,
     free_flight_excursions,
@@ -28,7 +36,12 @@ from vibroimpact.response.free_flight import (
 )
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.threads import Progress, run
-from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
+from vibroimpact.response.variables import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
 
 DIRECTIONS = ("forward", "backward")
 
@@ -36,7 +49,7 @@ DIRECTIONS = ("forward", "backward")
 @takes_rig
 def sweep(
     oscillator: Oscillator,
-    amplitude: float | str,
+    amplitude: AnyShaking,
     frequencies: Iterable[float | str],
     directions: Sequence[str] = DIRECTIONS,
     *,
@@ -56,8 +69,10 @@ def sweep(
     oscillator
         What vibrates; or a laboratory case or its code, and then the amplitude may be left out.
     amplitude
-        Peak base acceleration A in m/s², greater than 0, the same at all frequencies; or
-        text such as ``"0.05 g"``.
+        What is held at all frequencies: the peak A of the base acceleration in m/s², greater
+        than 0; or a text such as ``"0.05 g"``, ``"5 mm"`` (displacement of the base) or
+        ``"120 N"`` (force on the mass); or a `Harmonic` or `Periodic`, whose own frequency is
+        left out of account. A list has one for each frequency.
     frequencies
         The frequencies to hold in Hz, rising; or text such as ``"2.5 Hz"``.
     directions
@@ -164,17 +179,17 @@ def sweeps(
     free = np.empty((2, len(pairs), len(grid)))
     largest = np.empty((2, len(pairs)))
     prepared = []
-    for r, (oscillator, amplitude) in enumerate(pairs):
+    for r, (oscillator, shaken, sizes) in enumerate(pairs):
         for i, frequency in enumerate(grid):
-            check_bounded(oscillator, float(frequency), f"frequencies[{i}]")
-        free[:, r] = free_flight_excursions(oscillator, amplitude, grid)
-        largest[:, r] = reference_excursions(
-            oscillator.angular_frequency, oscillator.damping_ratio, amplitude
-        )
+            check_bounded(oscillator, shaken.replace(frequency=frequency), f"frequencies[{i}]")
+        levels = _levels(sizes, shaken, grid)
+        free[:, r] = free_flight_excursions(oscillator, shaken, grid)
+        free[:, r] *= levels / shaken.amplitude
+        largest[:, r] = reference_excursions(oscillator, shaken.replace(amplitude=levels.max()))
         prepared.append(
             (
-                engine_rig(oscillator),
-                amplitude,
+                engine_rig(oscillator, shaken),
+                levels,
                 engine_state(oscillator, state or equilibrium(oscillator)),
             )
         )
@@ -186,13 +201,13 @@ def sweeps(
 
     def one(task: int) -> None:
         r, d = divmod(task, len(directions))
-        rig, amplitude, begin = prepared[r]
+        rig, levels, begin = prepared[r]
         order = slice(None, None, 1 if directions[d] == "forward" else -1)
         found = np.empty((len(grid), hold.RESULTS))
         reached = np.zeros((len(grid), layout.STATE))
         batch.sweep(
             rig,
-            amplitude,
+            np.ascontiguousarray(levels[order]),
             np.ascontiguousarray(grid[order]),
             angle,
             begin.copy(),
@@ -220,8 +235,12 @@ def sweeps(
         "vibroimpact.sweeps",
         {
             "rigs": [
-                {"oscillator": oscillator_parameters(oscillator), "amplitude": amplitude}
-                for oscillator, amplitude in pairs
+                {
+                    "oscillator": oscillator_parameters(oscillator),
+                    **excitation_parameters(shaken, "frequency", "phase"),
+                    **({} if sizes is None else {"amplitude": list(sizes)}),
+                }
+                for oscillator, shaken, sizes in pairs
             ],
             "phase": angle,
             "tolerance": tolerance,
@@ -263,8 +282,24 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     return grid
 
 
-def named_rigs(rigs: Any) -> tuple[list[str], list[tuple[Oscillator, float]]]:
-    """Names of the rigs, and each one's oscillator and amplitude (m/s²).
+def _levels(
+    sizes: tuple[float, ...] | None, shaken: Repeated, grid: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The amplitude at each frequency."""
+    if sizes is None:
+        return np.full(len(grid), shaken.amplitude)
+    if len(sizes) != len(grid):
+        raise InputError(
+            f"amplitude: {len(sizes)} of them for {len(grid)} frequencies; one, or one for each "
+            "frequency, is accepted"
+        )
+    return np.array(sizes)
+
+
+def named_rigs(
+    rigs: Any,
+) -> tuple[list[str], list[tuple[Oscillator, Repeated, tuple[float, ...] | None]]]:
+    """Names of the rigs, and each one's oscillator, shaking and amplitudes if there are many.
 
     Raises
     ------
@@ -284,7 +319,7 @@ def named_rigs(rigs: Any) -> tuple[list[str], list[tuple[Oscillator, float]]]:
     for name, item in zip(names, items, strict=True):
         oscillator, amplitude = as_rig(item, f"rigs[{name}]")
         where = "amplitude" if len(items) == 1 else f"rigs[{name}].amplitude"
-        pairs.append((oscillator, to_si(amplitude, ACCELERATION, where, above=0.0)))
+        pairs.append((oscillator, *as_shaking(amplitude, where)))
     return names, pairs
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import xarray as xr
 
 from vibroimpact._version import __version__
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
 from vibroimpact.model.parameters import PARAMETERS
 
 
@@ -90,6 +91,7 @@ VARIABLES: dict[str, Variable] = {
         "m s-2", "absolute acceleration", "value behind the event where it jumps"
     ),
     "base_acceleration": Variable("m s-2", "base acceleration"),
+    "applied_force": Variable("N", "force on the mass"),
     "right_bumper": Variable("m", "deformation of the right bumper"),
     "left_bumper": Variable("m", "deformation of the left bumper, negative when pressed"),
     "right_clearance": Variable("m", "clearance between mass and right bumper"),
@@ -291,6 +293,24 @@ def motion_parameters(motion: xr.Dataset) -> dict[str, Any]:
     """The parameters of the motion that something was made from."""
     parameters: dict[str, Any] = json.loads(motion.attrs["parameters"])
     return parameters
+
+
+def excitation_parameters(shaken: Repeated, *left_out: str) -> dict[str, Any]:
+    """What shakes it as plain numbers (SI units), for a dataset's attributes.
+
+    What an amplitude is one of is named unless it is the base acceleration.
+    """
+    numbers = {k: v for k, v in shaken.model_dump().items() if k not in left_out}
+    if shaken.of == "acceleration":
+        del numbers["of"]
+    return numbers
+
+
+def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:
+    """What shakes it, from a dataset's attributes; `others` stand in for what they leave open."""
+    kind = Periodic if "amplitudes" in parameters else Harmonic
+    given = {k: parameters[k] for k in kind.model_fields if k in parameters}
+    return kind.model_validate({**given, **others})
 
 
 def oscillator_parameters(oscillator: Oscillator) -> dict[str, Any]:

@@ -6,7 +6,7 @@ import xarray as xr
 
 from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import takes_rig
@@ -22,7 +22,7 @@ from vibroimpact.stability.trace import CLOSED, Branch, Station
 @takes_rig
 def branch(
     oscillator: Oscillator,
-    excitation: Harmonic,
+    excitation: Repeated,
     start: State | xr.DataArray | xr.Dataset | None = None,
     *,
     parameter: str = "frequency",

@@ -14,7 +14,7 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.arrivals import arrivals
@@ -53,7 +53,7 @@ class _Kept(NamedTuple):
 @takes_rig
 def coexisting(
     oscillator: Oscillator,
-    excitation: Harmonic,
+    excitation: Repeated,
     *,
     frequencies: Iterable[float | str] | None = None,
     starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
@@ -137,7 +137,7 @@ def coexisting(
         u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
         state = State(u, v * excitation.angular_frequency, phase=excitation.phase)
         go(f"random {number + 1}", state)
-    if oscillator.symmetric:
+    if oscillator.symmetric and excitation.half_wave:
         for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
                 image = _image(one.found, max_events)
@@ -163,7 +163,7 @@ def coexisting(
 
 def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     pair = (
-        one.found.oscillator.symmetric
+        one.found.symmetric
         and not bool(one.motion["antisymmetric"])
         and not _mirrors(one.found, one.found, max_events)
     )
@@ -174,7 +174,7 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     return describe(data, "vibroimpact.coexisting")
 
 
-def _at_phase(found: Settled, excitation: Harmonic, max_events: int) -> Settled:
+def _at_phase(found: Settled, excitation: Repeated, max_events: int) -> Settled:
     """The motion at the section of the given excitation, wherever its start had its own."""
     ahead = ((excitation.phase - found.excitation.phase) / (2.0 * math.pi)) % 1.0
     if ahead == 0.0:
@@ -193,7 +193,7 @@ def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int,
         if _same(one.found, found, options[3]):
             one.starts.append(name)
             return
-        if found.oscillator.symmetric and _mirrors(one.found, found, options[3]):
+        if found.symmetric and _mirrors(one.found, found, options[3]):
             one.mirrored_starts.append(name)
             return
     kept.append(_Kept(found, describe_motion(found, *options), [name], []))
@@ -233,7 +233,7 @@ def _same(one: Settled, other: Settled, max_events: int) -> bool:
 
 def _displacements(found: Settled, max_events: int) -> NDArray[np.float64]:
     """Displacements at the section over many cycles, sorted."""
-    rig, state = engine_rig(found.oscillator), found.state.copy()
+    rig, state = engine_rig(found.oscillator, found.excitation), found.state.copy()
     status, rows = grown(rig, found.excitation, state, _SEEN, max_events)
     # Fewer if it is given up: then it is another motion than one that goes on.
     return np.sort(rows[:, lyapunov.SECTION]) if status is Status.DONE else np.empty(0)

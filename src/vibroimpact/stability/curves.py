@@ -26,12 +26,17 @@ from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.engine.observers import record
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.threads import Progress, counted
-from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
+from vibroimpact.response.variables import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
 from vibroimpact.stability.bifurcations import (
     BREAKING,
     DOUBLING,
@@ -56,7 +61,7 @@ _NOTHING = xr.DataArray([np.nan])
 @takes_rig
 def bifurcation_curve(
     oscillator: Oscillator,
-    excitation: Harmonic,
+    excitation: Repeated,
     start: xr.Dataset,
     *,
     parameters: tuple[str, str],
@@ -200,7 +205,7 @@ def _dataset(
     }
     parameters: dict[str, Any] = {
         "oscillator": oscillator_parameters(over.family.oscillator),
-        "amplitude": over.family.excitation.amplitude,
+        **excitation_parameters(over.family.excitation),
         "frequency": over.family.excitation.frequency,
         "phase": over.family.phase,
         "parameters": names,

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, State, to_si
+from vibroimpact.model import Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import bounds
-from vibroimpact.model.rigs import takes_rig
-from vibroimpact.model.units import ACCELERATION
+from vibroimpact.model.rigs import as_shaking, takes_rig
+from vibroimpact.response.free_flight import extremes, harmonics
 from vibroimpact.response.sweep import DIRECTIONS, sweep
 from vibroimpact.response.threads import Progress
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
@@ -56,7 +56,7 @@ def resonance_diagram(
     oscillator
         What vibrates; or a laboratory case or its code, and then the amplitude may be left out.
     amplitude
-        Peak base acceleration A in m/s².
+        As in `sweep`, the same at all frequencies.
     low, high
         Range of the frequency in Hz.
     phase
@@ -81,8 +81,10 @@ def resonance_diagram(
     InputError
         If a value cannot be used.
     """
-    peak = to_si(amplitude, ACCELERATION, "amplitude", above=0.0)
-    fam = family(oscillator, Harmonic(peak, high, phase), "frequency")
+    shaken, several = as_shaking(amplitude, "amplitude")
+    if several:
+        raise InputError("amplitude: a list; one amplitude for all frequencies is accepted")
+    fam = family(oscillator, shaken.replace(frequency=high, phase=phase), "frequency")
     span = bounds(fam.parameter, low, high)
     longest, starts = whole(longest, "longest"), whole(starts, "starts")
     most_branches = whole(most_branches, "most_branches")
@@ -126,21 +128,20 @@ def _at(fam: Family, frequency: float) -> Family:
 def _free(fam: Family, span: tuple[float, float], starts: int) -> Iterator[Orbit]:
     """Steady free flight where it reaches no bumper: at the ends of each such range."""
     rig, shaken = fam.oscillator, fam.excitation
-    gaps = [b.gap for b in (rig.right, rig.left) if b is not None]
-    grid = np.linspace(*span, starts)
-    omega = 2.0 * np.pi * grid
-    stiff = rig.isolator.stiffness / rig.mass - omega**2
-    damped = rig.isolator.damping / rig.mass * omega
-    square = stiff**2 + damped**2
-    with np.errstate(divide="ignore"):
-        swing = shaken.amplitude / np.sqrt(square)
-    flies = swing < min(gaps, default=np.inf)
+    if rig.isolator.stiffness == 0.0:
+        return
+    grid, rest = np.linspace(*span, starts), rig.force / rig.isolator.stiffness
+    with np.errstate(divide="ignore", invalid="ignore"):
+        swings, _ = harmonics(rig, shaken, grid)
+    low, high = extremes(swings) + rest
+    right, left = (np.inf if stop is None else stop.gap for stop in (rig.right, rig.left))
+    flies = (high < right) & (-low < left)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], flies, [False]]).astype(int)))
     for i in sorted({int(k) for a, b in edges.reshape(-1, 2) for k in (a, b - 1)}):
-        # u = −A ((k − ω²) sin θ − c ω cos θ) / ((k − ω²)² + c² ω²)
-        s, c = np.sin(fam.phase), np.cos(fam.phase)
-        u = -shaken.amplitude * (stiff[i] * s - damped[i] * c) / square[i]
-        v = -shaken.amplitude * omega[i] * (stiff[i] * c + damped[i] * s) / square[i]
+        order = np.arange(1, swings.shape[1] + 1)
+        turned = swings[i] * np.exp(1j * order * fam.phase)
+        u = rest + turned.imag.sum()
+        v = 2.0 * np.pi * grid[i] * (order * turned).real.sum()
         here = _at(fam, float(grid[i]))
         try:
             yield first_orbit(here, span, State(float(u), float(v), phase=fam.phase), 1)
@@ -153,9 +154,9 @@ def _settled(fam: Family, span: tuple[float, float], starts: int, longest: int) 
     grid = np.linspace(*span, starts)
     grid[0], grid[-1] = span
     for direction in DIRECTIONS:
-        data = sweep(
-            fam.oscillator, fam.excitation.amplitude, grid, direction, phase=fam.phase
-        ).isel(direction=0)
+        data = sweep(fam.oscillator, fam.excitation, grid, direction, phase=fam.phase).isel(
+            direction=0
+        )
         # From the far end of the sweep: there free flight and the large motions are simple.
         for i in range(starts)[:: 1 if direction == "backward" else -1]:
             period = int(data["period"][i])

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.engine import lyapunov
-from vibroimpact.model import Harmonic, State, equilibrium, to_si
+from vibroimpact.model import State, equilibrium, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.model.units import ANGLE
@@ -18,7 +18,7 @@ from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, engine_rig, engine_state
 from vibroimpact.response.sweep import check_frequencies, named_rigs
 from vibroimpact.response.threads import Progress, run
-from vibroimpact.response.variables import describe, oscillator_parameters
+from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.stability.kind import averages
 
 DISCARD = 100
@@ -88,13 +88,13 @@ def lyapunov_exponents(
     max_events = whole(max_events, "max_events")
     threads = None if threads is None else whole(threads, "threads")
     prepared = []
-    for oscillator, amplitude in pairs:
+    for oscillator, shaken, _ in pairs:
         for i, frequency in enumerate(grid):
-            check_bounded(oscillator, float(frequency), f"frequencies[{i}]")
+            check_bounded(oscillator, shaken.replace(frequency=frequency), f"frequencies[{i}]")
         prepared.append(
             (
-                engine_rig(oscillator),
-                amplitude,
+                engine_rig(oscillator, shaken),
+                shaken,
                 engine_state(oscillator, state or equilibrium(oscillator)),
             )
         )
@@ -109,12 +109,12 @@ def lyapunov_exponents(
 
     def one(task: int) -> None:
         r, i = divmod(task, len(grid))
-        rig, amplitude, begin = prepared[r]
+        rig, shaken, begin = prepared[r]
         if counter[task, 1]:
             return
-        shaken = Harmonic(amplitude, float(grid[i]), angle)
+        here = shaken.replace(frequency=float(grid[i]), phase=angle)
         outcomes[r, i], rows = grown(
-            rig, shaken, begin.copy(), cycles, max_events, transient=transient, discard=DISCARD
+            rig, here, begin.copy(), cycles, max_events, transient=transient, discard=DISCARD
         )
         used[r, i] = len(rows)
         if len(rows):
@@ -123,7 +123,7 @@ def lyapunov_exponents(
             damping[r, i] = rows[:, lyapunov.DISSIPATION].mean() * grid[i]
         counter[task, 0] = 1
 
-    lyapunov.growth.prepare()  # once, before the threads would queue for it
+    lyapunov.growth.prepare(*(rig for rig, _, _ in prepared))  # once, before threads would queue
     run(one, counter, len(counter), threads, progress)
     dims = ("rig", "frequency")
     data = xr.Dataset(
@@ -138,8 +138,11 @@ def lyapunov_exponents(
     )
     parameters: dict[str, Any] = {
         "rigs": [
-            {"oscillator": oscillator_parameters(oscillator), "amplitude": amplitude}
-            for oscillator, amplitude in pairs
+            {
+                "oscillator": oscillator_parameters(oscillator),
+                **excitation_parameters(shaken, "frequency", "phase"),
+            }
+            for oscillator, shaken, _ in pairs
         ],
         "phase": angle,
         "cycles": cycles,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine import section_map
-from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, Setting, parameter
 from vibroimpact.response.start import engine_rig
 
@@ -29,7 +29,7 @@ class Family(NamedTuple):
 
     parameter: Parameter
     oscillator: Oscillator
-    excitation: Harmonic
+    excitation: Repeated
     value: float
     """The parameter where the family was made."""
     base: _Array
@@ -44,9 +44,8 @@ class Family(NamedTuple):
     @property
     def symmetric(self) -> bool:
         """Whether each motion's mirror image is a motion, all along."""
-        return self.oscillator.symmetric and not (
-            self.parameter.name.startswith(("right_", "left_"))
-        )
+        here = self.oscillator.symmetric and self.excitation.half_wave
+        return here and not self.parameter.name.startswith(("right_", "left_", "force"))
 
     def at(self, value: float) -> Setting:
         """The rig and its forcing at a value of the parameter."""
@@ -64,7 +63,7 @@ class Family(NamedTuple):
         return vector
 
 
-def family(oscillator: Oscillator, excitation: Harmonic, name: str) -> Family:
+def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     """Prepare a rig for being followed along a parameter.
 
     Raises
@@ -86,10 +85,10 @@ def family(oscillator: Oscillator, excitation: Harmonic, name: str) -> Family:
     return Family(varied, oscillator, excitation, value, base, direction)
 
 
-def system_vector(oscillator: Oscillator, excitation: Harmonic) -> _Array:
+def system_vector(oscillator: Oscillator, excitation: Repeated) -> _Array:
     """The engine's system vector."""
-    vector = np.empty(section_map.SYSTEM)
-    vector[: section_map.AMPLITUDE] = engine_rig(oscillator)
+    rig = engine_rig(oscillator, excitation)
+    vector = np.resize(rig, max(section_map.SYSTEM, len(rig)))
     vector[section_map.AMPLITUDE] = excitation.amplitude
     vector[section_map.FREQUENCY] = excitation.frequency
     return vector

@@ -24,7 +24,7 @@ from vibroimpact.stability.fixed_points import (
     is_fixed,
     vector_of,
 )
-from vibroimpact.stability.settled import Settled, apart, approach, later, reach
+from vibroimpact.stability.settled import Settled, apart, approach, later, reach, reach_at_rest
 
 _Array = NDArray[np.float64]
 
@@ -190,6 +190,6 @@ def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
         gap,
         abs(float(point[0])),
         abs(float(point[1])) / omega,
-        1e-3 * shaken.amplitude / rig.angular_frequency**2,
+        1e-3 * reach_at_rest(rig, shaken),
     )
     return np.array([size, size * omega, size, size, span[1] - span[0]])

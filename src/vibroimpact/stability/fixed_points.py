@@ -15,7 +15,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine import orbit, section_map
 from vibroimpact.engine.flows import carries
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.model.parameters import Setting
 from vibroimpact.response.follow import moved_on
 from vibroimpact.stability.family import Family
 
@@ -159,7 +159,7 @@ class Orbit:
         return float(seen.facts[section_map.RESIDUAL]), miss
 
     @property
-    def setting(self) -> tuple[Oscillator, Harmonic]:
+    def setting(self) -> Setting:
         """The rig and its forcing."""
         return self.section.family.at(self.value)
 
@@ -277,16 +277,11 @@ def seen_at(found: Orbit, phase: float) -> tuple[_Array, float] | None:
     """Point and mode of the same motion at another forcing phase; None if a limit is met there."""
     section = found.section
     system = section.family.system(found.value)
-    here = Harmonic(
-        float(system[section_map.AMPLITUDE]),
-        float(system[section_map.FREQUENCY]),
-        section.family.phase,
-    )
+    _, here = found.setting
     ahead = ((phase - here.phase) / (2.0 * math.pi)) % 1.0
     state = vector_of(found)
     if ahead > 0.0:
-        rig = system[: section_map.AMPLITUDE].copy()
-        status, state = moved_on(rig, here, state, ahead, MAX_EVENTS)
+        status, state = moved_on(system, here, state, ahead, MAX_EVENTS)
         if status is not Status.DONE:
             return None
     right, left = state[layout.RIGHT_BUMPER], -state[layout.LEFT_BUMPER]

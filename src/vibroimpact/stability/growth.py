@@ -29,7 +29,7 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
     rates = []
     for _ in range(2):  # the second time tells how far rounding and the rest of a transient go
         outcome = lyapunov.monodromy(
-            engine_rig(found.oscillator),
+            engine_rig(found.oscillator, found.excitation),
             found.excitation.amplitude,
             found.excitation.frequency,
             found.excitation.phase,
@@ -86,7 +86,12 @@ def judge_wandering(
         The damping per unit mass is the integral over a cycle, on average.
     """
     status, rows = grown(
-        engine_rig(found.oscillator), found.excitation, state, cycles, max_events, discard=DISCARD
+        engine_rig(found.oscillator, found.excitation),
+        found.excitation,
+        state,
+        cycles,
+        max_events,
+        discard=DISCARD,
     )
     size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0])
     kind = judge(

@@ -10,11 +10,15 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import hold, orbit, section_map
-from vibroimpact.engine import parameters as par
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.response.free_flight import reference_excursions
-from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
+from vibroimpact.response.variables import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.bifurcations import Bifurcation
 from vibroimpact.stability.family import Family
@@ -77,9 +81,7 @@ def as_dataset(
         f"vibroimpact.{created}",
         {
             "oscillator": oscillator_parameters(fam.oscillator),
-            "amplitude": fam.excitation.amplitude,
-            "frequency": fam.excitation.frequency,
-            "phase": fam.phase,
+            **excitation_parameters(fam.excitation),
             "parameter": name,
             "low": span[0],
             "high": span[1],
@@ -175,7 +177,4 @@ def _measured(one: Orbit) -> _Array:
 
 def _reference(one: Orbit) -> tuple[float, float]:
     """Excursions of displacement and absolute acceleration that η is taken over."""
-    system = one.section.family.system(one.value)
-    omega = float(np.sqrt(system[par.STIFFNESS]))
-    xi = float(system[par.DAMPING]) / (2.0 * omega)
-    return reference_excursions(omega, xi, float(system[section_map.AMPLITUDE]))
+    return reference_excursions(*one.setting)

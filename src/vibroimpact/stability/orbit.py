@@ -5,7 +5,7 @@ from __future__ import annotations
 import xarray as xr
 
 from vibroimpact.engine import section_map
-from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.variables import describe
@@ -19,7 +19,7 @@ from vibroimpact.stability.steady import describe_motion
 @takes_rig
 def orbit(
     oscillator: Oscillator,
-    excitation: Harmonic,
+    excitation: Repeated,
     guess: State | xr.DataArray | xr.Dataset | None = None,
     period: int | None = None,
     *,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.stability.family import RATES, Family, family, system_vector
 
@@ -35,7 +35,7 @@ class Plane(NamedTuple):
         return self.family._replace(base=np.where(change != 0.0, base + change, base))
 
 
-def plane(oscillator: Oscillator, excitation: Harmonic, names: tuple[str, str]) -> Plane:
+def plane(oscillator: Oscillator, excitation: Repeated, names: tuple[str, str]) -> Plane:
     """Prepare a rig for being followed over two parameters.
 
     Raises

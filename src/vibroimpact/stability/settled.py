@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.counts import share
 from vibroimpact.response.follow import moved_on
 from vibroimpact.response.free_flight import check_bounded
@@ -24,7 +24,7 @@ class Settled(NamedTuple):
     """Where a motion went."""
 
     oscillator: Oscillator
-    excitation: Harmonic
+    excitation: Repeated
     """Its phase is that of the section."""
     state: _Array
     """At the section behind the last cycle, as the engine's vector."""
@@ -34,10 +34,15 @@ class Settled(NamedTuple):
     """Forcing cycles used."""
     status: Status
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether its mirror image, half a cycle later, is a motion as well."""
+        return self.oscillator.symmetric and self.excitation.half_wave
+
 
 def approach(
     oscillator: Oscillator,
-    excitation: Harmonic,
+    excitation: Repeated,
     start: State | _Array,
     tolerance: float = 1e-12,
     max_cycles: int = 2000,
@@ -53,15 +58,15 @@ def approach(
         If the start cannot be, or an undamped mass that no bumper stops is at resonance.
     """
     tolerance = share(tolerance, "tolerance")
-    check_bounded(oscillator, excitation.frequency, "frequency")
+    check_bounded(oscillator, excitation)
     if isinstance(start, State):
         if start.phase is not None:
             excitation = excitation.replace(phase=start.phase)
         start = engine_state(oscillator, start)
     result = np.empty((1, hold.RESULTS))
     batch.sweep(
-        engine_rig(oscillator),
-        excitation.amplitude,
+        engine_rig(oscillator, excitation),
+        np.array([excitation.amplitude]),
         np.array([excitation.frequency]),
         excitation.phase,
         start.copy(),
@@ -88,7 +93,7 @@ def later(
     found: Settled, state: _Array, cycles: float, max_events: int = 10_000
 ) -> tuple[Status, _Array]:
     """The state some forcing cycles later; of use only if `Status.DONE`."""
-    rig = engine_rig(found.oscillator)
+    rig = engine_rig(found.oscillator, found.excitation)
     return moved_on(rig, found.excitation, state, cycles, max_events)
 
 
@@ -116,9 +121,14 @@ def reach(found: Settled, state: _Array) -> float:
     return max(size, 1e-3 * reach_at_rest(found.oscillator, found.excitation), 1e-300)
 
 
-def reach_at_rest(oscillator: Oscillator, excitation: Harmonic) -> float:
-    """Displacement (m) of a mass that an inertia force M A moves against the isolator alone."""
-    return excitation.amplitude / oscillator.angular_frequency**2
+def reach_at_rest(oscillator: Oscillator, excitation: Repeated) -> float:
+    """Displacement (m) of a mass that the peak of the shaking moves against the isolator alone.
+
+    Without a spring, against its inertia.
+    """
+    omega = excitation.angular_frequency
+    peak = float(np.sum(excitation.acceleration(oscillator.mass, omega)))
+    return peak / (oscillator.angular_frequency or omega) ** 2
 
 
 def settled_on(found: Orbit) -> Settled:

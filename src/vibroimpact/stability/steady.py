@@ -14,7 +14,7 @@ from vibroimpact.engine import measure
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, State, equilibrium
+from vibroimpact.model import Oscillator, Repeated, State, equilibrium
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.contacts import contact_log
@@ -58,7 +58,7 @@ MOST_CYCLES = 5_000_000
 @takes_rig
 def steady(
     oscillator: Oscillator,
-    excitation: Harmonic,
+    excitation: Repeated,
     start: State | xr.DataArray | xr.Dataset | None = None,
     samples: int = 256,
     *,
@@ -210,7 +210,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     origin = Recorded(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
     every = cut(data, origin)
     rows = measured(origin, every)
-    rig, shaken = origin.oscillator, origin.excitation
+    rig = origin.oscillator
     side = view(every)
     face = side * origin.of_side(side, "gap")
     # A left contact is measured towards the bumper.
