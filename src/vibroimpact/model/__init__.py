@@ -15,6 +15,7 @@ from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.record import Record
 from vibroimpact.model.state import State
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
 from vibroimpact.model.units import GRAVITY, to_si
@@ -32,6 +33,7 @@ __all__ = [
     "Model",
     "Oscillator",
     "Periodic",
+    "Record",
     "Repeated",
     "Rig",
     "RigidStop",

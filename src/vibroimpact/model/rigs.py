@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias, TypeVar, cast
 from vibroimpact.errors import InputError
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.record import Record
 from vibroimpact.model.units import shown
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -110,7 +111,7 @@ def as_shaking(value: Any, where: str) -> tuple[Repeated, tuple[float, ...] | No
     return Harmonic.model_validate({"amplitude": size, "frequency": 1.0, "of": of}), None
 
 
-def takes_rig(function: _Function) -> _Function:
+def takes_rig(function: _Function, *, records: bool = False) -> _Function:
     """Let a function of an oscillator and an amplitude, or an excitation, take a case as well.
 
     Where its first argument carries the amplitude, the amplitude may be left out, and an
@@ -118,7 +119,8 @@ def takes_rig(function: _Function) -> _Function:
 
         sweep("B2-G1-A3", frequencies)    simulate(case, "2 Hz", 100)
 
-    What is neither a rig nor an excitation is refused before the function sees it.
+    What is neither a rig nor an excitation is refused before the function sees it, a record unless
+    the function takes `records`.
     """
     signature = inspect.signature(function)
     first, second = list(signature.parameters)[:2]
@@ -148,9 +150,9 @@ def takes_rig(function: _Function) -> _Function:
             if second == "amplitude" and not _told(signature, rig, rest, kwargs):
                 rest = [amplitude, *rest]
         if second in kwargs:
-            kwargs[second] = _second(second, kwargs[second], amplitude)
+            kwargs[second] = _second(second, kwargs[second], amplitude, records)
         elif rest:
-            rest[0] = _second(second, rest[0], amplitude)
+            rest[0] = _second(second, rest[0], amplitude, records)
         return function(rig, *rest, **kwargs)
 
     return cast(_Function, with_rig)
@@ -175,8 +177,15 @@ def _told(
     return True
 
 
-def _second(name: str, value: Any, amplitude: AnyShaking | None) -> Any:
+def _second(name: str, value: Any, amplitude: AnyShaking | None, records: bool) -> Any:
     """The amplitude or the excitation, refused where it is something else."""
+    if isinstance(value, Record):
+        if records:
+            return value
+        raise InputError(
+            f"{name}: a Record has no period, and what is asked for is a motion that repeats "
+            "itself; a Harmonic or a Periodic is accepted, and simulate takes records"
+        )
     if name == "amplitude" or isinstance(value, Harmonic | Periodic):
         return value
     if amplitude is not None and _is_number(value):

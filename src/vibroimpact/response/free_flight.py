@@ -120,17 +120,16 @@ def harmonics(
     """
     mass, (k, c) = oscillator.mass, (oscillator.isolator.stiffness, oscillator.isolator.damping)
     omega = 2.0 * np.pi * frequencies
-    base = shaken.acceleration(mass, omega).reshape(len(omega), -1)
-    order = np.arange(1, base.shape[1] + 1)
-    base = base.astype(np.complex128)
+    sizes = shaken.acceleration(mass, omega).reshape(len(omega), -1)
+    order = np.arange(1, sizes.shape[1] + 1)
+    base: _Complex = sizes.astype(np.complex128)
     if isinstance(shaken, Periodic):
         base *= np.exp(1j * np.array(shaken.phases))
     base *= 1.0 if shaken.of == "acceleration" else -1.0
     omega = np.outer(omega, order)
     natural = math.sqrt(k / mass)
     stiff = (natural - omega) * (natural + omega)
-    swing = -base / (stiff + 1j * omega * c / mass)
-    swing = np.asarray(swing, dtype=np.complex128)
+    swing: _Complex = -base / (stiff + 1j * omega * c / mass)
     moved = base if shaken.moves_base else np.zeros_like(base)
     return swing, np.asarray(moved - omega**2 * swing, dtype=np.complex128)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,11 +14,13 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.model.units import DIMENSIONLESS
+from vibroimpact.model.units import DIMENSIONLESS, TIME
 from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.recorded import through
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.variables import (
     COMPONENTS,
@@ -25,36 +28,42 @@ from vibroimpact.response.variables import (
     excitation_parameters,
     oscillator_parameters,
 )
+from vibroimpact.response.written import EVENTS_AT_ONCE, listed, sampled
 
-_EVENTS_AT_ONCE = 20_000
 
-
-@takes_rig
+@partial(takes_rig, records=True)
 def simulate(
     oscillator: Oscillator,
-    excitation: Repeated,
-    cycles: float,
+    excitation: Repeated | Record,
+    cycles: float | None = None,
     start: State | xr.DataArray | xr.Dataset | None = None,
-    samples: int = 256,
+    samples: int | None = None,
     *,
+    tail: float | str | None = None,
     max_events: int = 10_000,
 ) -> xr.Dataset:
-    """Follow a motion for a number of forcing cycles.
+    """Follow a motion for a number of forcing cycles, or through a record.
 
     Parameters
     ----------
     oscillator, excitation
         What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
     cycles
-        How long, in forcing cycles, greater than 0; the last may be incomplete.
+        How long, in forcing cycles, greater than 0; the last may be incomplete. Not for a record,
+        which says itself how long it is.
     start
         Where the motion starts: a `State`, the dataset of an earlier call or its
         ``final_state`` (which carries the phase on); None is rest.
     samples
-        Samples per forcing cycle. They only look: no value depends on their number. With 0
-        only ``final_state`` is returned, and memory does not grow with `cycles`.
+        Samples per forcing cycle, 256 unless said; or per step of a record, 1 unless said. They
+        only look: no value depends on their number. With 0 only ``final_state`` is returned, and
+        memory does not grow with `cycles`.
+    tail
+        How long the motion is followed behind a record, while the base stands still: seconds, or
+        text such as ``"10 s"``; 0 unless said.
     max_events
-        Contacts and detachments in one forcing cycle at which the motion is given up.
+        Contacts and detachments in one forcing cycle, or one step of a record, at which the
+        motion is given up.
 
     Returns
     -------
@@ -69,8 +78,21 @@ def simulate(
     InputError
         If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
     """
+    max_events = whole(max_events, "max_events")
+    per = 256 if isinstance(excitation, Repeated) else 1
+    samples = per if samples is None else whole(samples, "samples", 0)
+    if isinstance(excitation, Record):
+        if cycles is not None:
+            raise InputError(
+                f"cycles: {cycles!r}, but a record has none; tail, a time, is accepted beside it"
+            )
+        behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
+        return through(oscillator, excitation, behind, start, samples, max_events)
+    if tail is not None:
+        raise InputError(f"tail: {tail!r} is for a Record; cycles say how long this shaking lasts")
+    if cycles is None:
+        raise InputError("cycles: missing; a number greater than 0 is accepted, such as 100")
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
-    samples, max_events = whole(samples, "samples", 0), whole(max_events, "max_events")
     check_samples(length, samples, "cycles")
     check_bounded(oscillator, excitation)
     state = equilibrium(oscillator) if start is None else as_state(start)
@@ -79,7 +101,7 @@ def simulate(
 
     count = math.ceil(length * samples - 1e-9) + 1 if samples else 0
     out = np.empty((record.SAMPLE, count))
-    capacity = max_events + 1 + (_EVENTS_AT_ONCE if samples else 0)
+    capacity = max_events + 1 + (EVENTS_AT_ONCE if samples else 0)
     buffer = np.empty((capacity, record.EVENT))
     found = []
     rig = engine_rig(oscillator, excitation)
@@ -119,10 +141,10 @@ def simulate(
         cycle = _cycles(out.shape[1], samples, length if complete else None)
         coordinates["time"] = cycle / excitation.frequency
         coordinates["cycle"] = ("time", cycle)
-        variables |= _samples(out)
+        variables |= sampled(out)
         name, values = _shaking(excitation, phase, cycle, samples)
         variables[name] = ("time", values)
-        variables |= _events(np.concatenate(found), 1.0 / excitation.frequency)
+        variables |= listed(np.concatenate(found), 1.0 / excitation.frequency)
     data = xr.Dataset(variables, coordinates)
     data.attrs["status"] = status.advice
     return describe(
@@ -144,20 +166,6 @@ def _cycles(count: int, samples: int, length: float | None) -> NDArray[np.float6
     return cycle
 
 
-def _samples(out: NDArray[np.float64]) -> dict[str, Any]:
-    rows = {
-        "displacement": record.DISPLACEMENT,
-        "velocity": record.VELOCITY,
-        "acceleration": record.ACCELERATION,
-        "right_bumper": record.RIGHT_FACE,
-        "left_bumper": record.LEFT_FACE,
-        "right_clearance": record.RIGHT_CLEARANCE,
-        "left_clearance": record.LEFT_CLEARANCE,
-    }
-    samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
-    return {**samples, "contact": ("time", out[record.CONTACT].astype(np.int64))}
-
-
 def _shaking(
     excitation: Repeated, phase: float, cycle: NDArray[np.float64], samples: int
 ) -> tuple[str, NDArray[np.float64]]:
@@ -167,26 +175,3 @@ def _shaking(
     if len(cycle):
         values[-1] = excitation.at(2.0 * np.pi * (cycle[-1] % 1.0) + phase) + 0.0
     return "base_acceleration" if excitation.moves_base else "applied_force", values
-
-
-def _events(events: NDArray[np.float64], period: float) -> dict[str, Any]:
-    integers = {
-        "event_cycle": record.E_CYCLE,
-        "event_contact": record.E_KIND,
-        "event_side": record.E_SIDE,
-    }
-    columns = {
-        "event_cycle_time": record.E_TIME,
-        "event_displacement": record.E_U,
-        "event_velocity": record.E_V,
-        "event_right_bumper": record.E_RIGHT,
-        "event_left_bumper": record.E_LEFT,
-        "event_acceleration_before": record.E_BEFORE,
-        "event_acceleration_behind": record.E_BEHIND,
-    }
-    time = events[:, record.E_CYCLE] * period + events[:, record.E_TIME]
-    return {
-        "event_time": ("event", time),
-        **{name: ("event", events[:, at].astype(np.int64)) for name, at in integers.items()},
-        **{name: ("event", events[:, at] + 0.0) for name, at in columns.items()},  # no -0.0
-    }

@@ -14,14 +14,14 @@ from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, Periodic, Repeated, RigidStop, State, Stop
+from vibroimpact.model import Bumper, Oscillator, Periodic, Record, Repeated, RigidStop, State, Stop
 from vibroimpact.response.variables import COMPONENTS
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
 
 
-def engine_rig(oscillator: Oscillator, shaken: Repeated) -> NDArray[np.float64]:
+def engine_rig(oscillator: Oscillator, shaken: Repeated | Record) -> NDArray[np.float64]:
     """The oscillator and what shakes it as the vector that the engine reads."""
 
     def numbers(stop: Stop | None) -> tuple[float, ...] | None:
@@ -42,12 +42,14 @@ def engine_rig(oscillator: Oscillator, shaken: Repeated) -> NDArray[np.float64]:
     )
 
 
-def _drive(oscillator: Oscillator, shaken: Repeated) -> Drive:
+def _drive(oscillator: Oscillator, shaken: Repeated | Record) -> Drive:
     """What shakes the mass, as the base acceleration that does the same.
 
     A displacement X sin θ of the base is the acceleration −X ω² sin θ, a force F sin θ on the
     mass −F/M sin θ.
     """
+    if isinstance(shaken, Record):
+        return Drive(interval=shaken.step)
     scale, power = {
         "acceleration": (1.0, 0.0),
         "displacement": (-1.0, 2.0),

@@ -322,10 +322,11 @@ def _table(
         plan[at + VALID_FROM] = 0.0
         if late:
             # Worth a table of its own only where steps become much longer.
-            if k == 0.0 or decay == 0.0 or h < 5.0 * plan[table + H]:
+            gone = FORGOTTEN / decay if decay > 0.0 else math.inf
+            if k == 0.0 or h < 5.0 * plan[table + H] or gone >= plan[par.INTERVAL]:
                 plan[at + VALID_FROM] = math.inf
                 continue
-            plan[at + VALID_FROM] = FORGOTTEN / decay
+            plan[at + VALID_FROM] = gone
             # How far, how fast and so on the forcing alone moves the mass.
             swing, swing1, swing2, swing3 = 0.0, 0.0, 0.0, 0.0
             for n in range(1, parts + 1):

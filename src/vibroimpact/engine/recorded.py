@@ -1,0 +1,107 @@
+"""A motion under a record: a straight line of base acceleration after the other.
+
+Each line is followed as a forcing cycle is, from its own beginning, so that nothing accumulates.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from vibroimpact.engine.entry import entry
+from vibroimpact.engine.flows import planned
+from vibroimpact.engine.hold import NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
+from vibroimpact.engine.jit import Vector
+from vibroimpact.engine.linear.advance import too_much_work
+from vibroimpact.engine.linear.pieces import acceleration
+from vibroimpact.engine.linear.tables import build
+from vibroimpact.engine.loop import cycle
+from vibroimpact.engine.motion import aged, finite, pack, unpacked
+from vibroimpact.engine.observe import UNOBSERVED
+from vibroimpact.engine.observers.record import TOUCHING, Record, write_sample
+
+# Columns of a line: A_t at its beginning (m/s²), its slope (m/s³) and how long it lasts (s).
+BEGINS, SLOPE, LASTS = range(3)
+LINE = 3
+
+
+@entry(
+    "UniTuple(i8, 3)(f8[::1], f8, f8, f8[:, ::1], f8[::1], i8, i8, f8, i8, f8[:, ::1], f8[:, ::1])"
+)
+def follow(
+    given: Any,
+    rig: Vector,
+    most: float,
+    steepest: float,
+    lines: Vector,
+    state: Vector,
+    first: int,
+    samples: int,
+    interval: float,
+    max_events: int,
+    out: Vector,
+    events: Vector,
+) -> tuple[int, int, int]:
+    """Follow a motion and write it down, until the end or until `events` may overflow.
+
+    Parameters
+    ----------
+    rig : ndarray
+        From `parameters.rig_vector`, with the record's interval.
+    most, steepest : float
+        Bounds on |A_t| (m/s²) and on its slope (m/s³).
+    lines : ndarray, shape (line, LINE)
+        None longer than the interval.
+    state : ndarray, shape (motion.STATE,)
+        Where the motion starts; carried on in place.
+    first : int
+        Line to begin with.
+    samples : int
+        Samples in an interval; 0 for none.
+    interval : float
+        Between the record's samples (s).
+    max_events : int
+        Contacts and detachments in one line at which the motion is given up.
+    out : ndarray, shape (record.SAMPLE, samples from line 0 to the end, and one for the end)
+    events : ndarray, shape (capacity > max_events, record.EVENT)
+
+    Returns
+    -------
+    next, count, outcome
+        The line to go on with, the number of events written, a `Status`.
+    """
+    plan = planned(given, rig)
+    build(plan, most, steepest / most if most > 0.0 else 0.0)
+    if too_much_work(plan, interval):
+        return first, 0, TOO_MUCH_WORK
+    motion = unpacked(state, (lines[first, BEGINS], lines[first, SLOPE]))
+    step = interval / samples if samples else 0.0
+    number = first
+    count = 0
+    outcome = 0
+    while number < len(lines) and outcome == 0 and count + max_events < len(events):
+        line = lines[number]
+        clock, length = (line[BEGINS], line[SLOPE]), line[LASTS]
+        # The slope changes here: what had died out is a transient again.
+        before = aged(motion, 0.0)
+        if samples == 0 and len(events) == max_events + 1:
+            here, motion, _ = cycle(plan, before, clock, length, max_events, UNOBSERVED)
+        else:
+            n = int(math.ceil(length / step - 1e-9)) if samples else 0  # noqa: RUF046
+            last = count + max_events
+            notes = Record(out, number * samples, step, n, 0, events, count, last, number)
+            here, motion, notes = cycle(plan, before, clock, length, max_events, notes)
+            count = notes.written
+        if here > max_events:
+            outcome = TOO_MANY_EVENTS
+            motion = before
+        elif not finite(motion):
+            outcome = NOT_FINITE
+        number += 1
+    if number == len(lines) and samples and outcome == 0:
+        _, _, u, v, right, left, _, _ = motion
+        a = acceleration(plan, motion)
+        at = out.shape[1] - 1
+        write_sample(plan, motion.mode, TOUCHING[motion.mode], u, v, a, right, left, out, at)
+    pack(motion, state)
+    return number, count, outcome

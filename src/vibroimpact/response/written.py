@@ -1,0 +1,52 @@
+"""What the engine writes down of a motion, as a dataset's variables."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine.observers import record
+
+EVENTS_AT_ONCE = 20_000
+"""Room for events between two calls of the engine."""
+
+
+def sampled(out: NDArray[np.float64]) -> dict[str, Any]:
+    """The samples."""
+    rows = {
+        "displacement": record.DISPLACEMENT,
+        "velocity": record.VELOCITY,
+        "acceleration": record.ACCELERATION,
+        "right_bumper": record.RIGHT_FACE,
+        "left_bumper": record.LEFT_FACE,
+        "right_clearance": record.RIGHT_CLEARANCE,
+        "left_clearance": record.LEFT_CLEARANCE,
+    }
+    samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
+    return {**samples, "contact": ("time", out[record.CONTACT].astype(np.int64))}
+
+
+def listed(events: NDArray[np.float64], period: float) -> dict[str, Any]:
+    """The contacts and detachments, in cycles or steps of this length (s)."""
+    integers = {
+        "event_cycle": record.E_CYCLE,
+        "event_contact": record.E_KIND,
+        "event_side": record.E_SIDE,
+    }
+    columns = {
+        "event_cycle_time": record.E_TIME,
+        "event_displacement": record.E_U,
+        "event_velocity": record.E_V,
+        "event_right_bumper": record.E_RIGHT,
+        "event_left_bumper": record.E_LEFT,
+        "event_acceleration_before": record.E_BEFORE,
+        "event_acceleration_behind": record.E_BEHIND,
+    }
+    time = events[:, record.E_CYCLE] * period + events[:, record.E_TIME]
+    return {
+        "event_time": ("event", time),
+        **{name: ("event", events[:, at].astype(np.int64)) for name, at in integers.items()},
+        **{name: ("event", events[:, at] + 0.0) for name, at in columns.items()},  # no -0.0
+    }
