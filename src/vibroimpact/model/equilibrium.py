@@ -4,12 +4,14 @@ The force of the isolator and of the bumpers, each pushing only,
 
     K u + K_R max(u - G_R, 0) - K_L max(-u - G_L, 0),
 
-rises with u from minus to plus infinity, and rigid stops bound u. So there is one equilibrium;
-with no gap below 0 it is u = 0.
+rises with u from minus to plus infinity, and rigid stops bound u. So there is one place where it
+equals the constant force; without that force and with no gap below 0 it is u = 0. Without a spring
+the mass stays anywhere between its stops, u = 0 among them.
 """
 
 from __future__ import annotations
 
+import math
 from itertools import product
 
 from vibroimpact.model.oscillator import Oscillator
@@ -45,7 +47,9 @@ def equilibrium(oscillator: Oscillator) -> State:
         pairs = list(zip(pressed, bumpers, strict=True))
         stiffness = sum(stop.stiffness for yes, (_, stop) in pairs if yes)
         push = sum(side * stop.stiffness * stop.gap for yes, (side, stop) in pairs if yes)
-        u = push / (oscillator.isolator.stiffness + stiffness)
+        push += oscillator.force
+        stiffness += oscillator.isolator.stiffness
+        u = push / stiffness if stiffness else math.copysign(math.inf, push) if push else 0.0
         depths = [(yes, side * u - stop.gap) for yes, (side, stop) in pairs]
         return max((-depth if yes else depth for yes, depth in depths), default=0.0), u
 

@@ -107,18 +107,39 @@ class Oscillator(Model):
 
     @property
     def angular_frequency(self) -> float:
-        """Undamped natural angular frequency without stops, ω0 = √(K/M), in rad/s."""
+        """Undamped natural angular frequency without stops, ω0 = √(K/M), in rad/s; may be 0."""
         return math.sqrt(self.isolator.stiffness / self.mass)
 
     @property
     def natural_frequency(self) -> float:
-        """Undamped natural frequency without stops, ω0/2π, in Hz."""
+        """Undamped natural frequency without stops, ω0/2π, in Hz.
+
+        Raises
+        ------
+        InputError
+            If the isolator has no stiffness.
+        """
+        self._springs("natural frequency")
         return self.angular_frequency / math.tau
 
     @property
     def damping_ratio(self) -> float:
-        """Damping factor of the isolator, ξ = C/(2√(K M)) (the paper's Section 7)."""
+        """Damping factor of the isolator, ξ = C/(2√(K M)) (the paper's Section 7).
+
+        Raises
+        ------
+        InputError
+            If the isolator has no stiffness.
+        """
+        self._springs("damping ratio")
         return self.isolator.damping / (2.0 * math.sqrt(self.isolator.stiffness * self.mass))
+
+    def _springs(self, what: str) -> None:
+        if self.isolator.stiffness == 0.0:
+            raise InputError(
+                f"isolator.stiffness: 0, so that there is no {what}; a stiffness greater than 0 "
+                "is accepted, or values that need none, such as frequencies in Hz"
+            )
 
     @property
     def symmetric(self) -> bool:
