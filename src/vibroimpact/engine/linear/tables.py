@@ -17,6 +17,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.oscillation import oscillation
 from vibroimpact.engine.memory import TERMS, stack
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SEEN_LEFT
 
@@ -58,11 +59,13 @@ RESTING = 16  # 1 where a rigid stop holds the mass
 HEADER = 17
 
 # A node's rows: x and x′ as functions of the state row at the start, then the cosine and
-# sine of the angle that the forcing turns until there.
+# sine of the angle that the forcing turns until there, then what the rounding of the first two
+# columns has left out.
 ROW_V = 5
 COSINE = 10
 SINE = 11
-WIDTH = 12
+LEFT_OUT = 12
+WIDTH = 16
 NODE = HEADER  # nodes 1..NODES
 FINE_NODE = NODE + NODES * WIDTH  # points 0..FINE-1 of an interval
 MIDDLE = FINE_NODE + FINE // 2 * WIDTH
@@ -179,6 +182,8 @@ def _at(series: Vector, y: float, h: float, omega: float, plan: Vector, at: int)
         plan[at + ROW_V + column] = v / h
     plan[at + COSINE] = math.cos(omega * h * y)
     plan[at + SINE] = math.sin(omega * h * y)
+    for i in range(LEFT_OUT, WIDTH):
+        plan[at + i] = 0.0
 
 
 @kernel
@@ -198,6 +203,18 @@ def _compose(plan: Vector, first: int, then: int, out: int) -> None:
     turn_c, turn_s = plan[then + COSINE], plan[then + SINE]
     plan[out + COSINE] = cosine * turn_c - sine * turn_s
     plan[out + SINE] = sine * turn_c + cosine * turn_s
+    for i in range(LEFT_OUT, WIDTH):
+        plan[out + i] = 0.0
+
+
+@kernel
+def _oscillate(plan: Vector, at: int, t: float, c: float, k: float) -> None:
+    """The free oscillation in the rows of the time t, in closed form."""
+    x_of_x, x_of_v, v_of_x, v_of_v, out, swing, pull = oscillation(t, c, k)
+    plan[at], plan[at + 1] = x_of_x, x_of_v
+    plan[at + ROW_V], plan[at + ROW_V + 1] = v_of_x, v_of_v
+    plan[at + LEFT_OUT], plan[at + LEFT_OUT + 1] = out, swing
+    plan[at + LEFT_OUT + 2], plan[at + LEFT_OUT + 3] = pull, out
 
 
 @kernel
@@ -209,17 +226,29 @@ def _fill(
     stiffness: float,
     damping: float,
     contact: bool,
+    c: float,
+    k: float,
 ) -> None:
     """Lay out nodes, fine points and long series of one table."""
     h = plan[table + H]
+    oscillates = plan[table + LATE] == 0.0 and k > 0.25 * c * c
     _at(series, 0.0, h, omega, plan, table + FINE_NODE)
-    _at(series, 1.0 / FINE, h, omega, plan, table + FINE_NODE + WIDTH)
-    for n in range(2, FINE):
+    for n in range(1, FINE):
         at = table + FINE_NODE + n * WIDTH
-        _compose(plan, table + FINE_NODE + WIDTH, at - WIDTH, at)
-    _at(series, 1.0, h, omega, plan, table + NODE)
-    for n in range(1, NODES):
-        _compose(plan, table + NODE, table + NODE + (n - 1) * WIDTH, table + NODE + n * WIDTH)
+        if n == 1:
+            _at(series, 1.0 / FINE, h, omega, plan, at)
+        else:
+            _compose(plan, table + FINE_NODE + WIDTH, at - WIDTH, at)
+        if oscillates:
+            _oscillate(plan, at, n * h / FINE, c, k)
+    for n in range(NODES):
+        at = table + NODE + n * WIDTH
+        if n == 0:
+            _at(series, 1.0, h, omega, plan, at)
+        else:
+            _compose(plan, table + NODE, at - WIDTH, at)
+        if oscillates:
+            _oscillate(plan, at, (n + 1) * h, c, k)
     for column in range(5):
         for n in range(ORDER):
             plan[table + TAYLOR + column * ORDER + n] = series[n * COLUMNS + column]
@@ -359,4 +388,4 @@ def _table(
         plan[at + FORCE_0] = (stiffness * second_0 + damping * third_0) * eighth
         plan[at + SCALED_C], plan[at + SCALED_K], plan[at + SCALED_D] = c * h, k * h * h, d * h * h
         plan[at + SCALED_A], plan[at + SCALED_W] = plan[AMPLITUDE] * h * h, omega * h
-        _fill(plan, at, series, omega, stiffness, damping, mode > 0)
+        _fill(plan, at, series, omega, stiffness, damping, mode > 0, c, k)
