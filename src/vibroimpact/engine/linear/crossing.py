@@ -82,7 +82,8 @@ def quick_root(
             5 * f5 + d * (6 * f6)
         )
         fx = ((a0 + d * a1) + dd * (a2 + d * a3)) + dddd * ((a4 + d * a5) + dd * a6)
-        fv = ((a1 + d * (2 * a2)) + dd * (3 * a3 + d * (4 * a4))) + dddd * (5 * a5 + d * (6 * a6))
+        # The change of the velocity alone, for step times rate need not be 1 to the last digit.
+        change = (d * (2 * a2) + dd * (3 * a3 + d * (4 * a4))) + dddd * (5 * a5 + d * (6 * a6))
         fs, fc = turn(plan, point.s, point.c, plan[table + SCALED_W] * d)
         # What is left is below 1e-8 steps. Not to wait for another division: 1 / slope to
         # second order, where that is as good.
@@ -91,8 +92,8 @@ def quick_root(
         y = k * (1.0 / FINE) + d + e
         if not abs(e) < 1e-8 or y < 0.0 or y > 1.0 or not 2.0 * slope > second * y:
             break
-        fx += e * fv
-        fv += e * (2 * a2 + d * (6 * a3 + d * 12 * a4))
+        fx += e * (a1 + change)
+        change += e * (2 * a2 + d * (6 * a3 + d * 12 * a4))
         fs, fc = nudged(plan, fs, fc, e * plan[table + SCALED_W])
-        return y, Row(fx, fv * plan[table + RATE], fs, fc)
+        return y, Row(fx, point.v + change * plan[table + RATE], fs, fc)
     return NONE, row

@@ -12,6 +12,7 @@ from vibroimpact.engine.linear.layout import (
     FINE_NODE,
     FORGOTTEN,
     LATE,
+    LEFT_OUT,
     MIDDLE,
     NODE,
     ORDER,
@@ -47,7 +48,13 @@ def relaxed(deformation: float, rate: float, t: float) -> float:
 def moved(plan: Vector, at: int, row: Row) -> Row:
     """The state at a node or fine point from the state at its origin."""
     s, c = spun(plan, at, row.s, row.c)
-    return Row(product(plan, at, row), product(plan, at + ROW_V, row), s, c)
+    return Row(
+        product(plan, at, row) + (plan[at + LEFT_OUT] * row.x + plan[at + LEFT_OUT + 1] * row.v),
+        product(plan, at + ROW_V, row)
+        + (plan[at + LEFT_OUT + 2] * row.x + plan[at + LEFT_OUT + 3] * row.v),
+        s,
+        c,
+    )
 
 
 @kernel
@@ -99,12 +106,15 @@ def travel(plan: Vector, table: int, y: float, row: Row) -> Row:
             d -= 1.0 / FINE
         a0, a1, a2, a3, a4, a5, a6 = short_series(plan, table, row)
         x = a0 + d * (a1 + d * (a2 + d * (a3 + d * (a4 + d * (a5 + d * a6)))))
-        v = a1 + d * (2 * a2 + d * (3 * a3 + d * (4 * a4 + d * (5 * a5 + d * (6 * a6)))))
+        # The change alone is scaled: step times rate need not be 1 to the last digit.
+        change = d * (2 * a2 + d * (3 * a3 + d * (4 * a4 + d * (5 * a5 + d * (6 * a6)))))
+        v = row.v + change * plan[table + RATE]
         s, c = turn(plan, row.s, row.c, plan[table + SCALED_W] * d)
     else:
         row = moved(plan, table + MIDDLE, row)
         series = workspace()
         expand(plan, table + TAYLOR, row, series)
         x, v = horner(series, y - 0.5)
+        v *= plan[table + RATE]
         s, c = turn(plan, row.s, row.c, plan[table + SCALED_W] * (y - 0.5))
-    return Row(x, v * plan[table + RATE], s, c)
+    return Row(x, v, s, c)

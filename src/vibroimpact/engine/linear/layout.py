@@ -49,11 +49,13 @@ WAVE_C = 18
 HEADER = 19
 
 # A node's rows: x and x′ as functions of the state row at the start, then the cosine and
-# sine of the angle that the forcing turns until there.
+# sine of the angle that the forcing turns until there, then what the rounding of the first two
+# columns has left out.
 ROW_V = 5
 COSINE = 10
 SINE = 11
-WIDTH = 12
+LEFT_OUT = 12
+WIDTH = 16
 NODE = HEADER  # nodes 1..NODES
 FINE_NODE = NODE + NODES * WIDTH  # points 0..FINE-1 of an interval
 MIDDLE = FINE_NODE + FINE // 2 * WIDTH

@@ -68,6 +68,7 @@ def impact(
     sign = 1.0 if side == RIGHT else -1.0
     at = par.BUMPER + par.WIDTH * (side - 1)
     restitution = plan[at + par.RESTITUTION]
+    u = sign * plan[at + par.GAP]  # which from a pressed bumper's face is rounded
     v = -restitution * v
     bounced = Motion(mode & ~side, side, u, v, right, left, 0.0, clock)
     push = sign * acceleration_of(plan, bounced)  # towards the stop

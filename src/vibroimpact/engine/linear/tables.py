@@ -34,6 +34,7 @@ from vibroimpact.engine.linear.layout import (
     FORGOTTEN,
     LATE,
     LATE_TABLES,
+    LEFT_OUT,
     MOST,
     NODE,
     NODES,
@@ -62,6 +63,7 @@ from vibroimpact.engine.linear.layout import (
     WIDTH,
     H,
 )
+from vibroimpact.engine.linear.oscillation import oscillation
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SEEN_LEFT
 
@@ -159,6 +161,8 @@ def _at(series: Vector, y: float, h: float, wave: Wave, plan: Vector, at: int) -
     angle = wave.rate * h * y
     plan[at + COSINE] = math.cos(angle) if wave.closes != 0.0 else 1.0
     plan[at + SINE] = math.sin(angle) if wave.closes != 0.0 else angle
+    for i in range(LEFT_OUT, WIDTH):
+        plan[at + i] = 0.0
 
 
 @kernel
@@ -178,6 +182,18 @@ def _compose(plan: Vector, first: int, then: int, out: int, closes: float) -> No
     turn_c, turn_s = plan[then + COSINE], plan[then + SINE]
     plan[out + COSINE] = cosine * turn_c - closes * sine * turn_s
     plan[out + SINE] = sine * turn_c + cosine * turn_s
+    for i in range(LEFT_OUT, WIDTH):
+        plan[out + i] = 0.0
+
+
+@kernel
+def _oscillate(plan: Vector, at: int, t: float, c: float, k: float) -> None:
+    """The free oscillation in the rows of the time t, in closed form."""
+    x_of_x, x_of_v, v_of_x, v_of_v, out, swing, pull = oscillation(t, c, k)
+    plan[at], plan[at + 1] = x_of_x, x_of_v
+    plan[at + ROW_V], plan[at + ROW_V + 1] = v_of_x, v_of_v
+    plan[at + LEFT_OUT], plan[at + LEFT_OUT + 1] = out, swing
+    plan[at + LEFT_OUT + 2], plan[at + LEFT_OUT + 3] = pull, out
 
 
 @kernel
@@ -189,18 +205,29 @@ def _fill(
     stiffness: float,
     damping: float,
     contact: bool,
+    c: float,
+    k: float,
 ) -> None:
     """Lay out nodes, fine points and long series of one table."""
     h = plan[table + H]
+    oscillates = plan[table + LATE] == 0.0 and k > 0.25 * c * c
     _at(series, 0.0, h, wave, plan, table + FINE_NODE)
-    _at(series, 1.0 / FINE, h, wave, plan, table + FINE_NODE + WIDTH)
-    for n in range(2, FINE):
+    for n in range(1, FINE):
         at = table + FINE_NODE + n * WIDTH
-        _compose(plan, table + FINE_NODE + WIDTH, at - WIDTH, at, wave.closes)
-    _at(series, 1.0, h, wave, plan, table + NODE)
-    for n in range(1, NODES):
+        if n == 1:
+            _at(series, 1.0 / FINE, h, wave, plan, at)
+        else:
+            _compose(plan, table + FINE_NODE + WIDTH, at - WIDTH, at, wave.closes)
+        if oscillates:
+            _oscillate(plan, at, n * h / FINE, c, k)
+    for n in range(NODES):
         at = table + NODE + n * WIDTH
-        _compose(plan, table + NODE, at - WIDTH, at, wave.closes)
+        if n == 0:
+            _at(series, 1.0, h, wave, plan, at)
+        else:
+            _compose(plan, table + NODE, at - WIDTH, at, wave.closes)
+        if oscillates:
+            _oscillate(plan, at, (n + 1) * h, c, k)
     for column in range(5):
         for n in range(ORDER):
             plan[table + TAYLOR + column * ORDER + n] = series[n * COLUMNS + column]
@@ -383,4 +410,4 @@ def _table(
                 _late_series(h, c, k, d, part, fast, slow, series)
             else:
                 _series(h, c, k, d, part, series)
-            _fill(plan, there, series, part, stiffness, damping, mode > 0)
+            _fill(plan, there, series, part, stiffness, damping, mode > 0, c, k)
