@@ -200,7 +200,7 @@ def _over_frequency(
     phase = what.study.excitation.phase if what.study else 0.0
     data = resonance_diagram(
         what.oscillator,
-        what.amplitude,
+        what.repeated,
         *span,
         phase=phase,
         longest=longest,
@@ -208,7 +208,7 @@ def _over_frequency(
     )
     frequency = data["frequency"].values
     grid = np.linspace(frequency.min(), frequency.max(), 120)
-    return data, sweep(what.oscillator, what.amplitude, grid)
+    return data, sweep(what.oscillator, what.repeated, grid)
 
 
 class First(NamedTuple):
@@ -254,7 +254,7 @@ def _one_branch(
     progress: Any,
 ) -> xr.Dataset:
     """The branch along a parameter from one orbit."""
-    from vibroimpact.model import Harmonic, to_si
+    from vibroimpact.model import to_si
     from vibroimpact.model.parameters import parameter as varied
     from vibroimpact.model.units import FREQUENCY, pretty
     from vibroimpact.stability.branch import branch as follow
@@ -264,7 +264,7 @@ def _one_branch(
     hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
     phase = what.study.excitation.phase if what.study else 0.0
     kind = varied(parameter).quantity
-    here = varied(parameter).read(what.oscillator, Harmonic(what.amplitude, hertz, phase))
+    here = varied(parameter).read(what.oscillator, what.at(hertz, phase))
     if not span[0] <= here <= span[1]:
         raise InputError(
             f"--from: {pretty(span[0], kind)} to {pretty(span[1], kind)} leaves out the rig's "
@@ -272,7 +272,7 @@ def _one_branch(
         )
     return follow(
         what.oscillator,
-        Harmonic(what.amplitude, hertz, phase),
+        what.at(hertz, phase),
         first.start,
         parameter=parameter,
         low=span[0],

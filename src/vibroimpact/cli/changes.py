@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY
+from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.model.units import ACCELERATION, MASS, pretty, to_si
+from vibroimpact.model.units import MASS, pretty, to_si
 
 _LONGEST = 120
 """Characters of a file name, before what a command adds; disks take 255."""
@@ -61,7 +62,8 @@ def _change(option: str, value: str | bool) -> Change:
     if isinstance(value, bool):
         return Change(f"{flag.replace('-', ' ')} bumper", flag)
     if option == "amplitude":
-        text = f"{to_si(value, ACCELERATION, option) / GRAVITY:.6g} g"
+        size, of = sized(value, None, option)
+        text = f"{size / GRAVITY:.6g} g" if of == "acceleration" else pretty(size, QUANTITIES[of])
     else:
         quantity = MASS if option == "mass" else PARAMETERS[option].quantity
         text = pretty(to_si(value, quantity, option), quantity)

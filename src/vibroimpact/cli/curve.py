@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model import Harmonic
+    from vibroimpact.model import Repeated
 
 _CURVE = Group("Curve", sort_key=1)
 _WITH_UNITS = Parameter(group=_CURVE, allow_leading_hyphen=True)
@@ -157,23 +157,24 @@ def _range(
     return option_range(name, low, high, (option, option), default, "--over")
 
 
-def _excitation(what: Subject, first: str, frequency: str | None) -> Harmonic:
+def _excitation(what: Subject, first: str, frequency: str | None) -> Repeated:
     """The forcing of the rig; along the frequency its own does not matter."""
-    from vibroimpact.model import Harmonic, to_si
+    from vibroimpact.model import to_si
     from vibroimpact.model.units import FREQUENCY
 
     phase = what.study.excitation.phase if what.study else 0.0
     if frequency is None and first != "frequency":
         raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
-    hertz = what.oscillator.natural_frequency
     if frequency is not None:
         hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
-    return Harmonic(what.amplitude, hertz, phase)
+    else:
+        hertz = what.oscillator.natural_frequency
+    return what.at(hertz, phase)
 
 
 def _check(
     what: Subject,
-    shaken: Harmonic,
+    shaken: Repeated,
     names: tuple[str, str],
     spans: list[tuple[float, float]],
 ) -> None:
@@ -199,7 +200,7 @@ def _curves(
     kind: str,
     names: tuple[str, str],
     spans: list[tuple[float, float]],
-    shaken: Harmonic,
+    shaken: Repeated,
     progress: Any,
 ) -> dict[str, xr.Dataset]:
     """Each curve once, by the parameter at which it was found."""
@@ -212,7 +213,7 @@ def _curves(
 
     if names[0] == "frequency":
         data = resonance_diagram(
-            what.oscillator, what.amplitude, *spans[0], phase=shaken.phase, progress=progress
+            what.oscillator, what.repeated, *spans[0], phase=shaken.phase, progress=progress
         )
     else:
         data = branch(

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model import Harmonic
+    from vibroimpact.model import Repeated
 
 _MOTION = Group("Motion", sort_key=1)
 _WITH_UNITS = Parameter(group=_MOTION, allow_leading_hyphen=True)
@@ -118,7 +118,7 @@ def motion(
     return 0
 
 
-def _excitations(what: Subject, frequency: str | None) -> list[Harmonic]:
+def _excitations(what: Subject, frequency: str | None) -> list[Repeated]:
     """The excitations asked for, from the option or the study.
 
     Raises
@@ -126,7 +126,7 @@ def _excitations(what: Subject, frequency: str | None) -> list[Harmonic]:
     InputError
         If there is none, or one cannot be used.
     """
-    from vibroimpact.model import Harmonic, to_si
+    from vibroimpact.model import to_si
     from vibroimpact.model.units import FREQUENCY
 
     if frequency is not None:
@@ -146,7 +146,7 @@ def _excitations(what: Subject, frequency: str | None) -> list[Harmonic]:
     if len(hertz) > MOST_COLUMNS:
         raise InputError(f"--frequency: {len(hertz)} given; at most {MOST_COLUMNS} are accepted")
     phase = what.study.excitation.phase if what.study else 0.0
-    return [Harmonic(what.amplitude, value, phase) for value in hertz]
+    return [what.at(value, phase) for value in hertz]
 
 
 def _check(random: int, window: int, samples: int) -> None:
@@ -160,7 +160,7 @@ def _check(random: int, window: int, samples: int) -> None:
 
 
 def _found(
-    what: Subject, excitation: Harmonic, branch: str, random: int, window: int, samples: int
+    what: Subject, excitation: Repeated, branch: str, random: int, window: int, samples: int
 ) -> dict[str, xr.Dataset]:
     """The motions by name, with their spectra and sections."""
     from vibroimpact.response.arrivals import arrivals

@@ -68,7 +68,12 @@ class RigOptions:
     amplitude: Annotated[
         str | None,
         _RIG,
-        Parameter(help="Peak base acceleration, such as 0.05g (gravity) or 0.49m/s^2."),
+        Parameter(
+            help=(
+                "Peak base acceleration, such as 0.05g (gravity) or 0.49m/s^2; or displacement of "
+                "the base, such as 5mm; or force on the mass, such as 120N."
+            )
+        ),
     ] = None
     mass: Annotated[str | None, _RIG, Parameter(help="Mass, such as 550kg.")] = None
     stiffness: Annotated[

@@ -11,11 +11,24 @@ from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.output import warn
 from vibroimpact.cli.study import Study, read_study
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Isolator, Model, Oscillator, Stop, laboratory, to_si
-from vibroimpact.model.dimensionless import peak_displacement
-from vibroimpact.model.laboratory import Parameters
-from vibroimpact.model.units import ACCELERATION, LENGTH, pretty
+from vibroimpact.model import (
+    Bumper,
+    Harmonic,
+    Isolator,
+    Model,
+    Oscillator,
+    Periodic,
+    Record,
+    Repeated,
+    Stop,
+    laboratory,
+)
+from vibroimpact.model.excitation import sized
+from vibroimpact.model.laboratory import Case, Parameters
+from vibroimpact.model.rigs import as_shaking
+from vibroimpact.model.units import LENGTH, pretty
 from vibroimpact.model.validation import Accepts
+from vibroimpact.response.free_flight import reference_excursions
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
 """Fields of a bumper, and the options that set them on both sides."""
@@ -33,11 +46,50 @@ class Subject(NamedTuple):
     slug: str
     """For file names."""
     oscillator: Oscillator
-    amplitude: float
-    """Peak base acceleration in m/s²."""
+    shaking: Repeated | Record
+    """What shakes it; the frequency is left open."""
     study: Study | None
     published: bool
     """Whether it is a case of the laboratory, with its own natural frequency."""
+
+    @property
+    def repeated(self) -> Repeated:
+        """What shakes it over and over, the phase that of the study.
+
+        Raises
+        ------
+        InputError
+            If it is a record.
+        """
+        if isinstance(self.shaking, Record):
+            raise InputError(
+                "excitation.record: a record has no period, and what is asked for is a motion "
+                "that repeats itself; an amplitude is accepted, and vibroimpact simulate takes "
+                "records"
+            )
+        return self.shaking
+
+    def at(self, hertz: float, phase: float | None = None) -> Repeated:
+        """What shakes it at a frequency (Hz)."""
+        changed = {} if phase is None else {"phase": phase}
+        return self.repeated.replace(frequency=hertz, **changed)
+
+    @property
+    def amplitude(self) -> float:
+        """Peak base acceleration in m/s².
+
+        Raises
+        ------
+        InputError
+            If what shakes it is not one sine of given acceleration.
+        """
+        shaken = self.repeated
+        if not isinstance(shaken, Harmonic) or shaken.of != "acceleration":
+            raise InputError(
+                f"excitation: {shaken}; scenarios are those of one sine of given base "
+                'acceleration, such as amplitude = "0.05 g"'
+            )
+        return shaken.amplitude
 
     @property
     def title(self) -> str:
@@ -52,7 +104,7 @@ class _Named(NamedTuple):
     title: str
     slug: str
     oscillator: Oscillator
-    amplitude: float | None
+    shaking: Repeated | Record | None
     study: Study | None
     case: bool
     """Whether it is a case of the laboratory."""
@@ -77,30 +129,41 @@ def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
     """
     found = _named(text, options)
 
-    def rig_of(given: RigOptions) -> tuple[Oscillator, float | None]:
-        amplitude = found.amplitude
+    def rig_of(given: RigOptions) -> tuple[Oscillator, Repeated | Record | None]:
+        shaking = found.shaking
         if given.amplitude is not None:
-            amplitude = to_si(given.amplitude, ACCELERATION, "--amplitude", above=0.0)
-        return changed(found.oscillator, given), amplitude
+            shaking = _of_size(shaking, given.amplitude)
+        return changed(found.oscillator, given), shaking
 
-    oscillator, amplitude = rig_of(options)
-    if amplitude is None:
+    oscillator, shaking = rig_of(options)
+    if shaking is None:
         raise InputError(
             f"study {text!r}: excitation.amplitude: missing; an acceleration greater than 0 is "
-            'accepted, such as "0.05 g", there or as --amplitude'
+            'accepted, such as "0.05 g", there or as --amplitude, or a displacement or a force'
         )
     made = changes(options, rig_of)
     what = Subject(
         ", ".join((name or found.title, *(change.words for change in made))),
         slug(name) if name else joined(found.slug, made),
         oscillator,
-        amplitude,
+        shaking,
         found.study,
-        found.case and oscillator.natural_frequency == found.oscillator.natural_frequency,
+        found.case and oscillator.angular_frequency == found.oscillator.angular_frequency,
     )
-    for line in doubts(what.oscillator, what.amplitude):
+    for line in doubts(what.oscillator, what.shaking):
         warn(line)
     return what
+
+
+def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated:
+    """What shakes it, with the amplitude of the option: several harmonics keep their shape."""
+    if isinstance(shaking, Record):
+        raise InputError(f"--amplitude: {amplitude!r}, but a record shakes this rig; it has none")
+    if isinstance(shaking, Periodic):
+        size, _ = sized(amplitude, shaking.of, "--amplitude", positive=True)
+        return shaking.replace(amplitude=size)
+    found, _ = as_shaking(amplitude, "--amplitude")
+    return found if shaking is None else found.replace(phase=shaking.phase)
 
 
 def _named(text: str, options: RigOptions) -> _Named:
@@ -117,18 +180,25 @@ def _named(text: str, options: RigOptions) -> _Named:
         raise InputError(f"{error}; or the path of a study file, NAME.toml") from None
 
 
+def _shaken_by(case: Case) -> Harmonic:
+    return Harmonic(case.amplitude, 1.0)
+
+
 def _of_case(code: str, parameters: Parameters | None) -> _Named:
     case = laboratory.case(code, parameters or "table")
     if parameters != "identified":
-        return _Named(case.code, case.slug, case.oscillator, case.amplitude, None, True)
+        return _Named(case.code, case.slug, case.oscillator, _shaken_by(case), None, True)
     # Two parameter sets of one test are two rigs: neither may overwrite the other's files.
     title, first = f"{case.code}, identified parameters", f"{case.slug}-identified"
-    return _Named(title, first, case.oscillator, case.amplitude, None, True)
+    return _Named(title, first, case.oscillator, _shaken_by(case), None, True)
 
 
 def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
     parameters = options.parameters or study.parameters
-    amplitude = study.excitation.amplitude
+    try:
+        shaking = study.excitation.shaking(Path(path).parent)
+    except InputError as error:
+        raise InputError(f"study {path!r}: excitation.{error}") from None
     if study.case is not None:
         try:
             found = _of_case(study.case, parameters)
@@ -138,7 +208,9 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
         first = slug(title)
         if parameters != (study.parameters or (parameters and "table")):
             title, first = f"{title}, {parameters} parameters", f"{first}-{parameters}"
-        given = found.amplitude if amplitude is None else amplitude
+        given = shaking
+        if given is None and isinstance(found.shaking, Harmonic):
+            given = found.shaking.replace(phase=study.excitation.phase)
         return _Named(title, first, found.oscillator, given, study, True)
     # Study sees to it that there is one.
     assert study.oscillator is not None
@@ -148,15 +220,16 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
             "a case has parameter sets"
         )
     title = study.name or Path(path).stem
-    return _Named(title, slug(title), study.oscillator, amplitude, study, False)
+    return _Named(title, slug(title), study.oscillator, shaking, study, False)
 
 
-def doubts(oscillator: Oscillator, amplitude: float) -> list[str]:
+def doubts(oscillator: Oscillator, shaking: Repeated | Record) -> list[str]:
     """What of a rig is probably not meant, in words: gaps that nothing ever crosses."""
-    try:
-        reach = peak_displacement(oscillator, amplitude)
-    except InputError:  # an undamped isolator has no peak to compare with
+    if not isinstance(shaking, Harmonic):
         return []
+    reach = 0.5 * reference_excursions(oscillator, shaking)[0]
+    if not reach > 0.0 or oscillator.isolator.damping == 0.0 or oscillator.force:
+        return []  # there is no peak to compare with
     gaps = {b.gap for b in (oscillator.right, oscillator.left) if b is not None}
     return [
         f"a gap of {pretty(gap, LENGTH)} is {gap / reach:.3g} times the largest displacement of "

@@ -28,18 +28,58 @@ from typing import TYPE_CHECKING, Annotated, Literal, Self
 from pydantic import Field, create_model, model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Model, Oscillator, validate
-from vibroimpact.model.units import ACCELERATION, ANGLE, DIMENSIONLESS, FREQUENCY, LENGTH, VELOCITY
+from vibroimpact.model import Model, Oscillator, Periodic, Record, Repeated, validate
+from vibroimpact.model.rigs import as_shaking
+from vibroimpact.model.units import ANGLE, DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
 from vibroimpact.model.validation import Accepts
+from vibroimpact.records import read_columns
 
 _Frequency = Annotated[float | None, Accepts(FREQUENCY, above=0.0, optional=True)]
 
 
 class ExcitationTable(Model):
-    """``[excitation]``: how the base moves, at whatever frequency."""
+    """``[excitation]``: what shakes the mass, at whatever frequency; or a record in a file.
 
-    amplitude: Annotated[float | None, Accepts(ACCELERATION, above=0.0, optional=True)] = None
+    An amplitude is one of acceleration, displacement or force, by its unit. A record stands beside
+    the study file; its `step` (s) where the file has no times; its `unit`, m/s² unless said, may
+    be one of length.
+    """
+
+    amplitude: float | str | None = None
+    amplitudes: list[float | str] | None = None
+    phases: list[Annotated[float, Accepts(ANGLE)]] | None = None
     phase: Annotated[float, Accepts(ANGLE)] = 0.0
+    record: str | None = None
+    step: Annotated[float | None, Accepts(TIME, above=0.0, optional=True)] = None
+    unit: str | None = None
+
+    @model_validator(mode="after")
+    def _one_of_them(self) -> Self:
+        ways = {name: getattr(self, name) for name in ("amplitude", "amplitudes", "record")}
+        given = [name for name, value in ways.items() if value is not None]
+        if len(given) > 1:
+            raise InputError(f"{' and '.join(given)} are given; one of them is accepted")
+        for name, needs in (("phases", "amplitudes"), ("step", "record"), ("unit", "record")):
+            if getattr(self, name) is not None and ways[needs] is None:
+                raise InputError(f"{name} is given without {needs}; it is accepted beside it")
+        return self
+
+    def shaking(self, folder: Path) -> Repeated | Record | None:
+        """What it describes; paths are relative to the folder.
+
+        Raises
+        ------
+        InputError
+            If the record cannot be read, or a value cannot be used.
+        """
+        if self.record is not None:
+            return read_columns(folder / self.record, self.step, self.unit or "m/s^2")
+        if self.amplitudes is not None:
+            return Periodic(1.0, self.amplitudes, self.phases, self.phase)
+        if self.amplitude is None:
+            return None
+        shaken, _ = as_shaking(self.amplitude, "amplitude")
+        return shaken.replace(phase=self.phase)
 
 
 class _SweepTable(Model):
@@ -84,6 +124,7 @@ class SimulateTable(Model):
     frequency: _Frequency = None
     cycles: Annotated[float | None, Accepts(DIMENSIONLESS, above=0.0, optional=True)] = None
     samples: Annotated[int | None, Field(ge=1)] = None
+    tail: Annotated[float | None, Accepts(TIME, minimum=0.0, optional=True)] = None
     displacement: Annotated[float | None, Accepts(LENGTH, optional=True)] = None
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
 

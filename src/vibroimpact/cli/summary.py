@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from typing import Any
 
 import xarray as xr
@@ -14,9 +15,19 @@ from vibroimpact._version import __version__
 from vibroimpact.cli.numbers import plain
 from vibroimpact.cli.rig import Subject
 from vibroimpact.errors import InputError
-from vibroimpact.model import GRAVITY, Dimensionless, RigidStop, Stop, to_dimensionless
-from vibroimpact.model.units import DAMPING, LENGTH, MASS, STIFFNESS, VELOCITY, pretty
+from vibroimpact.model import (
+    GRAVITY,
+    Dimensionless,
+    Periodic,
+    Record,
+    Repeated,
+    RigidStop,
+    Stop,
+    to_dimensionless,
+)
+from vibroimpact.model.units import DAMPING, FORCE, LENGTH, MASS, STIFFNESS, VELOCITY, pretty
 from vibroimpact.response.resonance import Features, Range
+from vibroimpact.response.variables import excitation_parameters
 
 _CURVES = {"eta_a": "η_a", "eta_d": "η_d"}
 _LATELY = 10.0
@@ -30,8 +41,8 @@ def rig_facts(subject: Subject) -> dict[str, Any]:
         "name": subject.name,
         "vibroimpact_version": __version__,
         "oscillator": subject.oscillator.model_dump(),
-        "amplitude": subject.amplitude,
-        "natural_frequency": subject.oscillator.natural_frequency,
+        **_shaking_facts(subject.shaking),
+        "natural_frequency": subject.oscillator.angular_frequency / math.tau or None,
         "dimensionless": None if scaled is None else scaled.model_dump(),
     }
 
@@ -40,17 +51,17 @@ def rig_text(subject: Subject) -> RenderableType:
     """Return the rig with every parameter that was used."""
     oscillator = subject.oscillator
     isolator = oscillator.isolator
-    scaled = _dimensionless(subject)
+    scaled, sprung = _dimensionless(subject), isolator.stiffness > 0.0
     table = _plain_table()
     table.add_row(
         "mass",
         pretty(oscillator.mass, MASS),
-        f"natural frequency {plain(oscillator.natural_frequency, 4)} Hz",
+        f"natural frequency {plain(oscillator.natural_frequency, 4)} Hz" if sprung else "",
     )
     table.add_row(
         "isolator",
         f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}",
-        f"ξ = {plain(oscillator.damping_ratio, 4)}",
+        f"ξ = {plain(oscillator.damping_ratio, 4)}" if sprung else "",
     )
     for side in ("right", "left"):
         bumper: Stop | None = getattr(oscillator, side)
@@ -74,8 +85,9 @@ def rig_text(subject: Subject) -> RenderableType:
             if group
             else "",
         )
-    amplitude = subject.amplitude
-    table.add_row("base", f"A = {plain(amplitude, 7)} m/s² = {plain(amplitude / GRAVITY, 6)} g", "")
+    if oscillator.force:
+        table.add_row("constant force", pretty(oscillator.force, FORCE), "")
+    table.add_row(*_shaking_words(subject.shaking), "")
     return Group(Text(subject.name, style="bold"), table)
 
 
@@ -127,21 +139,18 @@ def sweep_text(data: xr.Dataset, found: Features, advice: list[str]) -> Renderab
 
 def motion_facts(data: xr.Dataset) -> dict[str, Any]:
     """Return where a motion ended and how often it touched the bumpers lately, in SI units."""
+    if "cycle" not in data:
+        return _record_facts(data)
     last = float(data["cycle"].values[-1])
     lately = min(_LATELY, last)
     frequency = json.loads(data.attrs["parameters"])["frequency"]
     when = data["event_cycle"] + data["event_cycle_time"] * frequency
-    begins = (data["event_contact"] == 1) & (when > last - lately)
+    begins = (data["event_contact"] >= 1) & (when > last - lately)
     return {
         "frequency": frequency,
         "cycles": last,
         "time": float(data["time"].values[-1]),
-        "final_state": {
-            str(component): value + 0.0  # no negative zeros
-            for component, value in zip(
-                data["component"].values, data["final_state"].values.tolist(), strict=True
-            )
-        },
+        "final_state": _final(data),
         "contacts": {
             "over_cycles": lately,
             "right_per_cycle": int((begins & (data["event_side"] == 1)).sum()) / lately,
@@ -151,21 +160,48 @@ def motion_facts(data: xr.Dataset) -> dict[str, Any]:
     }
 
 
+def _final(data: xr.Dataset) -> dict[str, float]:
+    """The state at the end, by component."""
+    values = zip(data["component"].values, data["final_state"].values.tolist(), strict=True)
+    return {str(component): value + 0.0 for component, value in values}  # no negative zeros
+
+
+def _record_facts(data: xr.Dataset) -> dict[str, Any]:
+    """The same of a motion through a record, which has no cycles."""
+    begins = data["event_contact"] >= 1
+    return {
+        "time": float(data["time"].values[-1]),
+        "final_state": _final(data),
+        "contacts": {
+            side: int((begins & (data["event_side"] == sign)).sum())
+            for side, sign in (("right", 1), ("left", -1))
+        },
+        "status": data.attrs["status"],
+    }
+
+
 def motion_text(facts: dict[str, Any]) -> RenderableType:
     """Return what `motion_facts` found as lines."""
     state, contacts = facts["final_state"], facts["contacts"]
-    touching = {1: "right bumper", -1: "left bumper", 0: "none"}[int(state["contact"])]
+    touching = {1: "right stop", -1: "left stop", 0: "none", 2: "both stops"}[int(state["contact"])]
     table = _plain_table()
     rows = [
         ("displacement", pretty(state["displacement"], LENGTH)),
         ("velocity", pretty(state["velocity"], VELOCITY)),
         ("right bumper", f"deformed by {pretty(state['right_bumper'], LENGTH)}"),
         ("left bumper", f"deformed by {pretty(state['left_bumper'], LENGTH)}"),
-        ("phase", f"{plain(state['phase'], 6)} rad"),
         ("contact", touching),
     ]
+    if "cycles" in facts:
+        rows.insert(-1, ("phase", f"{plain(state['phase'], 6)} rad"))
     for row in rows:
         table.add_row(*row, "")
+    if "cycles" not in facts:
+        return Group(
+            Text(f"State after {plain(facts['time'], 6)} s"),
+            table,
+            Text(f"Contacts: {contacts['right']} right, {contacts['left']} left"),
+        )
     return Group(
         Text(f"State after {plain(facts['cycles'])} cycles ({plain(facts['time'], 6)} s)"),
         table,
@@ -176,10 +212,32 @@ def motion_text(facts: dict[str, Any]) -> RenderableType:
     )
 
 
+def _shaking_facts(shaken: Repeated | Record) -> dict[str, Any]:
+    if isinstance(shaken, Record):
+        return {"record": dict(shaken.rows())}
+    return excitation_parameters(shaken, "frequency", "phase")
+
+
+def _shaking_words(shaken: Repeated | Record) -> tuple[str, str]:
+    """What shakes it, and how much."""
+    if isinstance(shaken, Record):
+        return "base", ", ".join(f"{name} {text}" for name, text in shaken.rows())
+    if isinstance(shaken, Periodic):
+        sizes = ", ".join(pretty(size, shaken.quantity) for size in shaken.amplitudes)
+        return _SHAKEN[shaken.of], f"harmonics of {sizes}"
+    size = shaken.amplitude
+    if shaken.of == "acceleration":
+        return "base", f"A = {plain(size, 7)} m/s² = {plain(size / GRAVITY, 6)} g"
+    return _SHAKEN[shaken.of], pretty(size, shaken.quantity)
+
+
+_SHAKEN = {"acceleration": "base", "displacement": "base", "force": "force on the mass"}
+
+
 def _dimensionless(subject: Subject) -> Dimensionless | None:
     try:
         return to_dimensionless(subject.oscillator, subject.amplitude)
-    except InputError:  # an undamped isolator has no peak to scale a gap by
+    except InputError:  # nothing to scale a gap by, or another kind of shaking
         return None
 
 

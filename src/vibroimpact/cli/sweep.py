@@ -104,7 +104,7 @@ def sweep(
         with progress_bar("sweeping") as progress:
             data = run(
                 what.oscillator,
-                what.amplitude,
+                what.repeated,
                 held,
                 DIRECTIONS if way == "both" else (way,),
                 progress=progress,

@@ -17,6 +17,7 @@ from vibroimpact.figures.lines import spectrum_lines
 from vibroimpact.figures.marks import frequency_marks
 from vibroimpact.figures.page import motion_page
 from vibroimpact.figures.portrait import phase_portrait
+from vibroimpact.figures.record import record_history
 from vibroimpact.figures.resonance import resonance_curves
 from vibroimpact.figures.scenarios import Mark, scenario_map
 from vibroimpact.figures.style import save_figure
@@ -32,6 +33,7 @@ __all__ = [
     "hysteresis_cycle",
     "motion_page",
     "phase_portrait",
+    "record_history",
     "resonance_curves",
     "resonance_family",
     "save_figure",

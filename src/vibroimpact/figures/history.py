@@ -30,7 +30,7 @@ PANELS = (
     _Panel("acceleration", 1.0, "absolute acceleration\n$\\ddot u + A_t$ (m/s²)"),
     _Panel("velocity", 1.0, "relative\nvelocity $\\dot u$ (m/s)"),
 )
-_BANDS = {"right": ("#f7dc8b", ""), "left": ("#b9dcec", r"\\")}
+BANDS = {"right": ("#f7dc8b", ""), "left": ("#b9dcec", r"\\")}
 
 
 def time_history(
@@ -171,7 +171,7 @@ def history_legend(curves: list[Shown]) -> list[Artist]:
 
 
 def _band(curve: Shown, side: str, motions: int) -> tuple[Any, str]:
-    colour, hatch = _BANDS[side]
+    colour, hatch = BANDS[side]
     return ((curve.look.colour, 0.15) if motions > 1 else colour), hatch
 
 

@@ -151,7 +151,8 @@ def _slow(oscillator: Oscillator, shaken: Periodic) -> tuple[float, float]:
     """What an excitation that changes slowly does to displacement and acceleration."""
     here = shaken.replace(frequency=oscillator.natural_frequency)
     sizes = here.acceleration(oscillator.mass, here.angular_frequency)
-    turned: _Complex = sizes[np.newaxis] * np.exp(1j * np.array(shaken.phases))
+    turned: _Complex = sizes[np.newaxis].astype(np.complex128)
+    turned *= np.exp(1j * np.array(shaken.phases))
     low, high = extremes(turned)
     wave = float(high[0] - low[0])
     return wave / oscillator.angular_frequency**2, wave

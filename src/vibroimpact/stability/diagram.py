@@ -15,7 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State
 from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import bounds
-from vibroimpact.model.rigs import as_shaking, takes_rig
+from vibroimpact.model.rigs import AnyShaking, as_shaking, takes_rig
 from vibroimpact.response.free_flight import extremes, harmonics
 from vibroimpact.response.sweep import DIRECTIONS, sweep
 from vibroimpact.response.threads import Progress
@@ -35,7 +35,7 @@ _CLOSE = 0.1
 @takes_rig
 def resonance_diagram(
     oscillator: Oscillator,
-    amplitude: float | str,
+    amplitude: AnyShaking,
     low: float | str,
     high: float | str,
     *,

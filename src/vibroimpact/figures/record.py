@@ -1,0 +1,129 @@
+"""A motion through a record: what shakes the base above what the mass does."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.history import BANDS
+from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.style import EDGE, LEGEND, panels
+
+_ROWS = (
+    ("base_acceleration", 1.0, "base acceleration\n$A_t$ (m/s²)"),
+    ("displacement", 1e3, "relative\ndisplacement $u$ (mm)"),
+    ("acceleration", 1.0, "absolute acceleration\n$\\ddot u + A_t$ (m/s²)"),
+    ("velocity", 1.0, "relative\nvelocity $\\dot u$ (m/s)"),
+)
+_SIDES = {"right": 1, "left": -1}
+
+
+def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
+    """Draw a motion through a record against time, with the record above it.
+
+    Contacts are bands between their exact times (the left stop's hatched), impacts on rigid stops
+    are dots; the gaps are dashed lines.
+
+    Parameters
+    ----------
+    motion
+        Dataset of `simulate` through a `Record`, with samples.
+    axes
+        Four Axes. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Returns
+    -------
+    tuple of Axes
+        For the base's acceleration, displacement, absolute acceleration and velocity;
+        ``axes[0].figure`` is the figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a motion through a record, or there are not four axes.
+    """
+    parameters = json.loads(getattr(motion, "attrs", {}).get("parameters", "{}"))
+    if "record" not in parameters or "displacement" not in motion:
+        raise InputError(
+            "motion: this is no motion through a record; a dataset of simulate with a Record and "
+            "samples is accepted, and time_history draws other motions"
+        )
+    names = "base acceleration, displacement, acceleration and velocity"
+    given = panels(axes, 4, names, (7.2, 8.6), title)
+    time = motion["time"].values
+    stops = {side: parameters["oscillator"].get(side) for side in _SIDES}
+    for ax, (variable, factor, label) in zip(given, _ROWS, strict=True):
+        ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
+        ax.plot(time, factor * motion[variable].values, color="black", linewidth=0.9, zorder=3)
+        ax.set_ylabel(label)
+        ax.set_xlim(time[0], time[-1])
+        if variable != "base_acceleration":
+            _contacts(ax, motion)
+    for side, sign in _SIDES.items():
+        if stops[side]:
+            gap = 1e3 * sign * stops[side]["gap"]
+            given[1].axhline(gap, color="black", linestyle="--", linewidth=0.8, zorder=2)
+    hit = motion["event_contact"].values == 2
+    given[1].scatter(
+        motion["event_time"].values[hit],
+        1e3 * motion["event_displacement"].values[hit],
+        s=10,
+        color="black",
+        zorder=4,
+    )
+    given[3].set_xlabel("time (s)")
+    present = [side for side in _SIDES if stops[side]]
+    handles: list[Any] = []
+    if present:
+        handles.append(Line2D([], [], color="black", linestyle="--", linewidth=0.8, label="gaps"))
+    for side in present:
+        colour, hatch = BANDS[side]
+        handles.append(
+            Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=f"{side} contact")
+        )
+    if hit.any():
+        handles.append(
+            Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
+        )
+    if handles:
+        given[1].legend(handles=handles, ncols=4, **LEGEND)
+    return given
+
+
+def _contacts(ax: Axes, motion: xr.Dataset) -> None:
+    """Bands where the mass touches a stop."""
+    for side, sign in _SIDES.items():
+        spans = _spans(motion, sign)
+        colour, hatch = BANDS[side]
+        ax.broken_barh(
+            [(float(a), float(b - a)) for a, b in spans],
+            (0.0, 1.0),
+            transform=ax.get_xaxis_transform(),
+            facecolor=colour,
+            edgecolor=EDGE,
+            hatch=hatch,
+            linewidth=0.3,  # so that a short contact is seen, too
+            zorder=0,
+        )
+
+
+def _spans(motion: xr.Dataset, sign: int) -> NDArray[np.float64]:
+    """Beginnings and ends of the contacts on one side, those of the whole motion included."""
+    at = motion["event_side"].values == sign
+    kind, time = motion["event_contact"].values[at], motion["event_time"].values[at]
+    begins, ends = time[kind == 1], time[kind == 0]
+    if len(ends) and (not len(begins) or ends[0] < begins[0]):
+        begins = np.concatenate([motion["time"].values[:1], begins])
+    if len(begins) > len(ends):
+        ends = np.concatenate([ends, motion["time"].values[-1:]])
+    return np.column_stack([begins, ends])
