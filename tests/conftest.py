@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import pytest
-import samples
 from hypothesis import settings
+
+import samples
 
 settings.register_profile("small", max_examples=30)
 

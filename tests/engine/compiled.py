@@ -39,5 +39,6 @@ if __name__ == "__main__":
     if sys.argv[1:]:
         compile_for(sys.argv[1])
     else:
-        both = [subprocess.Popen([sys.executable, __file__, flow]) for flow in RIGS]
-        sys.exit(any([process.wait() for process in both]))
+        side_by_side = [subprocess.Popen([sys.executable, __file__, flow]) for flow in RIGS]
+        codes = [process.wait() for process in side_by_side]
+        sys.exit(any(codes))
