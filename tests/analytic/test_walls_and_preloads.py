@@ -1,9 +1,9 @@
 """Rigid stops and preloaded bumpers against the independent integration to fifty digits.
 
-After `CYCLES` cycles from a start far from the steady motion, the state at each stroboscopic section
-agrees within 1e-11 of the largest displacement (or velocity), and so do the events: contacts,
-detachments, beginnings and ends of rest, and all impacts but the last ones of a chatter, of which
-each of the two lists as many as it needs.
+Over `CYCLES` cycles from a start far from the steady motion, the state at each stroboscopic
+section agrees within 1e-11 of the largest displacement (or velocity), and so do the events:
+contacts, detachments, beginnings and ends of rest, and all impacts but the last ones of a chatter,
+of which each of the two lists as many as it needs.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@ import subprocess
 import sys
 
 from vibroimpact import engine
+from vibroimpact.engine import jit
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.parameters import free_rig, rig_vector
 
@@ -37,6 +38,8 @@ def compile_for(flow: str) -> None:
 
 if __name__ == "__main__":
     if sys.argv[1:]:
+        if sys.argv[1] != next(iter(RIGS)):
+            jit.announce = lambda text: None  # it is said once
         compile_for(sys.argv[1])
     else:
         side_by_side = [subprocess.Popen([sys.executable, __file__, flow]) for flow in RIGS]
