@@ -1,5 +1,5 @@
 # make demo     installs into .venv, then sweeps the rig B2-G1-A3 into out/
-# make test     installs what the tests need as well, then runs them
+# make test     installs what the tests need as well, then runs them on small samples
 # make          lists the rest
 #
 # Nothing is installed twice, and a set-up that was cut short is begun again.
@@ -20,12 +20,13 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # One installation at a time, also under make -j.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint format bench pins clean
+.PHONY: help demo test test-full lint format bench pins clean
 .SECONDARY:
 
 help:
 	@echo 'make demo     sweep the rig B2-G1-A3; figure, data and summary in out/'
 	@echo 'make test     run the tests; ARGS="tests/cli -x" passes words on to pytest'
+	@echo 'make test-full   the same on full samples, which a change must pass'
 	@echo 'make lint     check style, types and layers'
 	@echo 'make format   put the code into the style that make lint checks'
 	@echo 'make bench    compare speed and accuracy with other solvers (benchmarks/README.md)'
@@ -36,11 +37,13 @@ help:
 demo: $(VENV)/.installed-run
 	@$(BIN)/vibroimpact sweep B2-G1-A3
 
-# The engine is compiled once before the workers start, or they would all wait for one of them.
-test: $(VENV)/.installed-test
-	@$(BIN)/python -c 'from vibroimpact.engine import batch; \
-	    batch.sweep.prepare(); batch.trajectory.prepare()'
-	$(BIN)/python -m pytest -n auto --maxprocesses 8 $(ARGS)
+# The engine is compiled once before the workers start, or they would wait for one another. A file
+# of tests stays with one worker, for its tests share what they compute.
+test test-full: $(VENV)/.installed-test
+	@$(BIN)/python tests/engine/compiled.py
+	$(BIN)/python -m pytest -n auto --maxprocesses 8 --dist loadfile $(FULL) $(ARGS)
+
+test-full: FULL := --full
 
 lint: $(VENV)/.installed-lint
 	$(BIN)/ruff check .

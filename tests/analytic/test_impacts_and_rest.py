@@ -233,3 +233,11 @@ def test_bumpers_from_restitution_return_it(e: float, ratio: float, mass: float)
     data = vi.simulate(rig, vi.Harmonic(0.0, 1.0 / quick), 1, vi.State(0.0, 2.0), samples=1)
     left = next(one for one in events(data) if one.kind == "detach_right")
     assert -left.v == pytest.approx(2.0 * e, rel=10.0 / ratio / min(e, 1.0))
+
+
+def test_a_mass_at_rest_on_a_wall_is_seen_exactly_there() -> None:
+    """Whatever the sum of a preloaded bumper's gap and deformation rounds to."""
+    wall = vi.RigidStop(0.5, -1.5482546511515751)
+    rig = vi.Oscillator(1.0, ISOLATOR, vi.Bumper(1.0, 0.0, -2.5), wall)
+    data = vi.simulate(rig, vi.Harmonic(1.0, 0.16), 2, vi.State(-wall.gap), samples=8)
+    assert (data["displacement"] == -wall.gap).all()

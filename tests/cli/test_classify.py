@@ -95,9 +95,11 @@ def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, w
     assert list(tmp_path.iterdir()) == []
 
 
-def test_scenarios_are_those_of_bumpers(run, tmp_path):
+def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
     (tmp_path / "quay.toml").write_text(QUAY, encoding="utf-8")
-    code, told, errors = run("quay.toml")
-    assert (code, told) == (2, "")
-    assert errors.count("\n") == 1
-    assert "a Bumper is accepted" in errors
+    code, told, errors = run("quay.toml", "--from", "1Hz", "--to", "3Hz", "--step", "0.05Hz")
+    assert (code, errors) == (0, "")
+    assert "rigid, e = 0.6, gap 5 mm" in told
+    assert "λ = ∞" in told
+    assert "Confidence" in told
+    assert (tmp_path / "out/quay-scenario.png").exists()

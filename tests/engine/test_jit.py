@@ -10,9 +10,25 @@ from pathlib import Path
 
 import pytest
 
+from engine.compiled import RIGS, compile_for, entries
 from vibroimpact.engine import jit
+from vibroimpact.engine.flows import _ADVANCE
 
-PREPARE = "from vibroimpact.engine import batch; batch.trajectory.prepare()"
+PREPARE = "from vibroimpact.engine import measure; measure.measure_phases.prepare()"
+"""The entry that is compiled soonest: how long it takes decides nothing here."""
+
+LOAD = f"""\
+import sys
+sys.path.insert(0, {str(Path(__file__).parents[1])!r})
+from engine.compiled import RIGS, compile_for, entries
+for flow in RIGS:
+    compile_for(flow)
+for entry in entries():
+    assert {{flow.__name__ for flow in entry._compiled}} == set(RIGS), entry.__name__
+    for compiled in entry._compiled.values():
+        stats = compiled.stats
+        assert stats.cache_hits and not stats.cache_misses, entry.__name__
+"""
 NOTICE = "compiling the engine"
 
 SMALL = """\
@@ -56,6 +72,15 @@ def test_processes_share_the_cache_safely(tmp_path: Path) -> None:
         path.write_bytes(path.read_bytes()[:40])
     assert NOTICE in run(PREPARE, tmp_path)
     assert not list(tmp_path.rglob("*.nb[ic]"))
+
+
+def test_each_entry_is_loaded_for_each_flow() -> None:
+    """A process that finds the engine compiled compiles nothing."""
+    assert {flow.__name__ for flow in _ADVANCE} == set(RIGS)
+    assert len(entries()) >= 9
+    for flow in RIGS:
+        compile_for(flow)  # at once where it has been
+    assert NOTICE not in run(LOAD, jit.cache_directory().parent)
 
 
 def test_where_the_cache_cannot_be_written_the_process_compiles_for_itself(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 import pytest
 import xarray as xr
 
+import samples
 import vibroimpact as vi
 from vibroimpact.model import laboratory
 from vibroimpact.paper import study as study_module
@@ -65,6 +66,7 @@ NEEDS_DATA = {
     "fitted-upward-jump",
     "fitted-portraits",
 }
+FULL_ONLY = pytest.mark.skipif(not samples.full, reason="computes the campaign again; --full")
 OF_THE_TESTS = (*with_bumpers.CLAIMS, *jumps.CLAIMS, *maxima.CLAIMS, *motions.CLAIMS)
 
 
@@ -200,6 +202,7 @@ class TestBroken:
         assert {"tests-by-scenario", "s4-left-hystereses", "s3-two-motions"} <= turned
         assert not turned & NEEDS_DATA
 
+    @FULL_ONLY
     def test_isolator_damped_a_third_as_much(self, monkeypatch, found):
         def loose(rig: vi.Oscillator) -> vi.Oscillator:
             return rig.replace(isolator=rig.isolator.replace(damping=rig.isolator.damping / 3.0))
@@ -209,6 +212,7 @@ class TestBroken:
         assert len(turned) >= 10
         assert {"acceleration-with-acceleration-forward", "s2-primary-only"} & turned
 
+    @FULL_ONLY
     def test_one_gap_wider_the_other_narrower(self, monkeypatch, found):
         def shifted(rig: vi.Oscillator) -> vi.Oscillator:
             if rig.right is None:

@@ -9,14 +9,24 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from samples import sample
 from vibroimpact.figures.style import SCENARIOS
-from vibroimpact.paper import fig15, table1
+from vibroimpact.paper import fig15, study, table1
 from vibroimpact.paper.fig07 import CODE
 from vibroimpact.paper.items import ITEMS
 from vibroimpact.paper.study import GAPS, PublishedStudy
 
 STUDY = PublishedStudy(threads=2)
 DRAWN = [item for item in ITEMS if item.draw is not None]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def grids():
+    """Coarser ones in the daily run: what is tested here is what is made of them."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(study, "STEP", sample(study.STEP, 0.02))
+        patched.setattr(study, "MAP_NODES", sample(study.MAP_NODES, (5, 6)))
+        yield
 
 
 @cache

@@ -133,7 +133,8 @@ def distance(data: xr.Dataset, other: NDArray[np.float64]) -> float:
     rows = states(data)
     size, speed = np.abs(rows[:2]).max(axis=1)
     rows = rows if other.ndim == 2 else rows[:, -1]
-    scale = np.array([size, speed, size, size])
+    # A motion that is all rest has no speed, and a velocity of exactly 0 at any time.
+    scale = np.maximum([size, speed, size, size], np.finfo(float).tiny)
     return float(np.max(np.abs(rows - other).T / scale))
 
 

@@ -54,7 +54,7 @@ def dashpots(rig: vi.Oscillator, phase: Phase) -> float:
 
 
 def imbalance(motion: Motion) -> float:
-    """Of the energy, as a share of all that the base gave and took."""
+    """Of the energy, as a share of what was stored and of all that the base gave and took."""
     rig = motion.oscillator
     data = simulated(motion, CYCLES)
     work = turnover = lost = unknown = 0.0
@@ -75,7 +75,9 @@ def imbalance(motion: Motion) -> float:
         turnover += float(phase.weights @ np.abs(power))
         lost += dissipated(rig, phase)
     gained = stored(rig, walk[-1].end) - stored(rig, walk[0].begin)
-    return max(0.0, abs(work - lost - gained) - unknown) / turnover if turnover else 0.0
+    # A preload may store ten thousand times what is turned over: its rounding is that large.
+    size = turnover + stored(rig, walk[0].begin)
+    return max(0.0, abs(work - lost - gained) - unknown) / size if size else 0.0
 
 
 @examples(100)

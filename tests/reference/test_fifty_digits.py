@@ -8,12 +8,15 @@ from mpmath import mp, mpc, mpf
 from reference.fifty_digits import Reference, Rig, State, Stop, integrate
 from reference.first_zero import first_zero
 from reference.pieces import Piece, closed_form, largest_difference, pieces
+from samples import sample
 
 MASS, STIFFNESS, FREQUENCY, AMPLITUDE = 550.0, 26290.0, 1.1, 0.05 * 9.80665
 NATURAL = math.sqrt(STIFFNESS / MASS)
 DAMPING = 2 * 0.15 * NATURAL * MASS
 SHAKEN = (AMPLITUDE, FREQUENCY, 0.0)
 REST = (0.0, 0.0, 0.0, 0.0)
+POINTS = sample(40, 10)
+"""At which a phase is looked at, between its ends."""
 
 
 def stop(stiffness: float = 510e3, relaxation: float = 0.01, gap: float = 0.0075) -> Stop:
@@ -82,8 +85,8 @@ def test_every_phase_is_its_closed_form_and_ends_at_its_first_zero(name: str) ->
             # Contact force and clearance are zero at their event, and never negative before.
             if event is not None:
                 assert abs(piece.margin(event.kind.split("_")[1], end)) < mpf(10) ** -48
-            for n in range(1, 40):
-                t = begin + (end - begin) * n / 40
+            for n in range(1, POINTS):
+                t = begin + (end - begin) * n / POINTS
                 assert min(piece.margin(name, t) for name in piece.stops) > -(mpf(10) ** -48)
 
 

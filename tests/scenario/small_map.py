@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 import vibroimpact as vi
+from samples import sample
 
 X = ("stiffness_ratio", np.geomspace(1.0, 64.0, 4))
 
@@ -15,7 +16,7 @@ X = ("stiffness_ratio", np.geomspace(1.0, 64.0, 4))
 Y = ("gap_ratio", np.linspace(0.0, 1.0, 5))
 
 
-OPTIONS = {"refine": 1, "block": 2, "step": 0.02}
+OPTIONS = {"refine": 1, "block": 2, "step": sample(0.02, 0.04)}
 
 
 @cache

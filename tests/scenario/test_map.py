@@ -99,7 +99,7 @@ def test_a_process_that_was_killed(tmp_path):
     code = (
         "import numpy as np, vibroimpact as vi\n"
         "vi.scenario_map(('stiffness_ratio', np.geomspace(1.0, 64.0, 4)),"
-        " ('gap_ratio', np.linspace(0.0, 1.0, 5)), refine=1, block=2, step=0.02, store='map')\n"
+        f" ('gap_ratio', np.linspace(0.0, 1.0, 5)), **{OPTIONS!r}, store='map')\n"
     )
     kills = 0
     for delay in (0.0, 0.4, 1.0):
@@ -143,7 +143,7 @@ def test_a_physical_map_agrees_with_the_dimensionless_one():
     stiffness = [ratio * case.oscillator.isolator.stiffness for ratio in X[1][2:]]
     gaps = [ratio * peak for ratio in Y[1][1:4]]
     data = vi.scenario_map(
-        ("bumper_stiffness", stiffness), ("gap", gaps), rig_of(case), step=0.02, block=2
+        ("bumper_stiffness", stiffness), ("gap", gaps), rig_of(case), step=OPTIONS["step"], block=2
     )
     scaled = small().isel(gap_ratio=slice(2, 7, 2), stiffness_ratio=slice(4, 7, 2))
     np.testing.assert_array_equal(data["scenario"], scaled["scenario"])

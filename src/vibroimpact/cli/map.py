@@ -44,7 +44,8 @@ def scenario_map(
             help=(
                 "Parameter and range, NAME LOW:HIGH[:log][:NODES], 21 nodes if none are given. "
                 "Physical: gap, amplitude, bumper-stiffness; dimensionless: stiffness-ratio, "
-                "gap-ratio, relaxation-time, damping-ratio. stiffness-ratio 0.5:100:log."
+                "gap-ratio, relaxation-time, damping-ratio, restitution. "
+                "stiffness-ratio 0.5:100:log."
             ),
         ),
     ] = ("stiffness-ratio", "0.5:100:log"),
@@ -174,43 +175,50 @@ def scenario_map(
 
 def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     """What the map does not vary, in words."""
-    from vibroimpact.model import to_dimensionless
+    from vibroimpact.model import Bumper, RigidStop, to_dimensionless
     from vibroimpact.model.parameters import PARAMETERS
     from vibroimpact.model.units import ACCELERATION, LENGTH, STIFFNESS, pretty
     from vibroimpact.scenario.axes import ONE_QUANTITY
-    from vibroimpact.scenario.bumpers import bumpers
 
     varied = {name for name, *_ in axes}
-    sides = bumpers(what.oscillator).values()
+    stops = what.oscillator.stops
+    bumpers = [stop for stop in stops if isinstance(stop, Bumper)]
+    walls = [stop for stop in stops if isinstance(stop, RigidStop)]
     for pair in ONE_QUANTITY:
         varied |= pair if varied & pair else set()
-    damping = {
+    rest = {
+        "restitution": ("e =", [f"{stop.restitution:.3g}" for stop in walls]),
         "relaxation_time": (
             "τ =",
-            [f"{what.oscillator.angular_frequency * b.damping / b.stiffness:.3g}" for b in sides],
+            [f"{what.oscillator.angular_frequency * b.damping / b.stiffness:.3g}" for b in bumpers],
         ),
         "damping_ratio": ("ξ =", [f"{what.oscillator.damping_ratio:.3g}"]),
     }
     if any(PARAMETERS[name].physical for name, *_ in axes):
         quantities = {
-            "gap": ("gap", [pretty(b.gap, LENGTH) for b in sides]),
-            "bumper_stiffness": ("bumpers", [pretty(b.stiffness, STIFFNESS) for b in sides]),
+            "gap": ("gap", [pretty(stop.gap, LENGTH) for stop in stops]),
+            "bumper_stiffness": ("bumpers", [pretty(b.stiffness, STIFFNESS) for b in bumpers]),
             "amplitude": ("A =", [pretty(what.amplitude, ACCELERATION)]),
-            **damping,
+            **rest,
         }
     else:
         group = to_dimensionless(what.oscillator, what.amplitude)
         halves = [b for b in (group.right, group.left) if b is not None]
         quantities = {
-            "stiffness_ratio": ("λ =", [f"{b.stiffness_ratio:.4g}" for b in halves]),
+            "stiffness_ratio": ("λ =", [_ratio(b.stiffness_ratio) for b in halves]),
             "gap_ratio": ("δ0 =", [f"{b.gap:.4g}" for b in halves]),
-            **damping,
+            **rest,
         }
     return ", ".join(
         f"{symbol} {' and '.join(dict.fromkeys(values))}"
         for name, (symbol, values) in quantities.items()
-        if name not in varied
+        if values and name not in varied
     )
+
+
+def _ratio(value: float) -> str:
+    """λ; that of a rigid stop is infinite."""
+    return f"{value:.4g}" if math.isfinite(value) else "∞"
 
 
 def _axis(option: str, name: str, text: str) -> _Axis:
@@ -234,7 +242,8 @@ def _axis(option: str, name: str, text: str) -> _Axis:
     above = None if parameter.zero and not logarithmic else 0.0
     least = 0.0 if above is None else None
     low, high = (
-        to_si(part, parameter.quantity, option, above=above, minimum=least) for part in parts[:2]
+        to_si(part, parameter.quantity, option, above=above, minimum=least, maximum=parameter.most)
+        for part in parts[:2]
     )
     if not low < high:
         raise InputError(f"{option}: {low:g} is not below {high:g}; a rising range is accepted")

@@ -73,7 +73,7 @@ def rig_text(subject: Subject) -> RenderableType:
             table.add_row(
                 f"{side} stop",
                 f"rigid, e = {plain(bumper.restitution, 4)}, gap {pretty(bumper.gap, LENGTH)}",
-                f"δ0 = {plain(group.gap, 4)}" if group else "",
+                f"λ = ∞, δ0 = {plain(group.gap, 4)}" if group else "",
             )
             continue
         table.add_row(

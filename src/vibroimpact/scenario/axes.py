@@ -10,9 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Dimensionless, Oscillator, Rig, to_dimensionless, to_si
+from vibroimpact.model import (
+    Bumper,
+    Dimensionless,
+    Model,
+    Oscillator,
+    Rig,
+    RigidStop,
+    to_dimensionless,
+    to_si,
+)
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.scenario.bumpers import bumpers
 
 _Array = NDArray[np.float64]
 
@@ -21,6 +29,7 @@ NAMES = (
     "gap",
     "amplitude",
     "bumper_stiffness",
+    "restitution",
     "stiffness_ratio",
     "gap_ratio",
     "relaxation_time",
@@ -30,6 +39,16 @@ NAMES = (
 
 ONE_QUANTITY = ({"gap", "gap_ratio"}, {"bumper_stiffness", "stiffness_ratio"})
 """Pairs that say the same."""
+
+_OF_BUMPERS = ("bumper_stiffness", "stiffness_ratio", "relaxation_time")
+_OF_STOPS = {
+    "gap": "gap",
+    "restitution": "restitution",
+    "stiffness_ratio": "stiffness_ratio",
+    "gap_ratio": "gap",
+    "relaxation_time": "relaxation_time",
+}
+"""Fields of a stop, or of its dimensionless twin, by parameter."""
 
 
 class Axis(NamedTuple):
@@ -83,6 +102,7 @@ def axis(given: Any, field: str) -> Axis:
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise InputError(f"{field}: {values!r} is no list of values; at least two are accepted")
     limits: dict[str, Any] = {"minimum": 0.0} if parameter.zero else {"above": 0.0}
+    limits["maximum"] = parameter.most
     numbers = np.array(
         [
             to_si(value, parameter.quantity, f"{field}[{i}]", **limits)
@@ -133,56 +153,67 @@ class Base(NamedTuple):
     def rig(self, values: Mapping[str, float]) -> Rig:
         """The rig at a node.
 
-        Physical parameters are set on both sides; of the bumpers' damping the relaxation time
-        C_j/K_j is kept. Dimensionless ones are set at the base's mass, isolator stiffness and
-        amplitude: between dimensionless ones the gap ratio is kept, beside a physical one the gap.
+        Physical parameters are set on both sides, where the stop has them; of the bumpers' damping
+        the relaxation time C_j/K_j is kept. Dimensionless ones are set at the base's mass,
+        isolator stiffness and amplitude: between dimensionless ones the gap ratio is kept, beside
+        a physical one the gap.
 
         Raises
         ------
         InputError
-            If there is no bumper to set, or the base has no dimensionless parameters.
+            If there is no stop to set, or the base has no dimensionless parameters.
         """
-        if not bumpers(self.oscillator, "base"):
-            raise InputError("base: there is no bumper; a rig with one or two is accepted")
-        physical = {name for name in values if PARAMETERS[name].physical}
+        self._check(values)
+        physical = {name for name in values if PARAMETERS[name].physical or name == "restitution"}
         rig = self._physical(values) if physical else Rig(self.oscillator, self.amplitude)
         if len(physical) == len(values):
             return rig
         scaled = Base(*rig)._dimensionless(values)
-        if not physical or "gap_ratio" in values:
+        if physical <= {"restitution"} or "gap_ratio" in values:
             return scaled
         sides = {}
         for side in ("right", "left"):
-            bumper = getattr(scaled.oscillator, side)
-            if bumper is not None:
-                sides[side] = bumper.replace(gap=getattr(rig.oscillator, side).gap)
+            stop = getattr(scaled.oscillator, side)
+            if stop is not None:
+                sides[side] = stop.replace(gap=getattr(rig.oscillator, side).gap)
         return Rig(scaled.oscillator.replace(**sides), scaled.amplitude)
 
+    def _check(self, values: Mapping[str, float]) -> None:
+        stops = self.oscillator.stops
+        if not stops:
+            raise InputError("base: there is no bumper; a rig with one or two is accepted")
+        for name in values:
+            if name in _OF_BUMPERS and not any(isinstance(stop, Bumper) for stop in stops):
+                raise InputError(
+                    f"base: {name!r} is that of bumpers, but every stop is rigid; 'gap', "
+                    "'gap_ratio', 'restitution', 'amplitude' or 'damping_ratio' is accepted"
+                )
+            if name == "restitution" and not any(isinstance(stop, RigidStop) for stop in stops):
+                raise InputError(
+                    "base: 'restitution' is that of rigid stops, but there is none; a rig with "
+                    "one or two is accepted"
+                )
+
     def _physical(self, values: Mapping[str, float]) -> Rig:
-        changes = {}
-        for side, bumper in bumpers(self.oscillator).items():
-            stiffness = values.get("bumper_stiffness", bumper.stiffness)
-            changes[side] = bumper.replace(
-                gap=values.get("gap", bumper.gap),
-                stiffness=stiffness,
-                damping=bumper.damping * (stiffness / bumper.stiffness),
-            )
+        changes: dict[str, Model] = {}
+        for side in ("right", "left"):
+            stop = getattr(self.oscillator, side)
+            if stop is None:
+                continue
+            stop = _with(stop, {k: values[k] for k in ("gap", "restitution") if k in values})
+            if isinstance(stop, Bumper) and "bumper_stiffness" in values:
+                stiffness = values["bumper_stiffness"]
+                damping = stop.damping * (stiffness / stop.stiffness)
+                stop = stop.replace(stiffness=stiffness, damping=damping)
+            changes[side] = stop
         return Rig(self.oscillator.replace(**changes), values.get("amplitude", self.amplitude))
 
     def _dimensionless(self, values: Mapping[str, float]) -> Rig:
         group = to_dimensionless(self.oscillator, self.amplitude)
-        own = {
-            name: values[key]
-            for key, name in (
-                ("stiffness_ratio", "stiffness_ratio"),
-                ("gap_ratio", "gap"),
-                ("relaxation_time", "relaxation_time"),
-            )
-            if key in values
-        }
+        own = {key: values[key] for key in _OF_STOPS if key in values and key != "gap"}
         sides = {
-            side: None if bumper is None else bumper.replace(**own)
-            for side, bumper in (("right", group.right), ("left", group.left))
+            side: None if stop is None else _with(stop, own)
+            for side, stop in (("right", group.right), ("left", group.left))
         }
         changed = Dimensionless(values.get("damping_ratio", group.damping_ratio), **sides)
         return changed.to_physical(
@@ -190,3 +221,10 @@ class Base(NamedTuple):
             stiffness=self.oscillator.isolator.stiffness,
             amplitude=self.amplitude,
         )
+
+
+def _with(stop: Any, values: Mapping[str, float]) -> Any:
+    """A stop with those of the values that it has."""
+    fields = type(stop).model_fields
+    own = {_OF_STOPS[key]: value for key, value in values.items() if _OF_STOPS[key] in fields}
+    return stop.replace(**own)

@@ -15,7 +15,6 @@ from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import sweep
 from vibroimpact.response.threads import Progress
 from vibroimpact.scenario.behind import with_folds, with_kinds
-from vibroimpact.scenario.bumpers import bumpers
 from vibroimpact.scenario.evidence import Evidence, evidence
 from vibroimpact.scenario.frequencies import cycles, highest
 from vibroimpact.scenario.frequencies import frequencies as default_frequencies
@@ -117,7 +116,6 @@ def classify(
         If a value cannot be used.
     """
     used = checked(thresholds)
-    bumpers(oscillator)
     peak = to_si(amplitude, ACCELERATION, "amplitude", above=0.0)
     held = default_frequencies(oscillator, peak) if frequencies is None else frequencies
     if max_cycles is None:

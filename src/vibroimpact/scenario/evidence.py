@@ -22,7 +22,6 @@ from vibroimpact.model.dimensionless import largest_free_flight
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs, each_swept
-from vibroimpact.scenario.bumpers import bumpers
 from vibroimpact.scenario.onset import foot_in_contact, onset, within
 
 UNEVEN = 1e-6
@@ -224,7 +223,8 @@ def _one(
     oscillator, amplitude = rig
     frequency = both.frequency
     reached = {"right": most, "left": -least}
-    gaps = {side: b.gap for side, b in bumpers(oscillator).items()}
+    sides = {"right": oscillator.right, "left": oscillator.left}
+    gaps = {side: stop.gap for side, stop in sides.items() if stop is not None}
     touched = np.flatnonzero(both.touching.any(axis=0))
     apart = hysteresis(both)
     found = peaks(both, prominence=prominence)

@@ -7,8 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.model import Oscillator
-from vibroimpact.scenario.bumpers import bumpers
+from vibroimpact.model import Bumper, Oscillator
 
 LOW = 0.4
 """Lowest frequency over the natural one: that at which the published tests begin (0.40 to
@@ -17,6 +16,10 @@ STEP = 0.01
 """Step over the natural frequency: a tenth of that of the published tests."""
 LEAST_HIGH = 1.5
 """Highest frequency over the natural one, at least; free flight's resonance lies below 1."""
+
+MOST_HIGH = 20.0
+"""Highest frequency over the natural one for a rigid stop, whose stiffness sets no bound: that of
+bumpers with λ = 330."""
 
 CLOSE = 1e-3
 """Distance from an orbit, over the motion's size, at which a hold sees that it closes in."""
@@ -38,18 +41,22 @@ def highest(oscillator: Oscillator, amplitude: float) -> float:
       side at least, for the mean of u is not on its side: it only pushes. So of a rig whose gaps
       differ, or that has one bumper, the smallest gap takes the place of the sum.
     - Stiffness. Nothing is stiffer than isolator and bumper in contact all the time, whose
-      resonance lies at f0 √(1 + λ); damping and flights lower it.
+      resonance lies at f0 √(1 + λ); damping and flights lower it. With a rigid stop it is
+      `MOST_HIGH`.
     """
-    found = bumpers(oscillator).values()
+    found = oscillator.stops
     if not found:
         return LEAST_HIGH
-    stiffest = max(b.stiffness for b in found) / oscillator.isolator.stiffness
+    bumpers = [b.stiffness for b in found if isinstance(b, Bumper)]
+    stiff = MOST_HIGH
+    if len(bumpers) == len(found):
+        stiff = math.sqrt(1.0 + max(bumpers) / oscillator.isolator.stiffness)
     gaps = [b.gap for b in found]
     apart = sum(gaps) if len(gaps) == 2 and gaps[0] == gaps[1] else min(gaps)
     travel = apart * oscillator.isolator.damping
     supplied = oscillator.mass * amplitude / (2.0 * math.sqrt(2.0))
     energy = supplied / travel / oscillator.natural_frequency if travel > 0.0 else math.inf
-    bound = 1.1 * min(math.sqrt(1.0 + stiffest), energy) + 0.1
+    bound = 1.1 * min(stiff, energy) + 0.1
     return max(LEAST_HIGH, ROUND * math.ceil(bound / ROUND))
 
 

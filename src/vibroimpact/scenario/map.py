@@ -56,8 +56,9 @@ def scenario_map(
         Name and rising values of a parameter. Physical: ``"gap"`` (m, of each side),
         ``"amplitude"`` (m/s²), ``"bumper_stiffness"`` (N/m, at the base's C_j/K_j).
         Dimensionless: ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ,
-        ``"damping_ratio"`` ξ. They are set on both sides alike. Between dimensionless ones δ0
-        is kept where it is not varied, beside a physical one the gap.
+        ``"damping_ratio"`` ξ, ``"restitution"`` e. They are set on both sides alike, where the
+        stop has them: a rigid one has only a gap and a restitution. Between dimensionless ones
+        δ0 is kept where it is not varied, beside a physical one the gap.
         ``"log"`` or ``"linear"`` behind the values says how they are refined, if they do not.
     base
         A laboratory case or its code, a `Rig` or a pair of oscillator and amplitude, for all other

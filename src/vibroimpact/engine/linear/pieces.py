@@ -159,8 +159,12 @@ def accelerated(plan: Vector, cursor: Cursor, s: float, c: float, series: Vector
 @kernel
 def displacement(plan: Vector, mode: int, x: float) -> float:
     """The displacement of the mass from the mode's own coordinate."""
-    if mode & RIGHT:
+    left = par.BUMPER + par.WIDTH
+    if mode & RIGHT and not (mode & LEFT and plan[left + par.KIND] == par.RIGID):
         u: float = plan[par.BUMPER + par.GAP] + x
+        return u
+    if mode & RIGHT:  # at rest on the left, exactly there, whatever the right one's face rounds to
+        u = -plan[left + par.GAP]
         return u
     if mode == LEFT:
         u = -(plan[par.BUMPER + par.WIDTH + par.GAP] + x)

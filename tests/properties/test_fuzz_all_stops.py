@@ -1,0 +1,114 @@
+"""Random rigs with rigid stops and preloads over decades: no hang, no NaN, no penetration, no pull.
+
+A sample runs with the tests. More: `python tests/properties/test_fuzz_all_stops.py 20000`.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+import warnings
+from collections import Counter
+
+import numpy as np
+
+import vibroimpact as vi
+
+CYCLES, SAMPLES, MAX_EVENTS = 20, 16, 2000
+SLOWEST = 5.0
+"""s; a rig takes milliseconds."""
+
+
+def random_rig(rng: np.random.Generator) -> tuple[vi.Oscillator, vi.Harmonic]:
+    """A rig of unit mass and natural frequency, forced at 0.1 to 10 times that."""
+    ratio = 10.0 ** rng.uniform(-1, 1)
+    damping_ratio = rng.choice([0.0, 0.001, 0.05, 0.15, 1.0, 10.0 ** rng.uniform(-3, 2)])
+    swing = 1.0 / math.hypot(1 - ratio**2, 2 * max(damping_ratio, 0.02) * ratio)
+
+    def gap() -> float:
+        size = rng.choice([0.0, rng.uniform(0, 1.2), 10.0 ** rng.uniform(-6, 0)])
+        return float(swing * size * rng.choice([1.0, 1.0, -1.0]))
+
+    def stop() -> vi.Bumper | vi.RigidStop | None:
+        kind = rng.random()
+        if kind < 0.1:
+            return None
+        if kind < 0.55:
+            e = rng.choice([0.0, 1.0, rng.uniform(0, 1), 1 - 10.0 ** rng.uniform(-6, 0)])
+            return vi.RigidStop(float(e), gap())
+        stiffness = 10.0 ** rng.uniform(-3, 6)
+        damping = 2 * rng.choice([0.0, 10.0 ** rng.uniform(-4, 3)]) * math.sqrt(1 + stiffness)
+        return vi.Bumper(stiffness, float(damping), gap())
+
+    right, left = stop(), stop()
+    if isinstance(right, vi.RigidStop) and isinstance(left, vi.RigidStop):
+        room = swing * float(rng.choice([1e-6, 1e-3, 0.3]))
+        left = left.replace(gap=max(left.gap, room - right.gap))
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2 * float(damping_ratio)), right, left)
+    return rig, vi.Harmonic(1.0, ratio / math.tau, rng.uniform(0, math.tau))
+
+
+def faults(rig: vi.Oscillator, shaken: vi.Harmonic) -> tuple[str, list[str]]:
+    """Run one rig from its equilibrium; say what is wrong with its motion."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        data = vi.simulate(rig, shaken, CYCLES, samples=SAMPLES, max_events=MAX_EVENTS)
+    if data.attrs["status"] != "done":
+        return data.attrs["status"], []
+    names = ("displacement", "velocity", "acceleration", "final_state")
+    found = [f"{name} is not finite" for name in names if not np.isfinite(data[name]).all()]
+    u = data["displacement"].values
+    # In contact the displacement is a bumper's gap and its deformation together.
+    gaps = [abs(stop.gap) for stop in rig.stops]
+    scale = max(float(np.abs(u).max()), *gaps, 0.0)
+    for sign, name in ((1, "right"), (-1, "left")):
+        stop = getattr(rig, name)
+        face = sign * data[f"{name}_bumper"].values
+        if stop is None:
+            continue
+        inside = float((sign * u - face - stop.gap).max())
+        if inside > 1e-15 * scale:
+            found.append(f"penetration of the {name} stop by {inside / scale:.1e}")
+        if face.min() < -1e-13 * scale:
+            found.append(f"the {name} bumper was pulled")
+        if isinstance(stop, vi.RigidStop) and (face != 0.0).any():
+            found.append(f"the rigid {name} stop was pressed in")
+    impacts = data["event_contact"].values == 2
+    towards = data["event_side"].values * data["event_velocity"].values
+    if (towards[impacts] < 0.0).any():
+        found.append("an impact from behind")
+    return "done", found
+
+
+def survey(count: int, seed: int) -> tuple[Counter[str], list[str]]:
+    """Outcomes and faults."""
+    rng = np.random.default_rng(seed)
+    outcomes: Counter[str] = Counter()
+    wrong = []
+    for i in range(count):
+        rig, shaken = random_rig(rng)
+        begin = time.perf_counter()
+        status, found = faults(rig, shaken)
+        took = time.perf_counter() - begin
+        if took > SLOWEST:  # the first of its flow may compile
+            begin = time.perf_counter()
+            faults(rig, shaken)
+            took = time.perf_counter() - begin
+        if took > SLOWEST:
+            found.append(f"{took:.1f} s")
+        outcomes[status.split(":")[0]] += 1
+        wrong += [f"rig {i} of seed {seed}: {fault}; {rig!r}, {shaken!r}" for fault in found]
+    return outcomes, wrong
+
+
+def test_random_rigs_have_sound_motions() -> None:
+    outcomes, wrong = survey(300, seed=1)
+    assert not wrong, "\n".join(wrong)
+    assert outcomes["done"] > 250
+
+
+if __name__ == "__main__":
+    totals, bad = survey(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 1)
+    print(dict(totals))
+    print("\n".join(bad) or "no faults")
