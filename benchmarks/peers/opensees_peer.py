@@ -1,0 +1,79 @@
+"""A rig between two bumpers under a record, by OpenSeesPy: Newmark's average acceleration.
+
+A bumper is a node without mass on a spring and a dashpot in parallel, behind a stiff element that
+only takes pressure once its gap is closed: so it deforms, forgets and never pulls, as here.
+"""
+
+import ctypes
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.model import Bumper, Oscillator, Record
+
+_PENALTY = 1e4
+"""Stiffness of the contact over the bumper's."""
+
+
+def _opensees():  # type: ignore[no-untyped-def]
+    """The module; its wheel has the libraries that it needs, but not where they are looked for."""
+    found = importlib.util.find_spec("openseespylinux")
+    if found is not None and found.submodule_search_locations:
+        folder = Path(found.submodule_search_locations[0]) / "lib"
+        for name in ("quadmath.so.0", "gfortran.so.4", "blas.so.3", "lapack.so.3", "gomp.so.1"):
+            if (folder / f"lib{name}").exists():
+                ctypes.CDLL(str(folder / f"lib{name}"), mode=ctypes.RTLD_GLOBAL)
+    try:
+        import openseespy.opensees as found_module
+    except RuntimeError as error:
+        raise ImportError(str(error)) from None
+    return found_module
+
+
+ops = _opensees()
+
+
+def build(rig: Oscillator, record: Record) -> None:
+    """Make the model, at rest."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 1, "-ndf", 1)
+    ops.node(1, 0.0)
+    ops.node(2, 0.0)
+    ops.fix(1, 1)
+    ops.mass(2, rig.mass)
+    ops.uniaxialMaterial("Elastic", 1, rig.isolator.stiffness, rig.isolator.damping)
+    ops.element("zeroLength", 1, 1, 2, "-mat", 1, "-dir", 1)
+    for i, (sign, stop) in enumerate(((1, rig.right), (-1, rig.left)), start=1):
+        assert isinstance(stop, Bumper)
+        node, law, contact = 2 + i, 10 * i, 10 * i + 1
+        ops.node(node, 0.0)
+        ops.uniaxialMaterial("Elastic", law, stop.stiffness, stop.damping)
+        ops.element("zeroLength", law, 1, node, "-mat", law, "-dir", 1)
+        # From the mass to the bumper's face: the element shortens as the mass goes right.
+        stiff = _PENALTY * stop.stiffness
+        ops.uniaxialMaterial("ElasticPPGap", contact, stiff, -1e30, -stop.gap)
+        ends = (2, node) if sign == 1 else (node, 2)
+        ops.element("zeroLength", contact, *ends, "-mat", contact, "-dir", 1)
+    ops.timeSeries("Path", 1, "-dt", record.step, "-values", *record.acceleration.tolist())
+    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
+    ops.constraints("Plain")
+    ops.numberer("Plain")
+    ops.system("ProfileSPD")
+    ops.test("NormDispIncr", 1e-12, 50)
+    ops.algorithm("Newton")
+    ops.integrator("Newmark", 0.5, 0.25)
+    ops.analysis("Transient")
+
+
+def follow(rig: Oscillator, record: Record, divisions: int) -> NDArray[np.float64]:
+    """Displacements at the record's samples, with so many steps between two of them."""
+    build(rig, record)
+    count = len(record.acceleration)
+    found = np.zeros(count)
+    for k in range(1, count):
+        if ops.analyze(divisions, record.step / divisions):
+            raise ArithmeticError(f"OpenSees gave up at sample {k}")
+        found[k] = ops.nodeDisp(2, 1)
+    return found
