@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine.linear.layout import ORDER
+from vibroimpact.engine.observers import extremes
 from vibroimpact.engine.observers.extremes import series_extremes
 from vibroimpact.engine.observers.margin import turning_point
 
@@ -28,6 +29,22 @@ def test_both_extremes_of_a_cubic_lie_inside() -> None:
 def test_what_was_wider_before_stays() -> None:
     found = series_extremes(series(0.0, 1.0), -0.5, 0.5, -3.0, 0.25)
     assert found == (-3.0, 0.5, -0.5, 0.5)
+
+
+def test_a_constant_is_passed_in_one_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A mass at rest on its wall, for which steps of 2⁻²⁷ would take seconds."""
+    looked_at = []
+
+    def counted(one: np.ndarray, y: float) -> tuple[float, float, float]:
+        looked_at.append(y)
+        assert len(looked_at) < 10
+        return jet.py_func(one, y)
+
+    jet = extremes.jet
+    monkeypatch.setattr(extremes, "jet", counted)
+    found = series_extremes.py_func(series(0.3), -0.5, 0.5, math.inf, -math.inf)
+    assert found == (0.3, 0.3, -0.5, -0.5)
+    assert looked_at == [-0.5, 0.5]
 
 
 def test_no_sample_lies_outside_and_the_ends_are_values() -> None:

@@ -53,7 +53,7 @@ def series_extremes(
     while p < high:
         width = min(width, high - p)
         steep = abs(f1) > abs(f2) * width + 0.5 * third * width * width
-        if not (steep or abs(f2) > third * width or width < _SMALLEST):
+        if not (steep or abs(f2) >= third * width or width < _SMALLEST):
             width *= 0.5
             continue
         g, g1, g2 = jet(series, p + width)
