@@ -9,7 +9,7 @@ import vibroimpact as vi
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import Spread, interleave
 
-_COUNT, _STEP = 10_000, 0.01
+_COUNT, _STEP, _PEAK = 10_000, 0.01, 1.5
 _MILLISECONDS, _TIMES = 3.0, 300.0
 _DIVISIONS = (1, 10, 100)
 _ROUNDS = 21
@@ -24,7 +24,7 @@ def record() -> vi.Record:
     noise = np.sin(2.0 * np.pi * np.outer(time_, frequency) + phase).sum(axis=1)
     shape = (time_ / 10.0) ** 2 * np.exp(-time_ / 10.0)
     values = noise * shape
-    return vi.Record(values * (4.0 / np.abs(values).max()), _STEP)
+    return vi.Record(values * (_PEAK / np.abs(values).max()), _STEP)
 
 
 def records() -> Table:

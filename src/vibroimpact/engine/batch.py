@@ -24,12 +24,11 @@ from vibroimpact.engine.hold import (
 )
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.pieces import acceleration
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import STATE, finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.record import TOUCHING, Record, write_sample
+from vibroimpact.engine.observers.record import Record, write
 
 
 @entry(
@@ -162,17 +161,6 @@ def trajectory(
             outcome = NOT_FINITE
         number += 1
     if number >= cycles and samples and outcome == 0:
-        write_sample(
-            plan,
-            motion.mode,
-            TOUCHING[motion.mode],
-            motion.u,
-            motion.v,
-            acceleration(plan, motion),
-            motion.right,
-            motion.left,
-            out,
-            out.shape[1] - 1,
-        )
+        write(plan, motion, out, out.shape[1] - 1)
     pack(motion, state)
     return number, count, outcome

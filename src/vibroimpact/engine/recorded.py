@@ -13,12 +13,11 @@ from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.pieces import acceleration
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
-from vibroimpact.engine.motion import aged, finite, pack, unpacked
+from vibroimpact.engine.motion import aged, at_section, finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.record import TOUCHING, Record, write_sample
+from vibroimpact.engine.observers.record import Record, write
 
 # Columns of a line: A_t at its beginning (m/s²), its slope (m/s³) and how long it lasts (s).
 BEGINS, SLOPE, LASTS = range(3)
@@ -83,13 +82,15 @@ def follow(
         line = lines[number]
         clock, length = (line[BEGINS], line[SLOPE]), line[LASTS]
         # The slope changes here: what had died out is a transient again.
-        before = aged(motion, 0.0)
+        before = at_section(aged(motion, 0.0), clock)
+        if samples:
+            write(plan, before, out, number * samples)
         if samples == 0 and len(events) == max_events + 1:
             here, motion, _ = cycle(plan, before, clock, length, max_events, UNOBSERVED)
         else:
             n = int(math.ceil(length / step - 1e-9)) if samples else 0  # noqa: RUF046
             last = count + max_events
-            notes = Record(out, number * samples, step, n, 0, events, count, last, number)
+            notes = Record(out, number * samples, step, n, 1, events, count, last, number)
             here, motion, notes = cycle(plan, before, clock, length, max_events, notes)
             count = notes.written
         if here > max_events:
@@ -99,9 +100,6 @@ def follow(
             outcome = NOT_FINITE
         number += 1
     if number == len(lines) and samples and outcome == 0:
-        _, _, u, v, right, left, _, _ = motion
-        a = acceleration(plan, motion)
-        at = out.shape[1] - 1
-        write_sample(plan, motion.mode, TOUCHING[motion.mode], u, v, a, right, left, out, at)
+        write(plan, motion, out, out.shape[1] - 1)
     pack(motion, state)
     return number, count, outcome

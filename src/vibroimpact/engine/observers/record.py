@@ -91,6 +91,14 @@ def write_sample(
 
 
 @kernel
+def write(plan: Vector, motion: Motion, out: Vector, k: int) -> None:
+    """Write the motion at this instant as sample k."""
+    mode, _, u, v, right, left, _, _ = motion
+    a = acceleration(plan, motion)
+    write_sample(plan, mode, TOUCHING[mode], u, v, a, right, left, out, k)
+
+
+@kernel
 def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) -> int:
     """Fill the samples that fall within one stretch; return the next one.
 
