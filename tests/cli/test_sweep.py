@@ -134,7 +134,7 @@ WRONG = [
     (["--bumper-stiffness", "nan"], "--bumper-stiffness"),
     (["--gap", "15 kg"], "'15 kg' is a mass"),
     (["--gap", "nan"], "--gap"),
-    (["--amplitude", "0.05 m"], "is a length"),
+    (["--amplitude", "0.05 kg"], "is a mass"),
     (["--from", "0Hz"], "--from"),
     (["--from", "3Hz", "--to", "2Hz"], "--from"),
     (["--step", "-0.1Hz"], "--step"),

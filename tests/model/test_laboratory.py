@@ -8,7 +8,7 @@ import pytest
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Isolator, Oscillator, laboratory
-from vibroimpact.model.units import GRAVITY
+from vibroimpact.model.quantities import GRAVITY
 
 # The paper's Table 1, as printed.
 PRINTED_GAP = {

@@ -41,11 +41,35 @@ def test_bumpers_may_be_absent():
 def test_a_mass_or_a_stiffness_is_positive_and_finite(bad):
     for make in (
         lambda: Oscillator(bad, ISOLATOR),
-        lambda: Isolator(bad, 0.0),
         lambda: Bumper(bad, 0.0, 0.0),
     ):
         with pytest.raises(InputError, match=r"^(mass|stiffness): .* greater than 0 is accepted"):
             make()
+
+
+@pytest.mark.parametrize("bad", [-1.0, math.nan, math.inf, "", True, None, "1 K"])
+def test_the_stiffness_of_an_isolator_may_be_0(bad):
+    assert Isolator(0.0, 0.0).stiffness == 0.0
+    with pytest.raises(InputError, match=r"^stiffness: .* of at least 0 is accepted"):
+        Isolator(bad, 0.0)
+
+
+def test_without_a_spring_something_must_hold_the_mass():
+    free = Isolator(0.0, 1.0)
+    Oscillator(1.0, free, right=RIGHT, force=2.0)
+    Oscillator(1.0, free, left=RIGHT, force=-2.0)
+    Oscillator(1.0, free, right=RIGHT, left=RIGHT)
+    for stops, force in (({}, 0.0), ({"left": RIGHT}, 2.0), ({"right": RIGHT}, -2.0)):
+        with pytest.raises(InputError, match=r"isolator.stiffness: 0, and nothing holds the mass"):
+            Oscillator(1.0, free, **stops, force=force)
+
+
+@pytest.mark.parametrize("what", ["natural_frequency", "damping_ratio"])
+def test_what_needs_a_spring_says_so(what):
+    rig = Oscillator(1.0, Isolator(0.0, 1.0), RIGHT, RIGHT)
+    assert rig.angular_frequency == 0.0
+    with pytest.raises(InputError, match=f"^isolator.stiffness: 0, .* no {what.replace('_', ' ')}"):
+        getattr(rig, what)
 
 
 @pytest.mark.parametrize("bad", [-1e-300, math.nan, -math.inf, "-1", True, None, "1 K"])

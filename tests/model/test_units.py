@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.units import (
+from vibroimpact.model.quantities import (
     ACCELERATION,
     ANGLE,
     DAMPING,
@@ -24,9 +24,8 @@ from vibroimpact.model.units import (
     STIFFNESS,
     TIME,
     VELOCITY,
-    pretty,
-    to_si,
 )
+from vibroimpact.model.units import pretty, to_si
 
 QUANTITIES = [
     LENGTH,

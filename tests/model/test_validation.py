@@ -21,7 +21,7 @@ from vibroimpact.model import (
     State,
     validate,
 )
-from vibroimpact.model.units import LENGTH
+from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.validation import Accepts
 
 ISOLATOR = Isolator(26800.0, 1100.0)
@@ -136,7 +136,7 @@ def test_nested_tables_become_objects():
         ),
         (
             table(color="red"),
-            "rig.color: unknown key; mass, isolator, right and left are accepted",
+            "rig.color: unknown key; mass, isolator, right, left and force are accepted",
         ),
         (
             table(isolator={"stifness": 1, "damping": 1}),
@@ -154,7 +154,7 @@ def test_nested_tables_become_objects():
         ),
         (
             {"mass": 1},
-            "rig.isolator: missing; mass, isolator, right and left are accepted",
+            "rig.isolator: missing; mass, isolator, right, left and force are accepted",
         ),
     ],
 )

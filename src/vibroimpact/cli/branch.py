@@ -227,7 +227,7 @@ def _first(start: str | None, period: int | None) -> First | None:
         If one cannot be used.
     """
     from vibroimpact.model import State, to_si
-    from vibroimpact.model.units import LENGTH, VELOCITY
+    from vibroimpact.model.quantities import LENGTH, VELOCITY
 
     if period is not None and period < 1:
         raise InputError(f"--period: {period}; a whole number of at least 1 is accepted")
@@ -256,7 +256,8 @@ def _one_branch(
     """The branch along a parameter from one orbit."""
     from vibroimpact.model import to_si
     from vibroimpact.model.parameters import parameter as varied
-    from vibroimpact.model.units import FREQUENCY, pretty
+    from vibroimpact.model.quantities import FREQUENCY
+    from vibroimpact.model.units import pretty
     from vibroimpact.stability.branch import branch as follow
 
     if frequency is None:

@@ -13,7 +13,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.model.units import MASS, pretty, to_si
+from vibroimpact.model.quantities import MASS
+from vibroimpact.model.units import pretty, to_si
 
 _LONGEST = 120
 """Characters of a file name, before what a command adds; disks take 255."""

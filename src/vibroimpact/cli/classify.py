@@ -148,7 +148,7 @@ def _frequencies(
         return None
     from vibroimpact.cli.grid import frequency_grid
     from vibroimpact.model import to_si
-    from vibroimpact.model.units import FREQUENCY
+    from vibroimpact.model.quantities import FREQUENCY
     from vibroimpact.scenario.classify import LEAST
     from vibroimpact.scenario.frequencies import LOW, STEP, highest
 

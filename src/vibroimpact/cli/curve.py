@@ -160,7 +160,7 @@ def _range(
 def _excitation(what: Subject, first: str, frequency: str | None) -> Repeated:
     """The forcing of the rig; along the frequency its own does not matter."""
     from vibroimpact.model import to_si
-    from vibroimpact.model.units import FREQUENCY
+    from vibroimpact.model.quantities import FREQUENCY
 
     phase = what.study.excitation.phase if what.study else 0.0
     if frequency is None and first != "frequency":

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from vibroimpact.cli.study import SweepTable
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
-from vibroimpact.model.units import FREQUENCY
+from vibroimpact.model.quantities import FREQUENCY
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject

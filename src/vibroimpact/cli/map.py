@@ -177,7 +177,8 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     """What the map does not vary, in words."""
     from vibroimpact.model import Bumper, RigidStop, to_dimensionless
     from vibroimpact.model.parameters import PARAMETERS
-    from vibroimpact.model.units import ACCELERATION, LENGTH, STIFFNESS, pretty
+    from vibroimpact.model.quantities import ACCELERATION, LENGTH, STIFFNESS
+    from vibroimpact.model.units import pretty
     from vibroimpact.scenario.axes import ONE_QUANTITY
 
     varied = {name for name, *_ in axes}

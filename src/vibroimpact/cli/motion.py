@@ -127,7 +127,7 @@ def _excitations(what: Subject, frequency: str | None) -> list[Repeated]:
         If there is none, or one cannot be used.
     """
     from vibroimpact.model import to_si
-    from vibroimpact.model.units import FREQUENCY
+    from vibroimpact.model.quantities import FREQUENCY
 
     if frequency is not None:
         hertz = [

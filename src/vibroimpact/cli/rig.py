@@ -25,8 +25,9 @@ from vibroimpact.model import (
 )
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.laboratory import Case, Parameters
+from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.rigs import as_shaking
-from vibroimpact.model.units import LENGTH, pretty
+from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import Accepts
 from vibroimpact.response.free_flight import reference_excursions
 

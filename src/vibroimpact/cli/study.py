@@ -29,8 +29,8 @@ from pydantic import Field, create_model, model_validator
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Model, Oscillator, Periodic, Record, Repeated, validate
+from vibroimpact.model.quantities import ANGLE, DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
 from vibroimpact.model.rigs import as_shaking
-from vibroimpact.model.units import ANGLE, DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
 from vibroimpact.model.validation import Accepts
 from vibroimpact.records import read_columns
 

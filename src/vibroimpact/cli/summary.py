@@ -25,7 +25,8 @@ from vibroimpact.model import (
     Stop,
     to_dimensionless,
 )
-from vibroimpact.model.units import DAMPING, FORCE, LENGTH, MASS, STIFFNESS, VELOCITY, pretty
+from vibroimpact.model.quantities import DAMPING, FORCE, LENGTH, MASS, STIFFNESS, VELOCITY
+from vibroimpact.model.units import pretty
 from vibroimpact.response.resonance import Features, Range
 from vibroimpact.response.variables import excitation_parameters
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
-from vibroimpact.model.units import FREQUENCY
+from vibroimpact.model.quantities import FREQUENCY
 
 _ROOM = 0.08
 """Height of the names, as a share of the panel's."""

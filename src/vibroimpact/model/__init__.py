@@ -15,10 +15,11 @@ from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.quantities import GRAVITY
 from vibroimpact.model.record import Record
 from vibroimpact.model.state import State
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
-from vibroimpact.model.units import GRAVITY, to_si
+from vibroimpact.model.units import to_si
 from vibroimpact.model.validation import Model, validate
 
 __all__ = [

@@ -46,7 +46,8 @@ def share(value: object, field: str) -> float:
     InputError
         If it is none.
     """
-    from vibroimpact.model.units import DIMENSIONLESS, to_si
+    from vibroimpact.model.quantities import DIMENSIONLESS
+    from vibroimpact.model.units import to_si
 
     number = to_si(value, DIMENSIONLESS, field, above=0.0)
     if not number < 1.0:

@@ -15,18 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.units import (
-    ACCELERATION,
-    ANGLE,
-    FORCE,
-    FREQUENCY,
-    LENGTH,
-    Quantity,
-    one_of,
-    pretty,
-    shown,
-    to_si,
-)
+from vibroimpact.model.quantities import ACCELERATION, ANGLE, FORCE, FREQUENCY, LENGTH, Quantity
+from vibroimpact.model.units import one_of, pretty, shown, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 Of = Literal["acceleration", "displacement", "force"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, ClassVar
 
 from vibroimpact.model.kinds import Named
-from vibroimpact.model.units import DAMPING, STIFFNESS
+from vibroimpact.model.quantities import DAMPING, STIFFNESS
 from vibroimpact.model.validation import Accepts, constructor
 
 

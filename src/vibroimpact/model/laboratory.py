@@ -22,17 +22,10 @@ from vibroimpact.errors import InputError
 from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.quantities import ACCELERATION, LENGTH, STIFFNESS, Quantity
 from vibroimpact.model.stops import Bumper
 from vibroimpact.model.table import table
-from vibroimpact.model.units import (
-    ACCELERATION,
-    LENGTH,
-    STIFFNESS,
-    Quantity,
-    pretty,
-    read,
-    shown,
-)
+from vibroimpact.model.units import pretty, read, shown
 
 Parameters: TypeAlias = Literal["table", "identified"]
 

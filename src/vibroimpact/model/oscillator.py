@@ -15,8 +15,9 @@ from pydantic import model_validator
 from vibroimpact.errors import InputError
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.kinds import Kinds
+from vibroimpact.model.quantities import FORCE, LENGTH, MASS
 from vibroimpact.model.stops import STOPS, Bumper, RigidStop, Stop
-from vibroimpact.model.units import FORCE, LENGTH, MASS, pretty
+from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 

@@ -15,8 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.excitation import Repeated
 from vibroimpact.model.oscillator import Oscillator
-from vibroimpact.model.stops import Bumper, Stop
-from vibroimpact.model.units import (
+from vibroimpact.model.quantities import (
     ACCELERATION,
     DAMPING,
     DIMENSIONLESS,
@@ -25,8 +24,9 @@ from vibroimpact.model.units import (
     LENGTH,
     STIFFNESS,
     Quantity,
-    to_si,
 )
+from vibroimpact.model.stops import Bumper, Stop
+from vibroimpact.model.units import to_si
 
 Setting = tuple[Oscillator, Repeated]
 """A rig and its forcing."""

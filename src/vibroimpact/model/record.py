@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME, Quantity
 from vibroimpact.model.table import table
-from vibroimpact.model.units import ACCELERATION, LENGTH, TIME, Quantity, pretty, shown, to_si
+from vibroimpact.model.units import pretty, shown, to_si
 
 _RESOLVED = 1.5
 """By how much the peak of a second derivative may grow when the samples left out are used."""

@@ -7,7 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.units import ANGLE, LENGTH, VELOCITY, shown
+from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
+from vibroimpact.model.units import shown
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 

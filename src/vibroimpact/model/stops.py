@@ -11,8 +11,9 @@ import math
 from typing import Annotated, ClassVar, Self, TypeAlias
 
 from vibroimpact.model.kinds import Kinds, Named
+from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS
 from vibroimpact.model.restitution import damping_ratio
-from vibroimpact.model.units import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS, to_si
+from vibroimpact.model.units import to_si
 from vibroimpact.model.validation import Accepts, constructor
 
 

@@ -16,8 +16,9 @@ from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationErro
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.table import table
-from vibroimpact.model.units import Quantity, accepted, pretty, read, shown
+from vibroimpact.model.units import accepted, pretty, read, shown
 
 _Init = TypeVar("_Init", bound=Callable[..., None])
 _ModelType = TypeVar("_ModelType", bound="Model")

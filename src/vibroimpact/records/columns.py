@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME
 from vibroimpact.model.record import Record
-from vibroimpact.model.units import ACCELERATION, LENGTH, TIME, one_of, to_si
+from vibroimpact.model.units import one_of, to_si
 
 _EVEN = 0.01
 """By how much of a step a time may be off: files round theirs."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import measure
 from vibroimpact.model import to_si
-from vibroimpact.model.units import DIMENSIONLESS
+from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.response.phases import (
     SIDES,
     Phases,

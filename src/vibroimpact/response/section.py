@@ -12,7 +12,7 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import to_si
 from vibroimpact.model.counts import whole
-from vibroimpact.model.units import ANGLE
+from vibroimpact.model.quantities import ANGLE
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.follow import grown, moved_on
 from vibroimpact.response.phases import beginning, recorded

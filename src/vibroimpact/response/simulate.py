@@ -17,8 +17,8 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.counts import check_samples, whole
+from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.model.units import DIMENSIONLESS, TIME
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.recorded import through
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Periodic, to_si
-from vibroimpact.model.units import DIMENSIONLESS
+from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.response.phases import Phases, Recorded, phases, recorded, settling, view
 from vibroimpact.response.variables import describe, motion_parameters
 

@@ -19,6 +19,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
 from vibroimpact.model.counts import share, whole
+from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.rigs import (
     AnyRig,
     AnyShaking,
@@ -28,7 +29,6 @@ from vibroimpact.model.rigs import (
     rig_name,
     takes_rig,
 )
-from vibroimpact.model.units import ANGLE, FREQUENCY
 from vibroimpact.response.free_flight import (
     check_bounded,
     free_flight_excursions,

@@ -9,9 +9,9 @@ import xarray as xr
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, to_si
+from vibroimpact.model.quantities import ACCELERATION
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.table import table
-from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.sweep import sweep
 from vibroimpact.response.threads import Progress
 from vibroimpact.scenario.behind import with_folds, with_kinds

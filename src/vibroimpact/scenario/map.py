@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import Rig, from_dimensionless, to_si
 from vibroimpact.model.counts import share, whole
+from vibroimpact.model.quantities import ACCELERATION
 from vibroimpact.model.rigs import AnyRig, as_rig
-from vibroimpact.model.units import ACCELERATION
 from vibroimpact.response.threads import Progress, available
 from vibroimpact.response.variables import oscillator_parameters
 from vibroimpact.scenario.axes import Axis, Base, axis, check_pair

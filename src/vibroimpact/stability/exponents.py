@@ -11,8 +11,8 @@ import xarray as xr
 from vibroimpact.engine import lyapunov
 from vibroimpact.model import State, equilibrium, to_si
 from vibroimpact.model.counts import whole
+from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.model.units import ANGLE
 from vibroimpact.response.follow import grown
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, engine_rig, engine_state
