@@ -121,7 +121,7 @@ def test_nested_tables_become_objects():
         ),
         (
             table(isolator={"stiffness": -1, "damping": 1}),
-            "rig.isolator.stiffness: -1 is not greater than 0; a stiffness greater than 0 is "
+            "rig.isolator.stiffness: -1 is less than 0; a stiffness of at least 0 is "
             'accepted, such as "510 kN/m" or 510000 (N/m)',
         ),
         (

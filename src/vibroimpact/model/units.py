@@ -19,6 +19,7 @@ from functools import cache
 from typing import Any
 
 from vibroimpact.errors import InputError
+from vibroimpact.model import quantities
 from vibroimpact.model.quantities import (
     ACCELERATION,
     FREQUENCY,
@@ -37,10 +38,7 @@ _ALSO_NAMED: dict[tuple[tuple[str, int], ...], str] = {
     (("kelvin", 1),): "a temperature",
 }
 _NAMES: dict[tuple[tuple[str, int], ...], str] = _ALSO_NAMED | {
-    # Every quantity that this module names.
-    q.base: q.phrase
-    for q in tuple(globals().values())
-    if isinstance(q, Quantity)
+    q.base: q.phrase for q in vars(quantities).values() if isinstance(q, Quantity)
 }
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
