@@ -14,7 +14,7 @@ CASE = vi.laboratory.case("B2-G1-A3").oscillator
 def test_a_case():
     what = subject("b2-g1-a3", RigOptions())
     case = vi.laboratory.case("B2-G1-A3")
-    assert what[:4] == ("B2-G1-A3", "B2-G1-A3", case.oscillator, case.amplitude)
+    assert what[:4] == ("B2-G1-A3", "B2-G1-A3", case.oscillator, vi.Harmonic(case.amplitude, 1.0))
     assert subject("510kN/m-G1-0.05g", RigOptions())[:2] == (
         "510kN/m-G1-0.05g",
         "510kN_m-G1-0.05g",

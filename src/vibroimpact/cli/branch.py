@@ -28,8 +28,8 @@ def branch(
         Parameter(
             group=_BRANCH,
             help=(
-                "What is varied: frequency, amplitude, gap, right-gap, left-gap, bumper-stiffness, "
-                "right-stiffness, left-stiffness, bumper-damping, right-damping, left-damping, "
+                "What is varied: frequency, amplitude, force, gap, right-gap, left-gap, "
+                "bumper-stiffness, right-stiffness, left-stiffness, bumper-damping, right-damping, left-damping, "
                 "restitution, right-restitution, left-restitution, "
                 "stiffness, damping, stiffness-ratio, gap-ratio, relaxation-time, damping-ratio."
             ),
