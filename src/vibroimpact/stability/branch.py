@@ -47,8 +47,8 @@ def branch(
         A state near that orbit, at the excitation's phase; None for where the motion from rest
         settles.
     parameter
-        What is varied: "frequency", "amplitude", "force" (constant); "gap", "bumper_stiffness", "bumper_damping" or
-        "restitution" of both sides, "right_gap", "left_gap", "right_stiffness" and so on of one;
+        What is varied: "frequency", "amplitude", "force" (constant); "gap", "bumper_stiffness",
+        "bumper_damping" or "restitution" of both sides, "right_gap", "left_gap", "right_stiffness" and so on of one;
         "stiffness" and "damping" of the isolator, "stiffness_ratio" (λ, the bumpers' C_j/K_j kept),
         "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
     low, high
