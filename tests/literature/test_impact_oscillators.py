@@ -45,6 +45,16 @@ def test_coco_the_first_orbit() -> None:
     assert math.tau - impact.time == pytest.approx(3.1, abs=0.05)
 
 
+def test_coco_the_family_ends_where_it_grazes() -> None:
+    """Continued in A, the velocity of impact falls to zero at A = |k - ω² + i c ω| d = 0.1."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(0.8, 1.0))
+    shaken = vi.Harmonic(1.0, 0.5 / math.pi, -math.pi + PHASE)
+    data = vi.branch(rig, shaken, vi.State(-0.98, -0.29), parameter="amplitude", low=0.05, high=1.0)
+    kinds = data["bifurcation_kind"].values
+    grazings = data["bifurcation_value"].values[kinds == "grazing"]
+    assert np.abs(grazings - 0.1).min() < 1e-9
+
+
 BUDD_DUX = [  # ω, r, σ, n
     (2.8, 0.8, 0.0, 1),
     (2.2, 0.9, 0.0, 1),

@@ -29,7 +29,8 @@ def branch(
             group=_BRANCH,
             help=(
                 "What is varied: frequency, amplitude, force, gap, right-gap, left-gap, "
-                "bumper-stiffness, right-stiffness, left-stiffness, bumper-damping, right-damping, left-damping, "
+                "bumper-stiffness, right-stiffness, left-stiffness, bumper-damping, "
+                "right-damping, left-damping, "
                 "restitution, right-restitution, left-restitution, "
                 "stiffness, damping, stiffness-ratio, gap-ratio, relaxation-time, damping-ratio."
             ),

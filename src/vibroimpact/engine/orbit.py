@@ -10,9 +10,11 @@ from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import DONE, NOT_FINITE, NOT_SETTLED, measure
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import too_much_work
+from vibroimpact.engine.linear.stops import rigid
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer, stack, workspace
+from vibroimpact.engine.motion import LEFT, RIGHT
 from vibroimpact.engine.observers.margin import Margin
 from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.section_map import (
@@ -34,7 +36,7 @@ from vibroimpact.engine.section_map import (
 
 _NEWTON_STEPS = 16
 _GOOD = 1e-14  # residual over the scale at which nothing is left to gain
-_DIFFERENCE = 1e-7  # of the parameter's scale
+_DIFFERENCE = 1e-7  # of the parameter's scale; less where impacts make the map steep
 _FARTHEST = 0.5  # scaled length of a Newton step
 
 system_memory = stack(SYSTEM)
@@ -121,7 +123,7 @@ def _newton(
             last = True
             copy(found, point, POINT)
             continue
-        _slope(plan, line, point, facts, image, slope)
+        _slope(plan, line, point, facts, image, columns, slope)
         for i in range(DISTURBANCE):
             for j in range(DISTURBANCE):
                 matrix[i * POINT + j] = columns[j * DISTURBANCE + i] * scale[j] / scale[i]
@@ -144,25 +146,37 @@ def _newton(
             point[j] += share * right[j] * scale[j]
         facts[STEPS] += 1.0
     facts[RESIDUAL] = min(best, residual)
-    _slope(plan, line, point, facts, image, slope)
+    _slope(plan, line, point, facts, image, columns, slope)
     return DONE if facts[RESIDUAL] <= 1e-12 else NOT_SETTLED
 
 
 @kernel
 def _slope(
-    plan: Vector, line: Line, point: Vector, facts: Vector, image: Vector, slope: Vector
+    plan: Vector,
+    line: Line,
+    point: Vector,
+    facts: Vector,
+    image: Vector,
+    columns: Vector,
+    slope: Vector,
 ) -> None:
     """∂P/∂p by a difference, on the side on which the contacts are the same.
 
-    At a grazing the derivative may jump. It only steers: a step's end is judged by P alone.
+    At a grazing the derivative may jump; beside that of a rigid stop P is a square root, whose
+    second derivative is the square of its first. It only steers: a step's end is judged by P alone.
     """
     base, direction, phase, count, mirror, max_events, scale = line
+    steep = 1.0
+    if rigid(plan, RIGHT) or rigid(plan, LEFT):
+        for i in range(DISTURBANCE):
+            for j in range(DISTURBANCE):
+                steep = max(steep, abs(columns[j * DISTURBANCE + i]) * scale[j] / scale[i])
     system, ignored = system_memory(), matrix_memory()
     other, trial, seen = workspace(), workspace(), workspace()
     for sign in range(2):
         copy(point, trial, POINT)
         copy(facts, seen, FACTS)
-        step = (1.0 if sign == 0 else -1.0) * _DIFFERENCE * scale[PARAMETER]
+        step = (1.0 if sign == 0 else -1.0) * _DIFFERENCE * scale[PARAMETER] / steep
         system_plan(base, direction, point[PARAMETER] + step, plan, system)
         outcome = section_map(
             plan, system, phase, count, mirror, max_events, trial, seen, other, ignored
@@ -277,7 +291,7 @@ def evaluate(
     for i in range(DISTURBANCE):
         seen[RESIDUAL] = max(seen[RESIDUAL], abs(found[i] - at[i]) / scale[i])
     if outcome == DONE:
-        _slope(plan, line, at, seen, found, pointer(slope))
+        _slope(plan, line, at, seen, found, q, pointer(slope))
     return outcome
 
 
@@ -331,7 +345,8 @@ def grazing_margin(
     -------
     float
         Positive: the least clearance at which the mass turns back in flight. Negative: the least
-        depth at which it turns back in a contact. The one of least size; NaN if given up.
+        depth at which it turns back in a contact, or would without a rigid stop. The one of least
+        size; NaN if given up.
     """
     plan = planned(given, system)
     build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])

@@ -9,7 +9,7 @@ follows from the map where it already has the new contacts; the branch goes on f
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,7 @@ from vibroimpact.stability.fixed_points import (
     margin_of,
     seen_at,
 )
+from vibroimpact.stability.impacts import dies_out, has_rigid_stop, taken_up
 from vibroimpact.stability.parents import parent, shrinks_onto, slid
 
 _Array = NDArray[np.float64]
@@ -204,9 +205,17 @@ class Branch:
     def corner(self, here: Station, length: float) -> list[Station]:
         """See `Path`: the last orbit with the contacts of `here`, and one just behind it."""
         contacts = here.orbit.contacts
+        rigid = has_rigid_stop(here.orbit)
+        back = replace(here, tangent=-here.tangent)
+        if rigid and (met := dies_out(here.orbit, lambda length: self.stepped(back, length))):
+            clear, sense = met
+            arclength = here.arclength + distance(self, clear.point, here.y)
+            return [Station(clear, clear.tangent(sense * HELD), arclength, here.piece + 1, True)]
         good, bad = 0.0, length
         last = here.orbit
-        grazing = abs(margin_of(last)) < _TOUCHES
+        margin = margin_of(last)
+        # Just behind the grazing of a rigid stop the way back is no way on.
+        grazing = abs(margin) < _TOUCHES and not (rigid and margin < 0.0)
         for number in range(_BISECTIONS):
             middle = 0.5 * (good + bad)
             if middle in (good, bad):
@@ -224,6 +233,9 @@ class Branch:
             last, good = self._refined(here, last, good)
         tangent = last.tangent(here.tangent) if good > 0.0 else here.tangent
         before = Station(last, tangent, here.arclength + good, here.piece, True)
+        if rigid and (born := taken_up(last)) is not None:
+            arclength = before.arclength + distance(self, born[0].point, last.point)
+            return [before, Station(*born, arclength, here.piece + 1)]
         for sense in (1.0, -1.0) if grazing else (1.0,):
             # Behind a stiff bumper the old tangent may lead deeper into the contact.
             behind = self._behind(before, sense * tangent)

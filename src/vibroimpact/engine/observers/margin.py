@@ -1,7 +1,12 @@
-"""How far a motion is from grazing: the least clearance it leaves, or depth it reaches."""
+"""How far a motion is from grazing: the least clearance it leaves, or depth it reaches.
+
+Of an impact on a rigid stop it is the depth u̇² / 2 |ü| at which the mass would turn if the stop
+were not there, to first order: it vanishes with the velocity, and beyond it a clearance is left.
+"""
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
@@ -9,8 +14,9 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner, relaxed
 from vibroimpact.engine.linear.layout import H
 from vibroimpact.engine.linear.pieces import begin, expanded, following, more
+from vibroimpact.engine.linear.stops import acceleration_of
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, Stretch
+from vibroimpact.engine.motion import BOTH, FLIGHT, LIMIT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
 
@@ -27,6 +33,23 @@ def turning_point(series: Vector, high: float) -> float:
         else:
             high = middle
     return 0.5 * (low + high)
+
+
+@kernel
+def impact_depth(plan: Vector, stretch: Stretch) -> float:
+    """Depth to which an impact would go without its stop; infinite where it would not turn."""
+    side = stretch.event & BOTH
+    if stretch.event == LIMIT or side == BOTH or stretch.after.mode & side:
+        return math.inf
+    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] != par.RIGID:
+        return math.inf
+    _, fresh, u, _, right, left, age, clock = stretch.after
+    met = Motion(stretch.before.mode, fresh, u, stretch.arrival, right, left, age, clock)
+    back = acceleration_of(plan, met) * (-1.0 if side == RIGHT else 1.0)
+    if not back > 0.0:
+        return math.inf
+    depth: float = stretch.arrival * stretch.arrival / (2.0 * back)
+    return depth
 
 
 class Margin(NamedTuple):
@@ -61,4 +84,7 @@ def margin(plan: Vector, notes: Margin, stretch: Stretch) -> Margin:
             if abs(found) < abs(best):
                 best = found
         cursor = following(plan, cursor)
+    depth = impact_depth(plan, stretch)
+    if depth < abs(best):
+        best = -depth
     return Margin(best)

@@ -1,0 +1,91 @@
+"""Branches through the grazing of a rigid stop, where an impact comes or goes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.engine.status import Status
+from vibroimpact.stability.family import family
+from vibroimpact.stability.fixed_points import Section, evaluated, margin_of
+
+FREE = vi.Isolator("26.8 kN/m", "1.1 kN s/m")
+WALL = vi.RigidStop(0.6, "25 mm")
+SIDES = {"one wall": None, "two walls": WALL}
+
+
+def reaches(gap: float, low: float, high: float) -> list[float]:
+    """Frequencies at which the free flight of 0.05 g on this isolator has the amplitude `gap`."""
+    k, c, a = 26800.0 / 550.0, 1100.0 / 550.0, 0.05 * 9.80665
+    # (k - w²)² + c² w² = (a / gap)²
+    half, root = k - 0.5 * c * c, math.sqrt((a / gap) ** 2 - c * c * (k - 0.25 * c * c))
+    return [math.sqrt(half - root) / (2.0 * math.pi), math.sqrt(half + root) / (2.0 * math.pi)]
+
+
+@pytest.mark.parametrize("left", SIDES.values(), ids=SIDES)
+@pytest.mark.parametrize("frequency", ["0.7 Hz", "3 Hz"])
+def test_from_free_flight_to_impacts_and_back(left, frequency):
+    """The branch goes through the whole range, and grazes where free flight reaches the wall."""
+    rig = vi.Oscillator("550 kg", FREE, WALL, left)
+    data = vi.branch(rig, vi.Harmonic("0.05 g", frequency), low=0.6, high=3.0)
+    assert [data.attrs[f"ended_{end}"] for end in ("low", "high")] == [
+        "the range ends at 0.6",
+        "the range ends at 3",
+    ]
+    grazing = data.isel(bifurcation=data["bifurcation_kind"].values == "grazing")
+    np.testing.assert_allclose(
+        np.sort(grazing["bifurcation_value"]), reaches(0.025, 0.6, 3.0), rtol=1e-10
+    )
+    told = "0R 0L | 1R 0L" if left is None else "0R 0L | 1R 1L"
+    assert set(grazing["bifurcation_contacts"].values) == {told}
+    assert float(data["displacement_max"].max()) == pytest.approx(0.025, rel=1e-12)
+    # Just behind it the multiplier of the impact is large: the map has the slope of a square root.
+    assert float(np.abs(data["multiplier_real"]).max()) > 30.0
+
+
+def test_impacts_come_and_go_between_a_wall_and_a_preloaded_bumper():
+    bumper = vi.Bumper("510 kN/m", "0.9 kN s/m", "-1 mm")
+    rig = vi.Oscillator("550 kg", FREE, vi.RigidStop(0.6, "5 mm"), bumper)
+    data = vi.branch(rig, vi.Harmonic("0.05 g", "4 Hz"), low=0.95, high=4.0)
+    assert data.attrs["ended_low"] == "the range ends at 0.95"
+    grazing = data.isel(bifurcation=data["bifurcation_kind"].values == "grazing")
+    assert {"1R 2L | 2R 2L", "1R 1L | 2R 1L", "1R 1L | 1R 2L"} <= set(
+        grazing["bifurcation_contacts"].values
+    )
+    # It does not go the same way back.
+    values = np.round(grazing["bifurcation_value"].values, 9)
+    assert len(set(values)) == len(values)
+
+
+def test_over_the_restitution_to_its_end():
+    rig = vi.Oscillator("550 kg", FREE, WALL)
+    data = vi.branch(
+        rig, vi.Harmonic("0.05 g", "1.1 Hz"), parameter="restitution", low=0.0, high=1.0
+    )
+    assert float(data["restitution"].min()) == 0.0
+    assert float(data["restitution"].max()) == 1.0
+    assert data.attrs["ended_high"] == "the range ends at 1"
+    assert (data["impacts_right"] == 1.0).all()
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize("clear", [1e-3, -1e-3, -1e-6])
+def test_the_margin_goes_on_through_the_grazing(side, clear):
+    """Free flight that misses the wall, or would pass it by so much if it were not there."""
+    k, c, w = 1.0, 0.1, 1.3
+    response = complex(k - w * w, c * w)
+    sign = 1.0 if side == "right" else -1.0
+    # From the far turning point, u = -s, towards the wall.
+    phase = math.pi / 2 + float(np.angle(response)) + (0.0 if sign > 0.0 else math.pi)
+    rig = vi.Oscillator(1.0, vi.Isolator(k, c), **{side: vi.RigidStop(0.5, 1.0)})
+    swing = 1.0 - clear
+    fam = family(rig, vi.Harmonic(swing * abs(response), w / math.tau, phase), "frequency")
+    section = Section(fam, 1, False, np.ones(5))
+    point = np.array([-sign * swing, 0.0, 0.0, 0.0, w / math.tau])
+    status, found, _ = evaluated(section, point, 0.0)
+    assert status is Status.DONE
+    assert sum(found.contacts) == (clear < 0.0)
+    assert margin_of(found) == pytest.approx(clear, rel=2.0 * abs(clear) + 1e-9)
