@@ -10,6 +10,7 @@ from benchmarks.laws import laws, sampling
 from benchmarks.machine import load, machine
 from benchmarks.memory import memory
 from benchmarks.motions import motions
+from benchmarks.records import records
 from benchmarks.report import Table, show, write
 from benchmarks.scenarios import scenarios
 from benchmarks.size import size
@@ -43,7 +44,7 @@ def main() -> None:
     with console.status("trajectories ..."):
         add(*trajectory(others, compiled.text()))
         add(short_runs(others), many())
-        add(laws(), sampling())
+        add(laws(), sampling(), records())
     with console.status("the campaign ..."):
         add(campaign())
     with console.status("motions ..."):
