@@ -15,19 +15,20 @@ from vibroimpact import engine
 from vibroimpact.engine import jit
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.parameters import free_rig, rig_vector
+from vibroimpact.engine.recorded import follow
 
 RIGS = {"Apart": free_rig(), "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None)}
-"""A rig for each flow."""
+"""A rig for each flow of one sine; the flows of other forcings are compiled by their tests."""
 
 
 def entries() -> list[Entry]:
-    """All of the engine's."""
+    """All of the engine's that one sine needs."""
     names = [found.name for found in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}.")]
     return [
         value
         for name in names
         for value in vars(importlib.import_module(name)).values()
-        if isinstance(value, Entry) and value.function.__module__ == name
+        if isinstance(value, Entry) and value.function.__module__ == name and value is not follow
     ]
 
 

@@ -126,12 +126,13 @@ def states(data: xr.Dataset) -> NDArray[np.float64]:
 
 
 def distance(data: xr.Dataset, other: NDArray[np.float64]) -> float:
-    """Largest difference of states, as a share of the largest displacement or velocity.
+    """Largest difference of states, as a share of the largest length or velocity.
 
     `other` has as many samples as the simulation, or is one state: then it is its end.
     """
     rows = states(data)
-    size, speed = np.abs(rows[:2]).max(axis=1)
+    # A preloaded bumper may be pressed where the mass does not move.
+    size, speed = np.abs(rows[[0, 2, 3]]).max(), np.abs(rows[1]).max()
     rows = rows if other.ndim == 2 else rows[:, -1]
     # A motion that is all rest has no speed, and a velocity of exactly 0 at any time.
     scale = np.maximum([size, speed, size, size], np.finfo(float).tiny)
