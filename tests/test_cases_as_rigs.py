@@ -151,8 +151,12 @@ def test_a_misspelt_keyword_is_that_of_the_function_called():
             call()
     with pytest.raises(TypeError, match=r"\bsimulate\(\).*samplse"):
         vi.simulate(CODE, "2 Hz", 5, samplse=1)
-    with pytest.raises(TypeError, match=r"sweep\(\) missing .*'frequencies'"):
+    with pytest.raises(vi.InputError, match=r"^frequencies: missing; sweep\(oscillator, .* is acc"):
         vi.sweep(CODE)
+    with pytest.raises(
+        vi.InputError, match=r"^excitation: missing; simulate\(oscillator, .* is acc"
+    ):
+        vi.simulate(RIG)
     with pytest.raises(TypeError, match=r"sweep\(\) missing"):
         vi.sweep()
 

@@ -240,3 +240,7 @@ class TestCampaign:
     def test_identified_parameters_do_not_cover_it(self):
         with pytest.raises(InputError, match="no identified parameters"):
             laboratory.campaign("identified")
+
+
+def test_a_case_shows_how_it_is_made():
+    assert repr(laboratory.case("B2-G1-A3")) == "case('B2-G1-A3', parameters='table')"

@@ -126,8 +126,14 @@ def test_zero_damping_and_zero_gap_are_ordinary():
 
 
 def test_an_unknown_argument_is_refused():
-    with pytest.raises(TypeError):
+    with pytest.raises(
+        InputError, match=r"^colour: unknown key; stiffness, damping and gap are acc"
+    ):
         Bumper(1.0, 1.0, 0.0, colour="red")
+    with pytest.raises(InputError, match=r"^dampng: .*, perhaps damping is meant$"):
+        Isolator(1.0, dampng=0.0)
+    with pytest.raises(TypeError, match="damping"):
+        Isolator(1.0)
 
 
 def test_a_rig_beyond_floating_point_is_refused():

@@ -117,3 +117,15 @@ def test_the_event_limit():
     assert len(given_up) == 1
     names = ", ".join(m.attrs["starts"] + ", " + m.attrs["mirrored_starts"] for m in found)
     assert all(f"random {i}" in names for i in range(1, 13))
+
+
+def test_random_starts_between_walls():
+    """They reach as far as the motion does, and half as much again, but not into the wall."""
+    isolator = vi.Isolator("26.8 kN/m", "1.1 kN s/m")
+    bumper = vi.Bumper("510 kN/m", "0.9 kN s/m", "-1 mm")
+    rig = vi.Oscillator("550 kg", isolator, vi.RigidStop(0.6, "5 mm"), bumper)
+    shaken = vi.Harmonic("0.05 g", "1.78 Hz")
+    found = vi.coexisting(rig, shaken, frequencies=[1.78, 2.0], random=4, samples=8)
+    names = {name for one in found for name in one.attrs["starts"].split(", ")}
+    assert {f"random {i}" for i in range(1, 5)} <= names
+    assert all(float(one["displacement_max"]) == pytest.approx(5e-3, rel=1e-12) for one in found)

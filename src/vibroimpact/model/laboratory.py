@@ -99,6 +99,9 @@ class Case:
         """The code as a file name: without a slash, a space or a sign outside ASCII."""
         return re.sub(r"[^A-Za-z0-9.+-]+", "_", self.code).strip("_")
 
+    def __repr__(self) -> str:
+        return f"case({self.code!r}, parameters={self.parameters!r})"
+
     def __str__(self) -> str:
         return (
             f"Case({self.code}, oscillator={self.oscillator}, "

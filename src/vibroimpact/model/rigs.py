@@ -153,9 +153,23 @@ def takes_rig(function: _Function, *, records: bool = False) -> _Function:
             kwargs[second] = _second(second, kwargs[second], amplitude, records)
         elif rest:
             rest[0] = _second(second, rest[0], amplitude, records)
+        if left_out := _left_out(signature, (rig, *rest), kwargs):
+            raise InputError(f"{left_out[0]}: missing; {example} is accepted")
         return function(rig, *rest, **kwargs)
 
     return cast(_Function, with_rig)
+
+
+def _left_out(
+    signature: inspect.Signature, args: tuple[Any, ...], kwargs: Mapping[str, Any]
+) -> list[str]:
+    """Arguments that a call needs and does not give; a keyword too many Python itself tells."""
+    try:
+        given = signature.bind_partial(*args, **kwargs).arguments
+    except TypeError:
+        return []
+    needed = [p for p in signature.parameters.values() if p.default is p.empty]
+    return [p.name for p in needed if p.name not in given and p.kind is not p.VAR_KEYWORD]
 
 
 def _told(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, Self, TypeVar, cast, get_args
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
@@ -86,7 +86,21 @@ else:
 
 
 class _Listed(ModelMetaclass):
-    """Lists what is the model's own: ``help`` shows that, and not a page of pydantic."""
+    """Lists what is the model's own: ``help`` shows that, and not a page of pydantic.
+
+    A misspelt keyword is told as a misspelt key of a table is.
+    """
+
+    def __call__(cls, *args: Any, **values: Any) -> Any:  # noqa: N805
+        try:
+            return super().__call__(*args, **values)
+        except TypeError:
+            model = cast("type[BaseModel]", cls)
+            unknown = [name for name in values if name not in model.model_fields]
+            if not unknown:
+                raise
+            told = "; ".join(f"{name}: {_unknown_key(model, name)}" for name in unknown)
+            raise InputError(told) from None
 
     def __dir__(cls) -> list[str]:  # noqa: N805
         own = {

@@ -14,7 +14,7 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model import Oscillator, Repeated, RigidStop, State, Stop
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.arrivals import arrivals
@@ -135,6 +135,7 @@ def coexisting(
     generator = np.random.default_rng(seed)
     for number in range(random):
         u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
+        u = min(max(u, -_wall(oscillator.left)), _wall(oscillator.right))
         state = State(u, v * excitation.angular_frequency, phase=excitation.phase)
         go(f"random {number + 1}", state)
     if oscillator.symmetric and excitation.half_wave:
@@ -159,6 +160,11 @@ def coexisting(
         motion.attrs |= {"starts": ", ".join(names), "mirrored_starts": ""}
         motions.append(describe(motion, "vibroimpact.coexisting"))
     return motions
+
+
+def _wall(stop: Stop | None) -> float:
+    """How far the mass may go on the side of a stop (m)."""
+    return stop.gap if isinstance(stop, RigidStop) else math.inf
 
 
 def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
