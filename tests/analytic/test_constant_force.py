@@ -88,23 +88,28 @@ def test_a_sweep_and_orbits_see_it_likewise() -> None:
 
 
 def test_a_branch_over_the_force_is_one_over_the_gap() -> None:
-    rig = vi.Oscillator(MASS, vi.Isolator(STIFFNESS, 0.4), vi.Bumper(160.0, 3.0, 0.5), force=0.2)
-    start = vi.orbit(rig, SHAKEN)["final_state"]
-    state = start.values
+    """It grazes where the free flight is pushed against the bumper."""
+    rig = vi.Oscillator(MASS, vi.Isolator(STIFFNESS, 0.4), vi.Bumper(160.0, 3.0, 0.5), force=-0.4)
+    turn = SHAKEN.angular_frequency
+    swing = SHAKEN.amplitude / abs(complex(STIFFNESS / MASS - turn**2, 0.2 * turn))
+    start = vi.simulate(rig, SHAKEN, 400, samples=0)["final_state"]
     over = vi.branch(rig, SHAKEN, start, parameter="force", low=-0.8, high=1.2)
-    bare = rig.replace(force=0.0, right=rig.right.replace(gap=0.5 - 0.2 / STIFFNESS))
-    moved = vi.State(state[0] - 0.2 / STIFFNESS, state[1], state[2], phase=state[4])
-    gap = vi.branch(
-        bare, SHAKEN, moved, parameter="gap", low=0.5 - 1.2 / STIFFNESS, high=0.5 + 0.8 / STIFFNESS
-    )
     kinds = over["bifurcation_kind"].values
-    assert "grazing" in kinds
+    grazings = over["bifurcation_value"].values[kinds == "grazing"]
+    assert np.abs(grazings - STIFFNESS * (0.5 - swing)).min() < 1e-11
+
+    u, v, right, _, phase, _ = start.values
+    bare = rig.replace(force=0.0, right=rig.right.replace(gap=0.5 + 0.4 / STIFFNESS))
+    moved = vi.State(u + 0.4 / STIFFNESS, v, right, phase=phase)
+    low, high = 0.5 - 1.2 / STIFFNESS, 0.5 + 0.8 / STIFFNESS
+    gap = vi.branch(bare, SHAKEN, moved, parameter="gap", low=low, high=high)
     for kind in set(kinds.tolist()):
         values = np.sort(over["bifurcation_value"].values[kinds == kind])
         same = gap["bifurcation_value"].values[gap["bifurcation_kind"].values == kind]
         np.testing.assert_allclose(
             values, np.sort((0.5 - same) * STIFFNESS), rtol=0.0, atol=1e-9, err_msg=kind
         )
+    assert over["impacts_right"].values.max() >= 1
     # Any orbit of it closes.
     for i in range(0, over.sizes["point"], max(1, over.sizes["point"] // 5)):
         here = rig.replace(force=float(over["force"][i]))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.response import free_flight
 
 ISOLATORS = {"spring": vi.Isolator(8.0, 0.8), "undamped": vi.Isolator(8.0, 0.0)}
 FREQUENCY, SIZES, ANGLES = 0.41, (1.0, 0.5, 0.0, 0.8), (0.3, 1.0, 0.0, -2.0)
@@ -50,7 +51,7 @@ def test_one_harmonic_is_a_harmonic() -> None:
     assert plain.sizes["event"] > 8
 
 
-BUMPER, WALL = vi.Bumper(160.0, 8.0, 0.1), vi.RigidStop(0.7, 0.12)
+BUMPER, DULL, WALL = vi.Bumper(160.0, 8.0, 0.1), vi.Bumper(160.0, 30.0, 0.1), vi.RigidStop(0.7, 0.12)
 GUESS = vi.State(0.0888, -0.1)
 """At the phase 0.25, near an orbit with either stop, which with the walls is unstable."""
 ODD = {"amplitudes": (1.5, 0.0, 0.9), "phases": (0.0, 0.0, 1.0)}
@@ -104,7 +105,7 @@ def test_multipliers_are_those_of_central_differences(stop, kind: dict, of: str)
     assert abs(shown).max() > 1e-3
 
 
-@pytest.mark.parametrize("stop", [BUMPER, WALL])
+@pytest.mark.parametrize("stop", [DULL, WALL])
 def test_the_mirror_holds_without_even_harmonics_only(stop) -> None:
     def half_a_period_later(shaken, rig) -> tuple[bool, float]:
         found = vi.orbit(rig, shaken, GUESS, 1, samples=64)
@@ -129,7 +130,7 @@ def test_the_mirror_holds_without_even_harmonics_only(stop) -> None:
 @pytest.mark.parametrize("kind", [ODD, EVEN])
 def test_a_branch_of_orbits(kind: dict) -> None:
     """Each closes, and its multipliers are those of central differences."""
-    rig, shaken = between(BUMPER), vi.Periodic(0.45, **kind)
+    rig, shaken = between(DULL), vi.Periodic(0.45, **kind)
     data = vi.branch(rig, shaken, low=0.35, high=0.6)
     assert (data["antisymmetric"].values == (kind is ODD)).all()
     assert data["frequency"].values.min() == pytest.approx(0.35)
@@ -144,19 +145,28 @@ def test_a_branch_of_orbits(kind: dict) -> None:
         seen = np.ptp(motion["displacement"].values)
         assert float(data["displacement_excursion"][i]) == pytest.approx(seen, rel=1e-3)
         if not int(section[5]):
-            expected = np.linalg.eigvals(differences(rig, here, section, 1e-6)[:2])
-            if np.abs(section[2:4]).max() < 1e-9:
-                found = data["multiplier_real"].values[i] + 1j * data["multiplier_imag"].values[i]
-                largest = found[np.argmax(abs(found))]
-                assert np.abs(expected - largest).min() < 1e-5
-                checked += 1
-    assert checked or np.abs(data["section"].values[:, 2:4]).min() > 1e-9
+            # The bumpers pass on next to nothing: they relax for most of a cycle.
+            own = np.linalg.eigvals(differences(rig, here, section, 1e-7)[:2])
+            found = data["multiplier_real"].values[i] + 1j * data["multiplier_imag"].values[i]
+            assert abs(max(abs(own)) - max(abs(found))) < 1e-3 * max(abs(own))
+            checked += 1
+    assert checked >= 5
 
 
-def test_a_pair_of_mirror_images_needs_the_mirror() -> None:
-    """`coexisting` and `steady` tell of them only where there are any."""
-    rig = between(WALL)
-    for kind, symmetric in ((ODD, True), (EVEN, False)):
-        data = vi.steady(rig, vi.Periodic(0.45, **kind))
-        assert bool(data["antisymmetric"]) == symmetric
-        assert math.isfinite(float(data["displacement_excursion"]))
+def test_the_reference_is_found_once_along_a_branch(monkeypatch) -> None:
+    """Frequency, amplitude and stops do not matter to the largest free flight's shape."""
+    asked = []
+    found = free_flight.harmonics
+    monkeypatch.setattr(
+        free_flight, "harmonics", lambda *given: asked.append(len(given[2])) or found(*given)
+    )
+    rig, shaken = between(DULL), vi.Periodic(0.45, (1.5, 0.61, 0.9))
+    free_flight.reference_excursions(rig, shaken)
+    once = len(asked)
+    assert once > 10
+    one = free_flight.reference_excursions(rig, shaken)
+    twice = free_flight.reference_excursions(
+        rig.replace(right=None, force=1.0), shaken.replace(amplitude=3.0, frequency=1.0, phase=0.3)
+    )
+    np.testing.assert_allclose(twice, 2.0 * np.array(one), rtol=1e-14)
+    assert len(asked) == once

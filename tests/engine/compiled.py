@@ -12,27 +12,35 @@ import subprocess
 import sys
 
 from vibroimpact import engine
-from vibroimpact.engine import jit
+from vibroimpact.engine import jit, recorded
 from vibroimpact.engine.entry import Entry
-from vibroimpact.engine.parameters import free_rig, rig_vector
+from vibroimpact.engine.parameters import Drive, free_rig, rig_vector
 
-RIGS = {"Apart": free_rig(), "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None)}
+_WALL = (1.0, 1.0, 0.1, (0.5, 1.0), None, 0.0)
+RIGS = {
+    "Apart": free_rig(),
+    "AnyStops": rig_vector(*_WALL),
+    "Several": rig_vector(*_WALL, Drive(weights=((1.0, 0.0), (0.5, 0.0)))),
+    "Recorded": rig_vector(*_WALL, Drive(interval=0.1)),
+}
 """A rig for each flow."""
 
 
-def entries() -> list[Entry]:
-    """All of the engine's."""
+def entries(flow: str) -> list[Entry]:
+    """All of the engine's that a flow runs through: a record has a way of its own."""
     names = [found.name for found in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}.")]
     return [
         value
         for name in names
         for value in vars(importlib.import_module(name)).values()
-        if isinstance(value, Entry) and value.function.__module__ == name
+        if isinstance(value, Entry)
+        and value.function.__module__ == name
+        and (value is recorded.follow) == (flow == "Recorded")
     ]
 
 
 def compile_for(flow: str) -> None:
-    for entry in entries():
+    for entry in entries(flow):
         entry.prepare(RIGS[flow])
 
 
