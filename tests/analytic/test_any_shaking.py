@@ -79,7 +79,11 @@ SETUPS = {
     "a constant force": Setup(SPRING, BUMPERS, vi.Harmonic(1.0, 0.25), 0.7),
     "a constant force between walls": Setup(SPRING, WALLS, vi.Harmonic(1.5, 0.2), -0.8),
     "a constant force, chatter and rest": Setup(
-        SPRING, (Wall(0.5, 0.1), Wall(0.4, 0.3)), periodic(0.04, "acceleration", 1, 0.3), 0.7, FLYING
+        SPRING,
+        (Wall(0.5, 0.1), Wall(0.4, 0.3)),
+        periodic(0.04, "acceleration", 1, 0.3),
+        0.7,
+        FLYING,
     ),
     "a constant force on preloaded bumpers": Setup(
         SPRING, (Bumper(6.0, 0.8, -0.3), Bumper(9.0, 0.4, -0.1)), vi.Harmonic(9.0, 0.3), 1.3

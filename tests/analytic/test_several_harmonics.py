@@ -51,7 +51,11 @@ def test_one_harmonic_is_a_harmonic() -> None:
     assert plain.sizes["event"] > 8
 
 
-BUMPER, DULL, WALL = vi.Bumper(160.0, 8.0, 0.1), vi.Bumper(160.0, 30.0, 0.1), vi.RigidStop(0.7, 0.12)
+BUMPER, DULL, WALL = (
+    vi.Bumper(160.0, 8.0, 0.1),
+    vi.Bumper(160.0, 30.0, 0.1),
+    vi.RigidStop(0.7, 0.12),
+)
 GUESS = vi.State(0.0888, -0.1)
 """At the phase 0.25, near an orbit with either stop, which with the walls is unstable."""
 ODD = {"amplitudes": (1.5, 0.0, 0.9), "phases": (0.0, 0.0, 1.0)}
@@ -87,7 +91,9 @@ def test_multipliers_are_those_of_central_differences(stop, kind: dict, of: str)
         {"acceleration": a, "displacement": a / (n * omega) ** 2, "force": 2.0 * a}[of]
         for n, a in enumerate(kind["amplitudes"], start=1)
     ]
-    shaken = vi.Periodic(0.45, sizes, kind["phases"], 0.25 + (of != "acceleration") * math.pi, of=of)
+    shaken = vi.Periodic(
+        0.45, sizes, kind["phases"], 0.25 + (of != "acceleration") * math.pi, of=of
+    )
     rig = between(stop)
     found = vi.orbit(rig, shaken, GUESS, 1, samples=16)
     assert len(found.attrs["contacts"]) >= 2
@@ -99,9 +105,7 @@ def test_multipliers_are_those_of_central_differences(stop, kind: dict, of: str)
     )
     shown = found["multiplier_real"].values + 1j * found["multiplier_imag"].values
     own = np.linalg.eigvals(found["monodromy"].values)
-    np.testing.assert_allclose(
-        np.sort(abs(own)), np.sort(abs(shown)), atol=1e-9 * abs(shown).max()
-    )
+    np.testing.assert_allclose(np.sort(abs(own)), np.sort(abs(shown)), atol=1e-9 * abs(shown).max())
     assert abs(shown).max() > 1e-3
 
 
@@ -130,25 +134,24 @@ def test_the_mirror_holds_without_even_harmonics_only(stop) -> None:
 @pytest.mark.parametrize("kind", [ODD, EVEN])
 def test_a_branch_of_orbits(kind: dict) -> None:
     """Each closes, and its multipliers are those of central differences."""
-    rig, shaken = between(DULL), vi.Periodic(0.45, **kind)
-    data = vi.branch(rig, shaken, low=0.35, high=0.6)
+    rig, shaken = between(WALL), vi.Periodic(0.45, **kind, phase=0.25)
+    data = vi.branch(rig, shaken, GUESS, low=0.43, high=0.48)
     assert (data["antisymmetric"].values == (kind is ODD)).all()
-    assert data["frequency"].values.min() == pytest.approx(0.35)
-    assert data["frequency"].values.max() == pytest.approx(0.6)
+    assert data["frequency"].values.min() == pytest.approx(0.43)
+    assert data["frequency"].values.max() == pytest.approx(0.48)
     checked = 0
     for i in range(0, data.sizes["point"], max(1, data.sizes["point"] // 12)):
         section = data["section"].values[i]
         here = shaken.replace(frequency=float(data["frequency"][i]))
         start = vi.State(*section[:4], phase=section[4], contact=int(section[5]))
         motion = vi.simulate(rig, here, 1, start, samples=400)
-        np.testing.assert_allclose(motion["final_state"].values[:4], section[:4], atol=1e-11)
+        np.testing.assert_allclose(motion["final_state"].values[:4], section[:4], atol=1e-10)
         seen = np.ptp(motion["displacement"].values)
-        assert float(data["displacement_excursion"][i]) == pytest.approx(seen, rel=1e-3)
+        assert float(data["displacement_excursion"][i]) == pytest.approx(seen, rel=1e-2)
         if not int(section[5]):
-            # The bumpers pass on next to nothing: they relax for most of a cycle.
             own = np.linalg.eigvals(differences(rig, here, section, 1e-7)[:2])
             found = data["multiplier_real"].values[i] + 1j * data["multiplier_imag"].values[i]
-            assert abs(max(abs(own)) - max(abs(found))) < 1e-3 * max(abs(own))
+            assert abs(max(abs(own)) - max(abs(found))) < 1e-5 * max(abs(own))
             checked += 1
     assert checked >= 5
 

@@ -77,7 +77,9 @@ def test_budd_and_dux_orbits(omega: float, r: float, sigma: float, n: int) -> No
             assert product == pytest.approx(r**2, rel=1e-9)
 
 
-@pytest.mark.parametrize(("r", "sigma"), [(0.8, 0.0), (0.7, 0.0), (0.8, 0.05), (0.8, -0.05), (0.7, -0.1)])
+@pytest.mark.parametrize(
+    ("r", "sigma"), [(0.8, 0.0), (0.7, 0.0), (0.8, 0.05), (0.8, -0.05), (0.7, -0.1)]
+)
 def test_budd_and_dux_period_doubling(r: float, sigma: float) -> None:
     one = Oscillator(2.3 / math.tau, 0.0, r, sigma)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), vi.RigidStop(r, sigma))
@@ -115,6 +117,6 @@ def test_a_shifted_stop_is_a_constant_force(sigma: float) -> None:
     pushed = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(r, 0.0), force=-sigma)
     one = vi.simulate(held, shaken, 12, vi.State(-1.0), samples=8)
     other = vi.simulate(pushed, shaken, 12, vi.State(-1.0 - sigma), samples=8)
-    assert one.sizes["event"] == other.sizes["event"] > 8
+    assert one.sizes["event"] == other.sizes["event"] > 4
     np.testing.assert_allclose(one["displacement"] - sigma, other["displacement"], atol=1e-11)
     np.testing.assert_allclose(one["event_time"], other["event_time"], atol=1e-10)

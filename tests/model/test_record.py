@@ -82,7 +82,7 @@ def test_refused(samples, step, line):
 
 
 def test_samples_of_another_quantity_are_refused():
-    with pytest.raises(vi.InputError, match="^acceleration: "):
+    with pytest.raises(vi.InputError, match=r"^acceleration: "):
         vi.Record(pint.UnitRegistry().Quantity([1.0, 2.0], "mm"), 0.1)
 
 

@@ -103,7 +103,9 @@ def test_a_record_may_be_cut_anywhere(
     count = (len(record.acceleration) - 1) * parts
     assume(count > 1)
     step = record.step / parts
-    fine = np.interp(np.arange(count + 1) / parts, np.arange(count // parts + 1), record.acceleration)
+    fine = np.interp(
+        np.arange(count + 1) / parts, np.arange(count // parts + 1), record.acceleration
+    )
     at = 1 + where % (count - 1)
     first = vi.simulate(rig, vi.Record(fine[: at + 1], step), start=start, samples=0)
     rest = vi.simulate(

@@ -288,9 +288,10 @@ class _Run:
         """Step and Taylor coefficients of u, v and b - A_t in x = time / step, 0 <= x <= 1.
 
         Let z = (s u, v, scaled pairs of the forcing) with s the largest of sqrt(k) and the rates of
-        the forcing: z' = B z, and the norm of B is at most s + c + what the pairs add. Let z_n be the n-th coefficient of z. What
-        follows the last, z_N, is at most |z_N| q / (1 - q) with q = |B| step / (N + 1). So the
-        step is at most N / (3 |B|), and short enough that |z_N| is within the tolerance.
+        the forcing: z' = B z, and the norm of B is at most s + c + what the pairs add. Let
+        z_n be the n-th coefficient of z. What follows the last, z_N, is at most |z_N| q / (1 - q)
+        with q = |B| step / (N + 1). So the step is at most N / (3 |B|), and short enough that
+        |z_N| is within the tolerance.
         """
         stiffness, damping, load = self._coefficients()
         scale = max(mp.sqrt(stiffness), self.shaking.rate)

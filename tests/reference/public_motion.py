@@ -50,9 +50,7 @@ def reference_rig(rig: vi.Oscillator) -> Rig:
     return Rig(rig.mass, isolator.stiffness, isolator.damping, *stops, force=rig.force)
 
 
-def reference_shaking(
-    rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic | vi.Record
-) -> Shaking:
+def reference_shaking(rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic | vi.Record) -> Shaking:
     """What moves the base, or the base motion that does what a force on the mass does."""
     with mp.workdps(100):
         if isinstance(shaken, vi.Record):

@@ -15,7 +15,9 @@ SHAKEN = vi.Harmonic(CASE.amplitude, 1.06, 0.3)
 
 
 def begun():
-    return engine_rig(CASE.oscillator, vi.Harmonic(1.0, 1.0)), engine_state(CASE.oscillator, vi.State(1e-3, 0.1))
+    return engine_rig(CASE.oscillator, vi.Harmonic(1.0, 1.0)), engine_state(
+        CASE.oscillator, vi.State(1e-3, 0.1)
+    )
 
 
 def test_it_is_where_the_simulation_is():

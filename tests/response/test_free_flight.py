@@ -30,7 +30,9 @@ def test_the_reference_is_the_largest_at_any_frequency(ratio):
     natural = rig(ratio).natural_frequency
     near = 1.0 + np.linspace(-5.0, 5.0, 20_001) * min(ratio, 0.1)
     grid = natural * np.concatenate([np.geomspace(1e-6, 20.0, 20_000), near[near > 0.0]])
-    most = [values.max() for values in free_flight_excursions(rig(ratio), vi.Harmonic(0.7, 1.0), grid)]
+    most = [
+        values.max() for values in free_flight_excursions(rig(ratio), vi.Harmonic(0.7, 1.0), grid)
+    ]
     reference = reference_excursions(rig(ratio), vi.Harmonic(0.7, 1.0))
     np.testing.assert_allclose(most, reference, rtol=1e-6)
     assert (np.array(most) <= np.array(reference) * (1 + 1e-12)).all()

@@ -46,7 +46,15 @@ def test_each_cycle_contracts_by_the_damping_where_memory_has_decayed(motion: Mo
     rows = np.empty((5, lyapunov.GROWTH))
     state = engine_state(rig, motion.start)
     lyapunov.growth(
-        engine_rig(rig, shaken), shaken.amplitude, shaken.frequency, shaken.phase, state, 0, 1, 1000, rows
+        engine_rig(rig, shaken),
+        shaken.amplitude,
+        shaken.frequency,
+        shaken.phase,
+        state,
+        0,
+        1,
+        1000,
+        rows,
     )
     sums = rows[:, : lyapunov.SECTION].sum(axis=1)
     scale = np.abs(rows[:, : lyapunov.SECTION]).max()
