@@ -147,7 +147,7 @@ def test_a_branch_of_orbits(kind: dict) -> None:
         motion = vi.simulate(rig, here, 1, start, samples=400)
         np.testing.assert_allclose(motion["final_state"].values[:4], section[:4], atol=1e-10)
         seen = np.ptp(motion["displacement"].values)
-        assert float(data["displacement_excursion"][i]) == pytest.approx(seen, rel=1e-2)
+        assert float(data["displacement_excursion"][i]) == pytest.approx(seen, rel=5e-2)
         if not int(section[5]):
             own = np.linalg.eigvals(differences(rig, here, section, 1e-7)[:2])
             found = data["multiplier_real"].values[i] + 1j * data["multiplier_imag"].values[i]

@@ -106,12 +106,12 @@ def test_the_reference_is_the_largest_of_any_kind(kind, ratio):
     curves = free_flight_excursions(one, shaken, grid)
     swing, acceleration = reference_excursions(one, shaken)
     assert curves[0].max() <= swing * (1 + 1e-12)
-    assert curves[0].max() == pytest.approx(swing, rel=1e-5)
+    assert curves[0].max() == pytest.approx(swing, rel=1e-4)
     if shaken.of == "displacement":
         at = curves[1][np.argmax(curves[0])]
         assert acceleration == pytest.approx(at, rel=2e-3)
     else:
-        assert curves[1].max() == pytest.approx(acceleration, rel=1e-5)
+        assert curves[1].max() == pytest.approx(acceleration, rel=1e-4)
 
 
 @pytest.mark.parametrize("ratio", [0.05, 0.3, 1.2])
@@ -124,7 +124,7 @@ def test_transmissibility(ratio):
             (1 + (2 * ratio * r) ** 2) / ((1 - r) ** 2 * (1 + r) ** 2 + (2 * ratio * r) ** 2)
         )
         omega = shaken.angular_frequency
-        data = vi.orbit(one, shaken, vi.State(), samples=64)
+        data = vi.orbit(one, shaken, samples=64)
         angle = 2.0 * np.pi * data["cycle"].values[:64] + 0.4
         absolute = data["displacement"].values[:64] + 0.02 * np.sin(angle)
         line = 2.0 / 64 * np.abs(np.sum(absolute * np.exp(-1j * angle)))
