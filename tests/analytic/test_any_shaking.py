@@ -143,7 +143,10 @@ def rounded(values: Callable[[NDArray[np.float64]], NDArray[np.float64]], step: 
 
 RECORDS: dict[str, tuple[vi.Oscillator, vi.Record]] = {
     "between bumpers": (vi.Oscillator(2.0, SPRING, *BUMPERS), rough(0.1, 6.0)),
-    "between walls": (vi.Oscillator(2.0, SPRING, *WALLS), rough(0.1, 9.0, 4)),
+    "between walls": (
+        vi.Oscillator(2.0, SPRING, Wall(0.4, 0.5), Wall(0.3, 0.4)),
+        rough(0.1, 14.0, 6),
+    ),
     "a wall faces a bumper": (
         vi.Oscillator(2.0, SPRING, WALLS[1], BUMPERS[1], force=0.3),
         rough(0.25, 4.0),
