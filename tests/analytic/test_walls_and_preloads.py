@@ -12,19 +12,20 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf
 
 import vibroimpact as vi
 from reference import fifty_digits
-from reference.public_motion import events, reference_rig
+from reference.public_motion import (
+    SLOW,
+    assert_agreement,
+    events,
+    reference_rig,
+    reference_start,
+)
 from samples import sample
-from vibroimpact.model import equilibrium
 
 CYCLES = sample(20, 8)
 TOLERANCE = 1e-11
-SLOW = 1e-2
-"""An impact slower than this share of the fastest may belong to the end of a chatter."""
-
 Wall, Bumper = vi.RigidStop, vi.Bumper
 
 
@@ -75,18 +76,6 @@ SETUPS = {
 }
 
 
-def reference_start(setup: Setup) -> tuple[float | mpf, ...]:
-    u, v = setup.start or (equilibrium(setup.rig).displacement, 0.0)
-    with mp.workdps(60):
-        deformations = [
-            sign * max(sign * mpf(float(u)) - mpf(stop.gap), mpf(0))
-            if isinstance(stop, vi.Bumper)
-            else 0.0
-            for sign, stop in ((1, setup.right), (-1, setup.left))
-        ]
-    return (float(u), v, *deformations)
-
-
 @pytest.mark.parametrize("name", SETUPS)
 def test_sections_and_events_agree_with_fifty_digits(name: str) -> None:
     setup = SETUPS[name]
@@ -94,31 +83,9 @@ def test_sections_and_events_agree_with_fifty_digits(name: str) -> None:
     start = vi.State(*setup.start) if setup.start else None
     data = vi.simulate(setup.rig, shaken, CYCLES, start, samples=1)
     run = fifty_digits.integrate(
-        reference_rig(setup.rig), *setup.shaken, reference_start(setup), CYCLES
+        reference_rig(setup.rig), *setup.shaken, reference_start(setup.rig, start), CYCLES
     )
-    sampled = ("displacement", "velocity", "right_bumper", "left_bumper")
-    sections = np.stack([data[name].values for name in sampled], axis=-1)
-    known = [*run.states, *((event.u, event.v) for event in run.events)]
-    size, speed = (max(abs(float(state[i])) for state in known) for i in (0, 1))
-    for row, exact in zip(sections.tolist(), run.states, strict=True):
-        for value, other, unit in zip(row, exact, (size, speed, size, size), strict=True):
-            assert abs(float(value - other)) <= TOLERANCE * unit
-
-    fastest = max((abs(e.v) for e in run.events if e.kind.startswith("impact")), default=0)
-
-    def told(kind: str, v: float) -> bool:
-        return not kind.startswith("impact") or abs(v) > SLOW * fastest
-
-    exact = [event for event in run.events if told(event.kind, event.v)]
-    # To the reference, a contact at once is part of the start.
-    told_of = (e for e in events(data) if told(e.kind, e.v))
-    seen = [e for e in told_of if e.time > 0 or "contact" not in e.kind]
-    assert [e.kind for e in seen] == [e.kind for e in exact]
-    assert len(exact) >= 5
-    for one, other in zip(seen, exact, strict=True):
-        assert abs(float(one.time - other.time)) * shaken.frequency <= TOLERANCE
-        assert abs(float(one.u - other.u)) <= TOLERANCE * size
-        assert abs(float(one.v - other.v)) <= TOLERANCE * speed
+    assert len(assert_agreement(data, run, shaken.period, TOLERANCE)) >= 5
 
 
 @pytest.mark.parametrize("name", SETUPS)

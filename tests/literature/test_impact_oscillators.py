@@ -62,6 +62,11 @@ BUDD_DUX = [  # ω, r, σ, n
     (4.3, 0.8, 0.0, 2),
     (6.3, 0.8, 0.0, 3),
     (2.1, 0.5, 0.1, 1),
+    # the stop beyond the place of rest: the mass is held away
+    (2.8, 0.8, -0.1, 1),
+    (2.6, 0.9, -0.3, 1),
+    (4.3, 0.8, -0.05, 2),
+    (1.9, 0.7, -0.2, 1),
 ]
 
 
@@ -82,7 +87,9 @@ def test_budd_and_dux_orbits(omega: float, r: float, sigma: float, n: int) -> No
             assert product == pytest.approx(r**2, rel=1e-9)
 
 
-@pytest.mark.parametrize(("r", "sigma"), [(0.8, 0.0), (0.7, 0.0), (0.8, 0.05)])
+@pytest.mark.parametrize(
+    ("r", "sigma"), [(0.8, 0.0), (0.7, 0.0), (0.8, 0.05), (0.8, -0.05), (0.7, -0.1)]
+)
 def test_budd_and_dux_period_doubling(r: float, sigma: float) -> None:
     one = Oscillator(2.3 / math.tau, 0.0, r, sigma)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), vi.RigidStop(r, sigma))
@@ -109,3 +116,17 @@ def test_budd_and_dux_chatter_ends_in_rest() -> None:
         angle = omega * one.time
         assert math.cos(angle) == pytest.approx(sigma, abs=1e-10)
         assert math.sin(angle) > 0  # the force falls
+
+
+@pytest.mark.parametrize("sigma", [-0.6, -0.2, 0.0, 0.4])
+def test_a_shifted_stop_is_a_constant_force(sigma: float) -> None:
+    """x″ + x = cos ωt + σ with the stop at the place where the spring is slack."""
+    r, omega = 0.8, 2.8
+    shaken = vi.Harmonic(1.0, omega / math.tau, PHASE)
+    held = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(r, sigma))
+    pushed = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(r, 0.0), force=-sigma)
+    one = vi.simulate(held, shaken, 12, vi.State(-1.0), samples=8)
+    other = vi.simulate(pushed, shaken, 12, vi.State(-1.0 - sigma), samples=8)
+    assert one.sizes["event"] == other.sizes["event"] > 4
+    np.testing.assert_allclose(one["displacement"] - sigma, other["displacement"], atol=1e-11)
+    np.testing.assert_allclose(one["event_time"], other["event_time"], atol=1e-10)

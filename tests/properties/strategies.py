@@ -37,7 +37,7 @@ class Motion(NamedTuple):
     """A rig, what shakes it, and where it starts."""
 
     oscillator: vi.Oscillator
-    excitation: vi.Harmonic
+    excitation: vi.Harmonic | vi.Periodic
     start: vi.State
 
 
@@ -57,10 +57,13 @@ def motions(
     least_damping: float = 0.0,
     most_damping: float = math.inf,
     all_stops: bool = False,
+    any_shaking: bool = False,
 ) -> Motion:
     """A random motion; the limits are of the isolator's damping ratio.
 
-    With `all_stops`, preloaded bumpers and rigid stops are among the stops.
+    With `all_stops`, preloaded bumpers and rigid stops are among the stops. With `any_shaking`,
+    too, the base may be moved by a displacement, a force may act on the mass, either in several
+    harmonics, a constant force, and the spring may be missing.
     """
     mass, omega = draw(decades(-2, 4)), draw(decades(-1, 2))
     ratio = draw(decades(-0.7, 0.7))
@@ -86,20 +89,21 @@ def motions(
         e = draw(st.floats(0.05, 0.95) | st.floats(0.05, 0.95) | st.sampled_from([0.0, 1.0]))
         return vi.RigidStop(e, gap)
 
-    make = stop if all_stops else bumper
-    sides = draw(st.sampled_from(["both", "both", "both", "right", "left"]))
+    make = stop if all_stops or any_shaking else bumper
+    slack = any_shaking and draw(st.integers(0, 3)) == 0
+    sides = "both" if slack else draw(st.sampled_from(["both", "both", "both", "right", "left"]))
     right = make() if sides != "left" else None
     left = make() if sides != "right" else None
     if isinstance(right, vi.RigidStop) and isinstance(left, vi.RigidStop):
         room = max(right.gap + left.gap, draw(st.floats(0.05, 1.0)) * swing)
         left = left.replace(gap=room - right.gap)
-    oscillator = vi.Oscillator(
-        mass, vi.Isolator(stiffness, 2.0 * damping * mass * omega), right, left
-    )
+    force = draw(st.floats(-0.5, 0.5) | st.just(0.0)) * stiffness * swing if any_shaking else 0.0
+    isolator = vi.Isolator(0.0 if slack else stiffness, 2.0 * damping * mass * omega)
+    oscillator = vi.Oscillator(mass, isolator, right, left, force)
     # Within the gaps, or pressing a bumper.
     reach = draw(st.floats(-1.1, 1.1))
     side = right if reach > 0 else left
-    u = reach * (swing if all_stops else side.gap if side else swing)
+    u = reach * (swing if all_stops or any_shaking else side.gap if side else swing)
     if isinstance(right, vi.RigidStop):
         u = min(u, right.gap)
     if isinstance(left, vi.RigidStop):
@@ -107,7 +111,34 @@ def motions(
     v = draw(st.floats(-1.0, 1.0)) * swing * omega * ratio
     phase = draw(st.floats(0.0, math.tau))
     excitation = vi.Harmonic(acceleration, ratio * omega / math.tau, phase)
+    if any_shaking:
+        excitation = draw(shakings(excitation, mass))
     return Motion(oscillator, excitation, vi.State(u, v))
+
+
+@st.composite
+def shakings(draw: st.DrawFn, plain: vi.Harmonic, mass: float) -> vi.Harmonic | vi.Periodic:
+    """Another shaking of about the same size and frequency."""
+    of = draw(st.sampled_from(["acceleration", "displacement", "force"]))
+    unit = {"acceleration": 1.0, "displacement": plain.angular_frequency**-2, "force": mass}[of]
+    size = plain.amplitude * unit
+    if draw(st.booleans()):
+        return vi.Harmonic(size, plain.frequency, plain.phase, of=of)
+    shares = draw(st.lists(st.floats(0.1, 1.0) | st.just(0.0), min_size=1, max_size=4))
+    sizes = [size, *(share * size / (n + 2) for n, share in enumerate(shares))]
+    angles = [draw(st.floats(0.0, math.tau)) for _ in sizes]
+    return vi.Periodic(plain.frequency, sizes, angles, plain.phase, of=of)
+
+
+@st.composite
+def recorded(draw: st.DrawFn) -> tuple[vi.Oscillator, vi.Record, vi.State]:
+    """A rig as of `motions`, a rough record of about the same size, and a start."""
+    rig, shaken, start = draw(motions(any_shaking=True))
+    size = float(np.max(shaken.acceleration(rig.mass, shaken.angular_frequency)))
+    count = draw(st.integers(2, 30))
+    values = draw(st.lists(st.floats(-1.0, 1.0), min_size=count, max_size=count))
+    step = draw(st.floats(0.05, 0.7)) * shaken.period
+    return rig, vi.Record(3.0 * size * np.array(values), step), start
 
 
 def simulated(motion: Motion, cycles: float, samples: int = 1) -> xr.Dataset:
@@ -151,7 +182,7 @@ def tame(motion: Motion, cycles: float) -> xr.Dataset:
     for sign in (1e-9, -1e-9):
         other = Motion(
             motion.oscillator,
-            vi.Harmonic(shaken.amplitude * (1 + sign), shaken.frequency, shaken.phase + sign),
+            shaken.replace(amplitude=shaken.amplitude * (1 + sign), phase=shaken.phase + sign),
             start.replace(velocity=start.velocity - sign * speed),
         )
         assume(distance(data, states(simulated(other, cycles, SAMPLES))) < 1e-6)

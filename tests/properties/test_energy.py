@@ -3,7 +3,7 @@
 In the frame of the base, its work is that of the inertia force -M A_t. It goes into the isolator's
 dashpot, into the dashpot of a pressed bumper, into that of a relaxing one - which from a
 deformation r burns K_j r²/2 (1 - exp(-2 K_j t / C_j)) in the time t - into impacts on rigid stops,
-each M (1 - e²) v²/2, and into motion and springs.
+each M (1 - e²) v²/2, and into motion, springs and the height in a constant force.
 The integrals are Gauss-Legendre sums, exact to rounding, over each phase by itself.
 """
 
@@ -25,7 +25,7 @@ def stored(rig: vi.Oscillator, state: Mechanics) -> float:
     energy = rig.mass * state.v**2 + rig.isolator.stiffness * state.u**2
     for stop, deformation in ((rig.right, state.right), (rig.left, state.left)):
         energy += stop.stiffness * deformation**2 if isinstance(stop, vi.Bumper) else 0.0
-    return float(energy) / 2
+    return float(energy) / 2 - rig.force * float(state.u)
 
 
 def dissipated(rig: vi.Oscillator, phase: Phase) -> float:
@@ -55,10 +55,14 @@ def dashpots(rig: vi.Oscillator, phase: Phase) -> float:
 
 def imbalance(motion: Motion) -> float:
     """Of the energy, as a share of what was stored and of all that the base gave and took."""
-    rig = motion.oscillator
     data = simulated(motion, CYCLES)
-    work = turnover = lost = unknown = 0.0
-    walk = list(phases(rig, motion.excitation, data))
+    walk = list(phases(motion.oscillator, motion.excitation, data))
+    return unbalanced(motion.oscillator, walk)
+
+
+def unbalanced(rig: vi.Oscillator, walk: list[Phase]) -> float:
+    """The same of a motion's phases."""
+    work = turnover = lost = unknown = height = 0.0
     for phase in walk:
         if chatters(rig, phase):
             # What is left after the last impact listed goes into the others. Meanwhile the mass is
@@ -73,10 +77,11 @@ def imbalance(motion: Motion) -> float:
         power = -rig.mass * phase.base * phase.motion.v
         work += float(phase.weights @ power)
         turnover += float(phase.weights @ np.abs(power))
+        height += abs(rig.force) * float(phase.weights @ np.abs(phase.motion.v))
         lost += dissipated(rig, phase)
     gained = stored(rig, walk[-1].end) - stored(rig, walk[0].begin)
     # A preload may store ten thousand times what is turned over: its rounding is that large.
-    size = turnover + stored(rig, walk[0].begin)
+    size = turnover + height + abs(stored(rig, walk[0].begin))
     return max(0.0, abs(work - lost - gained) - unknown) / size if size else 0.0
 
 

@@ -1,6 +1,7 @@
 """Random rigs with rigid stops and preloads over decades: no hang, no NaN, no penetration, no pull.
 
-A sample runs with the tests. More: `python tests/properties/test_fuzz_all_stops.py 20000`.
+A sample runs with the tests. More: `python tests/properties/test_fuzz_all_stops.py 20000`, and any
+shaking with `20000 1 shakings`.
 """
 
 from __future__ import annotations
@@ -49,11 +50,33 @@ def random_rig(rng: np.random.Generator) -> tuple[vi.Oscillator, vi.Harmonic]:
     return rig, vi.Harmonic(1.0, ratio / math.tau, rng.uniform(0, math.tau))
 
 
-def faults(rig: vi.Oscillator, shaken: vi.Harmonic) -> tuple[str, list[str]]:
+def any_shaking(
+    rng: np.random.Generator, rig: vi.Oscillator, plain: vi.Harmonic
+) -> tuple[vi.Oscillator, vi.Harmonic | vi.Periodic | vi.Record]:
+    """The rig with a constant force, perhaps without its spring; another shaking or a record."""
+    if len(rig.stops) == 2 and rng.random() < 0.3:
+        rig = rig.replace(isolator=vi.Isolator(0.0, rig.isolator.damping))
+    if rng.random() < 0.5 and len(rig.stops) == 2:
+        rig = rig.replace(force=float(rng.normal()))
+    if rng.random() < 0.3:
+        count = int(rng.integers(2, 120))
+        step = plain.period * float(10.0 ** rng.uniform(-2, 0.3))
+        return rig, vi.Record(3.0 * plain.amplitude * rng.uniform(-1, 1, count), step)
+    of = str(rng.choice(["acceleration", "displacement", "force"]))
+    unit = plain.angular_frequency**-2 if of == "displacement" else 1.0
+    sizes = unit * plain.amplitude * rng.uniform(0, 1, int(rng.integers(1, 6)))
+    phases = rng.uniform(0, math.tau, len(sizes)).tolist()
+    return rig, vi.Periodic(plain.frequency, sizes.tolist(), phases, plain.phase, of=of)
+
+
+def faults(
+    rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic | vi.Record
+) -> tuple[str, list[str]]:
     """Run one rig from its equilibrium; say what is wrong with its motion."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        data = vi.simulate(rig, shaken, CYCLES, samples=SAMPLES, max_events=MAX_EVENTS)
+        cycles = None if isinstance(shaken, vi.Record) else CYCLES
+        data = vi.simulate(rig, shaken, cycles, samples=SAMPLES, max_events=MAX_EVENTS)
     if data.attrs["status"] != "done":
         return data.attrs["status"], []
     names = ("displacement", "velocity", "acceleration", "final_state")
@@ -81,13 +104,15 @@ def faults(rig: vi.Oscillator, shaken: vi.Harmonic) -> tuple[str, list[str]]:
     return "done", found
 
 
-def survey(count: int, seed: int) -> tuple[Counter[str], list[str]]:
+def survey(count: int, seed: int, shakings: bool = False) -> tuple[Counter[str], list[str]]:
     """Outcomes and faults."""
     rng = np.random.default_rng(seed)
     outcomes: Counter[str] = Counter()
     wrong = []
     for i in range(count):
         rig, shaken = random_rig(rng)
+        if shakings:
+            rig, shaken = any_shaking(rng, rig, shaken)
         begin = time.perf_counter()
         status, found = faults(rig, shaken)
         took = time.perf_counter() - begin
@@ -108,7 +133,15 @@ def test_random_rigs_have_sound_motions() -> None:
     assert outcomes["done"] > 250
 
 
+def test_random_shakings_have_sound_motions() -> None:
+    outcomes, wrong = survey(150, seed=2, shakings=True)
+    assert not wrong, "\n".join(wrong)
+    assert outcomes["done"] > 120
+
+
 if __name__ == "__main__":
-    totals, bad = survey(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 1)
+    totals, bad = survey(
+        int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 1, "shakings" in sys.argv
+    )
     print(dict(totals))
     print("\n".join(bad) or "no faults")

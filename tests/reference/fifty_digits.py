@@ -14,7 +14,7 @@ closed forms from tables, this file
 The model and its signs are those of the paper (Section 2 and equation 5): displacement u of the
 mass relative to the base, deformation u_R >= 0 of the right and u_L <= 0 of the left bumper.
 
-- Flight: M u'' + C u' + K u = -M A sin(2 pi f t + phase), and C_j u_j' + K_j u_j = 0.
+- Flight: M u'' + C u' + K u = F - M A_t, and C_j u_j' + K_j u_j = 0; shaking.py says what A_t is.
 - Contact with the right bumper: u_R = u - G_R, and K_R u_R + C_R u_R' joins the left-hand side;
   the left bumper goes on relaxing. Contact with the left bumper mirrors it, u_L = u + G_L.
 - Contact begins when the clearance G_R + u_R - u, or G_L + u - u_L, falls to zero, and ends when
@@ -22,7 +22,7 @@ mass relative to the base, deformation u_R >= 0 of the right and u_L <= 0 of the
   their forces add, and each comes and goes by its own clearance and force.
 - A rigid stop turns v into -e v where the mass reaches it. Infinitely many impacts in a finite
   time (chatter.py) end with the mass at rest on the stop. It rests until what presses it there,
-  -(K u + M A_t + force of the other bumper), falls through zero, and leaves with v = v' = 0.
+  F - (K u + M A_t + force of the other bumper), falls through zero, and leaves with v = v' = 0.
 
 The cost grows with the norm of the phase's matrix times its length: twenty cycles of the paper's
 rig take about a second, contacts that last for thousands of M / C_j take minutes.
@@ -37,6 +37,7 @@ from mpmath import mp, mpf
 
 from reference.chatter import accumulation
 from reference.first_zero import first_zero, polynomial_value
+from reference.shaking import Shaking, Sines
 
 State = tuple[mpf, mpf, mpf, mpf]
 
@@ -60,13 +61,14 @@ class Wall:
 
 @dataclass(frozen=True)
 class Rig:
-    """A mass (kg) on an isolator (N/m, N s/m) between two optional stops."""
+    """A mass (kg) on an isolator (N/m, N s/m) between two optional stops; a constant force (N)."""
 
     mass: float
     stiffness: float
     damping: float
     right: Stop | Wall | None = None
     left: Stop | Wall | None = None
+    force: float = 0.0
 
 
 class Event(NamedTuple):
@@ -87,7 +89,8 @@ class Event(NamedTuple):
 
 @dataclass(frozen=True)
 class Reference:
-    """The states (u, v, u_R, u_L) at every forcing period, and the events in order of time."""
+    """The states (u, v, u_R, u_L) at the end of every span (a forcing period, or the line between
+    two samples of a record), and the events in order of time."""
 
     states: list[State]
     events: list[Event]
@@ -103,19 +106,37 @@ def integrate(
     digits: int = 50,
     order: int = 64,
 ) -> Reference:
-    """Follow the rig over whole forcing periods.
+    """Follow the rig over whole forcing periods of one sine.
+
+    `amplitude`, `frequency` and `phase` are those of the base acceleration
+    amplitude * sin(2 pi frequency t + phase); m/s^2, Hz, rad. The rest is that of `follow`.
+    """
+    with mp.workdps(_working(digits, order)):
+        shaking = Sines([amplitude], frequency, phase)
+    return follow(rig, shaking, start, cycles, digits, order)
+
+
+def follow(
+    rig: Rig,
+    shaking: Shaking,
+    start: Sequence[float],
+    spans: int,
+    digits: int = 50,
+    order: int = 64,
+) -> Reference:
+    """Follow the rig over whole spans of what shakes it.
 
     Parameters
     ----------
     rig : Rig
         The mass, its isolator and its stops. Floats are taken as the exact binary numbers.
-    amplitude, frequency, phase : float
-        Base acceleration amplitude * sin(2 pi frequency t + phase); m/s^2, Hz, rad.
+    shaking : Sines or Lines
+        What shakes it, made with as many digits as the run works with.
     start : (u, v, u_R, u_L)
         State at t = 0; m, m/s, m, m. Floats or mpf. A clearance that is zero to double rounding
         counts as touching: the bumper then presses, or lets go, as force and motion say.
-    cycles : int
-        Number of forcing periods 1 / frequency.
+    spans : int
+        Number of forcing periods, or of lines of a record.
     digits : int
         Wanted correct digits of one step; a chaotic motion loses some of them on the way.
     order : int
@@ -124,7 +145,7 @@ def integrate(
     Returns
     -------
     Reference
-        States at t = 0, T, ..., cycles * T and all events. A contact or a rest that begins at
+        States at t = 0 and behind each span, and all events. A contact or a rest that begins at
         t = 0 is part of the start and no event, unless an impact comes before it.
 
     Raises
@@ -132,14 +153,18 @@ def integrate(
     ValueError
         If the rig or the start is impossible.
     """
-    # The terms of a series grow to exp(order / 3) before they fall; the last guard digits cover it.
-    with mp.workdps(digits + 20 + order // 6):
-        run = _Run(rig, amplitude, frequency, phase, start, order, mpf(10) ** -(digits + 10))
+    with mp.workdps(_working(digits, order)):
+        run = _Run(rig, shaking, start, order, mpf(10) ** -(digits + 10))
         states = [run.state]
-        for _ in range(cycles):
-            run.cycle()
+        for _ in range(spans):
+            run.span()
             states.append(run.state)
     return Reference(states, run.events)
+
+
+def _working(digits: int, order: int) -> int:
+    """Digits to work with: the terms of a series grow to exp(order / 3) before they fall."""
+    return digits + 20 + order // 6
 
 
 class _Side:
@@ -165,24 +190,21 @@ class _Side:
 
 
 class _Run:
-    """A trajectory under way: the state, what is in contact, and the time within the cycle."""
+    """A trajectory under way: the state, what is in contact, and the time within the span."""
 
     def __init__(
         self,
         rig: Rig,
-        amplitude: float,
-        frequency: float,
-        phase: float,
+        shaking: Shaking,
         start: Sequence[float],
         order: int,
         tolerance: mpf,
     ) -> None:
-        if not (rig.mass > 0 and rig.stiffness >= 0 and rig.damping >= 0 and frequency > 0):
-            raise ValueError(f"impossible rig or frequency: {rig}, {frequency} Hz")
+        if not (rig.mass > 0 and rig.stiffness >= 0 and rig.damping >= 0):
+            raise ValueError(f"impossible rig: {rig}")
         self.mass, self.stiffness, self.damping = map(mpf, (rig.mass, rig.stiffness, rig.damping))
-        self.amplitude, self.phase = mpf(amplitude), mpf(phase)
-        self.omega = 2 * mp.pi * mpf(frequency)
-        self.period = 1 / mpf(frequency)
+        self.force = mpf(rig.force)
+        self.shaking = shaking
         self.order, self.tolerance = order, tolerance
         pairs = (("right", 1, rig.right), ("left", -1, rig.left))
         self.sides = [_Side(name, sign, stop) for name, sign, stop in pairs if stop is not None]
@@ -190,7 +212,8 @@ class _Run:
         self.u, self.v = mpf(start[0]), mpf(start[1])
         self.bumper = {"right": mpf(start[2]), "left": mpf(start[3])}
         self.factorial, self.size = mp.factorial(order), mpf(0)
-        self.elapsed, self.cycles_done = mpf(0), 0
+        self.number, self.elapsed, self.before = 0, mpf(0), mpf(0)
+        self.period = shaking.span(0)
         self.events: list[Event] = []
         self.pressed: list[_Side] = []
         self.resting: _Side | None = None
@@ -225,14 +248,16 @@ class _Run:
     def state(self) -> State:
         return self.u, self.v, self.bumper["right"], self.bumper["left"]
 
-    def cycle(self) -> None:
-        """Go on to the end of the forcing period."""
+    def span(self) -> None:
+        """Go on to the end of the span."""
+        self.period = self.shaking.span(self.number)
         while self.elapsed < self.period:
             self._step()
-        self.elapsed, self.cycles_done = mpf(0), self.cycles_done + 1
+        self.before += self.period
+        self.elapsed, self.number = mpf(0), self.number + 1
 
     def _step(self) -> None:
-        """Go on to the next event, to the end of the step or to the end of the period."""
+        """Go on to the next event, to the end of the step or to the end of the span."""
         longest = self.period - self.elapsed
         while True:
             step, u, v, push = self._series(longest)
@@ -251,8 +276,8 @@ class _Run:
             self._change_phase(side)
 
     def _coefficients(self) -> tuple[mpf, mpf, mpf]:
-        """k, c, b of u'' + c u' + k u = b - A sin(...)."""
-        stiffness, damping, load = self.stiffness, self.damping, mpf(0)
+        """k, c, b of u'' + c u' + k u = b - A_t."""
+        stiffness, damping, load = self.stiffness, self.damping, self.force
         for side in self.pressed:
             stiffness = stiffness + side.stiffness
             damping = damping + side.damping
@@ -260,21 +285,20 @@ class _Run:
         return stiffness / self.mass, damping / self.mass, load / self.mass
 
     def _series(self, longest: mpf) -> tuple[mpf, list[mpf], list[mpf], list[mpf]]:
-        """Step and Taylor coefficients of u, v and b - A sin(...) in x = time / step, 0 <= x <= 1.
+        """Step and Taylor coefficients of u, v and b - A_t in x = time / step, 0 <= x <= 1.
 
-        Let z = (s u, v, 8 A / omega sin, 8 A / omega cos) with s = max(sqrt(k), omega): z' = B z,
-        and the norm of B is at most s + c + omega / 8. Let z_n be the n-th coefficient of z. What
-        follows the last, z_N, is at most |z_N| q / (1 - q) with q = |B| step / (N + 1). So the
-        step is at most N / (3 |B|), and short enough that |z_N| is within the tolerance.
+        Let z = (s u, v, scaled pairs of the forcing) with s the largest of sqrt(k) and the rates of
+        the forcing: z' = B z, and the norm of B is at most s + c + what the pairs add. Let
+        z_n be the n-th coefficient of z. What follows the last, z_N, is at most |z_N| q / (1 - q)
+        with q = |B| step / (N + 1). So the step is at most N / (3 |B|), and short enough that
+        |z_N| is within the tolerance.
         """
         stiffness, damping, load = self._coefficients()
-        scale = max(mp.sqrt(stiffness), self.omega)
-        step = min(longest, self.order / (3 * (scale + damping + self.omega / 8)))
-        angle, turn = self.omega * self.elapsed + self.phase, self.omega * step
-        # push[n]: coefficient of b - A sin(...), the sine's from its own recurrence.
-        push = [-self.amplitude * mp.sin(angle), -self.amplitude * turn * mp.cos(angle)]
-        for n in range(self.order - 1):
-            push.append(-(turn**2) * push[n] / ((n + 1) * (n + 2)))
+        scale = max(mp.sqrt(stiffness), self.shaking.rate)
+        step = min(longest, self.order / (3 * (scale + damping + self.shaking.weight)))
+        push, forcing, forcing_last = self.shaking.push(
+            self.number, self.elapsed, step, self.order, self.factorial
+        )
         push[0] += load
         u, v = [self.u], [self.v]
         for n in range(self.order):
@@ -282,9 +306,8 @@ class _Run:
             u.append(weight * v[n])
             force = push[n] - damping * v[n] - stiffness * u[n]
             v.append(mpf(0) if self.resting else weight * force)
-        forcing = 8 * abs(self.amplitude) / self.omega
         self.size = abs(self.u) + (abs(self.v) + forcing) / scale
-        last = scale * abs(u[-1]) + abs(v[-1]) + forcing * turn**self.order / self.factorial
+        last = scale * abs(u[-1]) + abs(v[-1]) + forcing_last
         excess = last / (self.tolerance * scale * self.size) if last else mpf(0)
         if excess > 1:
             shrink = excess ** (mpf(-1) / self.order)
@@ -351,7 +374,7 @@ class _Run:
 
     def _pass(self, time: mpf) -> None:
         """Let a time pass, in which the mass has moved to where it is now."""
-        # The end of the period is a fixed number: the sum of its steps may miss it by a rounding.
+        # The end of the span is a fixed number: the sum of its steps may miss it by a rounding.
         left = self.period - self.elapsed - self.tolerance * self.period
         self.elapsed = self.period if time >= left else self.elapsed + time
         for side in self.sides:
@@ -377,7 +400,7 @@ class _Run:
 
     @property
     def time(self) -> mpf:
-        return self.cycles_done * self.period + self.elapsed
+        return self.before + self.elapsed
 
     def _note(self, what: str, side: _Side) -> None:
         if self.time > 0 or what != "contact" or self.events:
@@ -426,11 +449,11 @@ class _Run:
     def _pressing(self, side: _Side) -> mpf:
         """Acceleration towards a stop that the mass would have there without velocity."""
         stiffness, _, load = self._coefficients()
-        base = self.amplitude * mp.sin(self.omega * self.elapsed + self.phase)
+        base = self.shaking.value(self.number, self.elapsed)
         return side.sign * (load - base - stiffness * side.wall)
 
     def _chatters(self, side: _Side) -> bool:
-        """Whether impacts on a stop certainly go on until they accumulate, within this period.
+        """Whether impacts on a stop certainly go on until they accumulate, within this span.
 
         While the acceleration towards the stop stays within a (1 ± d), d = (1 - e)/8, an impact is
         at most e ((1 + d)/(1 - d))^(1/2) times as fast as the last, which is less than (1 + 7 e)/8
@@ -443,7 +466,7 @@ class _Run:
             return False
         longest, farthest = 3 * w / (a * (1 - e)), 2 * w**2 / a
         stiffness, damping, _ = self._coefficients()
-        drift = abs(self.amplitude) * self.omega * longest
+        drift = self.shaking.steepest * longest
         if drift + 2 * damping * w + stiffness * farthest > (1 - e) / 8 * a:
             return False
         for other in self.sides:

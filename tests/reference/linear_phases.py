@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -45,7 +46,7 @@ class Phase(NamedTuple):
     weights: Array
     """s; their sum is the length."""
     base: Array
-    """Base acceleration at the nodes."""
+    """Base acceleration at the nodes, or what does the same as a force on the mass."""
     motion: Mechanics
     """At the nodes."""
     begin: Mechanics
@@ -68,7 +69,100 @@ EVENTS = {0: "detach", 1: "contact", 2: "impact"}
 """By `event_contact`."""
 
 
-def phases(rig: vi.Oscillator, shaken: vi.Harmonic, data: xr.Dataset) -> Iterator[Phase]:
+class Shaking(NamedTuple):
+    """w' = S w, of which A_t is a linear function."""
+
+    generator: Array
+    """S, 1/s."""
+    now: Array
+    """w at the beginning."""
+    weights: Array
+    """A_t = weights · w."""
+    rate: float
+    """Norm of S."""
+
+
+def _sines(rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic, time: float) -> Shaking:
+    """Harmonics at a time in the first cycle: (sin, cos) of each."""
+    several = isinstance(shaken, vi.Periodic)
+    sizes = np.array(shaken.amplitudes if several else [shaken.amplitude])
+    angles = np.array(shaken.phases if several else [0.0])
+    n = np.arange(1, len(sizes) + 1)
+    rates = n * shaken.angular_frequency
+    if shaken.of == "displacement":
+        sizes = -sizes * rates**2
+    if shaken.of == "force":
+        sizes = -sizes / rig.mass
+    angle = n * (shaken.phase + shaken.angular_frequency * time) + angles
+    none = np.zeros((len(n), len(n)))
+    generator = np.block([[none, np.diag(rates)], [-np.diag(rates), none]])
+    return Shaking(
+        generator,
+        np.concatenate([np.sin(angle), np.cos(angle)]),
+        np.concatenate([sizes, np.zeros(len(n))]),
+        float(rates[-1]),
+    )
+
+
+def _line(record: vi.Record, time: float, interval: float) -> Shaking:
+    """A line between two samples: A_t and what it gains in a step."""
+    values = np.append(record.acceleration, 0.0)
+    number = min(int((time + 0.5 * interval) / record.step), len(values) - 1)
+    gain = values[number + 1] - values[number] if number + 2 < len(values) else 0.0
+    here = values[number] + gain * (time / record.step - number) if number + 2 < len(values) else 0
+    return Shaking(
+        np.array([[0.0, 1.0 / record.step], [0.0, 0.0]]),
+        np.array([here, gain]),
+        np.array([1.0, 0.0]),
+        1.0 / record.step,
+    )
+
+
+def lines(rig: vi.Oscillator, record: vi.Record, data: xr.Dataset) -> Iterator[Phase]:
+    """The phases of a motion through a record, one sample a step, each cut where lines meet."""
+    names = ("displacement", "velocity", "right_bumper", "left_bumper")
+    at = [
+        (float(t), Mechanics(*(float(data[name][i]) for name in names)), None)
+        for i, t in enumerate(data["time"].values)
+    ]
+    at += [
+        (
+            float(data["event_time"][i]),
+            Mechanics(*(float(data[f"event_{name}"][i]) for name in names)),
+            (EVENTS[int(data["event_contact"][i])], int(data["event_side"][i])),
+        )
+        for i in range(data.sizes["event"])
+    ]
+    at.sort(key=lambda one: one[0])
+    happened = [then for _, _, then in at if then]
+    begin = at[0][1]
+    touched = frozenset(
+        side for side in (1, -1) if _touched_first(rig, side, happened, begin, at[-1][1])
+    )
+    for (start, _, _), (end, state, then) in pairwise(at):
+        shaking = _line(record, start, end - start)
+        yield _phase(rig, shaking, touched, end - start, begin, state, then)
+        begin, touched = _behind(rig, state, touched, then)
+
+
+def _behind(
+    rig: vi.Oscillator, state: Mechanics, touched: frozenset[int], then: tuple[str, int] | None
+) -> tuple[Mechanics, frozenset[int]]:
+    """State and contacts behind an event."""
+    if then is None:
+        return state, touched
+    what, side = then
+    wall = rig.right if side == 1 else rig.left
+    if what == "impact":
+        assert isinstance(wall, vi.RigidStop)
+        return state._replace(v=-wall.restitution * state.v), touched
+    assert (side in touched) == (what == "detach")
+    return state, touched ^ {side}
+
+
+def phases(
+    rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic, data: xr.Dataset
+) -> Iterator[Phase]:
     """The phases of a simulation with samples, in order."""
     names = ("displacement", "velocity", "right_bumper", "left_bumper")
     first, last = ([float(data[name][i]) for name in names] for i in (0, -1))
@@ -91,19 +185,9 @@ def phases(rig: vi.Oscillator, shaken: vi.Harmonic, data: xr.Dataset) -> Iterato
     begin = states[0]
     for i, then in enumerate([*happened, None]):
         length = (cycles[i + 1] - cycles[i]) * shaken.period + (within[i + 1] - within[i])
-        angle = shaken.phase + shaken.angular_frequency * within[i]
-        yield _phase(rig, shaken, touched, length, angle, begin, states[i + 1], then)
-        begin = states[i + 1]
-        if then is None:
-            return
-        what, side = then
-        if what == "impact":
-            wall = rig.right if side == 1 else rig.left
-            assert isinstance(wall, vi.RigidStop)
-            begin = begin._replace(v=-wall.restitution * begin.v)
-        else:
-            assert (side in touched) == (what == "detach")
-            touched ^= {side}
+        shaking = _sines(rig, shaken, within[i])
+        yield _phase(rig, shaking, touched, length, begin, states[i + 1], then)
+        begin, touched = _behind(rig, states[i + 1], touched, then)
 
 
 def chatters(rig: vi.Oscillator, phase: Phase) -> bool:
@@ -138,10 +222,9 @@ def _touched_first(
 
 def _phase(
     rig: vi.Oscillator,
-    shaken: vi.Harmonic,
+    shaking: Shaking,
     touched: frozenset[int],
     length: float,
-    angle: float,
     begin: Mechanics,
     end: Mechanics,
     then: tuple[str, int] | None,
@@ -150,39 +233,39 @@ def _phase(
     pressed = [side for side in sorted(touched) if isinstance(stops[side], vi.Bumper)]
     resting = len(pressed) < len(touched)
     # x = u less the face of a pressed bumper at rest, so that it keeps its digits.
-    k, c, face, load = rig.isolator.stiffness, rig.isolator.damping, 0.0, 0.0
+    k, c, face, load = rig.isolator.stiffness, rig.isolator.damping, 0.0, rig.force
     x = begin.u
     if pressed:
         face = pressed[0] * stops[pressed[0]].gap
         x = begin.right if pressed[0] == 1 else begin.left
-        load = -k * face
+        load -= k * face
     for side in pressed:
         load += stops[side].stiffness * (side * stops[side].gap - face)
         k, c = k + stops[side].stiffness, c + stops[side].damping
     k, c, load = (value / rig.mass for value in (k, c, load))
-    omega = shaken.angular_frequency
 
-    # z = (x, v / rate, sin θ, cos θ, 1)
-    rate = max(math.sqrt(k), c, omega)
+    # z = (x, v / rate, w, 1)
+    rate = max(math.sqrt(k), c, shaking.rate)
     pieces = max(1, math.ceil(length * rate))
     h = length / pieces
-    flow = np.zeros((5, 5))
+    size = 3 + len(shaking.now)
+    flow = np.zeros((size, size))
     if not resting:
         flow[0, 1] = rate
-        flow[1] = -k / rate, -c, -shaken.amplitude / rate, 0.0, load / rate
-    flow[2, 3], flow[3, 2] = omega, -omega
-    terms = [np.eye(5)]
+        flow[1] = np.array([-k, -c * rate, *-shaking.weights, load]) / rate
+    flow[2:-1, 2:-1] = shaking.generator
+    terms = [np.eye(size)]
     for n in range(1, _TERMS):
         terms.append(terms[-1] @ flow * (h / n))
     series = np.array(terms)
     to_nodes = np.einsum("qn,nij->qij", _POWERS, series)
     step = series.sum(axis=0)
-    z = np.array([x, begin.v / rate, math.sin(angle), math.cos(angle), 1.0])
+    z = np.array([x, begin.v / rate, *shaking.now, 1.0])
     starts = []
     for _ in range(pieces):
         starts.append(z)
         z = step @ z
-    at = np.einsum("qij,pj->ipq", to_nodes, np.array(starts)).reshape(5, -1)
+    at = np.einsum("qij,pj->ipq", to_nodes, np.array(starts)).reshape(size, -1)
     time = (h * (np.arange(pieces)[:, None] + _NODES)).ravel()
 
     def mechanics(z: Array, t: Array | float) -> Mechanics:
@@ -201,7 +284,7 @@ def _phase(
         touched,
         length,
         np.tile(_WEIGHTS * h, pieces),
-        shaken.amplitude * at[2],
+        shaking.weights @ at[2:-1],
         mechanics(at, time),
         begin,
         end,

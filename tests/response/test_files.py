@@ -215,3 +215,39 @@ def test_several_replace_one_and_one_several(tmp_path: Path) -> None:
     with pytest.raises(vi.InputError, match=r"^output: .* cannot be written"):
         vi.save(several(), tmp_path / "missing" / "data.nc")
     assert [p.name for p in tmp_path.iterdir()] == ["data.nc"]
+
+
+SHAKEN = {
+    "harmonics": vi.Periodic(1.1, (0.4, 0.2), (0.3, 1.0), 0.2),
+    "displacement": vi.Harmonic("8 mm", 1.1),
+    "force": vi.Harmonic("250 N", 1.1, 0.4),
+    "harmonics of displacement": vi.Periodic(1.1, ("8 mm", "1 mm")),
+}
+
+
+@pytest.mark.parametrize("kind", SHAKEN)
+def test_any_shaking_comes_back(kind: str, tmp_path: Path) -> None:
+    """What is worked out of a loaded motion is what it is of the motion itself."""
+    rig = CASE.oscillator.replace(force=100.0)
+    for data in (vi.simulate(rig, SHAKEN[kind], 6), vi.orbit(rig, SHAKEN[kind])):
+        back = vi.load(vi.save(data, tmp_path / "data.nc"))
+        xr.testing.assert_equal(back, data)
+        assert int(back.sizes["event"]) > 0
+        for worked_out in (vi.contacts, vi.spectrum, vi.stroboscopic_section):
+            xr.testing.assert_equal(worked_out(back), worked_out(data))
+        ends = [vi.simulate(rig, SHAKEN[kind], 2, one, 0)["final_state"] for one in (data, back)]
+        np.testing.assert_array_equal(*ends)
+
+
+def test_a_motion_through_a_record_comes_back(tmp_path: Path) -> None:
+    record = vi.Record(2.0 * np.sin(0.1 * np.arange(400)), 0.02)
+    data = vi.simulate(CASE.oscillator, record, tail=1.0)
+    back = vi.load(vi.save(data, tmp_path / "data.nc"))
+    xr.testing.assert_equal(back, data)
+    assert back.attrs == data.attrs
+    assert int(back.sizes["event"]) > 2
+    ends = [
+        vi.simulate(CASE.oscillator, record, start=one, samples=0)["final_state"]
+        for one in (data, back)
+    ]
+    np.testing.assert_array_equal(*ends)

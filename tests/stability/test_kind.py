@@ -205,3 +205,34 @@ def test_exponents_of_tori():
     largest, second = settled("remembering")["exponents"].values
     assert abs(largest) < 1e-4
     assert second < -0.01
+
+
+@pytest.mark.parametrize(
+    ("omega", "which"), [(0.905, "chaos"), (0.92, "period 1"), (0.81, "period 5")]
+)
+def test_a_given_displacement_of_the_base_is_the_same_at_each_frequency(omega, which):
+    """The published rig is shaken by a ω² sin ωτ: a base displacement of one size."""
+    rig, plain = soft_impact(omega)
+    moved = vi.Harmonic(0.7, omega / (2 * math.pi), of="displacement")
+    one, other = (vi.simulate(rig, shaken, 20, samples=8) for shaken in (plain, moved))
+    np.testing.assert_allclose(one["displacement"], other["displacement"], atol=1e-10)
+    known = settled(which)
+    found = vi.steady(rig, moved, None, 4, window=4000, max_cycles=5000)
+    assert found["motion"].item() == known["motion"].item()
+    assert int(found["period"]) == int(known["period"])
+
+
+def test_it_grazes_where_the_free_flight_reaches_the_stop():
+    """a ω²/√((1 − ω²)² + (2ξω)²) = e along ω, at the displacement a of the base."""
+    rig, _ = soft_impact(0.8)
+    xi, a, e = 0.01, 0.7, 1.26
+    # (e² − a²) ω⁴ + e² (4ξ² − 2) ω² + e² = 0
+    squares = np.roots([e**2 - a**2, e**2 * (4 * xi**2 - 2), e**2])
+    exact = float(np.sqrt(squares.min()))
+    shaken = vi.Harmonic(a, 0.7 / (2 * math.pi), of="displacement")
+    start = vi.simulate(rig.without_bumpers(), shaken, 300, samples=0)["final_state"].values
+    begin = vi.State(start[0], start[1], phase=start[4])
+    data = vi.branch(rig, shaken, begin, low=0.6 / (2 * math.pi), high=0.85 / (2 * math.pi))
+    at = 2 * math.pi * data["bifurcation_value"].values
+    grazing = at[data["bifurcation_kind"].values == "grazing"]
+    assert np.abs(grazing - exact).min() < 1e-11

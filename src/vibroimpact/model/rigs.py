@@ -93,6 +93,8 @@ def as_shaking(value: Any, where: str) -> tuple[Repeated, tuple[float, ...] | No
     InputError
         If it cannot be used, or is 0.
     """
+    if isinstance(value, Record):
+        raise _without_period(where)
     if isinstance(value, Harmonic | Periodic):
         if value.amplitude == 0.0:
             raise InputError(f"{where}: 0; an amplitude greater than 0 is accepted")
@@ -196,10 +198,7 @@ def _second(name: str, value: Any, amplitude: AnyShaking | None, records: bool) 
     if isinstance(value, Record):
         if records:
             return value
-        raise InputError(
-            f"{name}: a Record has no period, and what is asked for is a motion that repeats "
-            "itself; a Harmonic or a Periodic is accepted, and simulate takes records"
-        )
+        raise _without_period(name)
     if name == "amplitude" or isinstance(value, Harmonic | Periodic):
         return value
     if amplitude is not None and _is_number(value):
@@ -208,6 +207,13 @@ def _second(name: str, value: Any, amplitude: AnyShaking | None, records: bool) 
     raise InputError(
         f"{name}: {shown(value)} is no excitation; Harmonic(amplitude, frequency) is accepted, "
         f'such as Harmonic("0.05 g", "2 Hz"){alone}'
+    )
+
+
+def _without_period(where: str) -> InputError:
+    return InputError(
+        f"{where}: a Record has no period, and what is asked for is a motion that repeats "
+        "itself; a Harmonic or a Periodic is accepted, and simulate takes records"
     )
 
 

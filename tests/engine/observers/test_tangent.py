@@ -134,6 +134,14 @@ def test_section_in_a_contact():
     np.testing.assert_allclose(rows[0], expected, rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.parametrize(("c", "row"), [(0.0, (1.0, 3.0, 0.0, 1.0)), (0.5, None)])
+def test_transition_without_a_spring(c, row):
+    """x = x₀ + v₀ t, or x₀ + v₀ (1 - exp(-c t))/c."""
+    fading = math.exp(-c * 3.0)
+    expected = row or (1.0, (1.0 - fading) / c, 0.0, fading)
+    np.testing.assert_allclose(transition(c, 0.0, 3.0), expected, rtol=1e-15, atol=0.0)
+
+
 def test_multipliers_of_free_flight():
     """exp((−ξ ± i√(1 − ξ²)) ω₀ T), the closed form, and each bumper's own exp(−T/τ_j)."""
     case = vi.laboratory.case("B2-G1-A3")

@@ -42,7 +42,9 @@ def transition(c: float, k: float, t: float) -> tuple[float, float, float, float
         cosine = decay * math.cos(w * t)
         sine = decay * math.sin(w * t)
     else:
-        slow, fast = math.exp(-k / (beta + w) * t), math.exp(-(beta + w) * t)
+        # Without a spring one of the two stays, also where no dashpot makes the other one fade.
+        slow = math.exp(-k / (beta + w) * t) if k > 0.0 else 1.0
+        fast = math.exp(-(beta + w) * t)
         cosine = 0.5 * (slow + fast)
         sine = 0.5 * (slow - fast)
     ratio = sine / w if w * t > 1e-8 else math.exp(-beta * t) * t

@@ -1,0 +1,125 @@
+"""Moved bases, forces, several harmonics, records, a constant force and no spring among the rigs.
+
+What holds for one sine of acceleration holds for all.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import vibroimpact as vi
+from properties.strategies import (
+    SAMPLES,
+    Motion,
+    distance,
+    examples,
+    motions,
+    recorded,
+    simulated,
+    states,
+    tame,
+)
+from properties.test_energy import imbalance, unbalanced
+from properties.test_restart import CYCLES, end_of_cut_run
+from reference.linear_phases import lines
+
+ROUNDING = 1e-11
+ANY = motions(any_shaking=True)
+
+
+@examples(60)
+@given(ANY)
+def test_work_is_dissipated_or_stored(motion: Motion) -> None:
+    assert imbalance(motion) < 1e-11
+
+
+@examples(40)
+@given(ANY, st.floats(1e-6, CYCLES * (1 - 1e-6)))
+def test_a_run_may_be_cut_anywhere(motion: Motion, cut: float) -> None:
+    assert distance(tame(motion, CYCLES), end_of_cut_run(motion, cut)) < ROUNDING
+
+
+@examples(40)
+@given(ANY)
+def test_the_mirrored_rig_moves_mirrored(motion: Motion) -> None:
+    data = tame(motion, CYCLES)
+    shaken, start = motion.excitation, motion.start
+    if isinstance(shaken, vi.Periodic):
+        turned = shaken.replace(phases=[angle + math.pi for angle in shaken.phases])
+    else:
+        turned = shaken.replace(phase=shaken.phase + math.pi)
+    mirror = Motion(
+        motion.oscillator.mirrored(), turned, vi.State(-start.displacement, -start.velocity)
+    )
+    image = states(simulated(mirror, CYCLES, SAMPLES))
+    assert distance(data, -image[[0, 1, 3, 2]]) < ROUNDING
+
+
+def through(rig: vi.Oscillator, record: vi.Record, start, samples: int = 1):
+    """The motion through a record, of those only that are not given up for chattering."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        data = vi.simulate(
+            rig, record, start=start, samples=samples, tail=2.5 * record.step, max_events=1000
+        )
+    assume(data.attrs["status"] == "done")
+    return data
+
+
+def tame_record(rig: vi.Oscillator, record: vi.Record, start: vi.State):
+    data = through(rig, record, start)
+    speed = float(np.abs(data["velocity"]).max())
+    for sign in (1e-9, -1e-9):
+        other = vi.Record(record.acceleration * (1 + sign), record.step)
+        beside = start.replace(velocity=start.velocity - sign * speed)
+        assume(distance(data, states(through(rig, other, beside))) < 1e-6)
+    return data
+
+
+@examples(60)
+@given(recorded())
+def test_the_work_of_a_record_is_dissipated_or_stored(
+    given: tuple[vi.Oscillator, vi.Record, vi.State],
+) -> None:
+    rig, record, start = given
+    data = through(rig, record, start)
+    walk = list(lines(rig, record, data))
+    assert unbalanced(rig, walk) < 1e-11
+
+
+@examples(40)
+@given(recorded(), st.integers(0), st.integers(1, 5))
+def test_a_record_may_be_cut_anywhere(
+    given: tuple[vi.Oscillator, vi.Record, vi.State], where: int, parts: int
+) -> None:
+    """At a sample, or within a line: there the record has samples once it is made finer."""
+    rig, record, start = given
+    whole = tame_record(rig, record, start)
+    count = (len(record.acceleration) - 1) * parts
+    assume(count > 1)
+    step = record.step / parts
+    fine = np.interp(
+        np.arange(count + 1) / parts, np.arange(count // parts + 1), record.acceleration
+    )
+    at = 1 + where % (count - 1)
+    first = vi.simulate(rig, vi.Record(fine[: at + 1], step), start=start, samples=0)
+    rest = vi.simulate(
+        rig, vi.Record(fine[at:], step), start=first, samples=0, tail=2.5 * record.step
+    )
+    assert distance(whole, rest["final_state"].values[:4]) < ROUNDING
+
+
+@examples(40)
+@given(recorded())
+def test_the_mirrored_record(given: tuple[vi.Oscillator, vi.Record, vi.State]) -> None:
+    rig, record, start = given
+    data = tame_record(rig, record, start)
+    turned = vi.Record(-record.acceleration, record.step)
+    back = vi.State(-start.displacement, -start.velocity)
+    image = states(through(rig.mirrored(), turned, back))
+    assert distance(data, -image[[0, 1, 3, 2]]) < ROUNDING
