@@ -26,7 +26,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 help:
 	@echo 'make demo     sweep the rig B2-G1-A3; figure, data and summary in out/'
 	@echo 'make test     run the tests; ARGS="tests/cli -x" passes words on to pytest'
-	@echo 'make test-full   the same on full samples, which a change must pass'
+	@echo 'make test-full   the same on full samples, before what the engine does is changed'
 	@echo 'make lint     check style, types and layers'
 	@echo 'make format   put the code into the style that make lint checks'
 	@echo 'make bench    compare speed and accuracy with other solvers (benchmarks/README.md)'
