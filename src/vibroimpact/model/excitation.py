@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,6 +36,8 @@ MOST = 32
 class _Repeated(Model):
     """What both have in common; `of` follows from the amplitude's unit, if it has one."""
 
+    _quiet: ClassVar[Mapping[str, Any]] = {"of": "acceleration"}
+
     if TYPE_CHECKING:
         frequency: float
         phase: float
@@ -61,11 +63,6 @@ class _Repeated(Model):
         """Forcing period, 1/f, in s."""
         return 1.0 / self.frequency
 
-    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
-        for name, value in super().__repr_args__():
-            if (name, value) != ("of", "acceleration"):
-                yield name, value
-
     def _read(self) -> Iterator[tuple[str, Any, str]]:
         for name, value, text in super()._read():
             if name == "amplitude":
@@ -73,7 +70,7 @@ class _Repeated(Model):
             elif name == "amplitudes":
                 parts = ", ".join(pretty(part, self.quantity) for part in value)
                 yield name, value, f"({parts})"
-            elif (name, value) != ("of", "acceleration"):
+            else:
                 yield name, value, text
 
 

@@ -7,8 +7,8 @@ the base. A stop pushes and never pulls.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import model_validator
 
@@ -45,6 +45,8 @@ class Oscillator(Model):
         If a value cannot be used; the message has its path, such as ``right.gap``. If two
         rigid stops leave the mass no room.
     """
+
+    _quiet: ClassVar[Mapping[str, Any]] = {"force": 0.0}
 
     mass: Annotated[float, Accepts(MASS, above=0.0)]
     isolator: Annotated[Isolator, Kinds(Isolator)]
@@ -100,12 +102,6 @@ class Oscillator(Model):
                     "leave no room between two rigid stops; a sum greater than 0 is accepted"
                 )
         return self
-
-    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
-        return ((name, v) for name, v in super().__repr_args__() if (name, v) != ("force", 0.0))
-
-    def _read(self) -> Iterator[tuple[str, Any, str]]:
-        return (one for one in super()._read() if one[:2] != ("force", 0.0))
 
     @property
     def stops(self) -> tuple[Stop, ...]:

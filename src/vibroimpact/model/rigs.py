@@ -106,11 +106,9 @@ def as_shaking(value: Any, where: str) -> tuple[Repeated, tuple[float, ...] | No
             sizes.append(size)
         if not sizes:
             raise InputError(f"{where}: the list is empty; an amplitude for each is accepted")
-        return Harmonic.model_validate(
-            {"amplitude": max(sizes), "frequency": 1.0, "of": of}
-        ), tuple(sizes)
+        return Harmonic(max(sizes), 1.0, of=of), tuple(sizes)
     size, of = sized(value, None, where, positive=True)
-    return Harmonic.model_validate({"amplitude": size, "frequency": 1.0, "of": of}), None
+    return Harmonic(size, 1.0, of=of), None
 
 
 def takes_rig(function: _Function, *, records: bool = False) -> _Function:

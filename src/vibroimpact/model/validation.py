@@ -10,7 +10,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Self, TypeVar, cast, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
 
 from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
@@ -127,6 +127,9 @@ class Model(BaseModel, metaclass=_Listed):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
+    _quiet: ClassVar[Mapping[str, Any]] = {}
+    """Fields that are not shown while they have this value."""
+
     @constructor
     def __init__(self, /, **values: Any) -> None:
         try:
@@ -192,6 +195,13 @@ class Model(BaseModel, metaclass=_Listed):
         """Return a copy as `replace` does; pydantic's own would not validate the changes."""
         return self.replace(**(update or {}))
 
+    def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
+        said = super().__repr_args__()
+        return ((name, value) for name, value in said if not self._unsaid(name, value))
+
+    def _unsaid(self, name: str | None, value: Any) -> bool:
+        return name is not None and name in self._quiet and bool(self._quiet[name] == value)
+
     def __str__(self) -> str:
         parts = [f"{name}={text}" for name, _, text in self._read()]
         return f"{type(self).__name__}({', '.join(parts)})"
@@ -213,6 +223,8 @@ class Model(BaseModel, metaclass=_Listed):
         """Each field's name, value, and text for reading."""
         for name, field in type(self).model_fields.items():
             value = getattr(self, name)
+            if self._unsaid(name, value):
+                continue
             accepts = next((m for m in field.metadata if isinstance(m, Accepts)), None)
             text = (
                 str(value) if value is None or accepts is None else pretty(value, accepts.quantity)

@@ -123,9 +123,7 @@ def harmonics(
     omega = 2.0 * np.pi * frequencies
     sizes = shaken.acceleration(mass, omega).reshape(len(omega), -1)
     order = np.arange(1, sizes.shape[1] + 1)
-    base: _Complex = sizes.astype(np.complex128)
-    if isinstance(shaken, Periodic):
-        base *= np.exp(1j * np.array(shaken.phases))
+    base = _turned(shaken, sizes)
     base *= 1.0 if shaken.of == "acceleration" else -1.0
     omega = np.outer(omega, order)
     natural = math.sqrt(k / mass)
@@ -133,6 +131,14 @@ def harmonics(
     swing: _Complex = -base / (stiff + 1j * omega * c / mass)
     moved = base if shaken.moves_base else np.zeros_like(base)
     return swing, np.asarray(moved - omega**2 * swing, dtype=np.complex128)
+
+
+def _turned(shaken: Repeated, sizes: _Array) -> _Complex:
+    """Sizes of harmonics (last axis) as phasors, each at its phase."""
+    phasors: _Complex = sizes.astype(np.complex128)
+    if isinstance(shaken, Periodic):
+        phasors *= np.exp(1j * np.array(shaken.phases))
+    return phasors
 
 
 def extremes(phasors: _Complex) -> _Array:
@@ -188,9 +194,7 @@ def _slow(oscillator: Oscillator, shaken: Periodic) -> tuple[float, float]:
     """What an excitation that changes slowly does to displacement and acceleration."""
     here = shaken.replace(frequency=oscillator.natural_frequency)
     sizes = here.acceleration(oscillator.mass, here.angular_frequency)
-    turned: _Complex = sizes[np.newaxis].astype(np.complex128)
-    turned *= np.exp(1j * np.array(shaken.phases))
-    low, high = extremes(turned)
+    low, high = extremes(_turned(shaken, sizes[np.newaxis]))
     wave = float(high[0] - low[0])
     return wave / oscillator.angular_frequency**2, wave
 

@@ -26,6 +26,7 @@ product = harmonic.product
 expand = harmonic.expand
 count = harmonic.count
 plane = harmonic.plane
+pull = harmonic.pull
 
 
 @kernel
@@ -104,13 +105,6 @@ def turn(plan: Vector, s: float, c: float, angle: float) -> tuple[float, float]:
 
 
 nudged = turn
-
-
-@kernel
-def pull(plan: Vector, table: int, s: float, c: float) -> float:
-    """A_t h²."""
-    scaled: float = plan[table + SCALED_A] * s
-    return scaled
 
 
 @kernel

@@ -5,11 +5,9 @@ from __future__ import annotations
 from vibroimpact.engine.forcing.dispatch import nudged, short_series, turn
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import moved
-from vibroimpact.engine.linear.layout import FINE, FINE_NODE, RATE, SCALED_W, WIDTH
+from vibroimpact.engine.linear.layout import FINE, FINE_NODE, RADIUS, RATE, SCALED_W, WIDTH
 from vibroimpact.engine.linear.roots import NONE
 from vibroimpact.engine.motion import Row
-
-_RADIUS = 1.0 / 40.0  # steps; how far a short series reaches
 
 
 @kernel
@@ -67,7 +65,7 @@ def quick_root(
         e = (level - f0) * inverse
         b = f2 * inverse
         d = e * (1.0 - e * (b - e * (2.0 * b * b - f3 * inverse)))
-        if not (f1 > 0.0 and abs(d) <= _RADIUS):
+        if not (f1 > 0.0 and abs(d) <= RADIUS):
             # The guess was too far: go to the fine point nearest to the better one.
             new = min(max(k / FINE + d, 0.0), 1.0)
             if not (f1 > 0.0 and abs(d) < 1.0) or new == y:

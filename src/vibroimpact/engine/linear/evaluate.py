@@ -16,6 +16,7 @@ from vibroimpact.engine.linear.layout import (
     MIDDLE,
     NODE,
     ORDER,
+    RADIUS,
     RATE,
     RESTING,
     ROW_V,
@@ -31,8 +32,6 @@ from vibroimpact.engine.linear.layout import (
 )
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
-
-_RADIUS = 1.0 / 40.0  # steps; how far a short series reaches
 
 
 @kernel
@@ -101,7 +100,7 @@ def travel(plan: Vector, table: int, y: float, row: Row) -> Row:
         row = moved(plan, table + FINE_NODE + k * WIDTH, row)
         d = y - k * (1.0 / FINE)
         # The last fine point serves up to the end of the interval: d is 1/FINE at most.
-        if d > _RADIUS:
+        if d > RADIUS:
             row = moved(plan, table + FINE_NODE + WIDTH, row)
             d -= 1.0 / FINE
         a0, a1, a2, a3, a4, a5, a6 = short_series(plan, table, row)

@@ -19,6 +19,9 @@ FINE = 32
 """Points in an interval from which a short Taylor series reaches the next one to rounding:
 with a radius of 1/40 step, (0.25/40)^6 / 6! = 8e-17."""
 
+RADIUS = 1.0 / 40.0
+"""How far a short series reaches, in steps."""
+
 ORDER = TERMS
 """Coefficients of the long series about the middle of an interval, in y = (t − t_middle) / step.
 It covers the interval to rounding: 0.125^12 / 12! = 2e-20."""
