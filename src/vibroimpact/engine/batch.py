@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import (
@@ -23,8 +24,6 @@ from vibroimpact.engine.hold import (
     hold,
 )
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import STATE, finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED

@@ -20,12 +20,19 @@ from numba.core.datamodel import models
 from numba.extending import intrinsic, overload, register_model
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import answer
 from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import OPTIONS, Vector
+from vibroimpact.engine.linear import advance as linear_advance
+from vibroimpact.engine.linear import forces, pieces, tables
 from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
 from vibroimpact.engine.motion import Motion
+from vibroimpact.engine.taylor import frame
+from vibroimpact.engine.taylor import pieces as taylor_pieces
+from vibroimpact.engine.taylor import plan as taylor_plan
+from vibroimpact.engine.taylor.advance import advance_taylor
 
 
 class Apart(NamedTuple):
@@ -52,19 +59,56 @@ class Recorded(NamedTuple):
     memory: Vector
 
 
+class Curved(NamedTuple):
+    """Any laws, shaken by one sine."""
+
+    memory: Vector
+
+
+class CurvedSeveral(NamedTuple):
+    """Any laws, shaken by several harmonics."""
+
+    memory: Vector
+
+
+class CurvedRecorded(NamedTuple):
+    """Any laws, shaken by a record."""
+
+    memory: Vector
+
+
 _ADVANCE: dict[type, Callable[..., Any]] = {
     Apart: advance_apart,
     AnyStops: advance_any,
     Several: advance_any,
     Recorded: advance_any,
+    Curved: advance_taylor,
+    CurvedSeveral: advance_taylor,
+    CurvedRecorded: advance_taylor,
 }
-_FORCING: dict[type, float] = {Several: par.SEVERAL, Recorded: par.RAMP}
+_FORCING: dict[type, float] = {
+    Several: par.SEVERAL,
+    Recorded: par.RAMP,
+    CurvedSeveral: par.SEVERAL,
+    CurvedRecorded: par.RAMP,
+}
+_CURVED: dict[float, type] = {
+    par.HARMONIC: Curved,
+    par.SEVERAL: CurvedSeveral,
+    par.RAMP: CurvedRecorded,
+}
+
+answer(False, tables, linear_advance, forces, pieces)
+answer(True, taylor_plan, frame, taylor_pieces)
 
 
 def _flow(rig: Vector) -> type:
-    for flow, forcing in _FORCING.items():
-        if rig[par.FORCING] == forcing:
-            return flow
+    if rig[par.CURVED]:
+        return _CURVED[rig[par.FORCING]]
+    if rig[par.FORCING] == par.SEVERAL:
+        return Several
+    if rig[par.FORCING] == par.RAMP:
+        return Recorded
     right, left = par.BUMPER, par.BUMPER + par.WIDTH
     rigid = par.RIGID in (rig[right + par.KIND], rig[left + par.KIND])
     overlapping = rig[right + par.GAP] + rig[left + par.GAP] < 0.0
@@ -74,7 +118,7 @@ def _flow(rig: Vector) -> type:
 def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
     flow = _flow(rig)
-    if flow is not Several:
+    if rig[par.FORCING] != par.SEVERAL:
         return flow(np.empty(PLAN))
     weights = rig[par.WEIGHTS :]
     memory = np.empty(several.room(len(weights) // 2))
@@ -84,8 +128,8 @@ def flow_of(rig: Vector) -> Any:
 
 def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
-    same = rig[par.FORCING] == other[par.FORCING]
-    return same and _flow(rig) in (AnyStops, _flow(other))
+    same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
+    return bool(same and _flow(rig) in (AnyStops, _flow(other)))
 
 
 class PlanType(types.CPointer):
@@ -94,6 +138,7 @@ class PlanType(types.CPointer):
     def __init__(self, flow: type) -> None:
         self.flow = flow
         self.forcing = _FORCING.get(flow, par.HARMONIC)
+        self.curved = flow in _CURVED.values()
         super().__init__(types.float64)  # type: ignore[no-untyped-call]
         self.name = f"Plan({flow.__name__})"
 
@@ -145,7 +190,8 @@ def advance(plan: Vector, motion: Motion, limit: float) -> Ended:
         What ended the stretch (see `motion`), its length (s), the velocity just before the event,
         and the motion just behind it.
     """
-    return advance_any(plan, motion, limit)
+    chosen: Any = advance_taylor if plan[par.CURVED] else advance_any
+    return chosen(plan, motion, limit)  # type: ignore[no-any-return]
 
 
 @overload(advance, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]

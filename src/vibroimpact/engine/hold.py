@@ -10,9 +10,8 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine.dispatch import build, stiff_rate, too_much_work
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.tables import build, stiff_rate
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, aged, finite

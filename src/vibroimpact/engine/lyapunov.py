@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from vibroimpact.engine.dispatch import build, stiff_rate, too_much_work
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.tables import build, stiff_rate
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer, workspace
 from vibroimpact.engine.motion import finite, pack, unpacked

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import build
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.forcing.dispatch import pull_series
@@ -26,7 +27,6 @@ from vibroimpact.engine.linear.pieces import (
     more,
     window,
 )
-from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT, Row
 from vibroimpact.engine.observers.extremes import series_extremes
@@ -72,7 +72,7 @@ def measure_phase(plan: Vector, mode: int, row: Row, length: float, out: Vector)
     work = 0.0
     level = rest_level(plan, mode)
     cursor = window(plan, TABLES + SIZE * mode, length, 0.0, 0.0, row)
-    while more(cursor):
+    while more(plan, cursor):
         h = plan[cursor.table + H]
         rate = plan[cursor.table + RATE]
         high, ms, mc = expanded(plan, cursor, series)

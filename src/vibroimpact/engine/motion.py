@@ -16,8 +16,9 @@ FLIGHT, RIGHT, LEFT, BOTH = 0, 1, 2, 3
 SEEN_LEFT = 4
 """The table of BOTH in the left bumper's coordinates; that of the right one is BOTH itself."""
 
-LIMIT, DETACHED = 0, 3
-"""What ends a stretch: the time limit, a contact or an impact (RIGHT or LEFT), or a detachment."""
+LIMIT, DETACHED, TURNED = 0, 3, 7
+"""What ends a stretch: the time limit, a contact or an impact (RIGHT or LEFT), a detachment, or a
+branch of the isolator's law (TURNED), which no stop knows of."""
 
 RELEASED = 4
 """Added to the side that has just been left if the mass was at rest there."""
@@ -25,8 +26,8 @@ RELEASED = 4
 SETTLING = 8
 """Added to the side of an impact behind which all others of a chatter follow at once."""
 
-MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, AGE = range(7)
-STATE = 7
+MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR, AGE = range(8)
+STATE = 8
 """A motion as a vector, between calls; its clock is the section's."""
 
 Clock = tuple[float, float]
@@ -51,8 +52,8 @@ class Motion(NamedTuple):
 
     `fresh` is the side at which something has just happened (0 if nothing): the mode tells
     whether it was touched or left. `right` and `left` are the bumpers' deformations; in contact
-    the pressed bumper's is the primary quantity, the displacement `u` follows from it. `age`
-    says how long the mode has lasted (s).
+    the pressed bumper's is the primary quantity, the displacement `u` follows from it. `z` is what
+    the isolator remembers (m), `age` how long the mode has lasted (s).
     """
 
     mode: int
@@ -61,6 +62,7 @@ class Motion(NamedTuple):
     v: float
     right: float
     left: float
+    z: float
     age: float
     clock: Clock
 
@@ -90,6 +92,7 @@ def unpacked(state: Vector, clock: Clock) -> Motion:
         state[V],
         state[RIGHT_BUMPER],
         state[LEFT_BUMPER],
+        state[ISOLATOR],
         state[AGE],
         clock,
     )
@@ -101,21 +104,21 @@ def pack(motion: Motion, state: Vector) -> None:
     state[MODE], state[FRESH] = motion.mode, motion.fresh
     state[U], state[V] = motion.u, motion.v
     state[RIGHT_BUMPER], state[LEFT_BUMPER] = motion.right, motion.left
-    state[AGE] = motion.age
+    state[ISOLATOR], state[AGE] = motion.z, motion.age
 
 
 @kernel
 def at_section(motion: Motion, clock: Clock) -> Motion:
     """The same motion with the forcing's phase exactly that of the section."""
-    mode, fresh, u, v, right, left, age, _ = motion
-    return Motion(mode, fresh, u, v, right, left, age, clock)
+    mode, fresh, u, v, right, left, z, age, _ = motion
+    return Motion(mode, fresh, u, v, right, left, z, age, clock)
 
 
 @kernel
 def aged(motion: Motion, age: float) -> Motion:
     """The same motion, its mode said to have lasted so long."""
-    mode, fresh, u, v, right, left, _, clock = motion
-    return Motion(mode, fresh, u, v, right, left, age, clock)
+    mode, fresh, u, v, right, left, z, _, clock = motion
+    return Motion(mode, fresh, u, v, right, left, z, age, clock)
 
 
 def swapped(sides: int) -> int:
@@ -129,8 +132,8 @@ _swapped = kernel(swapped)
 @kernel
 def mirrored(motion: Motion) -> Motion:
     """The mirror image; the clock is left as it is."""
-    mode, fresh, u, v, right, left, age, clock = motion
-    return Motion(_swapped(mode), _swapped(fresh), -u, -v, left, right, age, clock)
+    mode, fresh, u, v, right, left, z, age, clock = motion
+    return Motion(_swapped(mode), _swapped(fresh), -u, -v, left, right, -z, age, clock)
 
 
 def mirror_image(state: Vector) -> Vector:
@@ -138,7 +141,8 @@ def mirror_image(state: Vector) -> Vector:
     image = state.copy()
     for at in (MODE, FRESH):
         image[at] = swapped(int(state[at]))
-    image[U], image[V] = -state[U], -state[V]
+    for at in (U, V, ISOLATOR):
+        image[at] = -state[at]
     image[RIGHT_BUMPER], image[LEFT_BUMPER] = state[LEFT_BUMPER], state[RIGHT_BUMPER]
     return image
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import DONE, NOT_FINITE, NOT_SETTLED, measure
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import too_much_work
 from vibroimpact.engine.linear.stops import rigid
-from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer, stack, workspace
 from vibroimpact.engine.motion import LEFT, RIGHT

@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 STIFFNESS = 0  # K/M, 1/s²
 DAMPING = 1  # C/M, 1/s
 BUMPER = 2
-WIDTH = 6
-KIND = 0  # ABSENT, KELVIN_VOIGT or RIGID
+WIDTH = 8
+KIND = 0  # ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW or JANKOWSKI
 BUMPER_STIFFNESS = 1  # K_j/M, 1/s²
 BUMPER_DAMPING = 2  # C_j/M, 1/s
 GAP = 3  # G0_j, m; infinite where there is no bumper
 RATE = 4  # K_j/C_j, 1/s: how fast the free bumper relaxes; infinite where C_j = 0
 RESTITUTION = 5  # of a rigid stop
+EXPONENT = 6  # n of a force k δⁿ, with BUMPER_STIFFNESS in 1/(s² mⁿ⁻¹)
+DISSIPATION = 7  # χ, s/m, or below 0 minus the number d of χ = d / closing speed
 LOAD = BUMPER + 2 * WIDTH  # constant force on the mass, F/M, m/s²
 BASE = LOAD + 1  # 1 if the base moves; 0 if it stands still and a force shakes the mass
 SCALE = LOAD + 2  # A_t has the amplitude: what is given · SCALE · ω^POWER
@@ -26,14 +28,30 @@ POWER = LOAD + 3
 FORCING = LOAD + 4  # HARMONIC, SEVERAL or RAMP
 HARMONICS = LOAD + 5  # how many
 INTERVAL = LOAD + 6  # between the samples of a record, s; infinite if there is none
-SIZE = LOAD + 7
+# What the isolator does besides: STIFFNESS u + CUBIC u³ + QUINTIC u⁵ + 2 SINH sinh(SINH_RATE u)
+# + HYSTERETIC z, with z′ = u′ (SLOPE − (TURNING s_v + KNEE s_z) |z|ⁿ), s_v and s_z the signs of
+# u′ and of z; with a LIMIT z′ = u′ as long as |z| stays below it. DAMPING |u′|^POWER_OF_V.
+CUBIC = LOAD + 7
+QUINTIC = LOAD + 8
+SINH = LOAD + 9
+SINH_RATE = LOAD + 10
+HYSTERETIC = LOAD + 11
+SLOPE = LOAD + 12
+TURNING = LOAD + 13
+KNEE = LOAD + 14
+SHARPNESS = LOAD + 15  # n
+YIELD = LOAD + 16  # of |z|, m; infinite if there is none
+FRICTION = LOAD + 17  # F_c/M, m/s²
+DRAG = LOAD + 18  # exponent of the velocity
+CURVED = LOAD + 19  # 1 if a law is not linear
+SIZE = LOAD + 20
 WEIGHTS = SIZE + 2
 """Where a vector goes on if there are several harmonics: behind the amplitude and the frequency
 of a system vector come the weights of sin nθ and cos nθ, two for each n from 1 on."""
 
 HARMONIC, SEVERAL, RAMP = 0.0, 1.0, 2.0
 
-ABSENT, KELVIN_VOIGT, RIGID = 0.0, 1.0, 2.0
+ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI = 0.0, 1.0, 2.0, 3.0, 4.0
 
 Stop = tuple[float, ...]
 """K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop."""
@@ -62,6 +80,29 @@ class Drive(NamedTuple):
     interval: float | None = None
 
 
+class Law(NamedTuple):
+    """What an isolator does besides its spring and dashpot; see the vector's positions.
+
+    Forces are in N, not yet per unit mass.
+    """
+
+    cubic: float = 0.0
+    quintic: float = 0.0
+    sinh: float = 0.0
+    sinh_rate: float = 0.0
+    hysteretic: float = 0.0
+    slope: float = 1.0
+    turning: float = 0.0
+    knee: float = 0.0
+    sharpness: float = 1.0
+    limit: float = np.inf
+    friction: float = 0.0
+    drag: float = 1.0
+
+
+_PER_MASS = (CUBIC, QUINTIC, SINH, HYSTERETIC, FRICTION)
+
+
 def rig_vector(
     mass: float,
     stiffness: float,
@@ -70,6 +111,7 @@ def rig_vector(
     left: Stop | None,
     load: float = 0.0,
     drive: Drive = Drive(),  # noqa: B008 (it is immutable)
+    law: Law = Law(),  # noqa: B008
 ) -> NDArray[np.float64]:
     """Pack a rig for the kernels.
 
@@ -83,6 +125,8 @@ def rig_vector(
         Constant force on the mass (N).
     drive : Drive
         What shakes it.
+    law : Law
+        What the isolator does besides.
 
     Returns
     -------
@@ -90,6 +134,10 @@ def rig_vector(
     """
     vector = np.zeros(WEIGHTS + 2 * len(drive.weights) if drive.weights else SIZE)
     vector[LOAD] = load / mass
+    vector[CUBIC : DRAG + 1] = law
+    vector[CURVED] = law != Law()
+    for at in _PER_MASS:
+        vector[at] /= mass
     vector[BASE], vector[SCALE], vector[POWER] = drive.base, drive.scale, drive.power
     vector[HARMONICS], vector[INTERVAL] = max(len(drive.weights), 1), np.inf
     if drive.weights:

@@ -10,10 +10,9 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.hold import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import too_much_work
-from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import FLIGHT, RIGHT, Clock, Motion, mirrored
 from vibroimpact.engine.observers.tangent import DISTURBANCE, Tangent, unit_disturbances
@@ -90,7 +89,7 @@ def placed(
             right = deformation
         else:
             left = deformation
-    return Motion(found, found, u, v, right, left, 0.0, clock)
+    return Motion(found, found, u, v, right, left, 0.0, 0.0, clock)
 
 
 @kernel

@@ -46,7 +46,7 @@ def bumpers(plan: Vector) -> tuple[float, float, float, float]:
 @inlined
 def fly(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Free of both stops until one of them is touched."""
-    _, fresh, u, v, right, left, age, clock = motion
+    _, fresh, u, v, right, left, z, age, clock = motion
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
     s, c = clock
     way, t, row, right, left = flight(
@@ -61,14 +61,14 @@ def fly(plan: Vector, motion: Motion, limit: float) -> Ended:
     )
     u, v, s, c = row
     if way == WITHIN:
-        return LIMIT, t, v, Motion(FLIGHT, 0, u, v, right, left, age + t, (s, c))
-    return way, t, v, Motion(way, way, u, v, right, left, 0.0, (s, c))
+        return LIMIT, t, v, Motion(FLIGHT, 0, u, v, right, left, z, age + t, (s, c))
+    return way, t, v, Motion(way, way, u, v, right, left, z, 0.0, (s, c))
 
 
 @inlined
 def press(plan: Vector, motion: Motion, side: int, limit: float) -> Ended:
     """Pressed at least on this side until its bumper lets go."""
-    mode, fresh, u, v, right, left, age, clock = motion
+    mode, fresh, u, v, right, left, z, age, clock = motion
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
     sign, row = coordinates(motion)
     slot = mode
@@ -86,8 +86,8 @@ def press(plan: Vector, motion: Motion, side: int, limit: float) -> Ended:
         u = -(gap_l + x)
     v, clock = sign * v, (sign * s, sign * c)
     if event == DETACHED:
-        return event, t, v, Motion(mode & ~side, side, u, v, right, left, 0.0, clock)
-    return event, t, v, Motion(mode, 0, u, v, right, left, age + t, clock)
+        return event, t, v, Motion(mode & ~side, side, u, v, right, left, z, 0.0, clock)
+    return event, t, v, Motion(mode, 0, u, v, right, left, z, age + t, clock)
 
 
 @inlined

@@ -5,7 +5,7 @@ is asked of these: on each interval of a table the displacement is a series of T
 about the interval's middle, in y = (t − t_middle) / step, right to rounding.
 
     cursor = begin(plan, motion, length)
-    while more(cursor):
+    while more(plan, cursor):
         high, s, c = expanded(plan, cursor, series)     # the piece covers −1/2 ≤ y ≤ high
         ...
         cursor = following(plan, cursor)
@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import expand, pull_series
+from vibroimpact.engine.forcing.dispatch import expand, pull_series, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, moved, node
 from vibroimpact.engine.linear.layout import (
@@ -77,7 +77,7 @@ def begin(plan: Vector, motion: Motion, length: float) -> Cursor:
 
 
 @kernel
-def more(cursor: Cursor) -> bool:
+def more(plan: Vector, cursor: Cursor) -> bool:
     """Whether there is a piece here."""
     return cursor.i < cursor.span
 
@@ -182,5 +182,18 @@ def acceleration(plan: Vector, motion: Motion) -> float:
 @kernel
 def acceleration_in(plan: Vector, mode: int, motion: Motion, v: float) -> float:
     """Absolute acceleration that it would have in another mode, with another velocity."""
-    _, fresh, u, _, right, left, age, clock = motion
-    return acceleration(plan, Motion(mode, fresh, u, v, right, left, age, clock))
+    _, fresh, u, _, right, left, z, age, clock = motion
+    return acceleration(plan, Motion(mode, fresh, u, v, right, left, z, age, clock))
+
+
+@kernel
+def sampled(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, tau: float) -> float:
+    """Absolute acceleration so many seconds behind the stretch's start, seen as x is."""
+    sign = -1.0 if before.mode == LEFT else 1.0
+    s, c = 0.0, 0.0
+    if plan[cursor.table + RESTING] != 0.0:
+        s, c = turned(plan, before.clock[0], before.clock[1], tau)
+        return sign * (plan[par.BASE] * value(plan, s, c))
+    if plan[par.BASE] == 0.0:  # else the clock is not asked for
+        s, c = turned(plan, before.clock[0], before.clock[1], tau)
+    return absolute_acceleration(plan, before.mode, Row(x, v, sign * s, sign * c))

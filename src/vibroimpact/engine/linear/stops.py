@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import acceleration_of, isolator_force, springs
 from vibroimpact.engine.forcing.dispatch import let_go, pace, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers, fly, press
@@ -43,42 +44,27 @@ def rigid(plan: Vector, side: int) -> bool:
 
 
 @kernel
-def acceleration_of(plan: Vector, motion: Motion) -> float:
-    """Acceleration ü relative to the base, from the forces of the isolator and pressed bumpers."""
-    s, c = motion.clock
-    a: float = plan[par.LOAD] - plan[par.STIFFNESS] * motion.u - plan[par.DAMPING] * motion.v
-    a -= value(plan, s, c)
-    for side in range(1, 3):
-        at = par.BUMPER + par.WIDTH * (side - 1)
-        if motion.mode & side and plan[at + par.KIND] == par.KELVIN_VOIGT:
-            sign = 1.0 if side == RIGHT else -1.0
-            deformation = motion.right if side == RIGHT else motion.left
-            a -= sign * plan[at + par.BUMPER_STIFFNESS] * deformation
-            a -= plan[at + par.BUMPER_DAMPING] * motion.v
-    return a
-
-
-@kernel
 def impact(
     plan: Vector, event: int, t: float, arrival: float, motion: Motion, limit: float
 ) -> Ended:
     """What follows when the mass meets a rigid stop: u̇ → −e u̇, or rest."""
-    mode, _, u, v, right, left, _, clock = motion
+    mode, _, u, v, right, left, z, _, clock = motion
     side = event
     sign = 1.0 if side == RIGHT else -1.0
     at = par.BUMPER + par.WIDTH * (side - 1)
     restitution = plan[at + par.RESTITUTION]
     u = sign * plan[at + par.GAP]  # which from a pressed bumper's face is rounded
     v = -restitution * v
-    bounced = Motion(mode & ~side, side, u, v, right, left, 0.0, clock)
+    bounced = Motion(mode & ~side, side, u, v, right, left, z, 0.0, clock)
     push = sign * acceleration_of(plan, bounced)  # towards the stop
     if not push > 0.0 or restitution >= 1.0:
         return event, t, arrival, bounced
     rest = chatter(v, restitution, push)
     # How fast the push may change meanwhile, and the rig's own rates.
     change = plan[par.DAMPING] * push + plan[STEEPEST]
-    change += plan[par.STIFFNESS] * abs(v)
-    rate = pace(plan) + math.sqrt(plan[par.STIFFNESS]) + plan[par.DAMPING]
+    stiffness = springs(plan, bounced)
+    change += stiffness * abs(v)
+    rate = pace(plan) + math.sqrt(stiffness) + plan[par.DAMPING]
     for other in range(2):
         stop = par.BUMPER + par.WIDTH * other
         if plan[stop + par.KIND] == par.KELVIN_VOIGT and mode & (other + 1):
@@ -87,7 +73,7 @@ def impact(
             change += plan[stop + par.BUMPER_DAMPING] * push
     if rest * rate > _CHATTERED or rest * change > _CHATTERED * push:
         return event, t, arrival, bounced
-    last = Motion(bounced.mode, side | SETTLING, u, v, right, left, 0.0, clock)
+    last = Motion(bounced.mode, side | SETTLING, u, v, right, left, z, 0.0, clock)
     if t < limit:
         return event, t, arrival, last
     _, _, _, held = settle(plan, last, 0.0)
@@ -103,7 +89,7 @@ def chatter(v: float, restitution: float, push: float) -> float:
 @kernel
 def settle(plan: Vector, motion: Motion, limit: float) -> Ended:
     """What is left of a chatter, and the rest to which it leads."""
-    mode, fresh, u, v, right, left, _, clock = motion
+    mode, fresh, u, v, right, left, z, _, clock = motion
     side = fresh & BOTH
     at = par.BUMPER + par.WIDTH * (side - 1)
     push = acceleration_of(plan, motion) * (1.0 if side == RIGHT else -1.0)
@@ -116,13 +102,13 @@ def settle(plan: Vector, motion: Motion, limit: float) -> Ended:
     else:
         u, left = -gap_l, 0.0
     clock = turned(plan, clock[0], clock[1], t)
-    return side, t, 0.0, Motion(mode | side, side, u, 0.0, right, left, 0.0, clock)
+    return side, t, 0.0, Motion(mode | side, side, u, 0.0, right, left, z, 0.0, clock)
 
 
 @kernel
 def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
     """At rest on a rigid stop until the force lets go of the mass, or a bumper reaches it."""
-    mode, _, u, _, right, left, age, clock = motion
+    mode, _, u, _, right, left, z, age, clock = motion
     side = RIGHT if mode & RIGHT and rigid(plan, RIGHT) else LEFT
     sign = 1.0 if side == RIGHT else -1.0
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
@@ -130,7 +116,7 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
     other = BOTH - side
     facing = par.BUMPER + par.WIDTH * (other - 1)
     # It is pressed by `level` − A_t, as seen from this side.
-    level = sign * plan[par.LOAD] - plan[par.STIFFNESS] * plan[at + par.GAP]
+    level = sign * (plan[par.LOAD] - isolator_force(plan, sign * plan[at + par.GAP], 0.0, z))
     if mode & other:
         level += plan[facing + par.BUMPER_STIFFNESS] * (left if side == RIGHT else right)
     s, c = clock
@@ -161,16 +147,16 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
         right = relaxed(right, rate_r, t)
     if event == DETACHED:
         fresh = side if pulled else side | RELEASED
-        return event, t, 0.0, Motion(mode & ~side, fresh, u, 0.0, right, left, 0.0, clock)
+        return event, t, 0.0, Motion(mode & ~side, fresh, u, 0.0, right, left, z, 0.0, clock)
     if event == other:
-        return event, t, 0.0, Motion(BOTH, other, u, 0.0, right, left, 0.0, clock)
-    return event, t, 0.0, Motion(mode, 0, u, 0.0, right, left, age + t, clock)
+        return event, t, 0.0, Motion(BOTH, other, u, 0.0, right, left, z, 0.0, clock)
+    return event, t, 0.0, Motion(mode, 0, u, 0.0, right, left, z, age + t, clock)
 
 
 @kernel
 def approach(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Pressed on one side, free of the other until that is touched as well."""
-    mode, fresh, _, v, right, left, age, clock = motion
+    mode, fresh, _, v, right, left, z, age, clock = motion
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
     sign = 1.0 if mode == RIGHT else -1.0
     x, free = (right, left) if mode == RIGHT else (left, right)
@@ -193,8 +179,8 @@ def approach(plan: Vector, motion: Motion, limit: float) -> Ended:
     right, left = (x, free) if mode == RIGHT else (free, x)
     u = gap_r + x if mode == RIGHT else -(gap_l + x)
     if way == WITHIN:
-        return LIMIT, t, v, Motion(mode, 0, u, v, right, left, age + t, clock)
-    return other, t, v, Motion(BOTH, other, u, v, right, left, 0.0, clock)
+        return LIMIT, t, v, Motion(mode, 0, u, v, right, left, z, age + t, clock)
+    return other, t, v, Motion(BOTH, other, u, v, right, left, z, 0.0, clock)
 
 
 @kernel

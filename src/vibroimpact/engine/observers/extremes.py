@@ -9,9 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.layout import ORDER
-from vibroimpact.engine.linear.pieces import (
+from vibroimpact.engine.dispatch import (
     accelerated,
     acceleration,
     begin,
@@ -20,6 +18,8 @@ from vibroimpact.engine.linear.pieces import (
     following,
     more,
 )
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.linear.roots import jet
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import LEFT, RIGHT, Stretch, coordinates
@@ -109,7 +109,7 @@ def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
     a = sign * acceleration(plan, before)
     least_a, most_a = a, a
     cursor = begin(plan, before, step)
-    while more(cursor):
+    while more(plan, cursor):
         high, s, c = expanded(plan, cursor, series)
         x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
         unit = accelerated(plan, cursor, s, c, series)

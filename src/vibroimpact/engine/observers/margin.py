@@ -10,11 +10,10 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import acceleration_of, begin, expanded, following, more
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner, relaxed
 from vibroimpact.engine.linear.layout import H
-from vibroimpact.engine.linear.pieces import begin, expanded, following, more
-from vibroimpact.engine.linear.stops import acceleration_of
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, FLIGHT, LIMIT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
@@ -43,8 +42,8 @@ def impact_depth(plan: Vector, stretch: Stretch) -> float:
         return math.inf
     if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] != par.RIGID:
         return math.inf
-    _, fresh, u, _, right, left, age, clock = stretch.after
-    met = Motion(stretch.before.mode, fresh, u, stretch.arrival, right, left, age, clock)
+    _, fresh, u, _, right, left, z, age, clock = stretch.after
+    met = Motion(stretch.before.mode, fresh, u, stretch.arrival, right, left, z, age, clock)
     back = acceleration_of(plan, met) * (-1.0 if side == RIGHT else 1.0)
     if not back > 0.0:
         return math.inf
@@ -67,7 +66,7 @@ def margin(plan: Vector, notes: Margin, stretch: Stretch) -> Margin:
     best = notes.least
     series = workspace()
     cursor = begin(plan, before, stretch.step)
-    while more(cursor):
+    while more(plan, cursor):
         high, _, _ = expanded(plan, cursor, series)
         _, first = horner(series, -0.5)
         _, last = horner(series, high)

@@ -6,21 +6,20 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import turned, value
-from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner, relaxed
-from vibroimpact.engine.linear.layout import NODES, RATE
-from vibroimpact.engine.linear.pieces import (
+from vibroimpact.engine.dispatch import (
     acceleration,
     acceleration_in,
     begin,
     displacement,
     expanded_at_node,
     following_window,
+    sampled,
 )
-from vibroimpact.engine.linear.tables import resting
+from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.linear.evaluate import horner, relaxed
+from vibroimpact.engine.linear.layout import NODES, RATE
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion, Row, Stretch
+from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, TURNED, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
 # Rows of the samples: a row a variable, so that each is one piece of memory.
@@ -93,7 +92,7 @@ def write_sample(
 @kernel
 def write(plan: Vector, motion: Motion, out: Vector, k: int) -> None:
     """Write the motion at this instant as sample k."""
-    mode, _, u, v, right, left, _, _ = motion
+    mode, _, u, v, right, left, _, _, _ = motion
     a = acceleration(plan, motion)
     write_sample(plan, mode, TOUCHING[mode], u, v, a, right, left, out, k)
 
@@ -111,7 +110,6 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
     mode = before.mode
     sign = -1.0 if mode == LEFT else 1.0
     contact = TOUCHING[mode]
-    held = resting(plan, mode)
     gap_r, rate_r = plan[par.BUMPER + par.GAP], plan[par.BUMPER + par.RATE]
     gap_l, rate_l = plan[par.BUMPER + par.WIDTH + par.GAP], plan[par.BUMPER + par.WIDTH + par.RATE]
     cursor = begin(plan, before, reach)
@@ -129,14 +127,7 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
             about = j
         x, v = horner(series, y - j)
         v *= plan[cursor.table + RATE]
-        if held:
-            s, c = turned(plan, before.clock[0], before.clock[1], tau)
-            a = plan[par.BASE] * value(plan, s, c)
-        else:
-            s, c = 0.0, 0.0
-            if plan[par.BASE] == 0.0:  # else the clock is not asked for
-                s, c = turned(plan, before.clock[0], before.clock[1], tau)
-            a = sign * absolute_acceleration(plan, mode, Row(x, v, sign * s, sign * c))
+        a = sign * sampled(plan, cursor, before, x, v, tau)
         right = x if mode & RIGHT else relaxed(before.right, rate_r, tau)
         left = x if mode == LEFT else relaxed(before.left, rate_l, tau)
         if mode == BOTH:
@@ -155,7 +146,7 @@ def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
     samples, first, spacing, n, i, events, written, last, number = notes
     if n:
         i = sample(plan, notes, before, t, math.inf if event == LIMIT else step)
-    if event != LIMIT and written < last:
+    if event not in (LIMIT, TURNED) and written < last:
         row = events[written]
         row[E_CYCLE], row[E_TIME] = number, t + step
         side = after.fresh & BOTH

@@ -18,8 +18,8 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import acceleration_of
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.stops import acceleration_of
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
@@ -76,8 +76,8 @@ def phase_transition(plan: Vector, mode: int, t: float) -> tuple[float, float, f
 @kernel
 def impact_slope(plan: Vector, event: int, arrival: float, after: Motion) -> float:
     """κ = (ü⁺ + e ü⁻) / u̇⁻ of an impact on a rigid stop."""
-    mode, fresh, u, _, right, left, age, clock = after
-    before = Motion(mode, fresh, u, arrival, right, left, age, clock)
+    mode, fresh, u, _, right, left, z, age, clock = after
+    before = Motion(mode, fresh, u, arrival, right, left, z, age, clock)
     restitution = plan[par.BUMPER + par.WIDTH * (event - 1) + par.RESTITUTION]
     slope: float = acceleration_of(plan, after) + restitution * acceleration_of(plan, before)
     return slope / arrival

@@ -1,0 +1,77 @@
+"""How a kernel finds what depends on the flow: by the type of its plan.
+
+Two flows answer the same questions: tables of closed-form motion where all laws are linear, Taylor
+series elsewhere. Each is a folder whose modules have these kernels:
+
+    build(plan, amplitude, omega)           make the plan for one forcing
+    too_much_work(plan, period)             whether one cycle takes too long
+    stiff_rate(plan)                        what makes a velocity of a displacement (1/s)
+
+    begin(plan, motion, length), more(cursor), following(plan, cursor), following_window(…)
+    expanded(plan, cursor, series), expanded_at_node(…), expanded_force(…), accelerated(…)
+    sampled(plan, cursor, mode, x, v, tau)  absolute acceleration of a sample, as x is seen
+    displacement(plan, mode, x), acceleration(plan, motion), acceleration_in(…)
+
+    acceleration_of(plan, motion)           ü from all forces
+    isolator_force(plan, u, v, z)           what the isolator pulls back with, per unit mass
+    springs(plan, motion)                   its tangent stiffness, per unit mass
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
+
+from numba.extending import overload
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.jit import OPTIONS
+
+_MODULES: dict[bool, tuple[ModuleType, ...]] = {}
+
+
+def answer(curved: bool, *modules: ModuleType) -> None:
+    """Say which modules answer for a flow."""
+    _MODULES[curved] = modules
+
+
+def _found(curved: bool, name: str) -> Any:
+    for module in _MODULES[curved]:
+        one = vars(module).get(name)
+        if one is not None and one.__module__ == module.__name__:  # not what it imports
+            return one
+    raise AttributeError(f"the {'Taylor' if curved else 'linear'} flow has no {name}")
+
+
+def _by_flow(name: str) -> Callable[..., Any]:
+    def plain(plan: Any, *args: Any) -> Any:
+        return _found(plan[par.CURVED] != 0.0, name)(plan, *args)
+
+    plain.__name__ = name
+
+    @overload(plain, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]
+    def _chosen(plan: Any, *args: Any) -> Any:
+        return _found(getattr(plan, "curved", False), name).py_func
+
+    return plain
+
+
+build = _by_flow("build")
+too_much_work = _by_flow("too_much_work")
+stiff_rate = _by_flow("stiff_rate")
+begin = _by_flow("begin")
+more = _by_flow("more")
+following = _by_flow("following")
+following_window = _by_flow("following_window")
+expanded = _by_flow("expanded")
+expanded_at_node = _by_flow("expanded_at_node")
+expanded_force = _by_flow("expanded_force")
+accelerated = _by_flow("accelerated")
+sampled = _by_flow("sampled")
+displacement = _by_flow("displacement")
+acceleration = _by_flow("acceleration")
+acceleration_in = _by_flow("acceleration_in")
+acceleration_of = _by_flow("acceleration_of")
+isolator_force = _by_flow("isolator_force")
+springs = _by_flow("springs")

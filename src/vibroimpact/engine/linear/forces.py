@@ -1,0 +1,38 @@
+"""What pulls and presses the mass, per unit mass."""
+
+from __future__ import annotations
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import value
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.motion import RIGHT, Motion
+
+
+@kernel
+def isolator_force(plan: Vector, u: float, v: float, z: float) -> float:
+    """What the isolator pulls back with."""
+    force: float = plan[par.STIFFNESS] * u + plan[par.DAMPING] * v
+    return force
+
+
+@kernel
+def springs(plan: Vector, motion: Motion) -> float:
+    """Its stiffness."""
+    stiffness: float = plan[par.STIFFNESS]
+    return stiffness
+
+
+@kernel
+def acceleration_of(plan: Vector, motion: Motion) -> float:
+    """Acceleration ü relative to the base, from the forces of the isolator and pressed bumpers."""
+    s, c = motion.clock
+    a: float = plan[par.LOAD] - plan[par.STIFFNESS] * motion.u - plan[par.DAMPING] * motion.v
+    a -= value(plan, s, c)
+    for side in range(1, 3):
+        at = par.BUMPER + par.WIDTH * (side - 1)
+        if motion.mode & side and plan[at + par.KIND] == par.KELVIN_VOIGT:
+            sign = 1.0 if side == RIGHT else -1.0
+            deformation = motion.right if side == RIGHT else motion.left
+            a -= sign * plan[at + par.BUMPER_STIFFNESS] * deformation
+            a -= plan[at + par.BUMPER_DAMPING] * motion.v
+    return a

@@ -1,0 +1,130 @@
+"""A mode's own coordinate, and what a law makes of the isolator there.
+
+In flight the coordinate is the displacement; pressed on one side it is that stop's deformation,
+measured towards the stop, as between tables: what is pressed on the left is seen in the mirror,
+isolator included, since every law is odd.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import value
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion
+
+
+class Frame(NamedTuple):
+    """u = sign (x + offset); x″ = load − stiffness x − damping x′ − law − sign A_t."""
+
+    sign: float
+    offset: float
+    stiffness: float
+    damping: float
+    load: float
+
+
+class Branch(NamedTuple):
+    """Which analytic piece of the isolator's law holds: z′ = x′ (slope − bend zⁿ), and sgn x′."""
+
+    slope: float
+    bend: float
+    way: float
+
+
+@kernel
+def frame_of(plan: Vector, mode: int) -> Frame:
+    """The coordinate of a mode, with the springs and dashpots that act in it."""
+    k, c = plan[par.STIFFNESS], plan[par.DAMPING]
+    if plan[par.DRAG] != 1.0:
+        c = 0.0
+    if not mode:
+        return Frame(1.0, 0.0, k, c, plan[par.LOAD])
+    side = LEFT if mode == LEFT else RIGHT
+    sign = -1.0 if mode == LEFT else 1.0
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    offset = plan[at + par.GAP]
+    load = sign * plan[par.LOAD] - k * offset
+    if plan[at + par.KIND] == par.KELVIN_VOIGT:
+        k += plan[at + par.BUMPER_STIFFNESS]
+        c += plan[at + par.BUMPER_DAMPING]
+    if mode == BOTH:
+        other = par.BUMPER + par.WIDTH * (LEFT - 1)
+        if plan[other + par.KIND] == par.KELVIN_VOIGT:
+            k += plan[other + par.BUMPER_STIFFNESS]
+            c += plan[other + par.BUMPER_DAMPING]
+            load -= plan[other + par.BUMPER_STIFFNESS] * (offset + plan[other + par.GAP])
+    return Frame(sign, offset, k, c, load)
+
+
+@kernel
+def isolator_force(plan: Vector, u: float, v: float, z: float) -> float:
+    """What the isolator pulls back with, per unit mass (m/s²)."""
+    squared = u * u
+    force = (plan[par.STIFFNESS] + (plan[par.CUBIC] + plan[par.QUINTIC] * squared) * squared) * u
+    if plan[par.SINH] != 0.0:
+        force += 2.0 * plan[par.SINH] * math.sinh(plan[par.SINH_RATE] * u)
+    if plan[par.DRAG] == 1.0:
+        force += plan[par.DAMPING] * v
+    elif v != 0.0:
+        force += math.copysign(plan[par.DAMPING] * abs(v) ** plan[par.DRAG], v)
+    total: float = force + plan[par.HYSTERETIC] * z
+    return total
+
+
+@kernel
+def springs(plan: Vector, motion: Motion) -> float:
+    """A bound on its tangent stiffness here, per unit mass."""
+    squared = motion.u * motion.u
+    k: float = plan[par.STIFFNESS] + plan[par.HYSTERETIC]
+    k += 3.0 * abs(plan[par.CUBIC]) * squared + 5.0 * abs(plan[par.QUINTIC]) * squared * squared
+    if plan[par.SINH] != 0.0:
+        rate = plan[par.SINH_RATE]
+        k += 2.0 * abs(plan[par.SINH] * rate) * math.cosh(rate * motion.u)
+    return max(k, 0.0)
+
+
+@kernel
+def acceleration_of(plan: Vector, motion: Motion) -> float:
+    """Acceleration ü relative to the base, from all forces."""
+    mode, _, u, v, right, left, z, _, clock = motion
+    a: float = plan[par.LOAD] - isolator_force(plan, u, v, z) - value(plan, clock[0], clock[1])
+    for side in range(1, 3):
+        at = par.BUMPER + par.WIDTH * (side - 1)
+        if mode & side and plan[at + par.KIND] == par.KELVIN_VOIGT:
+            sign = 1.0 if side == RIGHT else -1.0
+            a -= sign * plan[at + par.BUMPER_STIFFNESS] * (right if side == RIGHT else left)
+            a -= plan[at + par.BUMPER_DAMPING] * v
+    return a
+
+
+@kernel
+def way_of(plan: Vector, motion: Motion) -> float:
+    """The sign of u̇, now or at once: where it is zero, that of ü, and then that of −A_t′."""
+    if motion.v != 0.0:
+        return math.copysign(1.0, motion.v)
+    a = acceleration_of(plan, motion)
+    if a == 0.0:
+        s, c = motion.clock
+        a = value(plan, s, c) - value(plan, s + 1e-8 * c, c - 1e-8 * s)
+    return math.copysign(1.0, a)
+
+
+@kernel
+def branch_of(plan: Vector, motion: Motion, sign: float) -> Branch:
+    """The branch of the law, in the frame with this sign."""
+    way = way_of(plan, motion)
+    z = motion.z
+    if plan[par.HYSTERETIC] == 0.0:
+        return Branch(0.0, 0.0, sign * way)
+    if abs(z) >= plan[par.YIELD] and way * z > 0.0:
+        return Branch(0.0, 0.0, sign * way)
+    side = math.copysign(1.0, z) if z != 0.0 else way
+    if int(plan[par.SHARPNESS]) % 2 == 1:
+        # |z|ⁿ = s_z zⁿ; the frame turns z, and zⁿ with it.
+        bend = sign * (plan[par.KNEE] * side + plan[par.TURNING] * way)
+    else:
+        bend = plan[par.KNEE] + plan[par.TURNING] * way * side
+    return Branch(plan[par.SLOPE], bend, sign * way)

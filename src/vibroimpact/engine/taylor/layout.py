@@ -1,0 +1,36 @@
+"""Where a plan keeps what a Taylor step needs.
+
+It begins as every plan (`linear.layout`): the rig, the forcing, and the header of a table, which
+here is that of the piece in hand. The series of the step in hand follow.
+"""
+
+from __future__ import annotations
+
+from vibroimpact.engine.linear.layout import SIZE, TABLES
+
+DEGREE = 22
+"""Highest power of a step's series. With it a step goes 0.16 of the way to the nearest
+singularity; fewer terms cost more steps, more terms more a step."""
+
+ROOM = 2 * (DEGREE + 2)
+"""Numbers kept for one series."""
+
+HEADER = TABLES
+"""The header of the piece in hand."""
+
+X = TABLES + SIZE  # the mode's own coordinate
+Z = X + ROOM  # the isolator's memory
+SHAKEN = Z + ROOM  # −A_t and the constant force
+U = SHAKEN + ROOM  # displacement, as the isolator has it
+SQUARE = U + ROOM  # u²
+CUBE = SQUARE + ROOM  # u³
+FIFTH = CUBE + ROOM  # u⁵
+RISING = FIFTH + ROOM  # exp(β u)
+FALLING = RISING + ROOM  # exp(−β u)
+BENT = FALLING + ROOM  # z′/u′
+POWERS = BENT + ROOM  # z², z³, … or the powers of |u′|
+
+ASKED = POWERS + 8 * ROOM  # what is asked of the motion: its acceleration, a force, a velocity
+
+MOST_POWERS = 8
+"""Series that there is room for in POWERS."""

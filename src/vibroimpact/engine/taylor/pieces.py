@@ -1,0 +1,274 @@
+"""A stretch as polynomials: a Taylor step is cut in two, each half a series about its middle.
+
+They look as those from tables (`linear.pieces`): 12 terms in y = (t − t_middle) / half a step,
+|y| ≤ 1/2, right to rounding, so that whoever asks a motion for something asks both alike.
+"""
+
+from __future__ import annotations
+
+import math
+from math import comb
+from typing import NamedTuple
+
+import numpy as np
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.evaluate import relaxed
+from vibroimpact.engine.linear.layout import ORDER, RATE, RESTING, SCALED_W, H
+from vibroimpact.engine.linear.tables import resting
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
+from vibroimpact.engine.taylor.frame import Frame, acceleration_of, branch_of, frame_of, springs
+from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, SHAKEN, X, Z
+from vibroimpact.engine.taylor.step import at, headed, stay, step
+
+PIECES = 2
+"""In a step."""
+
+_SMALL = 0.4  # rad, over which `turn` is right to rounding
+
+
+def _shift(centre: float) -> np.ndarray:
+    """Take a step's series to one about another point, in pieces: row m gives coefficient m."""
+    table = np.zeros((ORDER, DEGREE + 1))
+    for m in range(ORDER):
+        for n in range(m, DEGREE + 1):
+            table[m, n] = comb(n, m) * centre ** (n - m) / PIECES**m
+    return table
+
+
+_QUARTERS = np.array([_shift(0.25 * j) for j in range(5)])
+
+
+@kernel
+def shifted(plan: Vector, source: int, quarter: int, series: Vector) -> None:
+    """Write a series of the step about so many quarters of it, in pieces."""
+    for m in range(ORDER):
+        even = 0.0
+        odd = 0.0
+        for n in range(m, DEGREE, 2):
+            even += _QUARTERS[quarter, m, n] * plan[source + n]
+            odd += _QUARTERS[quarter, m, n + 1] * plan[source + n + 1]
+        if (DEGREE - m) % 2 == 0:
+            even += _QUARTERS[quarter, m, DEGREE] * plan[source + DEGREE]
+        series[m] = even + odd
+
+
+class Cursor(NamedTuple):
+    """Where on a stretch a piece lies.
+
+    A step begins `t` seconds behind the stretch's start, with the motion `start`, and takes
+    `step` seconds; the piece is its half `i`; `table` is where its header stands.
+    """
+
+    table: int
+    i: int
+    length: float
+    t: float
+    step: float
+    start: Motion
+
+
+@kernel
+def coordinate(plan: Vector, motion: Motion) -> float:
+    """The mode's own coordinate; without a dashpot's memory it follows from the displacement."""
+    if not motion.mode:
+        return motion.u
+    side = LEFT if motion.mode == LEFT else RIGHT
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    if plan[at + par.KIND] == par.KELVIN_VOIGT:
+        return motion.right if side == RIGHT else motion.left
+    x: float = (motion.u if side == RIGHT else -motion.u) - plan[at + par.GAP]
+    return x
+
+
+@kernel
+def displacement(plan: Vector, mode: int, x: float) -> float:
+    """The displacement of the mass from the mode's own coordinate."""
+    frame = frame_of(plan, mode)
+    return frame.sign * (x + frame.offset) if mode else x
+
+
+@kernel
+def unit_of(plan: Vector, motion: Motion) -> float:
+    """A time in which a motion changes (s)."""
+    frame = frame_of(plan, motion.mode)
+    k = springs(plan, motion) + (frame.stiffness - plan[par.STIFFNESS])
+    return 1.0 / (math.sqrt(k) + frame.damping + pace(plan) + 1e-300)
+
+
+@kernel
+def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
+    """Write the series of the step that begins with this motion; return its frame and length."""
+    frame = frame_of(plan, motion.mode)
+    x = coordinate(plan, motion)
+    if resting(plan, motion.mode):
+        length = min(longest, 1.0 / max(pace(plan), 1e-300))
+        stay(plan, frame, x, frame.sign * motion.z, motion.clock, length)
+    else:
+        branch = branch_of(plan, motion, frame.sign)
+        v, z = frame.sign * motion.v, frame.sign * motion.z
+        length = step(plan, frame, branch, x, v, z, motion.clock, unit_of(plan, motion), longest)
+    headed(plan, length / PIECES)
+    plan[HEADER + RESTING] = 1.0 if resting(plan, motion.mode) else 0.0
+    return frame, length
+
+
+@kernel
+def clock_at(plan: Vector, clock: Clock, y: float) -> Clock:
+    """The clock y pieces behind the step's start."""
+    angle = plan[HEADER + SCALED_W] * y
+    if abs(angle) < _SMALL:
+        return turn(plan, clock[0], clock[1], angle)
+    return turned(plan, clock[0], clock[1], y * plan[HEADER + H])
+
+
+@kernel
+def placed(plan: Vector, motion: Motion, x: float) -> Motion:
+    """The same motion with the mass where the mode's own coordinate says."""
+    mode, fresh, _, v, right, left, z, age, clock = motion
+    u = displacement(plan, mode, x)
+    if mode & RIGHT and plan[par.BUMPER + par.KIND] == par.KELVIN_VOIGT:
+        right = x
+    if mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.KELVIN_VOIGT:
+        left = x if mode == LEFT else -u - plan[par.BUMPER + par.WIDTH + par.GAP]
+    return Motion(mode, fresh, u, v, right, left, z, age, clock)
+
+
+@kernel
+def motion_at(plan: Vector, start: Motion, frame: Frame, y: float) -> Motion:
+    """The motion at the share y of the step, nothing having happened on the way."""
+    mode, _, _, _, right, left, z, age, clock = start
+    x, slope = at(plan, X, y)
+    v = frame.sign * slope * (plan[HEADER + RATE] / PIECES)
+    if plan[par.HYSTERETIC] != 0.0:
+        z, _ = at(plan, Z, y)
+        z *= frame.sign
+    t = y * PIECES * plan[HEADER + H]
+    if not mode & RIGHT:
+        right = relaxed(right, plan[par.BUMPER + par.RATE], t)
+    if not mode & LEFT:
+        left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
+    clock = clock_at(plan, clock, y * PIECES)
+    return placed(plan, Motion(mode, 0, 0.0, v, right, left, z, age + t, clock), x)
+
+
+@kernel
+def window(plan: Vector, motion: Motion, length: float, t: float) -> Cursor:
+    """The first piece of the step that begins t seconds behind the stretch's start."""
+    _, step = begun(plan, motion, length - t) if t < length else (frame_of(plan, 0), 0.0)
+    return Cursor(HEADER, 0, length, t, step, motion)
+
+
+@kernel
+def begin(plan: Vector, motion: Motion, length: float) -> Cursor:
+    """The first piece of the stretch of so many seconds that starts with this motion."""
+    return window(plan, motion, length, 0.0)
+
+
+@kernel
+def more(plan: Vector, cursor: Cursor) -> bool:
+    """Whether there is a piece here."""
+    return cursor.t < cursor.length
+
+
+@kernel
+def following_window(plan: Vector, cursor: Cursor) -> Cursor:
+    """The first piece of the next step."""
+    _, _, length, t, step, start = cursor
+    behind = motion_at(plan, start, frame_of(plan, start.mode), 1.0)
+    t = t + step if t + step < length * (1.0 - 1e-15) else length
+    return window(plan, behind, length, t)
+
+
+@kernel
+def following(plan: Vector, cursor: Cursor) -> Cursor:
+    """The next piece."""
+    table, i, length, t, step, start = cursor
+    if i + 1 < PIECES:
+        return Cursor(table, i + 1, length, t, step, start)
+    return following_window(plan, cursor)
+
+
+@kernel
+def expanded(plan: Vector, cursor: Cursor, series: Vector) -> tuple[float, float, float]:
+    """Write the series of x; return how far the piece reaches, and the phasor in its middle."""
+    shifted(plan, X, 2 * cursor.i + 1, series)
+    s, c = clock_at(plan, cursor.start.clock, cursor.i + 0.5)
+    if cursor.start.mode == LEFT:
+        s, c = -s, -c
+    return 0.5, s, c
+
+
+@kernel
+def expanded_at_node(plan: Vector, cursor: Cursor, j: int, series: Vector) -> None:
+    """Write the series of x about the beginning of piece j, good for |y| ≤ 1/2."""
+    shifted(plan, X, 2 * j, series)
+
+
+@kernel
+def push_series(plan: Vector, mode: int, side: int) -> None:
+    """Write the force per unit mass of the pressed bumper on a side, over the step, to ASKED."""
+    facing = -1.0 if mode == BOTH and side == LEFT else 1.0
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    stiffness = plan[at + par.BUMPER_STIFFNESS]
+    damping = plan[at + par.BUMPER_DAMPING] * (plan[HEADER + RATE] / PIECES)
+    for n in range(DEGREE):
+        moved = stiffness * plan[X + n] + damping * ((n + 1) * plan[X + n + 1])
+        plan[ASKED + n] = facing * moved
+    if facing < 0.0:
+        plan[ASKED] -= stiffness * (plan[par.BUMPER + par.GAP] + plan[at + par.GAP])
+    plan[ASKED + DEGREE] = 0.0
+
+
+@kernel
+def expanded_force(plan: Vector, cursor: Cursor, series: Vector) -> None:
+    """Write the series of the contact force per unit mass."""
+    mode = cursor.start.mode
+    push_series(plan, mode, LEFT if mode == LEFT else RIGHT)
+    shifted(plan, ASKED, 2 * cursor.i + 1, series)
+
+
+@kernel
+def accelerated(plan: Vector, cursor: Cursor, s: float, c: float, series: Vector) -> float:
+    """Replace the series of x by that of the absolute acceleration; return its unit, 1/step².
+
+    ü + A_t on a base that moves, ü on one that stands still; at rest it is that of the base.
+    """
+    shaking = plan[par.BASE]
+    load = frame_of(plan, cursor.start.mode).load
+    square = 1.0 / (plan[HEADER + RATE] / PIECES) ** 2
+    for n in range(DEGREE - 1):
+        plan[ASKED + n] = (n + 1) * (n + 2) * plan[X + n + 2] - shaking * plan[SHAKEN + n]
+    plan[ASKED] += shaking * load * square
+    plan[ASKED + DEGREE - 1] = 0.0
+    plan[ASKED + DEGREE] = 0.0
+    shifted(plan, ASKED, 2 * cursor.i + 1, series)
+    return 1.0 / square
+
+
+@kernel
+def acceleration(plan: Vector, motion: Motion) -> float:
+    """Absolute acceleration of the mass, in the direction of u."""
+    s, c = motion.clock
+    base: float = plan[par.BASE] * value(plan, s, c)
+    if resting(plan, motion.mode):
+        return base
+    return acceleration_of(plan, motion) + base
+
+
+@kernel
+def acceleration_in(plan: Vector, mode: int, motion: Motion, v: float) -> float:
+    """Absolute acceleration that it would have in another mode, with another velocity."""
+    _, fresh, u, _, right, left, z, age, clock = motion
+    return acceleration(plan, Motion(mode, fresh, u, v, right, left, z, age, clock))
+
+
+@kernel
+def sampled(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, tau: float) -> float:
+    """Absolute acceleration so many seconds behind the stretch's start, seen as x is."""
+    frame = frame_of(plan, cursor.start.mode)
+    y = (tau - cursor.t) * (plan[HEADER + RATE] / PIECES)
+    here = motion_at(plan, cursor.start, frame, y)
+    return frame.sign * acceleration(plan, here)

@@ -1,0 +1,36 @@
+"""A plan for Taylor steps: there is nothing to prepare but the forcing."""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import begin, pace
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.advance import WORK_LIMIT
+from vibroimpact.engine.linear.layout import OMEGA
+
+
+@kernel
+def build(plan: Vector, amplitude: float, omega: float) -> None:
+    """Take a forcing, as `parameters.rig_vector` was told: its size (m/s², m or N), and ω."""
+    begin(plan, amplitude, omega)
+
+
+@kernel
+def stiff_rate(plan: Vector) -> float:
+    """What makes a velocity of a displacement: ω0 of small motions, or ω without a spring."""
+    k = plan[par.STIFFNESS] + plan[par.HYSTERETIC]
+    k += 2.0 * plan[par.SINH] * plan[par.SINH_RATE]
+    return math.sqrt(k) if k > 0.0 else plan[OMEGA]
+
+
+@kernel
+def too_much_work(plan: Vector, period: float) -> bool:
+    """Whether one cycle could take too many steps."""
+    rate = stiff_rate(plan) + plan[par.DAMPING] + pace(plan)
+    for side in range(2):
+        at = par.BUMPER + par.WIDTH * side
+        if plan[at + par.KIND] == par.KELVIN_VOIGT:
+            rate += math.sqrt(plan[at + par.BUMPER_STIFFNESS]) + plan[at + par.BUMPER_DAMPING]
+    return not rate * period < WORK_LIMIT
