@@ -26,6 +26,9 @@ RELEASED = 4
 SETTLING = 8
 """Added to the side of an impact behind which all others of a chatter follow at once."""
 
+SLIPS_RIGHT, SLIPS_LEFT = 16, 32
+"""Said of a mass that friction has just let go: which way it goes, still without velocity."""
+
 MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR, AGE = range(8)
 STATE = 8
 """A motion as a vector, between calls; its clock is the section's."""
@@ -123,7 +126,8 @@ def aged(motion: Motion, age: float) -> Motion:
 
 def swapped(sides: int) -> int:
     """Right for left, other bits as they are."""
-    return (sides & ~BOTH) | ((sides & RIGHT) << 1) | ((sides & LEFT) >> 1)
+    pairs = RIGHT | SLIPS_RIGHT
+    return (sides & ~(pairs | pairs << 1)) | (sides & pairs) << 1 | (sides >> 1) & pairs
 
 
 _swapped = kernel(swapped)

@@ -12,6 +12,7 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import let_go, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers
 from vibroimpact.engine.linear.evaluate import relaxed
@@ -30,15 +31,24 @@ from vibroimpact.engine.motion import (
     RELEASED,
     RIGHT,
     SETTLING,
+    SLIPS_LEFT,
+    SLIPS_RIGHT,
     TURNED,
     Motion,
 )
-from vibroimpact.engine.taylor.frame import Frame, branch_of, frame_of, way_of
+from vibroimpact.engine.taylor.frame import (
+    Frame,
+    curved_stop,
+    push_of,
+    stuck,
+    way_of,
+    without_friction,
+)
 from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, X, Z
-from vibroimpact.engine.taylor.pieces import PIECES, begun, motion_at, placed, push_series, shifted
+from vibroimpact.engine.taylor.pieces import EVEN, PIECES, begun, motion_at, push_series, shifted
 
 
-DETACHED_LEFT, YIELDS, UNBENT = 16, 17, 18
+DETACHED_LEFT, YIELDS, UNBENT, EASED = 16, 17, 18, 19
 """Events of a step besides those of a stretch."""
 
 
@@ -113,7 +123,7 @@ def watch(
 @kernel
 def search(plan: Vector, motion: Motion, frame: Frame, length: float) -> Found:
     """The earliest event of the step in hand."""
-    mode, fresh, _, v, right, left, z, _, _ = motion
+    mode, fresh, _, _, right, left, _, _, _ = motion
     found = Found(LIMIT, NONE, 0.0)
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
     reach = spread(plan, X)
@@ -126,7 +136,12 @@ def search(plan: Vector, motion: Motion, frame: Frame, length: float) -> Found:
         just = fresh & BOTH == side
         if mode & side:
             if kind == par.KELVIN_VOIGT:
-                found = lets_go(plan, found, mode, side, just, length)
+                push_series(plan, mode, side)
+                found = lets_go(plan, found, side, just)
+            elif kind != par.RIGID:
+                found = eases(plan, found, mode, side, memory)
+                depth_series(plan, mode, side)
+                found = lets_go(plan, found, side, just)
             continue
         if mode and not overlapping(plan):
             continue
@@ -134,17 +149,16 @@ def search(plan: Vector, motion: Motion, frame: Frame, length: float) -> Found:
         if mode:
             # Seen from the pressed side, the other stop lies below.
             level, sign = gap_r + gap_l, 1.0
+        if curved_stop(plan, side):
+            memory = 0.0
         clearance = Clearance(level, sign, memory, rate, False)
         found = watch(plan, found, side, X, reach, clearance, just, fresh & RELEASED != 0)
-    if plan[par.HYSTERETIC] != 0.0 or plan[par.DRAG] != 1.0:
-        found = turns(plan, found, motion, frame)
-    return found
+    return turns(plan, found, motion, frame)
 
 
 @kernel
-def lets_go(plan: Vector, found: Found, mode: int, side: int, fresh: bool, length: float) -> Found:
-    """Take the detachment from a pressed bumper into account."""
-    push_series(plan, mode, side)
+def lets_go(plan: Vector, found: Found, side: int, fresh: bool) -> Found:
+    """Take the detachment into account: where what is asked, a force or a depth, falls to 0."""
     if fresh:
         plan[ASKED] = max(plan[ASKED], 0.0)
     clearance = Clearance(0.0, 1.0, 0.0, 0.0, False)
@@ -153,8 +167,47 @@ def lets_go(plan: Vector, found: Found, mode: int, side: int, fresh: bool, lengt
 
 
 @kernel
+def depth_series(plan: Vector, mode: int, side: int) -> None:
+    """Write the deformation of a pressed stop over the step to ASKED."""
+    facing = -1.0 if mode == BOTH and side == LEFT else 1.0
+    for n in range(DEGREE + 1):
+        plan[ASKED + n] = facing * plan[X + n]
+    if facing < 0.0:
+        left = par.BUMPER + par.WIDTH
+        plan[ASKED] -= plan[par.BUMPER + par.GAP] + plan[left + par.GAP]
+
+
+@kernel
+def eases(plan: Vector, found: Found, mode: int, side: int, speed: float) -> Found:
+    """Take the moment into account at which 1 + χ δ′ changes sign: a stop does not pull."""
+    facing = -1.0 if mode == BOTH and side == LEFT else 1.0
+    chi = push_of(plan, side, 0.0, speed).dissipation
+    if chi == 0.0:
+        return found
+    rate = chi * facing * (plan[HEADER + RATE] / PIECES)
+    for n in range(DEGREE):
+        plan[ASKED + n] = rate * ((n + 1) * plan[X + n + 1])
+    plan[ASKED + DEGREE] = 0.0
+    plan[ASKED] += 1.0
+    bend = 1.0 if plan[ASKED] > EVEN or (plan[ASKED] > -EVEN and plan[ASKED + 1] > 0.0) else -1.0
+    if abs(plan[ASKED]) <= EVEN:
+        plan[ASKED] = 0.0
+    clearance = Clearance(0.0, bend, 0.0, 0.0, False)
+    return watch(plan, found, EASED, ASKED, spread(plan, ASKED), clearance, False, False)
+
+
+@kernel
 def turns(plan: Vector, found: Found, motion: Motion, frame: Frame) -> Found:
-    """Take the end of the isolator's branch into account: u̇ or z changes sign, or z its limit."""
+    """Take the end of a branch into account: u̇ or z changes sign, or z reaches its limit."""
+    hysteretic = plan[par.HYSTERETIC] != 0.0
+    if not (
+        hysteretic
+        or plan[par.DRAG] != 1.0
+        or plan[par.FRICTION] != 0.0
+        or (motion.mode & RIGHT and plan[par.BUMPER + par.KIND] == par.JANKOWSKI)
+        or (motion.mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.JANKOWSKI)
+    ):
+        return found
     way = way_of(plan, motion)
     ways = frame.sign * way
     for n in range(DEGREE):
@@ -162,9 +215,11 @@ def turns(plan: Vector, found: Found, motion: Motion, frame: Frame) -> Found:
     plan[ASKED + DEGREE] = 0.0
     if motion.v == 0.0:
         plan[ASKED] = 0.0
+        if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT):
+            plan[ASKED + 1] = 0.0
     clearance = Clearance(0.0, ways, 0.0, 0.0, False)
     found = watch(plan, found, TURNED, ASKED, spread(plan, ASKED), clearance, False, False)
-    if plan[par.HYSTERETIC] == 0.0:
+    if not hysteretic:
         return found
     z, limit = motion.z, plan[par.YIELD]
     if limit < math.inf:
@@ -179,16 +234,49 @@ def turns(plan: Vector, found: Found, motion: Motion, frame: Frame) -> Found:
 
 
 @kernel
+def held(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """Held by friction until the forces exceed it, or a free bumper comes back to the mass."""
+    mode, _, u, _, right, left, z, age, clock = motion
+    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
+    s, c = clock
+    # `still` − A_t is what friction holds against.
+    still = without_friction(plan, motion) + value(plan, s, c)
+    event, t, slips = LIMIT, limit, 0
+    after = turned(plan, s, c, limit)
+    for way in range(2):
+        sign = -1.0 if way == 0 else 1.0  # to the right where −A_t exceeds a level
+        free, s1, c1 = let_go(plan, sign, plan[par.FRICTION] + sign * still, s, c, t)
+        if free < t:
+            event, t, after = TURNED, free, (s1, c1)
+            slips = SLIPS_RIGHT if way == 0 else SLIPS_LEFT
+    for side in range(1, 3):
+        memory, rate = (right, rate_r) if side == RIGHT else (left, rate_l)
+        gap, reach = (gap_r, u) if side == RIGHT else (gap_l, -u)
+        depth = reach - gap
+        if not mode & side and memory > 0.0 and depth > 0.0 and rate < math.inf:
+            meets = math.log(memory / depth) / rate if memory > depth else 0.0
+            if meets < t:
+                event, t, after = side, meets, turned(plan, s, c, meets)
+    if not mode & RIGHT:
+        right = max(u - gap_r, 0.0) if event == RIGHT else relaxed(right, rate_r, t)
+    if not mode & LEFT:
+        left = max(-u - gap_l, 0.0) if event == LEFT else relaxed(left, rate_l, t)
+    if event in (RIGHT, LEFT):
+        return event, t, 0.0, Motion(mode | event, event, u, 0.0, right, left, z, 0.0, after)
+    fresh = slips if event == TURNED else 0
+    return event, t, 0.0, Motion(mode, fresh, u, 0.0, right, left, z, age + t, after)
+
+
+@kernel
 def happened(plan: Vector, motion: Motion, found: Found, here: Motion, t: float) -> Ended:
     """The motion just behind the event, exactly there."""
     mode, _, u, v, right, left, z, _, clock = here
     gap_r, gap_l, _, _ = bumpers(plan)
     event = found.event
     if event in (RIGHT, LEFT):
-        kind = plan[par.BUMPER + par.WIDTH * (event - 1) + par.KIND]
         if not mode:  # else the pressed bumper's deformation is the primary quantity
             u = gap_r + right if event == RIGHT else -(gap_l + left)
-        if kind == par.POWER_LAW or kind == par.JANKOWSKI:
+        if curved_stop(plan, event):
             if event == RIGHT:
                 right = abs(v)
             else:
@@ -197,7 +285,8 @@ def happened(plan: Vector, motion: Motion, found: Found, here: Motion, t: float)
         return event, t, v, after
     if event in (DETACHED, DETACHED_LEFT):
         side = RIGHT if event == DETACHED else LEFT
-        if plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_DAMPING] == 0.0:
+        damped = plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_DAMPING] != 0.0
+        if curved_stop(plan, side) or not damped:
             if side == RIGHT:
                 right = 0.0
             else:
@@ -208,6 +297,8 @@ def happened(plan: Vector, motion: Motion, found: Found, here: Motion, t: float)
     arrival = v
     if event == TURNED:
         v = 0.0
+    elif event == EASED:
+        pass
     elif event == YIELDS:
         z = math.copysign(plan[par.YIELD], z)
     else:
@@ -222,6 +313,8 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         return settle(plan, motion, limit)
     if resting(plan, motion.mode):
         return rest(plan, motion, limit)
+    if stuck(plan, motion):
+        return held(plan, motion, limit)
     t = 0.0
     here = motion
     while True:

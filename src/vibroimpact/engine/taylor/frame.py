@@ -1,4 +1,4 @@
-"""A mode's own coordinate, and what a law makes of the isolator there.
+"""A mode's own coordinate, and which analytic piece of each law holds there.
 
 In flight the coordinate is the displacement; pressed on one side it is that stop's deformation,
 measured towards the stop, as between tables: what is pressed on the left is seen in the mirror,
@@ -13,11 +13,11 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SLIPS_LEFT, SLIPS_RIGHT, Motion
 
 
 class Frame(NamedTuple):
-    """u = sign (x + offset); x″ = load − stiffness x − damping x′ − law − sign A_t."""
+    """u = sign (x + offset); x″ = load − stiffness x − damping x′ − laws − sign A_t."""
 
     sign: float
     offset: float
@@ -27,11 +27,23 @@ class Frame(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """Which analytic piece of the isolator's law holds: z′ = x′ (slope − bend zⁿ), and sgn x′."""
+    """Which piece of the isolator's law holds: z′ = x′ (slope − bend zⁿ), and sgn x′."""
 
     slope: float
     bend: float
     way: float
+
+
+class Push(NamedTuple):
+    """What a pressed stop pushes with: stiffness δⁿ (1 + dissipation δ′) + viscous δ^¼ δ′."""
+
+    stiffness: float
+    exponent: float
+    dissipation: float
+    viscous: float
+
+
+NO_PUSH = Push(0.0, 1.5, 0.0, 0.0)
 
 
 @kernel
@@ -61,7 +73,7 @@ def frame_of(plan: Vector, mode: int) -> Frame:
 
 @kernel
 def isolator_force(plan: Vector, u: float, v: float, z: float) -> float:
-    """What the isolator pulls back with, per unit mass (m/s²)."""
+    """What the isolator pulls back with but for friction, per unit mass (m/s²)."""
     squared = u * u
     force = (plan[par.STIFFNESS] + (plan[par.CUBIC] + plan[par.QUINTIC] * squared) * squared) * u
     if plan[par.SINH] != 0.0:
@@ -87,17 +99,76 @@ def springs(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
-def acceleration_of(plan: Vector, motion: Motion) -> float:
-    """Acceleration ü relative to the base, from all forces."""
+def curved_stop(plan: Vector, side: int) -> bool:
+    """Whether the stop on this side follows a power of its deformation."""
+    kind = plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
+    return bool(kind in (par.POWER_LAW, par.JANKOWSKI))
+
+
+@kernel
+def push_of(plan: Vector, side: int, closing: float, speed: float) -> Push:
+    """The law of a pressed power-law stop.
+
+    `closing` is the rate of its deformation, whose sign may matter, `speed` that at which it
+    was met.
+    """
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    dissipation = plan[at + par.DISSIPATION]
+    if dissipation < 0.0:
+        dissipation = -dissipation / speed if speed > 0.0 else 0.0
+    viscous = plan[at + par.BUMPER_DAMPING] if closing > 0.0 else 0.0
+    return Push(plan[at + par.BUMPER_STIFFNESS], plan[at + par.EXPONENT], dissipation, viscous)
+
+
+@kernel
+def pushing(push: Push, deformation: float, closing: float) -> float:
+    """Its force per unit mass, never below 0."""
+    if not deformation > 0.0:
+        return 0.0
+    force = push.stiffness * deformation**push.exponent * (1.0 + push.dissipation * closing)
+    force += push.viscous * math.sqrt(math.sqrt(deformation)) * closing
+    return max(force, 0.0)
+
+
+@kernel
+def without_friction(plan: Vector, motion: Motion) -> float:
+    """Acceleration ü relative to the base, from all forces but Coulomb's."""
     mode, _, u, v, right, left, z, _, clock = motion
     a: float = plan[par.LOAD] - isolator_force(plan, u, v, z) - value(plan, clock[0], clock[1])
     for side in range(1, 3):
+        if not mode & side:
+            continue
         at = par.BUMPER + par.WIDTH * (side - 1)
-        if mode & side and plan[at + par.KIND] == par.KELVIN_VOIGT:
-            sign = 1.0 if side == RIGHT else -1.0
-            a -= sign * plan[at + par.BUMPER_STIFFNESS] * (right if side == RIGHT else left)
+        sign = 1.0 if side == RIGHT else -1.0
+        memory = right if side == RIGHT else left
+        if plan[at + par.KIND] == par.KELVIN_VOIGT:
+            a -= sign * plan[at + par.BUMPER_STIFFNESS] * memory
             a -= plan[at + par.BUMPER_DAMPING] * v
+        elif curved_stop(plan, side):
+            push = push_of(plan, side, sign * v, memory)
+            a -= sign * pushing(push, sign * u - plan[at + par.GAP], sign * v)
     return a
+
+
+@kernel
+def stuck(plan: Vector, motion: Motion) -> bool:
+    """Whether friction holds the mass."""
+    if motion.v != 0.0 or plan[par.FRICTION] == 0.0:
+        return False
+    if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT):
+        return False
+    return bool(abs(without_friction(plan, motion)) <= plan[par.FRICTION])
+
+
+@kernel
+def acceleration_of(plan: Vector, motion: Motion) -> float:
+    """Acceleration ü relative to the base, from all forces."""
+    a = without_friction(plan, motion)
+    if plan[par.FRICTION] == 0.0:
+        return a
+    if stuck(plan, motion):
+        return 0.0
+    return a - plan[par.FRICTION] * way_of(plan, motion)
 
 
 @kernel
@@ -105,7 +176,11 @@ def way_of(plan: Vector, motion: Motion) -> float:
     """The sign of u̇, now or at once: where it is zero, that of ü, and then that of −A_t′."""
     if motion.v != 0.0:
         return math.copysign(1.0, motion.v)
-    a = acceleration_of(plan, motion)
+    if motion.fresh & SLIPS_RIGHT:
+        return 1.0
+    if motion.fresh & SLIPS_LEFT:
+        return -1.0
+    a = without_friction(plan, motion)
     if a == 0.0:
         s, c = motion.clock
         a = value(plan, s, c) - value(plan, s + 1e-8 * c, c - 1e-8 * s)

@@ -28,9 +28,13 @@ FIFTH = CUBE + ROOM  # u⁵
 RISING = FIFTH + ROOM  # exp(β u)
 FALLING = RISING + ROOM  # exp(−β u)
 BENT = FALLING + ROOM  # z′/u′
-POWERS = BENT + ROOM  # z², z³, … or the powers of |u′|
+SPEED = BENT + ROOM  # |x′|
+DRAG = SPEED + ROOM  # |x′|^α
+PRESSED = DRAG + ROOM  # of the other stop that is pressed, its deformation
+PUSH = PRESSED + ROOM  # δⁿ and √√δ of the stop that the coordinate is of, then of the other
+POWERS = PUSH + 4 * ROOM  # z², z³, …
+ASKED = POWERS + 7 * ROOM  # what is asked of the motion: its acceleration, a force, a velocity
+END = ASKED + ROOM
 
-ASKED = POWERS + 8 * ROOM  # what is asked of the motion: its acceleration, a force, a velocity
-
-MOST_POWERS = 8
-"""Series that there is room for in POWERS."""
+SHARPEST = 8
+"""The highest power of z that there is room for."""

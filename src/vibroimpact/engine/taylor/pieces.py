@@ -19,12 +19,30 @@ from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.layout import ORDER, RATE, RESTING, SCALED_W, H
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
-from vibroimpact.engine.taylor.frame import Frame, acceleration_of, branch_of, frame_of, springs
+from vibroimpact.engine.taylor.frame import (
+    NO_PUSH,
+    Frame,
+    Push,
+    acceleration_of,
+    branch_of,
+    curved_stop,
+    frame_of,
+    push_of,
+    springs,
+    stuck,
+    without_friction,
+)
 from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, SHAKEN, X, Z
-from vibroimpact.engine.taylor.step import at, headed, stay, step
+from vibroimpact.engine.taylor.step import Laws, at, headed, stay, step
 
 PIECES = 2
 """In a step."""
+
+_NOTHING = 2.0**-60
+"""A share of the motion's energy or force that leaves no trace in it."""
+
+EVEN = 1e-14
+"""1 + χ δ′ where a stop begins or ceases to push: its own rounding."""
 
 _SMALL = 0.4  # rad, over which `turn` is right to rounding
 
@@ -91,11 +109,79 @@ def displacement(plan: Vector, mode: int, x: float) -> float:
 
 
 @kernel
-def unit_of(plan: Vector, motion: Motion) -> float:
+def unit_of(plan: Vector, motion: Motion, frame: Frame, laws: Laws, x: float) -> float:
     """A time in which a motion changes (s)."""
-    frame = frame_of(plan, motion.mode)
     k = springs(plan, motion) + (frame.stiffness - plan[par.STIFFNESS])
+    for push, deformation in ((laws.push, x), (laws.other, laws.apart - x)):
+        if push.stiffness != 0.0:
+            k += push.stiffness * push.exponent * deformation ** (push.exponent - 1.0)
     return 1.0 / (math.sqrt(k) + frame.damping + pace(plan) + 1e-300)
+
+
+@kernel
+def shallow(push: Push, deformation: float, closing: float, longest: float) -> tuple[Push, float]:
+    """A stop that is pressed so little that nothing comes of it is left out, while it is.
+
+    The work that its force has done is then a share ε of the motion's. The power of the
+    deformation has a singularity where it begins, which no series passes.
+    """
+    if push.stiffness == 0.0:
+        return push, longest
+    energy = 0.5 * closing * closing * (push.exponent + 1.0)
+    little = (_NOTHING * energy / push.stiffness) ** (1.0 / (push.exponent + 1.0))
+    if push.viscous > 0.0:
+        little = min(little, (_NOTHING * closing / push.viscous) ** 0.8)
+    if deformation > little:
+        return push, longest
+    if closing > 0.0:
+        longest = min(longest, (1.01 * little - deformation) / closing)
+    return NO_PUSH, longest
+
+
+@kernel
+def laws_of(
+    plan: Vector, motion: Motion, frame: Frame, x: float, longest: float
+) -> tuple[Laws, float]:
+    """The forces of this moment that are not linear, and how long they are these at most."""
+    mode = motion.mode
+    v = frame.sign * motion.v
+    branch = branch_of(plan, motion, frame.sign)
+    push, other, apart = NO_PUSH, NO_PUSH, 0.0
+    if mode:
+        side = LEFT if mode == LEFT else RIGHT
+        memory = motion.left if mode == LEFT else motion.right
+        if curved_stop(plan, side):
+            push = push_of(plan, side, branch.way if v == 0.0 else v, memory)
+            push = pressing(push, v, frame.sign * without_friction(plan, motion))
+            push, longest = shallow(push, x, v, longest)
+        if mode == BOTH and curved_stop(plan, LEFT):
+            apart = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
+            other = push_of(plan, LEFT, -(branch.way if v == 0.0 else v), motion.left)
+            other = pressing(other, -v, -frame.sign * without_friction(plan, motion))
+            other, longest = shallow(other, apart - x, -v, longest)
+    drag = 0.0
+    exponent = plan[par.DRAG]
+    if exponent != 1.0:
+        drag = plan[par.DAMPING]
+        if exponent != 2.0:
+            push_back = abs(without_friction(plan, motion)) + 1e-300
+            little = (_NOTHING * push_back / max(drag, 1e-300)) ** (1.0 / exponent)
+            if abs(motion.v) <= little:
+                drag = 0.0
+                longest = min(longest, 1.01 * little / push_back)
+    return Laws(branch, push, other, apart, drag), longest
+
+
+@kernel
+def pressing(push: Push, closing: float, gains: float) -> Push:
+    """The push of a stop, unless it would pull: 1 + χ δ′ below 0, or on the way there.
+
+    `gains` is δ″ where it does not push.
+    """
+    stays = 1.0 + push.dissipation * closing
+    if stays > EVEN or (stays > -EVEN and gains > 0.0):
+        return push
+    return NO_PUSH
 
 
 @kernel
@@ -103,15 +189,17 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
     """Write the series of the step that begins with this motion; return its frame and length."""
     frame = frame_of(plan, motion.mode)
     x = coordinate(plan, motion)
-    if resting(plan, motion.mode):
+    z = frame.sign * motion.z
+    held = resting(plan, motion.mode) or stuck(plan, motion)
+    if held:
         length = min(longest, 1.0 / max(pace(plan), 1e-300))
-        stay(plan, frame, x, frame.sign * motion.z, motion.clock, length)
+        stay(plan, frame, x, z, motion.clock, length)
     else:
-        branch = branch_of(plan, motion, frame.sign)
-        v, z = frame.sign * motion.v, frame.sign * motion.z
-        length = step(plan, frame, branch, x, v, z, motion.clock, unit_of(plan, motion), longest)
+        laws, most = laws_of(plan, motion, frame, x, longest)
+        unit = unit_of(plan, motion, frame, laws, x)
+        length = step(plan, frame, laws, x, frame.sign * motion.v, z, motion.clock, unit, most)
     headed(plan, length / PIECES)
-    plan[HEADER + RESTING] = 1.0 if resting(plan, motion.mode) else 0.0
+    plan[HEADER + RESTING] = 1.0 if held else 0.0
     return frame, length
 
 

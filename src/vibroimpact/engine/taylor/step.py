@@ -8,6 +8,7 @@ y = t/step, so that they reach from 0 to 1.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import count, plane, wave
@@ -15,18 +16,22 @@ from vibroimpact.engine.forcing.several import raised
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST, RATE, SCALED_A, SCALED_W, WAVE_C, WAVE_S, H
 from vibroimpact.engine.motion import Clock
-from vibroimpact.engine.taylor.frame import Branch, Frame
+from vibroimpact.engine.taylor.frame import Branch, Frame, Push
 from vibroimpact.engine.taylor.layout import (
     BENT,
     CUBE,
     DEGREE,
+    DRAG,
     FALLING,
     FIFTH,
     HEADER,
     POWERS,
+    PRESSED,
+    PUSH,
     RISING,
     ROOM,
     SHAKEN,
+    SPEED,
     SQUARE,
     U,
     X,
@@ -85,11 +90,54 @@ def shake(plan: Vector, frame: Frame, clock: Clock, unit: float) -> None:
     plan[SHAKEN] += frame.load * squared
 
 
+@inlined
+def raised_to(plan: Vector, base: int, exponent: float, into: int, n: int) -> None:
+    """Coefficient n of a power of a series that does not begin with 0."""
+    if n == 0:
+        plan[into] = plan[base] ** exponent
+        return
+    total = 0.0
+    for j in range(1, n + 1):
+        total += ((exponent + 1.0) * j - n) * plan[base + j] * plan[into + n - j]
+    plan[into + n] = total / (n * plan[base])
+
+
+@kernel
+def pressed(
+    plan: Vector, push: Push, sign: float, deformation: int, into: int, unit: float, n: int
+) -> float:
+    """Coefficient n of what a power-law stop pushes with, `sign` being that of δ′ to x′."""
+    raised_to(plan, deformation, push.exponent, into, n)
+    force = plan[into + n]
+    if push.dissipation != 0.0:
+        force += sign * push.dissipation / unit * pushed(plan, into, n)
+    force *= push.stiffness
+    if push.viscous != 0.0:
+        raised_to(plan, deformation, 0.25, into + ROOM, n)
+        force += sign * push.viscous / unit * pushed(plan, into + ROOM, n)
+    return force * unit * unit
+
+
+class Laws(NamedTuple):
+    """Which forces of a mode are not linear: stops that push, the isolator's branch, its drag.
+
+    `push` belongs to the stop that the coordinate is of, `other` to one that is pressed besides,
+    by minus the coordinate and `apart`. Where a force is nothing beside the others it is left
+    out, for its power begins there: stiffness and drag are 0.
+    """
+
+    branch: Branch
+    push: Push
+    other: Push
+    apart: float
+    drag: float
+
+
 @kernel
 def step(
     plan: Vector,
     frame: Frame,
-    branch: Branch,
+    laws: Laws,
     x: float,
     v: float,
     z: float,
@@ -109,21 +157,19 @@ def step(
     u = x + frame.offset
     shake(plan, frame, clock, unit)
     squared = unit * unit
+    branch, push, other, apart, drag = laws
+    plan[SHAKEN] -= branch.way * plan[par.FRICTION] * squared
     k, c = frame.stiffness * squared, frame.damping * unit
     cubic, quintic = plan[par.CUBIC] * squared, plan[par.QUINTIC] * squared
     sinh, steep = plan[par.SINH] * squared, plan[par.SINH_RATE]
     hysteretic = plan[par.HYSTERETIC] * squared
-    drag = 0
-    dragging = 0.0
-    if plan[par.DRAG] != 1.0:
-        drag = int(plan[par.DRAG])
-        dragging = plan[par.DAMPING] * squared * unit**-drag
-        if drag % 2 == 0:
-            dragging *= branch.way
+    exponent = plan[par.DRAG]
+    drag *= branch.way * squared / unit**exponent
     sharpness = int(plan[par.SHARPNESS])
     polynomial = cubic != 0.0 or quintic != 0.0
     plan[X], plan[X + 1] = x, v * unit
     plan[U], plan[U + 1] = u, v * unit
+    plan[PRESSED], plan[PRESSED + 1] = apart - x, -v * unit
     plan[Z], plan[Z + DEGREE] = z, 0.0
     if sinh != 0.0:
         plan[RISING], plan[FALLING] = math.exp(steep * u), math.exp(-steep * u)
@@ -151,31 +197,40 @@ def step(
             if n == 0:
                 plan[BENT] += branch.slope
             plan[Z + n + 1] = pushed(plan, BENT, n) / (n + 1)
-        if drag:
-            into = POWERS + (sharpness - 1) * ROOM
-            plan[into + n] = (n + 1) * plan[X + n + 1]
-            power = into
-            for m in range(1, drag):
-                plan[into + m * ROOM + n] = convolved(plan, power, into, n)
-                power = into + m * ROOM
-            force += dragging * plan[power + n]
-        plan[X + n + 2] = (plan[SHAKEN + n] - force) * (1.0 / ((n + 1) * (n + 2)))
-        plan[U + n + 2] = plan[X + n + 2]
-    size = max(abs(u), abs(v) * unit, plan[MOST] * squared)
-    share = 1.0 if hysteretic == 0.0 else min(hysteretic, 1.0)
-    reach = _FARTHEST
-    for n in range(DEGREE - 2, DEGREE + 1):
-        last = abs(plan[X + n])
-        if hysteretic != 0.0 and n < DEGREE:
-            last += share * abs(plan[Z + n])
-        if last > 0.0:
-            reach = min(reach, (_TOLERANCE * size / last) ** (1.0 / n))
+        if drag != 0.0:
+            plan[SPEED + n] = branch.way * ((n + 1) * plan[X + n + 1])
+            if exponent == 2.0:
+                plan[DRAG + n] = convolved(plan, SPEED, SPEED, n)
+            else:
+                raised_to(plan, SPEED, exponent, DRAG, n)
+            force += drag * plan[DRAG + n]
+        if push.stiffness != 0.0:
+            force += pressed(plan, push, 1.0, X, PUSH, unit, n)
+        if other.stiffness != 0.0:
+            force -= pressed(plan, other, -1.0, PRESSED, PUSH + 2 * ROOM, unit, n)
+        new = (plan[SHAKEN + n] - force) * (1.0 / ((n + 1) * (n + 2)))
+        plan[X + n + 2], plan[U + n + 2], plan[PRESSED + n + 2] = new, new, -new
+    reach = reached(plan, max(abs(u), abs(v) * unit, plan[MOST] * squared), hysteretic)
     length = reach * unit
     if not length < longest:
         length = longest
         reach = longest / unit
     scale(plan, reach, hysteretic != 0.0)
     return length
+
+
+@kernel
+def reached(plan: Vector, size: float, hysteretic: float) -> float:
+    """How far the series reach, in units of time, for a motion of this size."""
+    share = min(hysteretic, 1.0)
+    reach = _FARTHEST
+    for n in range(DEGREE - 2, DEGREE + 1):
+        last = abs(plan[X + n])
+        if hysteretic != 0.0:
+            last += share * abs(plan[Z + n])
+        if last > 0.0:
+            reach = min(reach, (_TOLERANCE * size / last) ** (1.0 / n))
+    return reach
 
 
 @kernel
