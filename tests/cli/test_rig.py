@@ -92,7 +92,7 @@ def test_options_of_bumpers_pass_rigid_stops_by():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"bumper_damping": "5"}, "--bumper-damping: given, but every stop is rigid; it needs"),
+        ({"bumper_damping": "5"}, "--bumper-damping: given, but no stop has a damping; it needs"),
         ({"left_stiffness": "5"}, "--left-stiffness: given, but the left stop is RigidStop"),
     ],
 )

@@ -276,8 +276,9 @@ def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensio
     Raises
     ------
     InputError
-        If the isolator or a stop is not linear. If the amplitude cannot be used, or if a gap is not 0 while free flight has no finite
-        resonance peak to scale it by (see `peak_displacement`).
+        If the isolator or a stop is not linear. If the amplitude cannot be used, or if a gap is
+        not 0 while free flight has no finite resonance peak to scale it by (see
+        `peak_displacement`).
     """
     a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
     oscillator.check_linear("dimensionless parameters")

@@ -42,7 +42,7 @@ def free_flight_excursions(
         )
     omega = 2.0 * np.pi * frequencies
     size = 2.0 * shaken.acceleration(oscillator.mass, omega)
-    if oscillator.isolator.stiffness == 0.0:
+    if oscillator.isolator.initial_stiffness == 0.0:
         c = oscillator.isolator.damping / oscillator.mass
         distance = np.hypot(omega, c)
         return size / (omega * distance), size * (c if shaken.moves_base else omega) / distance
@@ -95,7 +95,7 @@ def check_bounded(oscillator: Oscillator, shaken: Repeated, field: str = "freque
 
 def _check(oscillator: Oscillator, shaken: Repeated, frequency: float, field: str) -> None:
     """Refuse resonance of an undamped isolator."""
-    if oscillator.isolator.damping > 0.0 or oscillator.isolator.stiffness == 0.0:
+    if oscillator.isolator.damping > 0.0 or oscillator.isolator.initial_stiffness == 0.0:
         return
     sizes = shaken.amplitudes if isinstance(shaken, Periodic) else (shaken.amplitude,)
     for n, size in enumerate(sizes, start=1):
@@ -119,7 +119,10 @@ def harmonics(
     tuple of ndarray, shape (frequency, n)
         z_n of both, n = 1, 2, ….
     """
-    mass, (k, c) = oscillator.mass, (oscillator.isolator.stiffness, oscillator.isolator.damping)
+    mass, (k, c) = (
+        oscillator.mass,
+        (oscillator.isolator.initial_stiffness, oscillator.isolator.damping),
+    )
     omega = 2.0 * np.pi * frequencies
     sizes = shaken.acceleration(mass, omega).reshape(len(omega), -1)
     order = np.arange(1, sizes.shape[1] + 1)

@@ -15,7 +15,7 @@ from vibroimpact.model.units import shown
 from vibroimpact.model.validation import Accepts, constructor
 
 _SETTLED = 40.0
-"""n u/u_y (β + γ)^(1/n) from which on z is at its limit to the last digit."""
+"""What of n (x - 1) makes y 1 to the last digit, for 1 - yⁿ is less than its negative power of e."""
 
 
 def _whole(value: Any) -> int:
@@ -146,7 +146,7 @@ def _saturation(x: float, n: int) -> float:
         return -math.expm1(-x)
     if n == 2:
         return math.tanh(x)
-    if n * x > _SETTLED:
+    if n * (x - 1.0) > _SETTLED:
         return 1.0
     from scipy.optimize import brentq
     from scipy.special import hyp2f1

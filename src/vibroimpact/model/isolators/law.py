@@ -69,7 +69,7 @@ class IsolatorLaw(Named):
         return math.inf
 
     def viscous_force(self, velocity: float) -> float:
-        """c |v|^α sgn v in N, at a velocity in m/s."""
+        """The c |v|^α sgn v in N, at a velocity in m/s."""
         return math.copysign(self.damping * abs(velocity) ** self.damping_exponent, velocity)
 
 

@@ -108,7 +108,7 @@ class PowerBumper(Named):
 
     @property
     def dissipation_number(self) -> float | None:
-        """d = χ v₀, the same at every impact; None for a χ that is given, for which it is not."""
+        """The d = χ v₀ that all its impacts share; None for a given χ, by which they do not."""
         if self.dissipation is not None:
             return None
         return (
