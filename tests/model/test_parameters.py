@@ -116,12 +116,12 @@ def test_a_unit_may_depend_on_an_exponent():
 @pytest.mark.parametrize("name", ["stiffness_ratio", "relaxation_time", "gap_ratio"])
 def test_ratios_are_those_of_linear_laws(name):
     bent = RIG.replace(isolator=ISOLATORS["cubic"])
-    with pytest.raises(vi.InputError, match="^isolator: its law, polynomial, has no"):
+    with pytest.raises(vi.InputError, match=r"^isolator: its law, polynomial, has no"):
         parameter(name).read(bent, SHAKEN)
 
 
 def test_help_names_them_all(capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "400")
+    monkeypatch.setenv("COLUMNS", "4000")
     assert main(["branch", "--help"]) == 0
     told = capsys.readouterr().out
     assert ", ".join(name.replace("_", "-") for name in PARAMETERS) in told

@@ -119,10 +119,8 @@ def harmonics(
     tuple of ndarray, shape (frequency, n)
         z_n of both, n = 1, 2, ….
     """
-    mass, (k, c) = (
-        oscillator.mass,
-        (oscillator.isolator.initial_stiffness, oscillator.isolator.damping),
-    )
+    mass, isolator = oscillator.mass, oscillator.isolator
+    k, c = isolator.initial_stiffness, isolator.damping
     omega = 2.0 * np.pi * frequencies
     sizes = shaken.acceleration(mass, omega).reshape(len(omega), -1)
     order = np.arange(1, sizes.shape[1] + 1)

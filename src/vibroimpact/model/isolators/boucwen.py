@@ -15,7 +15,7 @@ from vibroimpact.model.units import shown
 from vibroimpact.model.validation import Accepts, constructor
 
 _SETTLED = 40.0
-"""What of n (x - 1) makes y 1 to the last digit, for 1 - yⁿ is less than its negative power of e."""
+"""The n (x - 1) from which on y is 1 to the last digit, for 1 - yⁿ < exp(-n (x - 1))."""
 
 
 def _whole(value: Any) -> int:
