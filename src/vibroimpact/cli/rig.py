@@ -143,7 +143,7 @@ def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
             f"study {text!r}: excitation.amplitude: missing; an acceleration greater than 0 is "
             'accepted, such as "0.05 g", there or as --amplitude, or a displacement or a force'
         )
-    made = changes(options, rig_of)
+    made = changes(options, rig_of, oscillator)
     what = Subject(
         ", ".join((name or found.title, *(change.words for change in made))),
         slug(name) if name else joined(found.slug, made),

@@ -73,13 +73,7 @@ class Parameter(NamedTuple):
         return _UNITS.get(self.quantity, self.quantity.symbol)
 
     def of(self, rig: Oscillator) -> Parameter:
-        """As it is in a rig: the unit of a damping or a stiffness may depend on an exponent.
-
-        Raises
-        ------
-        InputError
-            If the rig has none.
-        """
+        """As it is in a rig: the unit of a damping or a stiffness may depend on an exponent."""
         return self if self.measured is None else self._replace(quantity=self.measured(rig))
 
     def beside(self, value: float, factor: float = 2.0) -> float:
@@ -142,8 +136,9 @@ def _of_stops(
 
     def measured(side: str) -> Callable[[Oscillator], Quantity] | None:
         def of(rig: Oscillator) -> Quantity:
-            stop = getattr(rig, side, None) or next(iter(rig.stops), None)
-            return quantity if stop is None else access.quantity(stop, field)
+            stops = [getattr(rig, side)] if side in ("right", "left") else rig.stops
+            having = (stop for stop in stops if stop and field in type(stop).model_fields)
+            return next((access.quantity(stop, field) for stop in having), quantity)
 
         return of if powers else None
 
