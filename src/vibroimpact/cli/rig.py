@@ -227,7 +227,7 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
 
 def doubts(oscillator: Oscillator, shaking: Repeated | Record) -> list[str]:
     """What of a rig is probably not meant, in words: gaps that nothing ever crosses."""
-    if not isinstance(shaking, Harmonic):
+    if not isinstance(shaking, Harmonic) or not oscillator.isolator.linear:
         return []
     reach = 0.5 * reference_excursions(oscillator, shaking)[0]
     if not reach > 0.0 or oscillator.isolator.damping == 0.0 or oscillator.force:

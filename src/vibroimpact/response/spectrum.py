@@ -79,6 +79,7 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
 def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[_Complex]:
     """Complex amplitudes at the given orders: of u, u̇ and ü + A_t."""
     rig, shaken = origin.oscillator, origin.excitation
+    rig.check_linear("Fourier integrals in closed form")
     contact, side = parts.contact, view(parts)
     # In contact x = u − (±gap), the bumper's deformation; the right one's if both are pressed.
     face = (side * origin.of_side(side, "gap"))[:, np.newaxis]
