@@ -18,13 +18,20 @@ from typing import TYPE_CHECKING, Any
 from vibroimpact._version import __version__
 
 _HOME = {
+    "BilinearIsolator": "model",
+    "BoucWenIsolator": "model",
     "Bumper": "model",
     "Dimensionless": "model",
+    "ExponentialIsolator": "model",
+    "FrictionIsolator": "model",
     "Harmonic": "model",
     "InputError": "errors",
     "Isolator": "model",
+    "JankowskiBumper": "model",
     "Oscillator": "model",
     "Periodic": "model",
+    "PolynomialIsolator": "model",
+    "PowerBumper": "model",
     "Record": "model",
     "Rig": "model",
     "RigidStop": "model",
@@ -56,13 +63,20 @@ _HOME = {
 }
 
 __all__ = [
+    "BilinearIsolator",
+    "BoucWenIsolator",
     "Bumper",
     "Dimensionless",
+    "ExponentialIsolator",
+    "FrictionIsolator",
     "Harmonic",
     "InputError",
     "Isolator",
+    "JankowskiBumper",
     "Oscillator",
     "Periodic",
+    "PolynomialIsolator",
+    "PowerBumper",
     "Record",
     "Rig",
     "RigidStop",
@@ -97,12 +111,19 @@ __all__ = [
 if TYPE_CHECKING:
     from vibroimpact.errors import InputError
     from vibroimpact.model import (
+        BilinearIsolator,
+        BoucWenIsolator,
         Bumper,
         Dimensionless,
+        ExponentialIsolator,
+        FrictionIsolator,
         Harmonic,
         Isolator,
+        JankowskiBumper,
         Oscillator,
         Periodic,
+        PolynomialIsolator,
+        PowerBumper,
         Record,
         Rig,
         RigidStop,

@@ -92,7 +92,7 @@ def test_options_of_bumpers_pass_rigid_stops_by():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"bumper_damping": "5"}, "--bumper-damping: given, but every stop is rigid; it needs"),
+        ({"bumper_damping": "5"}, "--bumper-damping: given, but no stop has a damping; it needs"),
         ({"left_stiffness": "5"}, "--left-stiffness: given, but the left stop is RigidStop"),
     ],
 )
@@ -125,3 +125,74 @@ def test_gravity():
 def test_what_cannot_be_used(options, message):
     with pytest.raises(vi.InputError, match=message):
         subject("B2-G1-A3", RigOptions(**options))
+
+
+HERTZ = vi.PowerBumper("2 GN/m^1.5", "7.5 mm", dissipation=0.4)
+
+
+def test_options_are_read_by_the_laws_of_the_rig():
+    fluid = vi.Oscillator(550, vi.Isolator(3e4, 1e3, 0.5), HERTZ, CASE.left)
+    made = changed(fluid, RigOptions(damping="2 kN (s/m)^0.5", right_stiffness="3 GN/m^1.5"))
+    assert made.isolator == fluid.isolator.replace(damping=2e3)
+    assert made.right == HERTZ.replace(stiffness=3e9)
+    with pytest.raises(vi.InputError, match=r"--damping: '2 kN s/m' is a damping; a damping in N"):
+        changed(fluid, RigOptions(damping="2 kN s/m"))
+    with pytest.raises(vi.InputError, match=r"--bumper-stiffness: '1 MN/m' is a stiffness"):
+        changed(fluid, RigOptions(bumper_stiffness="1 MN/m"))
+    assert changed(fluid, RigOptions(bumper_damping="5")).right == HERTZ
+    assert changed(fluid, RigOptions(bumper_damping="5")).left.damping == 5.0
+    yielding = CASE.replace(isolator=vi.BilinearIsolator(1e5, 3e4, 400, 0))
+    with pytest.raises(vi.InputError, match=r"--stiffness: given, but the isolator is Bilinear"):
+        changed(yielding, RigOptions(stiffness="3"))
+
+
+STUDY = """
+[oscillator]
+mass = "550 kg"
+isolator = {{ {isolator} }}
+right = {{ kind = "power", stiffness = "2 GN/m^1.5", gap = "7.5 mm", restitution = 0.6 }}
+
+[excitation]
+amplitude = "0.05 g"
+"""
+
+
+@pytest.mark.parametrize(
+    ("isolator", "law"),
+    [
+        (
+            'kind = "friction", stiffness = 3e4, damping = 0, friction = "120 N"',
+            vi.FrictionIsolator(3e4, 0, 120),
+        ),
+        (
+            'kind = "bouc-wen", elastic_stiffness = 1e5, post_yield_stiffness = 3e4, '
+            'yield_force = "400 N", damping = 5, exponent = 2',
+            vi.BoucWenIsolator(1e5, 3e4, 400, 5, 2),
+        ),
+        (
+            'stiffness = 3e4, damping = "3 kN (s/m)^0.5", damping_exponent = 0.5',
+            vi.Isolator(3e4, 3e3, 0.5),
+        ),
+    ],
+)
+def test_a_study_may_name_any_law(isolator, law, tmp_path):
+    from vibroimpact.cli.study import read_study
+
+    path = tmp_path / "rig.toml"
+    path.write_text(STUDY.format(isolator=isolator), encoding="utf-8")
+    rig = read_study(path).oscillator
+    assert rig == vi.Oscillator(550, law, HERTZ.replace(dissipation=None, restitution=0.6))
+    path.write_text(STUDY.format(isolator=f"{isolator}, colour = 1"), encoding="utf-8")
+    with pytest.raises(vi.InputError, match=r"oscillator\.isolator\.colour: unknown key; "):
+        read_study(path)
+
+
+def test_a_law_is_told_with_all_its_numbers():
+    from vibroimpact.cli.summary import _law
+
+    assert _law(vi.FrictionIsolator(3e4, 0, 120)) == (
+        "friction, stiffness 30 kN/m, damping 0 N s/m, friction 120 N"
+    )
+    assert _law(HERTZ) == (
+        "power, stiffness 2000 MN/m^1.5, gap 7.5 mm, exponent 1.5, dissipation 0.4 s/m"
+    )

@@ -130,7 +130,8 @@ def test_a_study_needs_no_ending(write):
         ),
         (
             RIG + 'left = { kind = "hertz" }',
-            r"oscillator.left.kind: 'hertz' is unknown; 'kelvin-voigt' or 'rigid' is accepted",
+            r"oscillator.left.kind: 'hertz' is unknown; 'kelvin-voigt', 'rigid', 'power' or "
+            r"'jankowski' is accepted",
         ),
         (RIG.replace("550", "-550"), r"oscillator.mass: '-550 kg' is not greater than 0"),
         (RIG.replace("900", "nan"), r"oscillator.right.damping: nan is not finite"),

@@ -4,7 +4,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vibroimpact.model import Bumper, Isolator, Oscillator, RigidStop, State, equilibrium
+from vibroimpact.errors import InputError
+from vibroimpact.model import (
+    BilinearIsolator,
+    BoucWenIsolator,
+    Bumper,
+    ExponentialIsolator,
+    FrictionIsolator,
+    Isolator,
+    JankowskiBumper,
+    Oscillator,
+    PolynomialIsolator,
+    PowerBumper,
+    RigidStop,
+    State,
+    equilibrium,
+)
 
 STIFFNESS = 2.0
 
@@ -65,3 +80,68 @@ def test_forces_balance(stiffness, right, left):
     # A depth is a difference of numbers as large as the gap.
     allowed = sum(map(abs, forces)) + sum(s.stiffness * abs(s.gap) for s in (right, left) if s)
     assert abs(sum(forces)) <= 4e-16 * allowed
+
+
+def resting(isolator, right=None, left=None, force=0.0):
+    return equilibrium(Oscillator(1.0, isolator, right, left, force)).displacement
+
+
+LAWS = [
+    FrictionIsolator(30.0, 0.1, 0.5),
+    BilinearIsolator(50.0, 3.0, 1.0, 0.1),
+    PolynomialIsolator(30.0, 0.1, 40.0, 20.0),
+    BoucWenIsolator(50.0, 3.0, 1.0, 0.1, 3),
+    ExponentialIsolator(50.0, 3.0, 20.0, 0.1, 5.0, 2.0),
+    Isolator(30.0, 0.1, 2.0),
+]
+STOPS = [
+    None,
+    PowerBumper(500.0, 0.01, dissipation=0.3),
+    PowerBumper(500.0, -0.02, 2.0),
+    JankowskiBumper(500.0, 0.05, 0.5, 1.0),
+    Bumper(500.0, 1.0, -0.03),
+    RigidStop(0.5, 0.02),
+]
+
+
+@pytest.mark.parametrize("isolator", LAWS, ids=lambda law: law.kind)
+@pytest.mark.parametrize("right", STOPS, ids=repr)
+@pytest.mark.parametrize("left", STOPS, ids=repr)
+@pytest.mark.parametrize("force", [0.0, 0.3, -2.0, 6.0])
+def test_any_laws_balance(isolator, right, left, force):
+    u = resting(isolator, right, left, force)
+    assert resting(isolator, left, right, -force) == -u
+    rest = force - isolator.static_force(u)
+    for side, stop in ((1, right), (-1, left)):
+        if isinstance(stop, RigidStop):
+            assert side * u <= stop.gap
+        elif stop is not None:
+            rest -= side * stop.static_force(side * u - stop.gap)
+    if u == 0.0 and isinstance(isolator, FrictionIsolator):
+        assert abs(rest) <= isolator.friction
+    elif isinstance(right, RigidStop) and u == right.gap:
+        assert rest >= 0.0
+    elif isinstance(left, RigidStop) and u == -left.gap:
+        assert rest <= 0.0
+    else:
+        assert rest == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_damping_exponent_moves_no_rest():
+    stop = Bumper(6.0, 1.0, -0.4)
+    assert repr(resting(Isolator(2.0, 0.3, 0.5), stop)) == repr(resting(Isolator(2.0, 0.3), stop))
+
+
+def test_friction_holds_what_it_can():
+    sticky = FrictionIsolator(2.0, 0.0, 1.0)
+    assert resting(sticky, force=1.0) == 0.0
+    assert resting(sticky, force=-1.5) == pytest.approx(-0.25)
+    assert resting(sticky, Bumper(10.0, 0.0, -0.1)) == 0.0
+    assert resting(FrictionIsolator(0.0, 0.0, 1.0), force=-0.9) == 0.0
+
+
+def test_a_softening_isolator_that_a_preload_pushes_over():
+    with pytest.raises(InputError, match=r"^isolator: it softens, and 2 N at 1 m is the most"):
+        resting(PolynomialIsolator(3.0, 0.0, -1.0), Bumper(100.0, 0.0, -9.0))
+    held = resting(PolynomialIsolator(3.0, 0.0, -1.0), Bumper(100.0, 0.0, -9.0), RigidStop(0, 0.5))
+    assert held == -0.5

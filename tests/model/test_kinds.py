@@ -47,15 +47,18 @@ def test_only_an_unusual_kind_is_written():
     [
         (
             {"right": {"kind": "hertz", "stiffness": 1}},
-            "rig.right.kind: 'hertz' is unknown; 'kelvin-voigt' or 'rigid' is accepted",
+            "rig.right.kind: 'hertz' is unknown; 'kelvin-voigt', 'rigid', 'power' or 'jankowski' "
+            "is accepted",
         ),
         (
             {"left": {"kind": 3}},
-            "rig.left.kind: 3 is unknown; 'kelvin-voigt' or 'rigid' is accepted",
+            "rig.left.kind: 3 is unknown; 'kelvin-voigt', 'rigid', 'power' or 'jankowski' is "
+            "accepted",
         ),
         (
-            {"isolator": {"kind": "friction"}},
-            "rig.isolator.kind: 'friction' is unknown; 'linear' is accepted",
+            {"isolator": {"kind": "rubber"}},
+            "rig.isolator.kind: 'rubber' is unknown; 'linear', 'friction', 'bilinear', "
+            "'polynomial', 'bouc-wen' or 'exponential' is accepted",
         ),
         (
             {"right": {**WALL, "restitution": 2}},

@@ -14,10 +14,37 @@ RIG, SHAKEN = CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)
 WALLS = RIG.replace(right=vi.RigidStop(0.4, 7.5e-3), left=vi.RigidStop(0.4, 7.5e-3))
 
 
+HERTZ = vi.PowerBumper("2 GN/m^1.5", "7.5 mm", dissipation=0.4)
+POUNDING = vi.JankowskiBumper("2 GN/m^1.5", "7.5 mm", 0.6, 550)
+YIELDING = {"elastic_stiffness": 1e5, "post_yield_stiffness": 3e4, "yield_force": 800, "damping": 0}
+ISOLATORS = {
+    "friction": vi.FrictionIsolator(3e4, 1e3, 120),
+    "yield_force": vi.BilinearIsolator(**YIELDING),
+    "elastic_stiffness": vi.BilinearIsolator(**YIELDING),
+    "post_yield_stiffness": vi.BoucWenIsolator(**YIELDING),
+    "beta": vi.BoucWenIsolator(**YIELDING),
+    "gamma": vi.BoucWenIsolator(**YIELDING),
+    "cubic": vi.PolynomialIsolator(3e4, 0, 1e6, -1e7),
+    "quintic": vi.PolynomialIsolator(3e4, 0, 1e6, -1e7),
+} | {
+    name: vi.ExponentialIsolator(1e5, 3e4, 300, 0, 20, 50)
+    for name in ("reversal_stiffness", "final_stiffness", "decay", "hardening", "hardening_force")
+}
+
+
+def having(name: str) -> vi.Oscillator:
+    """A rig that has the parameter."""
+    found = RIG.replace(isolator=ISOLATORS.get(name, RIG.isolator))
+    stops = {"restitution": WALLS.right, "mass": POUNDING, "exponent": HERTZ, "dissipation": HERTZ}
+    ours = name.removeprefix("right_").removeprefix("left_").removeprefix("bumper_")
+    stop = stops.get(ours, RIG.right)
+    return found.replace(right=stop, left=stop)
+
+
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_what_is_written_is_read(name):
     one = parameter(name)
-    start = WALLS if "restitution" in name else RIG
+    start = having(name)
     here = one.read(start, SHAKEN)
     rig, shaken = one.write(start, SHAKEN, 1.5 * here)
     assert one.read(rig, shaken) == pytest.approx(1.5 * here, rel=1e-12)
@@ -31,8 +58,8 @@ def test_what_is_written_is_read(name):
 
 
 def numbers(rig: vi.Oscillator, shaken: vi.Harmonic) -> list[float]:
-    sides = [value for stop in rig.stops for value in stop.model_dump().values()]
-    isolator = list(rig.isolator.model_dump().values())
+    sides = [value for stop in rig.stops for value in dict(stop).values()]
+    isolator = list(dict(rig.isolator).values())
     found = [rig.mass, *isolator, *sides, *shaken.model_dump().values()]
     return [value for value in found if isinstance(value, float)]
 
@@ -57,8 +84,44 @@ def test_sides_that_differ():
         parameter("relaxation_time").read(RIG.without_bumpers(), SHAKEN)
 
 
+@pytest.mark.parametrize("name", ["friction", "cubic", "decay", "dissipation", "left_mass"])
+def test_a_rig_without_it_is_refused_in_one_line(name):
+    with pytest.raises(vi.InputError, match=rf"has no {name.removeprefix('left_')} that") as caught:
+        parameter(name).read(RIG, SHAKEN)
+    assert "\n" not in str(caught.value)
+
+
+def test_what_is_given_in_another_way_or_is_a_whole_number_is_not_varied():
+    elastic = RIG.replace(right=HERTZ.replace(dissipation=None), left=None)
+    with pytest.raises(vi.InputError, match="has no dissipation that can be varied; its exponent"):
+        parameter("dissipation").read(elastic, SHAKEN)
+    with pytest.raises(vi.InputError, match="one of frequency"):
+        parameter("exponent")
+
+
+def test_a_unit_may_depend_on_an_exponent():
+    fluid = RIG.replace(isolator=vi.Isolator(3e4, 100, 0.5), right=HERTZ)
+    assert parameter("damping").of(fluid).units == "N (s/m)^0.5"
+    assert parameter("damping").of(RIG).units == "N s m-1"
+    assert parameter("right_stiffness").of(fluid).units == "N/m^1.5"
+    assert parameter("left_stiffness").of(fluid).units == "N m-1"
+    low, high = bounds(parameter("right_stiffness").of(fluid), "1 GN/m^1.5", "3 GN/m^1.5")
+    assert (low, high) == (1e9, 3e9)
+    with pytest.raises(vi.InputError, match=r"in N/m and N/m\^1\.5; 'right_stiffness' and"):
+        parameter("bumper_stiffness").read(
+            fluid.replace(right=HERTZ.replace(stiffness=fluid.left.stiffness)), SHAKEN
+        )
+
+
+@pytest.mark.parametrize("name", ["stiffness_ratio", "relaxation_time", "gap_ratio"])
+def test_ratios_are_those_of_linear_laws(name):
+    bent = RIG.replace(isolator=ISOLATORS["cubic"])
+    with pytest.raises(vi.InputError, match=r"^isolator: its law, polynomial, has no"):
+        parameter(name).read(bent, SHAKEN)
+
+
 def test_help_names_them_all(capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "400")
+    monkeypatch.setenv("COLUMNS", "4000")
     assert main(["branch", "--help"]) == 0
     told = capsys.readouterr().out
     assert ", ".join(name.replace("_", "-") for name in PARAMETERS) in told

@@ -8,12 +8,13 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.errors import InputError
+from vibroimpact.model.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model import State
+    from vibroimpact.model import Oscillator, State
 
 _BRANCH = Group("Branch", sort_key=1)
 _WITH_UNITS = Parameter(group=_BRANCH, allow_leading_hyphen=True)
@@ -28,11 +29,8 @@ def branch(
         Parameter(
             group=_BRANCH,
             help=(
-                "What is varied: frequency, amplitude, force, gap, right-gap, left-gap, "
-                "bumper-stiffness, right-stiffness, left-stiffness, bumper-damping, "
-                "right-damping, left-damping, "
-                "restitution, right-restitution, left-restitution, "
-                "stiffness, damping, stiffness-ratio, gap-ratio, relaxation-time, damping-ratio."
+                "What is varied, if the rig has it: "
+                f"{', '.join(name.replace('_', '-') for name in PARAMETERS)}."
             ),
         ),
     ] = "frequency",
@@ -112,7 +110,8 @@ def branch(
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
     along = parameter.replace("-", "_")
-    span = option_range(along, start, stop, ("--from", "--to"), default_span(what))
+    ends = ("--from", "--to")
+    span = option_range(along, start, stop, ends, default_span(what), rig=what.oscillator)
 
     first = _first(begin, period)
 
@@ -154,10 +153,11 @@ def option_range(
     options: tuple[str, str],
     default: tuple[float, float],
     field: str = "--parameter",
+    rig: Oscillator | None = None,
 ) -> tuple[float, float]:
     """A range of a parameter from two options; that of a frequency has a default, in Hz.
 
-    `field` is the option that names the parameter.
+    `field` is the option that names the parameter; the unit of one may depend on the rig.
 
     Raises
     ------
@@ -168,6 +168,8 @@ def option_range(
     from vibroimpact.model.parameters import parameter
 
     varied = parameter(name, field)
+    if rig is not None:
+        varied = varied.of(rig)
     given: list[str | float | None] = [low, high]
     if name == "frequency":
         given = [
@@ -181,7 +183,8 @@ def option_range(
         if name == "frequency":
             ends.append(to_si(text, varied.quantity, option, above=0.0))
         else:
-            ends.append(to_si(text, varied.quantity, option, minimum=0.0))
+            least, most = varied.least, varied.most
+            ends.append(to_si(text, varied.quantity, option, minimum=least, maximum=most))
     if not ends[0] < ends[1]:
         raise InputError(
             f"{options[1]}: {given[1]} does not lie above {given[0]}; a larger value is accepted"
@@ -265,7 +268,7 @@ def _one_branch(
         raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
     hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
     phase = what.study.excitation.phase if what.study else 0.0
-    kind = varied(parameter).quantity
+    kind = varied(parameter).of(what.oscillator).quantity
     here = varied(parameter).read(what.oscillator, what.at(hertz, phase))
     if not span[0] <= here <= span[1]:
         raise InputError(

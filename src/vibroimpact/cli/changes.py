@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.errors import InputError
-from vibroimpact.model import GRAVITY
+from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import MASS
@@ -29,7 +29,9 @@ class Change(NamedTuple):
     """For file names, such as "left-gap-9mm"."""
 
 
-def changes(options: RigOptions, rig_of: Callable[[RigOptions], Any]) -> tuple[Change, ...]:
+def changes(
+    options: RigOptions, rig_of: Callable[[RigOptions], Any], rig: Oscillator | None = None
+) -> tuple[Change, ...]:
     """The options without which the rig would be another.
 
     Parameters
@@ -38,6 +40,8 @@ def changes(options: RigOptions, rig_of: Callable[[RigOptions], Any]) -> tuple[C
         As they were given.
     rig_of
         The rig with such options, comparable.
+    rig
+        The rig with these options, on whose laws units may depend.
     """
     wanted = rig_of(options)
     kept = options
@@ -52,13 +56,13 @@ def changes(options: RigOptions, rig_of: Callable[[RigOptions], Any]) -> tuple[C
         except InputError:  # a new bumper needs all its values
             pass
     return tuple(
-        _change(field.name, getattr(kept, field.name))
+        _change(field.name, getattr(kept, field.name), rig)
         for field in fields(RigOptions)
         if field.name != "parameters" and getattr(kept, field.name) != field.default
     )
 
 
-def _change(option: str, value: str | bool) -> Change:
+def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
     flag = option.replace("_", "-")
     if isinstance(value, bool):
         return Change(f"{flag.replace('-', ' ')} bumper", flag)
@@ -66,7 +70,10 @@ def _change(option: str, value: str | bool) -> Change:
         size, of = sized(value, None, option)
         text = f"{size / GRAVITY:.6g} g" if of == "acceleration" else pretty(size, QUANTITIES[of])
     else:
-        quantity = MASS if option == "mass" else PARAMETERS[option].quantity
+        varied = PARAMETERS.get(option)
+        if varied is not None and rig is not None:
+            varied = varied.of(rig)
+        quantity = MASS if varied is None else varied.quantity
         text = pretty(to_si(value, quantity, option), quantity)
     return Change(f"{flag.replace('-', ' ')} {text}", f"{flag}-{slug(text.replace(' ', ''))}")
 

@@ -14,7 +14,6 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import (
     Bumper,
     Harmonic,
-    Isolator,
     Model,
     Oscillator,
     Periodic,
@@ -28,12 +27,14 @@ from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.rigs import as_shaking
 from vibroimpact.model.units import pretty
-from vibroimpact.model.validation import Accepts
 from vibroimpact.response.free_flight import reference_excursions
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
 """Fields of a bumper, and the options that set them on both sides."""
 
+
+_ANY_BUMPER = Bumper(1.0, 0.0, 0.0)
+"""What the fields of a new bumper are read by."""
 
 _FAR = 100.0
 """Gap over the largest displacement of free flight from which on it is doubted."""
@@ -142,7 +143,7 @@ def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
             f"study {text!r}: excitation.amplitude: missing; an acceleration greater than 0 is "
             'accepted, such as "0.05 g", there or as --amplitude, or a displacement or a force'
         )
-    made = changes(options, rig_of)
+    made = changes(options, rig_of, oscillator)
     what = Subject(
         ", ".join((name or found.title, *(change.words for change in made))),
         slug(name) if name else joined(found.slug, made),
@@ -226,7 +227,7 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
 
 def doubts(oscillator: Oscillator, shaking: Repeated | Record) -> list[str]:
     """What of a rig is probably not meant, in words: gaps that nothing ever crosses."""
-    if not isinstance(shaking, Harmonic):
+    if not isinstance(shaking, Harmonic) or not oscillator.isolator.linear:
         return []
     reach = 0.5 * reference_excursions(oscillator, shaking)[0]
     if not reach > 0.0 or oscillator.isolator.damping == 0.0 or oscillator.force:
@@ -248,47 +249,43 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
     InputError
         If a value cannot be used, or a new bumper is not fully described.
     """
-    isolator = {
-        field: _value(Isolator, field, field, options)
-        for field in ("stiffness", "damping")
-        if getattr(options, field) is not None
-    }
+    isolator = {}
+    for field in ("stiffness", "damping"):
+        if getattr(options, field) is None:
+            continue
+        if field not in type(oscillator.isolator).model_fields:
+            raise InputError(
+                f"{_flag(field)}: given, but the isolator is {oscillator.isolator}; "
+                f"it needs an isolator with a {field}"
+            )
+        isolator[field] = _value(oscillator.isolator, field, field, options)
     changes: dict[str, Any] = {"isolator": oscillator.isolator.replace(**isolator)}
     if options.mass is not None:
-        changes["mass"] = _value(Oscillator, "mass", "mass", options)
+        changes["mass"] = _value(oscillator, "mass", "mass", options)
 
     removed = {"right": options.no_right, "left": options.no_left}
-    shared = {
-        field: _value(Bumper, field, option, options)
-        for field, option in _SHARED.items()
-        if getattr(options, option) is not None
-    }
+    shared = [field for field, option in _SHARED.items() if getattr(options, option) is not None]
     # Both sides' options change what is there; they make bumpers only where there are none.
     present = [
         side for side in removed if getattr(oscillator, side) is not None and not removed[side]
     ]
     targets = present or [side for side in removed if not removed[side]]
     if shared and not targets:
-        option = next(_SHARED[field] for field in shared)
+        option = _SHARED[shared[0]]
         raise InputError(
             f"{_flag(option)}: given with --no-right and --no-left; it needs a bumper on some side"
         )
     for field in shared:
         if not any(_has(getattr(oscillator, side), field) for side in targets):
             raise InputError(
-                f"{_flag(_SHARED[field])}: given, but every stop is rigid; it needs a bumper "
-                "on some side"
+                f"{_flag(_SHARED[field])}: given, but no stop has a {field}; it needs a bumper "
+                "with one on some side"
             )
     for side in removed:
-        own = {
-            field: _value(Bumper, field, f"{side}_{field}", options)
-            for field in _SHARED
-            if getattr(options, f"{side}_{field}") is not None
-        }
+        own = [field for field in _SHARED if getattr(options, f"{side}_{field}") is not None]
         if removed[side] and own:
             raise InputError(
-                f"{_flag(f'{side}_{next(iter(own))}')}: given with --no-{side}; "
-                "one of them is accepted"
+                f"{_flag(f'{side}_{own[0]}')}: given with --no-{side}; one of them is accepted"
             )
         bumper: Stop | None = None if removed[side] else getattr(oscillator, side)
         for field in own:
@@ -297,7 +294,13 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
                     f"{_flag(f'{side}_{field}')}: given, but the {side} stop is {bumper}; "
                     "it needs a bumper there"
                 )
-        values = {f: v for f, v in shared.items() if side in targets and _has(bumper, f)} | own
+        values = {
+            field: _value(bumper or _ANY_BUMPER, field, option, options)
+            for field, option in (
+                *((f, _SHARED[f]) for f in shared if side in targets and _has(bumper, f)),
+                *((f, f"{side}_{f}") for f in own),
+            )
+        }
         if bumper is not None:
             bumper = bumper.replace(**values)
         elif values and not removed[side]:
@@ -321,9 +324,10 @@ def _new_bumper(side: str, values: dict[str, float]) -> Bumper:
     return Bumper(**values)
 
 
-def _value(model: type[Model], field: str, option: str, options: RigOptions) -> float:
-    """Read an option's text as the model reads the field; messages name the option."""
-    accepts = next(m for m in model.model_fields[field].metadata if isinstance(m, Accepts))
+def _value(part: Model, field: str, option: str, options: RigOptions) -> float:
+    """Read an option's text as a part of the rig reads the field; messages name the option."""
+    accepts = part.accepts(field)
+    assert accepts is not None
     try:
         value = accepts(getattr(options, option))
     except InputError as error:

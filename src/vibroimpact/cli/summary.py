@@ -17,7 +17,10 @@ from vibroimpact.cli.rig import Subject
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
     GRAVITY,
+    Bumper,
     Dimensionless,
+    Isolator,
+    Model,
     Periodic,
     Record,
     Repeated,
@@ -52,7 +55,8 @@ def rig_text(subject: Subject) -> RenderableType:
     """Return the rig with every parameter that was used."""
     oscillator = subject.oscillator
     isolator = oscillator.isolator
-    scaled, sprung = _dimensionless(subject), isolator.stiffness > 0.0
+    scaled, sprung = _dimensionless(subject), isolator.initial_stiffness > 0.0
+    damped = sprung and isolator.damping_exponent == 1.0
     table = _plain_table()
     table.add_row(
         "mass",
@@ -61,8 +65,10 @@ def rig_text(subject: Subject) -> RenderableType:
     )
     table.add_row(
         "isolator",
-        f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}",
-        f"ξ = {plain(oscillator.damping_ratio, 4)}" if sprung else "",
+        f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}"
+        if isinstance(isolator, Isolator) and isolator.linear
+        else _law(isolator),
+        f"ξ = {plain(oscillator.damping_ratio, 4)}" if damped else "",
     )
     for side in ("right", "left"):
         bumper: Stop | None = getattr(oscillator, side)
@@ -77,6 +83,9 @@ def rig_text(subject: Subject) -> RenderableType:
                 f"λ = ∞, δ0 = {plain(group.gap, 4)}" if group else "",
             )
             continue
+        if not isinstance(bumper, Bumper):
+            table.add_row(f"{side} bumper", _law(bumper), "")
+            continue
         table.add_row(
             f"{side} bumper",
             f"K = {pretty(bumper.stiffness, STIFFNESS)}, C = {pretty(bumper.damping, DAMPING)}, "
@@ -90,6 +99,13 @@ def rig_text(subject: Subject) -> RenderableType:
         table.add_row("constant force", pretty(oscillator.force, FORCE), "")
     table.add_row(*_shaking_words(subject.shaking), "")
     return Group(Text(subject.name, style="bold"), table)
+
+
+def _law(part: Model) -> str:
+    """A law with all its numbers, by the names that a study file gives them."""
+    rows = dict(part.rows())
+    kind = rows.pop("kind", "linear")
+    return ", ".join([kind, *(f"{name.replace('_', ' ')} {text}" for name, text in rows.items())])
 
 
 def sweep_facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from vibroimpact.figures.family import family_legend, resonance_family
 from vibroimpact.figures.feature import feature_map
 from vibroimpact.figures.history import time_history
 from vibroimpact.figures.lines import spectrum_lines
+from vibroimpact.figures.loops import force_loop
 from vibroimpact.figures.marks import frequency_marks
 from vibroimpact.figures.page import motion_page
 from vibroimpact.figures.portrait import phase_portrait
@@ -29,6 +30,7 @@ __all__ = [
     "clearances",
     "family_legend",
     "feature_map",
+    "force_loop",
     "frequency_marks",
     "hysteresis_cycle",
     "motion_page",

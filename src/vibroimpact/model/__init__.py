@@ -13,27 +13,43 @@ from vibroimpact.model.dimensionless import (
 )
 from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
-from vibroimpact.model.isolators import Isolator
+from vibroimpact.model.isolators import (
+    AnyIsolator,
+    BilinearIsolator,
+    BoucWenIsolator,
+    ExponentialIsolator,
+    FrictionIsolator,
+    Isolator,
+    PolynomialIsolator,
+)
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import GRAVITY
 from vibroimpact.model.record import Record
 from vibroimpact.model.state import State
-from vibroimpact.model.stops import Bumper, RigidStop, Stop
+from vibroimpact.model.stops import Bumper, JankowskiBumper, PowerBumper, RigidStop, Stop
 from vibroimpact.model.units import to_si
 from vibroimpact.model.validation import Model, validate
 
 __all__ = [
     "GRAVITY",
+    "AnyIsolator",
+    "BilinearIsolator",
+    "BoucWenIsolator",
     "Bumper",
     "Dimensionless",
     "DimensionlessBumper",
     "DimensionlessRigidStop",
     "DimensionlessStop",
+    "ExponentialIsolator",
+    "FrictionIsolator",
     "Harmonic",
     "Isolator",
+    "JankowskiBumper",
     "Model",
     "Oscillator",
     "Periodic",
+    "PolynomialIsolator",
+    "PowerBumper",
     "Record",
     "Repeated",
     "Rig",

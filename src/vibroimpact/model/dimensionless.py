@@ -276,11 +276,13 @@ def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensio
     Raises
     ------
     InputError
-        If the amplitude cannot be used, or if a gap is not 0 while free flight has no finite
-        resonance peak to scale it by (see `peak_displacement`).
+        If the isolator or a stop is not linear. If the amplitude cannot be used, or if a gap is
+        not 0 while free flight has no finite resonance peak to scale it by (see
+        `peak_displacement`).
     """
     a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
-    k = oscillator.isolator.stiffness
+    oscillator.check_linear("dimensionless parameters")
+    k = oscillator.isolator.initial_stiffness
 
     def side(stop: Stop | None) -> DimensionlessStop | None:
         if stop is None:
@@ -288,6 +290,7 @@ def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensio
         gap = stop.gap / peak_displacement(oscillator, a) if stop.gap else 0.0
         if isinstance(stop, RigidStop):
             return DimensionlessRigidStop(stop.restitution, gap)
+        assert isinstance(stop, Bumper)
         time = oscillator.angular_frequency * stop.damping / stop.stiffness
         return DimensionlessBumper(stop.stiffness / k, gap, time)
 
@@ -314,11 +317,13 @@ def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
     Raises
     ------
     InputError
-        If the amplitude is 0, or if the damping ratio is 0 (the peak is unbounded) or at
-        least 1/√2 (the displacement has no peak).
+        If the isolator is not linear. If the amplitude is 0, or if the damping ratio is 0 (the
+        peak is unbounded) or at least 1/√2 (the displacement has no peak).
     """
     a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
-    return _peak(oscillator.mass, oscillator.isolator.stiffness, oscillator.damping_ratio, a)
+    oscillator.check_linear("free flight in closed form, whose peak scales gaps", stops=False)
+    stiffness = oscillator.isolator.initial_stiffness
+    return _peak(oscillator.mass, stiffness, oscillator.damping_ratio, a)
 
 
 def largest_free_flight(

@@ -1,12 +1,13 @@
 """Where the mass stays while nothing shakes it.
 
-The force of the isolator and of the bumpers, each pushing only,
+The force of a first, slow loading from u = 0,
 
-    K u + K_R max(u - G_R, 0) - K_L max(-u - G_L, 0),
+    isolator(u) + right(u - G_R) - left(-u - G_L),
 
-rises with u from minus to plus infinity, and rigid stops bound u. So there is one place where it
-equals the constant force; without that force and with no gap below 0 it is u = 0. Without a spring
-the mass stays anywhere between its stops, u = 0 among them.
+each stop pushing only, rises with u as far as the isolator's force does, and rigid stops bound u.
+So there is one place where it equals the constant force; without that force and with no gap below
+0 it is u = 0. Friction holds the mass at u = 0 if it can. Without a spring the mass stays anywhere
+between its stops, u = 0 among them.
 """
 
 from __future__ import annotations
@@ -14,13 +15,17 @@ from __future__ import annotations
 import math
 from itertools import product
 
+from vibroimpact.errors import InputError
+from vibroimpact.model.isolators import FrictionIsolator, Isolator
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.state import State
 from vibroimpact.model.stops import Bumper, RigidStop
+from vibroimpact.model.units import pretty
 
 
 def equilibrium(oscillator: Oscillator) -> State:
-    """Return the state of rest.
+    """Return the state of rest that is reached from u = 0 without a memory of anything else.
 
     Parameters
     ----------
@@ -33,12 +38,27 @@ def equilibrium(oscillator: Oscillator) -> State:
         The displacement, with zero velocity. What it leaves open follows from the rig: bumpers
         are pressed as far as the mass reaches into them.
 
+    Raises
+    ------
+    InputError
+        If a softening isolator does not hold the mass.
+
     Examples
     --------
     >>> from vibroimpact.model import Bumper, Isolator, Oscillator
     >>> equilibrium(Oscillator(1.0, Isolator(1.0, 0.1), Bumper(3.0, 0.1, -0.4))).displacement
     -0.3
     """
+    linear = isinstance(oscillator.isolator, Isolator) and all(
+        isinstance(stop, Bumper | RigidStop) for stop in oscillator.stops
+    )
+    return State(_by_stiffness(oscillator) if linear else _by_root(oscillator))
+
+
+def _by_stiffness(oscillator: Oscillator) -> float:
+    """The displacement of a linear spring between linear stops, in closed form."""
+    assert isinstance(oscillator.isolator, Isolator)
+    spring = oscillator.isolator.stiffness
     sides = [(1, oscillator.right), (-1, oscillator.left)]
     bumpers = [(side, stop) for side, stop in sides if isinstance(stop, Bumper)]
 
@@ -48,7 +68,7 @@ def equilibrium(oscillator: Oscillator) -> State:
         stiffness = sum(stop.stiffness for yes, (_, stop) in pairs if yes)
         push = sum(side * stop.stiffness * stop.gap for yes, (side, stop) in pairs if yes)
         push += oscillator.force
-        stiffness += oscillator.isolator.stiffness
+        stiffness += spring
         u = push / stiffness if stiffness else math.copysign(math.inf, push) if push else 0.0
         depths = [(yes, side * u - stop.gap) for yes, (side, stop) in pairs]
         return max((-depth if yes else depth for yes, depth in depths), default=0.0), u
@@ -59,4 +79,67 @@ def equilibrium(oscillator: Oscillator) -> State:
         u = min(u, oscillator.right.gap)
     if isinstance(oscillator.left, RigidStop):
         u = max(u, -oscillator.left.gap)
-    return State(u)
+    return u
+
+
+def _by_root(oscillator: Oscillator) -> float:
+    """The displacement for any laws: the first root on the way out from where it is let go."""
+    right, left, isolator = oscillator.right, oscillator.left, oscillator.isolator
+    high = right.gap if isinstance(right, RigidStop) else math.inf
+    low = -left.gap if isinstance(left, RigidStop) else -math.inf
+    begin = max(low, min(high, 0.0))
+
+    def stops(u: float) -> float:
+        found = 0.0
+        if right is not None and not isinstance(right, RigidStop):
+            found += right.static_force(u - right.gap)
+        if left is not None and not isinstance(left, RigidStop):
+            found -= left.static_force(-u - left.gap)
+        return found
+
+    friction = isolator.friction if isinstance(isolator, FrictionIsolator) and not begin else 0.0
+    push = oscillator.force - stops(begin)
+    if not begin:
+        if abs(push) <= friction:
+            return begin
+    else:
+        push -= isolator.static_force(begin)
+    side = math.copysign(1.0, push)
+    end = high if side > 0.0 else low
+    if push == 0.0 or begin == end:
+        return begin
+
+    def excess(way: float) -> float:
+        """What still pushes outwards, `way` beyond the beginning."""
+        u = begin + side * way
+        return side * (oscillator.force - stops(u) - isolator.static_force(u))
+
+    most = min(abs(end - begin), isolator.reach + abs(begin))
+    way = min(most, _scale(oscillator, push))
+    while excess(way) > 0.0:
+        if way >= most:
+            if most < abs(end - begin):
+                raise InputError(
+                    f"isolator: it softens, and {pretty(isolator.strongest, FORCE)} at "
+                    f"{pretty(isolator.reach, LENGTH)} is the most that it bears, which does not "
+                    f"hold the mass against {pretty(abs(push), FORCE)}; a smaller force or preload "
+                    "is accepted"
+                )
+            return end
+        way = min(2.0 * way, most)
+    if way == 0.0:
+        return begin
+    from scipy.optimize import brentq
+
+    # At the beginning friction, of which a first loading has all, may push back.
+    least = math.ldexp(way, -1074) or math.ulp(0.0)
+    if excess(least) <= 0.0:
+        return begin
+    return begin + side * float(brentq(excess, least, way, xtol=1e-300, rtol=1e-15))
+
+
+def _scale(oscillator: Oscillator, push: float) -> float:
+    """A length to begin the search with, in m."""
+    stiffness = oscillator.isolator.initial_stiffness
+    found = abs(push) / stiffness if stiffness else 0.0
+    return found if 0.0 < found < math.inf else 1e-3

@@ -50,7 +50,10 @@ class Named(Model):
 
     @model_serializer(mode="wrap")
     def _with_its_kind(self, fields: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        return fields(self) if self.usual else {"kind": self.kind, **fields(self)}
+        found = {
+            name: value for name, value in fields(self).items() if not self._unsaid(name, value)
+        }
+        return found if self.usual else {"kind": self.kind, **found}
 
     def rows(self) -> list[tuple[str, str]]:
         """As for every part of the model, with its kind first unless it is the usual one."""
@@ -76,9 +79,10 @@ class Kinds(Choice):
 
     def unknown(self, value: Any) -> str:
         """Say what is wrong with the kind of a table."""
-        names = " or ".join(map(repr, self.classes))
+        *names, last = map(repr, self.classes)
+        known = f"{', '.join(names)} or {last}" if names else last
         kind = value["kind"] if isinstance(value, Mapping) else self.kind_of(value)
-        return f"{shown(kind)} is unknown; {names} is accepted"
+        return f"{shown(kind)} is unknown; {known} is accepted"
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler

@@ -253,7 +253,7 @@ def table_1() -> Table1:
             for a, rig in rigs.items()
         },
         stiffness_ratio={
-            a: {b: k / rig.isolator.stiffness for b, k in BUMPERS.items()}
+            a: {b: k / rig.isolator.initial_stiffness for b, k in BUMPERS.items()}
             for a, rig in rigs.items()
         },
     )

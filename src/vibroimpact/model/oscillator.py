@@ -1,7 +1,8 @@
 """The vibrating mass, its isolator and its two stops (the paper's Fig. 1).
 
-``M ü + C u̇ + K u + (contact force) = -M A_t(t)``, with ``u`` the displacement relative to
-the base. A stop pushes and never pulls.
+``M ü + C u̇ + K u + (contact force) = -M A_t(t)`` for the linear isolator, with ``u`` the
+displacement relative to the base; the others have forces of their own. A stop pushes and never
+pulls.
 """
 
 from __future__ import annotations
@@ -13,10 +14,9 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.isolators import Isolator
-from vibroimpact.model.kinds import Kinds
+from vibroimpact.model.isolators import ISOLATORS, AnyIsolator
 from vibroimpact.model.quantities import FORCE, LENGTH, MASS
-from vibroimpact.model.stops import STOPS, Bumper, RigidStop, Stop
+from vibroimpact.model.stops import STOPS, RigidStop, Stop
 from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import Accepts, Model, constructor
 
@@ -29,10 +29,13 @@ class Oscillator(Model):
     mass
         M in kg, greater than 0; or text such as ``"550 kg"``.
     isolator
-        Its `Isolator`, or a mapping with the isolator's fields.
+        Its `Isolator`, `FrictionIsolator`, `BilinearIsolator`, `PolynomialIsolator`,
+        `BoucWenIsolator` or `ExponentialIsolator`; or a mapping with the fields of one (with its
+        ``kind`` if it is not linear).
     right
-        What is met at positive displacement: a `Bumper`, a `RigidStop`, a mapping with the
-        fields of one (with its ``kind`` if it is no bumper), or None.
+        What is met at positive displacement: a `Bumper`, a `RigidStop`, a `PowerBumper`, a
+        `JankowskiBumper`, a mapping with the fields of one (with its ``kind`` if it is no
+        `Bumper`), or None.
     left
         What is met at negative displacement, likewise.
     force
@@ -43,22 +46,22 @@ class Oscillator(Model):
     ------
     InputError
         If a value cannot be used; the message has its path, such as ``right.gap``. If two
-        rigid stops leave the mass no room.
+        rigid stops leave the mass no room, or nothing holds it against the force.
     """
 
     _quiet: ClassVar[Mapping[str, Any]] = {"force": 0.0}
 
     mass: Annotated[float, Accepts(MASS, above=0.0)]
-    isolator: Annotated[Isolator, Kinds(Isolator)]
-    right: Annotated[Bumper | RigidStop | None, STOPS] = None
-    left: Annotated[Bumper | RigidStop | None, STOPS] = None
+    isolator: Annotated[AnyIsolator, ISOLATORS]
+    right: Annotated[Stop | None, STOPS] = None
+    left: Annotated[Stop | None, STOPS] = None
     force: Annotated[float, Accepts(FORCE)] = 0.0
 
     @constructor
     def __init__(
         self,
         mass: float | str,
-        isolator: Isolator | Mapping[str, Any],
+        isolator: AnyIsolator | Mapping[str, Any],
         right: Stop | Mapping[str, Any] | None = None,
         left: Stop | Mapping[str, Any] | None = None,
         force: float | str = 0.0,
@@ -68,7 +71,7 @@ class Oscillator(Model):
     @model_validator(mode="after")
     def _frequency_exists(self) -> Self:
         # Each may be a float while their ratio or product is none.
-        k, m = self.isolator.stiffness, self.mass
+        k, m = self.isolator.initial_stiffness, self.mass
         if k == 0.0:
             return self
         if not (0.0 < k / m < math.inf and 0.0 < k * m < math.inf):
@@ -80,15 +83,22 @@ class Oscillator(Model):
 
     @model_validator(mode="after")
     def _held(self) -> Self:
-        """Without a spring, stops or a dashpot must bound the motion."""
-        if self.isolator.stiffness > 0.0:
-            return self
+        """Where no spring bounds the motion, stops must; what friction holds needs none."""
+        strongest = self.isolator.strongest
         against = self.right if self.force > 0.0 else self.left
-        if (self.force and against is None) or not self.stops:
+        slips = self.force != 0.0 and abs(self.force) >= strongest
+        if (slips and against is None) or (strongest == 0.0 and not self.stops):
+            bound = (
+                "isolator.stiffness: 0, and nothing"
+                if strongest == 0.0
+                else f"force: the isolator bears less than {pretty(strongest, FORCE)}, and no stop"
+            )
+            stiffer = (
+                " or a stiffness greater than 0" if strongest == 0.0 else " or a smaller force"
+            )
             raise InputError(
-                f"isolator.stiffness: 0, and nothing holds the mass against a force of "
-                f"{pretty(self.force, FORCE)}; a stop on that side or a stiffness greater than 0 "
-                "is accepted"
+                f"{bound} holds the mass against a force of {pretty(self.force, FORCE)}; "
+                f"a stop on that side{stiffer} is accepted"
             )
         return self
 
@@ -110,8 +120,11 @@ class Oscillator(Model):
 
     @property
     def angular_frequency(self) -> float:
-        """Undamped natural angular frequency without stops, ω0 = √(K/M), in rad/s; may be 0."""
-        return math.sqrt(self.isolator.stiffness / self.mass)
+        """Undamped natural angular frequency without stops, ω0 = √(K/M), in rad/s; may be 0.
+
+        K is the isolator's `initial_stiffness`: that of small motions.
+        """
+        return math.sqrt(self.isolator.initial_stiffness / self.mass)
 
     @property
     def natural_frequency(self) -> float:
@@ -129,20 +142,54 @@ class Oscillator(Model):
     def damping_ratio(self) -> float:
         """Damping factor of the isolator, ξ = C/(2√(K M)) (the paper's Section 7).
 
+        It is that of the dashpot in small motions; what friction and yielding take comes on top.
+
         Raises
         ------
         InputError
-            If the isolator has no stiffness.
+            If the isolator has no stiffness, or a damping exponent other than 1.
         """
         self._springs("damping ratio")
-        return self.isolator.damping / (2.0 * math.sqrt(self.isolator.stiffness * self.mass))
+        if self.isolator.damping_exponent != 1.0:
+            raise InputError(
+                f"isolator.damping_exponent: {self.isolator.damping_exponent:g}, so that there is "
+                "no damping ratio, for it depends on the velocity; 1 is accepted"
+            )
+        stiffness = self.isolator.initial_stiffness
+        return self.isolator.damping / (2.0 * math.sqrt(stiffness * self.mass))
 
     def _springs(self, what: str) -> None:
-        if self.isolator.stiffness == 0.0:
+        if self.isolator.initial_stiffness == 0.0:
             raise InputError(
                 f"isolator.stiffness: 0, so that there is no {what}; a stiffness greater than 0 "
                 "is accepted, or values that need none, such as frequencies in Hz"
             )
+
+    @property
+    def linear(self) -> bool:
+        """Whether its forces are linear but for what contacts begin and end.
+
+        So it is for an `Isolator` without damping exponent between stops of the kinds `Bumper` and
+        `RigidStop`.
+        """
+        return self.isolator.linear and all(stop.linear for stop in self.stops)
+
+    def check_linear(self, what: str, stops: bool = True) -> None:
+        """Refuse what makes sense for linear laws only.
+
+        Raises
+        ------
+        InputError
+            If the isolator, or one of the `stops`, follows another law; the line says that it has
+            no `what`.
+        """
+        parts = {"isolator": self.isolator, "right": self.right, "left": self.left}
+        for name, part in parts.items():
+            if part is None or part.linear or (name != "isolator" and not stops):
+                continue
+            law = part.kind if part.kind != "linear" else "a dashpot with an exponent"
+            accepted = "a linear Isolator" if name == "isolator" else "a Bumper or a RigidStop"
+            raise InputError(f"{name}: its law, {law}, has no {what}; {accepted} is accepted there")
 
     @property
     def symmetric(self) -> bool:

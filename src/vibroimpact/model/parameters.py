@@ -7,32 +7,28 @@ parameter, and for its value in a rig and the rig at another value. A new one is
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.dimensionless import peak_displacement
-from vibroimpact.model.excitation import Repeated
+from vibroimpact.model import access
+from vibroimpact.model.access import Read, Write
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DAMPING,
+    DECAY,
     DIMENSIONLESS,
+    DISSIPATION,
     FORCE,
     FREQUENCY,
     LENGTH,
+    MASS,
     STIFFNESS,
     Quantity,
+    power_stiffness,
 )
-from vibroimpact.model.stops import Bumper, Stop
 from vibroimpact.model.units import to_si
-
-Setting = tuple[Oscillator, Repeated]
-"""A rig and its forcing."""
-
-Read = Callable[[Oscillator, Repeated], float]
-Write = Callable[[Oscillator, Repeated, float], Setting]
 
 _UNITS = {
     FREQUENCY: "Hz",
@@ -42,8 +38,13 @@ _UNITS = {
     DAMPING: "N s m-1",
     DIMENSIONLESS: "1",
     FORCE: "N",
+    MASS: "kg",
+    DISSIPATION: "s m-1",
+    DECAY: "m-1",
+    power_stiffness(3.0): "N m-3",
+    power_stiffness(5.0): "N m-5",
 }
-"""As datasets write them."""
+"""As datasets write them; units of laws with other exponents as they are."""
 
 
 class Parameter(NamedTuple):
@@ -63,11 +64,17 @@ class Parameter(NamedTuple):
     least: float | None = 0.0
     most: float | None = None
     """What it may not fall below and not exceed; None for no bound."""
+    measured: Callable[[Oscillator], Quantity] | None = None
+    """What it is in a rig, where its unit depends on an exponent of the rig."""
 
     @property
     def units(self) -> str:
         """The SI unit, as datasets write it."""
-        return _UNITS[self.quantity]
+        return _UNITS.get(self.quantity, self.quantity.symbol)
+
+    def of(self, rig: Oscillator) -> Parameter:
+        """As it is in a rig: the unit of a damping or a stiffness may depend on an exponent."""
+        return self if self.measured is None else self._replace(quantity=self.measured(rig))
 
     def beside(self, value: float, factor: float = 2.0) -> float:
         """Another value that it may have, so many times as large or as small; 0 counts as 1."""
@@ -115,191 +122,115 @@ def bounds(varied: Parameter, low: float | str, high: float | str) -> tuple[floa
     return ends[0], ends[1]
 
 
-def _number(stop: Stop, name: str) -> float:
-    """A field of a stop, if it has it."""
-    if name not in type(stop).model_fields:
-        raise InputError(
-            f"parameter: {stop} has no {name}; "
-            f"its {' or '.join(type(stop).model_fields)} is accepted, or a rig whose stops have one"
-        )
-    return float(getattr(stop, name))
-
-
-def _bumpers(name: str) -> tuple[Read, Write]:
-    """Read and write a number that both bumpers share."""
-
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        values = {_number(stop, name) for stop in rig.stops}
-        if len(values) != 1:
-            told = "there is no bumper" if not values else f"they are {sorted(values)}"
-            raise InputError(
-                f"parameter: {name!r} is that of both bumpers, but {told}; "
-                f"'right_{name}' and 'left_{name}' are accepted, or a rig in which they agree"
-            )
-        return float(values.pop())
-
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        changed = {
-            side: bumper.replace(**{name: value})
-            for side, bumper in (("right", rig.right), ("left", rig.left))
-            if bumper is not None
-        }
-        return rig.replace(**changed), shaken
-
-    return read, write
-
-
-def _one_bumper(side: str, name: str) -> tuple[Read, Write]:
-    def bumper(rig: Oscillator) -> Stop:
-        found: Stop | None = getattr(rig, side)
-        if found is None:
-            raise InputError(f"parameter: there is no {side} bumper; one that is there is accepted")
-        return found
-
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        return _number(bumper(rig), name)
-
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        return rig.replace(**{side: bumper(rig).replace(**{name: value})}), shaken
-
-    return read, write
-
-
-def _rig(name: str) -> tuple[Read, Write]:
-    return (
-        lambda rig, shaken: float(getattr(rig, name)),
-        lambda rig, shaken, value: (rig.replace(**{name: value}), shaken),
-    )
-
-
-def _isolator(name: str) -> tuple[Read, Write]:
-    return (
-        lambda rig, shaken: float(getattr(rig.isolator, name)),
-        lambda rig, shaken, value: (
-            rig.replace(isolator=rig.isolator.replace(**{name: value})),
-            shaken,
-        ),
-    )
-
-
-def _forcing(name: str) -> tuple[Read, Write]:
-    return (
-        lambda rig, shaken: float(getattr(shaken, name)),
-        lambda rig, shaken, value: (rig, shaken.replace(**{name: value})),
-    )
-
-
-def _stiffness_ratio() -> tuple[Read, Write]:
-    """λ = K_j/K at a fixed relaxation time C_j/K_j."""
-    stiffness_of, _ = _bumpers("stiffness")
-
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        return stiffness_of(rig, shaken) / rig.isolator.stiffness
-
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        changed = {}
-        for side, bumper in (("right", rig.right), ("left", rig.left)):
-            if isinstance(bumper, Bumper):
-                stiffness = value * rig.isolator.stiffness
-                time = bumper.damping / bumper.stiffness
-                changed[side] = bumper.replace(stiffness=stiffness, damping=stiffness * time)
-        return rig.replace(**changed), shaken
-
-    return read, write
-
-
-def _gap_ratio() -> tuple[Read, Write]:
-    """δ0 = G0_j/u_max at a fixed peak of free flight."""
-    gap_of, with_gap = _bumpers("gap")
-
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        return gap_of(rig, shaken) / peak_displacement(rig, shaken.amplitude)
-
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        return with_gap(rig, shaken, value * peak_displacement(rig, shaken.amplitude))
-
-    return read, write
-
-
-def _relaxation_time() -> tuple[Read, Write]:
-    """τ = ω0 C_j/K_j at a fixed stiffness."""
-
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        times = [_number(stop, "damping") / _number(stop, "stiffness") for stop in rig.stops]
-        if not times or not math.isclose(min(times), max(times), rel_tol=1e-12):
-            told = "there is no bumper" if not times else f"their C/K are {sorted(times)} s"
-            raise InputError(
-                f"parameter: 'relaxation_time' is that of both bumpers, but {told}; "
-                "'right_damping' and 'left_damping' are accepted, or a rig in which they agree"
-            )
-        return rig.angular_frequency * times[0]
-
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        changed = {
-            side: bumper.replace(damping=value * bumper.stiffness / rig.angular_frequency)
-            for side, bumper in (("right", rig.right), ("left", rig.left))
-            if isinstance(bumper, Bumper)
-        }
-        return rig.replace(**changed), shaken
-
-    return read, write
-
-
-def _damping_ratio() -> tuple[Read, Write]:
-    """ξ = C/(2√(K M)) at fixed stiffness and mass."""
-
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        damping = 2.0 * value * math.sqrt(rig.isolator.stiffness * rig.mass)
-        return rig.replace(isolator=rig.isolator.replace(damping=damping)), shaken
-
-    return lambda rig, shaken: rig.damping_ratio, write
-
-
 def _of_stops(
     field: str,
     both: str,
     quantity: Quantity,
     zero: bool = True,
     stop: str = "bumper",
+    least: float = 0.0,
     most: float | None = None,
+    powers: bool = False,
 ) -> Iterator[Parameter]:
-    """A field of the stops: of both, and of each side."""
-    yield Parameter(both, quantity, f"{field} of both {stop}s", *_bumpers(field), zero, most=most)
+    """A field of the stops: of both, and of each side; its unit may depend on an exponent."""
+
+    def measured(side: str) -> Callable[[Oscillator], Quantity] | None:
+        def of(rig: Oscillator) -> Quantity:
+            stops = [getattr(rig, side)] if side in ("right", "left") else rig.stops
+            having = (stop for stop in stops if stop and field in type(stop).model_fields)
+            return next((access.quantity(stop, field) for stop in having), quantity)
+
+        return of if powers else None
+
+    words = field.replace("_", " ")
+
+    def made(name: str, whose: str, how: tuple[Read, Write], side: str) -> Parameter:
+        named = f"{words} of {whose}"
+        return Parameter(
+            name, quantity, named, *how, zero, least=least, most=most, measured=measured(side)
+        )
+
+    yield made(both, f"both {stop}s", access.bumpers(field), "both")
     for side in ("right", "left"):
-        named = f"{field} of the {side} {stop}"
-        read, write = _one_bumper(side, field)
-        yield Parameter(f"{side}_{field}", quantity, named, read, write, zero, most=most)
+        how = access.one_bumper(side, field)
+        yield made(f"{side}_{field}", f"the {side} {stop}", how, side)
+
+
+def _of_isolator(
+    field: str,
+    quantity: Quantity,
+    zero: bool = True,
+    least: float | None = 0.0,
+    long_name: str = "",
+    powers: bool = False,
+) -> Parameter:
+    """A field of the isolator; its unit may depend on an exponent."""
+
+    def measured(rig: Oscillator) -> Quantity:
+        return access.quantity(rig.isolator, field, "isolator has")
+
+    named = f"{long_name or field.replace('_', ' ')} of the isolator"
+    read, write = access.isolator(field)
+    return Parameter(
+        field,
+        quantity,
+        named,
+        read,
+        write,
+        zero,
+        least=least,
+        measured=measured if powers else None,
+    )
 
 
 PARAMETERS: dict[str, Parameter] = {
     p.name: p
     for p in (
-        Parameter("frequency", FREQUENCY, "excitation frequency", *_forcing("frequency"), False),
         Parameter(
-            "amplitude", ACCELERATION, "peak base acceleration", *_forcing("amplitude"), False
+            "frequency", FREQUENCY, "excitation frequency", *access.forcing("frequency"), False
         ),
-        Parameter("force", FORCE, "constant force on the mass", *_rig("force"), least=None),
-        Parameter("gap", LENGTH, "gap of each side", *_bumpers("gap"), least=None),
+        Parameter(
+            "amplitude", ACCELERATION, "peak base acceleration", *access.forcing("amplitude"), False
+        ),
+        Parameter("force", FORCE, "constant force on the mass", *access.rig("force"), least=None),
+        Parameter("gap", LENGTH, "gap of each side", *access.bumpers("gap"), least=None),
         *(
             Parameter(
                 f"{side}_gap",
                 LENGTH,
                 f"gap of the {side} side",
-                *_one_bumper(side, "gap"),
+                *access.one_bumper(side, "gap"),
                 least=None,
             )
             for side in ("right", "left")
         ),
-        *_of_stops("stiffness", "bumper_stiffness", STIFFNESS, False),
+        *_of_stops("stiffness", "bumper_stiffness", STIFFNESS, False, powers=True),
         *_of_stops("damping", "bumper_damping", DAMPING),
-        *_of_stops("restitution", "restitution", DIMENSIONLESS, stop="rigid stop", most=1.0),
-        Parameter("stiffness", STIFFNESS, "stiffness of the isolator", *_isolator("stiffness")),
-        Parameter("damping", DAMPING, "damping of the isolator", *_isolator("damping")),
+        *_of_stops("restitution", "restitution", DIMENSIONLESS, stop="stop", most=1.0),
+        *_of_stops("exponent", "bumper_exponent", DIMENSIONLESS, False, least=1.0),
+        *_of_stops("dissipation", "dissipation", DISSIPATION),
+        *_of_stops("mass", "bumper_mass", MASS, False),
+        _of_isolator("stiffness", STIFFNESS),
+        _of_isolator("damping", DAMPING, powers=True),
+        _of_isolator("damping_exponent", DIMENSIONLESS, False),
+        _of_isolator("friction", FORCE),
+        _of_isolator("elastic_stiffness", STIFFNESS, False),
+        _of_isolator("post_yield_stiffness", STIFFNESS, long_name="post-yield stiffness"),
+        _of_isolator("yield_force", FORCE, False),
+        _of_isolator("cubic", power_stiffness(3.0), least=None, long_name="cubic stiffness"),
+        _of_isolator("quintic", power_stiffness(5.0), least=None, long_name="quintic stiffness"),
+        _of_isolator("beta", DIMENSIONLESS, long_name="hysteresis number β"),
+        _of_isolator("gamma", DIMENSIONLESS, least=None, long_name="hysteresis number γ"),
+        _of_isolator("reversal_stiffness", STIFFNESS, False),
+        _of_isolator("final_stiffness", STIFFNESS),
+        _of_isolator("decay", DECAY, False),
+        _of_isolator("hardening", DECAY, least=None),
+        _of_isolator("hardening_force", FORCE),
         Parameter(
             "stiffness_ratio",
             DIMENSIONLESS,
             "stiffness ratio of the bumpers",
-            *_stiffness_ratio(),
+            *access.stiffness_ratio(),
             False,
             "K_j / K",
         ),
@@ -307,7 +238,7 @@ PARAMETERS: dict[str, Parameter] = {
             "gap_ratio",
             DIMENSIONLESS,
             "gap ratio of each side",
-            *_gap_ratio(),
+            *access.gap_ratio(),
             comment="G / u_max",
             least=None,
         ),
@@ -315,14 +246,14 @@ PARAMETERS: dict[str, Parameter] = {
             "relaxation_time",
             DIMENSIONLESS,
             "relaxation time of the bumpers",
-            *_relaxation_time(),
+            *access.relaxation_time(),
             comment="ω0 C_j / K_j",
         ),
         Parameter(
             "damping_ratio",
             DIMENSIONLESS,
             "damping ratio of the isolator",
-            *_damping_ratio(),
+            *access.damping_ratio(),
             False,
             "C / (2 √(K M))",
         ),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s² (the *g* of ``"0.05 g"``)."""
@@ -31,7 +32,7 @@ class Quantity:
     """
 
     name: str
-    base: tuple[tuple[str, int], ...]
+    base: tuple[tuple[str, float], ...]
     symbol: str
     example: str
     number: float
@@ -117,3 +118,63 @@ FORCE = Quantity(
 )
 ANGLE = Quantity("angle", (("radian", 1),), "rad", "90 deg", 1.5708, ((0.0, 1.0, "rad"),))
 DIMENSIONLESS = Quantity("dimensionless number", (), "", "0.15", 0.15, ((0.0, 1.0, ""),))
+DISSIPATION = Quantity(
+    "dissipation factor",
+    (("meter", -1), ("second", 1)),
+    "s/m",
+    "0.4 s/m",
+    0.4,
+    ((0.0, 1.0, "s/m"),),
+)
+"""χ of a contact force k δⁿ (1 + χ δ')."""
+DECAY = Quantity("inverse length", (("meter", -1),), "1/m", "200 1/m", 200, ((0.0, 1.0, "1/m"),))
+
+
+@cache
+def power_stiffness(exponent: float) -> Quantity:
+    """Force over length to a power: the k of k uⁿ, in N/mⁿ; the stiffness for n = 1."""
+    if exponent == 1.0:
+        return STIFFNESS
+    power = _SUPERSCRIPTS.get(exponent, f"^{exponent:g}")
+    return Quantity(
+        f"stiffness in N/m{power}",
+        _base(1.0, 1.0 - exponent, -2.0),
+        f"N/m{power}",
+        f"510 kN/m{power}",
+        510000,
+        tuple(
+            (smallest, size, f"{prefix}N/m{power}")
+            for smallest, size, prefix in (
+                (1e10, 1e9, "G"),
+                (1e7, 1e6, "M"),
+                (1e3, 1e3, "k"),
+                (0.0, 1.0, ""),
+            )
+        ),
+    )
+
+
+@cache
+def power_damping(exponent: float) -> Quantity:
+    """Force over velocity to a power: the c of c |v|^α sgn v; the damping for α = 1."""
+    if exponent == 1.0:
+        return DAMPING
+    over = f"(s/m)^{exponent:g}"
+    return Quantity(
+        f"damping in N {over}",
+        _base(1.0, 1.0 - exponent, exponent - 2.0),
+        f"N {over}",
+        f"1.1 kN {over}",
+        1100,
+        ((1e7, 1e6, f"MN {over}"), (1e2, 1e3, f"kN {over}"), (0.0, 1.0, f"N {over}")),
+    )
+
+
+_SUPERSCRIPTS = {2.0: "²", 3.0: "³"}
+"""Exponents that a unit shows raised."""
+
+
+def _base(mass: float, length: float, time: float) -> tuple[tuple[str, float], ...]:
+    """Exponents of the base units, those that are 0 left out."""
+    exponents = (("kilogram", mass), ("meter", length), ("second", time))
+    return tuple((unit, power) for unit, power in exponents if power)

@@ -30,31 +30,32 @@ _TWO_PI = Decimal("6.283185307179586476925286766559")
 
 
 # Named only so that a message can say what a text of the wrong dimension is.
-_ALSO_NAMED: dict[tuple[tuple[str, int], ...], str] = {
+_ALSO_NAMED: dict[tuple[tuple[str, float], ...], str] = {
     (("radian", 1), ("second", -1)): "an angular frequency",
     (("kilogram", 1), ("meter", 2), ("second", -2)): "an energy",
     (("kilogram", 1), ("meter", -1), ("second", -2)): "a pressure",
     (("meter", 2),): "an area",
     (("kelvin", 1),): "a temperature",
 }
-_NAMES: dict[tuple[tuple[str, int], ...], str] = _ALSO_NAMED | {
+_NAMES: dict[tuple[tuple[str, float], ...], str] = _ALSO_NAMED | {
     q.base: q.phrase for q in vars(quantities).values() if isinstance(q, Quantity)
 }
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(?:inf|infinity|∞|nan)\b|[+-]?∞", re.IGNORECASE)
 
-# Only products of powers with one-digit exponents: pint evaluates what it is given, and
-# an exponent tower such as m^9^9^9 would never return.
+# Only products of powers with small exponents: pint evaluates what it is given, and an exponent
+# tower such as m^9^9^9 would never return. Laws of contact and damping have units such as N/m^1.5.
 _NAME = r"[A-Za-zµμΩ°%]+(?:_[A-Za-z]+)*"
-_POWER = r"(?:(?:\^|\*\*)?-?[1-9](?!\d)|⁻?[¹²³])"
+_BROKEN = r"\d?\.\d{1,6}"
+_POWER = rf"(?:(?:\^|\*\*)-?{_BROKEN}(?![\d.])|(?:\^|\*\*)?-?[1-9](?![\d.])|⁻?[¹²³])"
 _FACTOR = rf"{_NAME}{_POWER}?"
 _TIMES = r"(?: ?[*/·⋅] ?| )"
-_GROUP = rf"\({_FACTOR}(?:{_TIMES}{_FACTOR})*\)"
+_GROUP = rf"\({_FACTOR}(?:{_TIMES}{_FACTOR})*\){_POWER}?"
 _UNITS = re.compile(
     rf"(?:1 ?/ ?)?(?:{_FACTOR}|{_GROUP})(?:{_TIMES}(?:{_FACTOR}|{_GROUP}))*", re.ASCII
 )
-_BARE_POWER = re.compile(r"(?<=[A-Za-z])(-?[1-9])")
+_BARE_POWER = re.compile(r"(?<=[A-Za-z)])(-?[1-9])")
 _GRAVITY_SYMBOL = re.compile(r"(?<![A-Za-z_])(m?)[gG](?![A-Za-z_])")
 
 
@@ -301,14 +302,16 @@ def _from_pint(measured: Any, quantity: Quantity) -> float:
         raise _RefusalError("is not finite") from None
     except Exception:  # logarithmic and offset units, which no quantity here takes
         raise _RefusalError(f"is not {quantity.phrase}") from None
-    dimension = tuple(sorted((str(name), power) for name, power in base.unit_items() if power))
+    # An exponent that is no decimal fraction, such as 1/3, is written with six digits.
+    powers = ((str(name), round(float(power), 5)) for name, power in base.unit_items())
+    dimension = tuple(sorted((name, power) for name, power in powers if power))
     magnitude = base.magnitude
     if quantity is FREQUENCY and dimension == (("radian", 1), ("second", -1)):
         # pint converts rad/s to Hz by a factor of 1, since it holds the radian for a
         # number. A frequency counts cycles, and a cycle is 2π radians.
         turn = _TWO_PI if isinstance(magnitude, Decimal) else math.tau
         return float(magnitude / turn)
-    if dimension != quantity.base:
+    if dimension != tuple((name, round(power, 5)) for name, power in quantity.base):
         raise _RefusalError(f"is {_NAMES.get(dimension, 'not ' + quantity.phrase)}")
     return float(magnitude)
 

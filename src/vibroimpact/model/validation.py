@@ -8,11 +8,18 @@ nested table of a study file or from a change to an existing object.
 from __future__ import annotations
 
 import difflib
+import inspect
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, ValidationError
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    ValidationError,
+    ValidationInfo,
+)
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
 from vibroimpact.errors import InputError
@@ -31,6 +38,9 @@ class Accepts:
     ``Annotated[float, Accepts(LENGTH, minimum=0.0)]`` is a float in metres that may be
     given as a number or as text with units. With ``optional=True`` the field may also be
     None, which says that the value is not known.
+
+    Where the unit depends on an exponent, `by` names the field that holds it, which the class must
+    declare before, and `family` gives the quantity for an exponent; `quantity` is the usual one.
     """
 
     quantity: Quantity
@@ -38,6 +48,15 @@ class Accepts:
     minimum: float | None = None
     maximum: float | None = None
     optional: bool = False
+    by: str | None = None
+    family: Callable[[float], Quantity] | None = None
+
+    def of(self, values: Mapping[str, Any]) -> Accepts:
+        """What is accepted beside these values of the other fields."""
+        exponent = None if self.by is None else values.get(self.by)
+        if exponent is None or self.family is None:
+            return self
+        return replace(self, quantity=self.family(exponent), by=None, family=None)
 
     def __call__(self, value: object) -> float | None:
         """Return the value in SI units, or raise `InputError` without the field's name."""
@@ -55,7 +74,13 @@ class Accepts:
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> CoreSchema:
         """Tell pydantic to call this object before its own check."""
-        return core_schema.no_info_before_validator_function(self, handler(source))
+        if self.by is None:
+            return core_schema.no_info_before_validator_function(self, handler(source))
+
+        def beside(value: Any, info: ValidationInfo) -> float | None:
+            return self.of(info.data)(value)
+
+        return core_schema.with_info_before_validator_function(beside, handler(source))
 
 
 class Choice:
@@ -196,7 +221,7 @@ class Model(BaseModel, metaclass=_Listed):
         return self.replace(**(update or {}))
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
-        said = super().__repr_args__()
+        said = ((name, getattr(self, name)) for name in in_order(type(self)))
         return ((name, value) for name, value in said if not self._unsaid(name, value))
 
     def _unsaid(self, name: str | None, value: Any) -> bool:
@@ -208,6 +233,12 @@ class Model(BaseModel, metaclass=_Listed):
 
     def _repr_html_(self) -> str:
         return table(type(self).__name__, self.rows())
+
+    def accepts(self, name: str) -> Accepts | None:
+        """What a field takes beside the other values, if it takes a quantity."""
+        metadata = type(self).model_fields[name].metadata
+        found = next((m for m in metadata if isinstance(m, Accepts)), None)
+        return None if found is None else found.of(dict(self))
 
     def rows(self) -> list[tuple[str, str]]:
         """Paths of the fields, such as ``right.gap``, and their values with units."""
@@ -221,15 +252,21 @@ class Model(BaseModel, metaclass=_Listed):
 
     def _read(self) -> Iterator[tuple[str, Any, str]]:
         """Each field's name, value, and text for reading."""
-        for name, field in type(self).model_fields.items():
+        for name in in_order(type(self)):
             value = getattr(self, name)
             if self._unsaid(name, value):
                 continue
-            accepts = next((m for m in field.metadata if isinstance(m, Accepts)), None)
+            accepts = self.accepts(name)
             text = (
                 str(value) if value is None or accepts is None else pretty(value, accepts.quantity)
             )
             yield name, value, text
+
+
+def in_order(model: type[BaseModel]) -> list[str]:
+    """Names of the fields, in the order in which the constructor takes them."""
+    said = [n for n in inspect.signature(model.__init__).parameters if n in model.model_fields]
+    return [*said, *(name for name in model.model_fields if name not in said)]
 
 
 def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelType:
@@ -336,7 +373,7 @@ def _along(
 
 
 def _fields(model: type[BaseModel]) -> str:
-    *names, last = model.model_fields
+    *names, last = in_order(model)
     return f"{', '.join(names)} and {last}" if names else last
 
 

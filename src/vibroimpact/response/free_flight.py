@@ -32,8 +32,10 @@ def free_flight_excursions(
     Raises
     ------
     InputError
-        At the natural frequency of an undamped isolator, where the motion has no bound.
+        If the isolator is not linear; at the natural frequency of an undamped one, where the
+        motion has no bound.
     """
+    oscillator.check_linear("free flight in closed form", stops=False)
     for i, frequency in enumerate(frequencies):
         _check(oscillator, shaken, float(frequency), f"frequencies[{i}]")
     if isinstance(shaken, Periodic):
@@ -42,7 +44,7 @@ def free_flight_excursions(
         )
     omega = 2.0 * np.pi * frequencies
     size = 2.0 * shaken.acceleration(oscillator.mass, omega)
-    if oscillator.isolator.stiffness == 0.0:
+    if oscillator.isolator.initial_stiffness == 0.0:
         c = oscillator.isolator.damping / oscillator.mass
         distance = np.hypot(omega, c)
         return size / (omega * distance), size * (c if shaken.moves_base else omega) / distance
@@ -63,6 +65,7 @@ def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[floa
     of the base the acceleration grows on with the frequency: it is taken where the displacement
     is largest. Without a spring there is no such scale, and both are NaN.
     """
+    oscillator.check_linear("free flight in closed form", stops=False)
     omega0 = oscillator.angular_frequency
     if omega0 == 0.0:
         return math.nan, math.nan
@@ -95,7 +98,8 @@ def check_bounded(oscillator: Oscillator, shaken: Repeated, field: str = "freque
 
 def _check(oscillator: Oscillator, shaken: Repeated, frequency: float, field: str) -> None:
     """Refuse resonance of an undamped isolator."""
-    if oscillator.isolator.damping > 0.0 or oscillator.isolator.stiffness == 0.0:
+    isolator = oscillator.isolator
+    if not isolator.linear or isolator.damping > 0.0 or isolator.initial_stiffness == 0.0:
         return
     sizes = shaken.amplitudes if isinstance(shaken, Periodic) else (shaken.amplitude,)
     for n, size in enumerate(sizes, start=1):
@@ -119,7 +123,9 @@ def harmonics(
     tuple of ndarray, shape (frequency, n)
         z_n of both, n = 1, 2, ….
     """
-    mass, (k, c) = oscillator.mass, (oscillator.isolator.stiffness, oscillator.isolator.damping)
+    oscillator.check_linear("free flight in closed form", stops=False)
+    mass, isolator = oscillator.mass, oscillator.isolator
+    k, c = isolator.initial_stiffness, isolator.damping
     omega = 2.0 * np.pi * frequencies
     sizes = shaken.acceleration(mass, omega).reshape(len(omega), -1)
     order = np.arange(1, sizes.shape[1] + 1)

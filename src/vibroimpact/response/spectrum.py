@@ -79,12 +79,14 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
 def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[_Complex]:
     """Complex amplitudes at the given orders: of u, u̇ and ü + A_t."""
     rig, shaken = origin.oscillator, origin.excitation
+    rig.check_linear("Fourier integrals in closed form")
     contact, side = parts.contact, view(parts)
     # In contact x = u − (±gap), the bumper's deformation; the right one's if both are pressed.
     face = (side * origin.of_side(side, "gap"))[:, np.newaxis]
-    k = (rig.isolator.stiffness + origin.of_side(contact, "stiffness"))[:, np.newaxis] / rig.mass
+    spring = rig.isolator.initial_stiffness
+    k = (spring + origin.of_side(contact, "stiffness"))[:, np.newaxis] / rig.mass
     c = (rig.isolator.damping + origin.of_side(contact, "damping"))[:, np.newaxis] / rig.mass
-    load = -rig.isolator.stiffness * face
+    load = -spring * face
     if rig.right and rig.left:
         overlap = -(rig.right.gap + rig.left.gap)
         other = origin.of_side(-side, "stiffness") * overlap

@@ -14,7 +14,17 @@ from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, Periodic, Record, Repeated, RigidStop, State, Stop
+from vibroimpact.model import (
+    Bumper,
+    Isolator,
+    Oscillator,
+    Periodic,
+    Record,
+    Repeated,
+    RigidStop,
+    State,
+    Stop,
+)
 from vibroimpact.response.variables import COMPONENTS
 
 TOUCHING = 1e-12
@@ -22,19 +32,29 @@ TOUCHING = 1e-12
 
 
 def engine_rig(oscillator: Oscillator, shaken: Repeated | Record) -> NDArray[np.float64]:
-    """The oscillator and what shakes it as the vector that the engine reads."""
+    """The oscillator and what shakes it as the vector that the engine reads.
+
+    Raises
+    ------
+    InputError
+        If the isolator or a stop follows a law that the engine has no flow for.
+    """
+    oscillator.check_linear("flow in the engine")
+    isolator = oscillator.isolator
+    assert isinstance(isolator, Isolator)
 
     def numbers(stop: Stop | None) -> tuple[float, ...] | None:
         if stop is None:
             return None
         if isinstance(stop, RigidStop):
             return stop.restitution, stop.gap
+        assert isinstance(stop, Bumper)
         return stop.stiffness, stop.damping, stop.gap
 
     return rig_vector(
         oscillator.mass,
-        oscillator.isolator.stiffness,
-        oscillator.isolator.damping,
+        isolator.stiffness,
+        isolator.damping,
         numbers(oscillator.right),
         numbers(oscillator.left),
         oscillator.force,
@@ -90,8 +110,10 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     Raises
     ------
     InputError
-        If the mass lies inside a bumper, or is said to touch one that it does not touch.
+        If the mass lies inside a bumper, or is said to touch one that it does not touch; if the
+        isolator or a stop follows a law that the engine has no flow for.
     """
+    oscillator.check_linear("flow in the engine")
     u, v = state.displacement, state.velocity
     deformations = [0.0, 0.0]
     mode = FLIGHT
@@ -124,6 +146,7 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
             if touches:
                 u = sign * stop.gap
         else:
+            assert isinstance(stop, Bumper)
             touches, deformation = _on_bumper(stop, sign, state, name, reach, slack, said, sign * v)
         if touches:
             mode |= RIGHT if sign == 1 else LEFT

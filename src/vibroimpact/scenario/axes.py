@@ -218,7 +218,7 @@ class Base(NamedTuple):
         changed = Dimensionless(values.get("damping_ratio", group.damping_ratio), **sides)
         return changed.to_physical(
             mass=self.oscillator.mass,
-            stiffness=self.oscillator.isolator.stiffness,
+            stiffness=self.oscillator.isolator.initial_stiffness,
             amplitude=self.amplitude,
         )
 

@@ -285,6 +285,7 @@ def _one(
 
 
 def _resonance_within(oscillator: Oscillator, both: Swept) -> bool:
+    oscillator.check_linear("free flight in closed form", stops=False)
     ratio = math.sqrt(max(0.0, 1.0 - 2.0 * oscillator.damping_ratio**2))
     at = ratio * oscillator.natural_frequency
     return bool(at <= both.frequency[-1] and (at == 0.0 or both.frequency[0] <= at))
@@ -292,6 +293,7 @@ def _resonance_within(oscillator: Oscillator, both: Swept) -> bool:
 
 def _largest(oscillator: Oscillator, amplitude: float, free: Array) -> float:
     """Largest amplitude of free flight (m); without damping that at the frequencies swept."""
+    oscillator.check_linear("free flight in closed form", stops=False)
     swing, _ = largest_free_flight(
         oscillator.angular_frequency, oscillator.damping_ratio, amplitude
     )

@@ -50,7 +50,7 @@ def highest(oscillator: Oscillator, amplitude: float) -> float:
     bumpers = [b.stiffness for b in found if isinstance(b, Bumper)]
     stiff = MOST_HIGH
     if len(bumpers) == len(found):
-        stiff = math.sqrt(1.0 + max(bumpers) / oscillator.isolator.stiffness)
+        stiff = math.sqrt(1.0 + max(bumpers) / oscillator.isolator.initial_stiffness)
     gaps = [b.gap for b in found]
     apart = sum(gaps) if len(gaps) == 2 and gaps[0] == gaps[1] else min(gaps)
     travel = apart * oscillator.isolator.damping

@@ -58,6 +58,7 @@ def foot_in_contact(both: Swept, k: int, i: int, prominence: float) -> bool:
 
 def _pressed_at_rest(oscillator: Oscillator, both: Swept, free: Array) -> bool:
     """Whether the mass presses a bumper at any low frequency: A/ω0² is larger than a gap."""
+    oscillator.check_linear("free flight in closed form", stops=False)
     gaps = [b.gap for b in (oscillator.right, oscillator.left) if b is not None]
     # Free flight's amplitude A/ω0² |H| at the lowest frequency, without its gain |H|.
     ratio = float(both.frequency[0]) / oscillator.natural_frequency

@@ -49,7 +49,9 @@ def branch(
     parameter
         What is varied: "frequency", "amplitude", "force" (constant); "gap", "bumper_stiffness",
         "bumper_damping" or "restitution" of both sides, "right_gap", "left_gap",
-        "right_stiffness" and so on of one; "stiffness" and "damping" of the isolator,
+        "right_stiffness" and so on of one; "stiffness", "damping" and whatever other number the
+        isolator has, such as "yield_force"; what other numbers the stops have, such as
+        "dissipation", "bumper_exponent" or "bumper_mass";
         "stiffness_ratio" (λ, the bumpers' C_j/K_j kept), "gap_ratio" (δ0), "relaxation_time" (τ)
         or "damping_ratio" (ξ).
     low, high

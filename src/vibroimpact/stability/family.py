@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine import section_map
 from vibroimpact.model import Oscillator, Repeated
-from vibroimpact.model.parameters import Parameter, Setting, parameter
+from vibroimpact.model.access import Setting
+from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.response.start import engine_rig
 
 _Array = NDArray[np.float64]
@@ -71,7 +72,7 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    varied = parameter(name)
+    varied = parameter(name).of(oscillator)
     value = varied.read(oscillator, excitation)
     step = varied.beside(value) - value
     here = system_vector(oscillator, excitation)

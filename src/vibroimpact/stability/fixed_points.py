@@ -15,7 +15,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine import orbit, section_map
 from vibroimpact.engine.flows import carries
 from vibroimpact.engine.status import Status
-from vibroimpact.model.parameters import Setting
+from vibroimpact.model.access import Setting
 from vibroimpact.response.follow import moved_on
 from vibroimpact.stability.family import Family
 

@@ -1,16 +1,11 @@
-"""What the mass can hit: deformable and rigid stops.
-
-A stop pushes and never pulls. Its gap is the distance from the place of the mass at u = 0 to the
-stop at rest: u = gap on the right, u = -gap on the left. Where a gap is negative the stop
-presses the mass away from u = 0.
-"""
+"""A spring and a dashpot in parallel: the bumper of Kelvin and Voigt."""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar, Self, TypeAlias
+from typing import Annotated, ClassVar, Self
 
-from vibroimpact.model.kinds import Kinds, Named
+from vibroimpact.model.kinds import Named
 from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS
 from vibroimpact.model.restitution import damping_ratio
 from vibroimpact.model.units import to_si
@@ -95,39 +90,11 @@ class Bumper(Named):
         e = to_si(restitution, DIMENSIONLESS, "restitution", above=0.0, maximum=1.0)
         return cls(k, 2.0 * damping_ratio(e) * math.sqrt(k) * math.sqrt(m), gap)
 
+    @property
+    def linear(self) -> bool:
+        """Whether its force is K_j d + C_j d'."""
+        return True
 
-class RigidStop(Named):
-    """A wall that does not give way: the mass rebounds at once, and may come to rest on it.
-
-    The mass that reaches the wall with velocity v towards it leaves with -e v. Where the wall
-    is pressed, e < 1 lets the mass fall ever faster on it again, infinitely often in a finite
-    time; then it rests on the wall until nothing presses it any more.
-
-    Parameters
-    ----------
-    restitution
-        e, from 0 to 1: velocity of return over velocity of impact.
-    gap
-        Distance in m from the mass at u = 0 to the wall; or text such as ``"7.5 mm"``. Below 0
-        the mass rests on the wall, away from u = 0, until it is shaken off.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite, has a wrong unit or lies outside its bounds.
-    """
-
-    kind: ClassVar[str] = "rigid"
-
-    restitution: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0, maximum=1.0)]
-    gap: Annotated[float, Accepts(LENGTH)]
-
-    @constructor
-    def __init__(self, restitution: float | str, gap: float | str) -> None:
-        super().__init__(restitution=restitution, gap=gap)
-
-
-Stop: TypeAlias = Bumper | RigidStop
-"""Whatever the mass can hit."""
-
-STOPS = Kinds(Bumper, RigidStop)
+    def static_force(self, deformation: float) -> float:
+        """Force in N of a bumper that is slowly pressed by a deformation in m."""
+        return self.stiffness * max(deformation, 0.0)

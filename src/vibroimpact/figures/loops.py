@@ -1,0 +1,189 @@
+"""Force over displacement of one law under a motion that is prescribed.
+
+It follows the laws step by step in plain numpy, without the engine that solves rigs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike, NDArray
+
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.style import MOTIONS
+from vibroimpact.model import (
+    AnyIsolator,
+    BilinearIsolator,
+    BoucWenIsolator,
+    Bumper,
+    ExponentialIsolator,
+    FrictionIsolator,
+    JankowskiBumper,
+    PowerBumper,
+    to_si,
+)
+from vibroimpact.model.quantities import FREQUENCY, LENGTH
+
+_Array = NDArray[np.float64]
+
+_SAMPLES = 2000
+"""Points of one cycle."""
+_STEPS = 8
+"""Steps of the Runge-Kutta method from one point to the next."""
+
+
+def force_loop(
+    law: AnyIsolator | Bumper | PowerBumper | JankowskiBumper,
+    amplitude: float | str,
+    frequency: float | str = 0.0,
+    ax: Axes | None = None,
+    *,
+    title: str | None = None,
+) -> Axes:
+    """Draw the force of an isolator or a stop over its displacement.
+
+    An isolator goes from rest to the amplitude and then round once, as a sine. A stop is pressed
+    by half a sine, as deep as the amplitude, and let go.
+
+    Parameters
+    ----------
+    law
+        The isolator or the stop; a rigid stop has no displacement.
+    amplitude
+        Largest displacement or deformation in m, greater than 0; or text with units.
+    frequency
+        Of the sine in Hz; at 0 it is so slow that dashpots have no force. A stop with a
+        restitution meets it with the velocity that the sine has at its zero.
+    ax
+        Axes to draw on. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the amplitude or the frequency cannot be used.
+    """
+    size = to_si(amplitude, LENGTH, "amplitude", above=0.0)
+    omega = math.tau * to_si(frequency, FREQUENCY, "frequency", minimum=0.0)
+    ax = axes_or_new(ax, (5.2, 4.0), title)
+    if isinstance(law, Bumper | PowerBumper | JankowskiBumper):
+        u, v, _ = _sine(size, omega, 0.5)
+        force, what = contact_force(law, u, v), "deformation (mm)"
+    else:
+        u, v, direction = _sine(size, omega, 1.25)
+        force, what = isolator_force(law, u, direction, v), "displacement $u$ (mm)"
+    ax.plot(1e3 * u, 1e-3 * force, color=MOTIONS[0].colour, linewidth=1.3)
+    for zero in (ax.axhline, ax.axvline):
+        zero(0.0, color="0.7", linewidth=0.6, zorder=0)
+    ax.set_xlabel(what)
+    ax.set_ylabel("force (kN)")
+    return ax
+
+
+def _sine(size: float, omega: float, turns: float) -> tuple[_Array, _Array, _Array]:
+    """Displacement, velocity and direction; one of no frequency goes its way all the same."""
+    phase = np.linspace(0.0, turns, _SAMPLES + 1) * math.tau
+    return size * np.sin(phase), size * omega * np.cos(phase), np.cos(phase)
+
+
+def isolator_force(
+    law: AnyIsolator, displacement: ArrayLike, direction: ArrayLike, velocity: ArrayLike = 0.0
+) -> _Array:
+    """Return the force of an isolator along a way that begins at rest.
+
+    Parameters
+    ----------
+    law
+        The isolator.
+    displacement
+        Along the way, in m, beginning with 0; so dense that it turns at samples only.
+    direction
+        Its sign is which way it goes at each sample.
+    velocity
+        For the dashpot, in m/s.
+
+    Returns
+    -------
+    numpy.ndarray
+        In N, a value a sample.
+    """
+    u = np.asarray(displacement, dtype=np.float64)
+    v = np.broadcast_to(np.asarray(velocity, dtype=np.float64), u.shape)
+    viscous = law.damping * np.abs(v) ** law.damping_exponent * np.sign(v)
+    return np.fromiter(_restoring(law, u, np.sign(direction)), np.float64, len(u)) + viscous
+
+
+def _restoring(law: AnyIsolator, u: _Array, direction: _Array) -> Iterator[float]:
+    """The force without the dashpot, one sample after the other."""
+    z = last = 0.0
+    for here, way in zip(u.tolist(), np.asarray(direction).tolist(), strict=True):
+        step, last = here - last, here
+        if isinstance(law, FrictionIsolator):
+            yield law.stiffness * here + way * law.friction
+        elif isinstance(law, BilinearIsolator):
+            limit = law.yield_displacement
+            z = max(-limit, min(limit, z + step))
+            plastic = law.elastic_stiffness - law.post_yield_stiffness
+            yield law.post_yield_stiffness * here + plastic * z
+        elif isinstance(law, BoucWenIsolator):
+            z = _moved_on(law, z, step)
+            plastic = law.elastic_stiffness - law.post_yield_stiffness
+            yield law.post_yield_stiffness * here + plastic * z
+        elif isinstance(law, ExponentialIsolator):
+            bound = math.copysign(law.hysteretic_force, step)
+            z = bound + (z - bound) * math.exp(-law.decay * abs(step))
+            yield law.elastic_force(here) + z
+        else:
+            yield law.static_force(here)
+
+
+def _moved_on(law: BoucWenIsolator, z: float, step: float) -> float:
+    """The hysteretic displacement behind a step of u, by the classical Runge-Kutta method."""
+    limit, n = law.yield_displacement, law.exponent
+    h = step / _STEPS
+
+    def slope(z: float) -> float:
+        turned = law.beta if z * step > 0.0 else -law.beta
+        return 1.0 - abs(z / limit) ** n * (law.gamma + turned)
+
+    for _ in range(_STEPS):
+        a = slope(z)
+        b = slope(z + 0.5 * h * a)
+        c = slope(z + 0.5 * h * b)
+        z += h / 6.0 * (a + 2.0 * b + 2.0 * c + slope(z + h * c))
+    return z
+
+
+def contact_force(
+    law: Bumper | PowerBumper | JankowskiBumper, deformation: ArrayLike, velocity: ArrayLike
+) -> _Array:
+    """Return the force of a stop along one contact, which begins at its first sample.
+
+    Parameters
+    ----------
+    law
+        The stop.
+    deformation
+        In m.
+    velocity
+        Of the deformation, in m/s.
+
+    Returns
+    -------
+    numpy.ndarray
+        In N, nowhere less than 0.
+    """
+    d = np.maximum(np.asarray(deformation, dtype=np.float64), 0.0)
+    v = np.asarray(velocity, dtype=np.float64)
+    if isinstance(law, Bumper):
+        return np.maximum(law.stiffness * d + law.damping * v, 0.0)
+    if isinstance(law, PowerBumper):
+        number, closing = law.dissipation_number, float(v[0])
+        chi = law.dissipation if number is None else number / closing if closing else 0.0
+        return np.maximum(law.stiffness * d**law.exponent * (1.0 + (chi or 0.0) * v), 0.0)
+    damping = 2.0 * law.damping_ratio * np.sqrt(law.mass * law.stiffness * np.sqrt(d))
+    return np.asarray(law.stiffness * d**1.5 + damping * np.maximum(v, 0.0))

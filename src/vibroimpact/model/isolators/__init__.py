@@ -1,0 +1,46 @@
+"""What carries the mass: its spring, what yields or rubs in it, and its damping; a law a file.
+
+A new law is a class derived from `IsolatorLaw` and an entry of `ISOLATORS` and `AnyIsolator`.
+"""
+
+from typing import TypeAlias
+
+from vibroimpact.model.isolators.bilinear import BilinearIsolator
+from vibroimpact.model.isolators.boucwen import BoucWenIsolator
+from vibroimpact.model.isolators.exponential import ExponentialIsolator
+from vibroimpact.model.isolators.friction import FrictionIsolator
+from vibroimpact.model.isolators.law import IsolatorLaw
+from vibroimpact.model.isolators.linear import Isolator
+from vibroimpact.model.isolators.polynomial import PolynomialIsolator
+from vibroimpact.model.kinds import Kinds
+
+AnyIsolator: TypeAlias = (
+    Isolator
+    | FrictionIsolator
+    | BilinearIsolator
+    | PolynomialIsolator
+    | BoucWenIsolator
+    | ExponentialIsolator
+)
+"""Whatever can carry the mass."""
+
+ISOLATORS = Kinds(
+    Isolator,
+    FrictionIsolator,
+    BilinearIsolator,
+    PolynomialIsolator,
+    BoucWenIsolator,
+    ExponentialIsolator,
+)
+
+__all__ = [
+    "ISOLATORS",
+    "AnyIsolator",
+    "BilinearIsolator",
+    "BoucWenIsolator",
+    "ExponentialIsolator",
+    "FrictionIsolator",
+    "Isolator",
+    "IsolatorLaw",
+    "PolynomialIsolator",
+]

@@ -1,0 +1,161 @@
+"""Smooth yielding: the model of Bouc and Wen."""
+
+from __future__ import annotations
+
+import math
+from numbers import Integral
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import BeforeValidator, model_validator
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.isolators.law import IsolatorLaw, check_yielding
+from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, STIFFNESS
+from vibroimpact.model.units import shown
+from vibroimpact.model.validation import Accepts, constructor
+
+_SETTLED = 40.0
+"""The n (x - 1) from which on y is 1 to the last digit, for 1 - yⁿ < exp(-n (x - 1))."""
+
+
+def _whole(value: Any) -> int:
+    """Read an exponent; 2.0 is 2."""
+    number = float(value) if isinstance(value, Integral | float) else math.nan
+    if isinstance(value, bool) or not number.is_integer() or not 1.0 <= number <= 100.0:
+        raise InputError(f"{shown(value)}; a whole number from 1 to 100 is accepted, such as 1")
+    return int(number)
+
+
+class BoucWenIsolator(IsolatorLaw):
+    """The smooth hysteresis of Bouc and Wen, with a dashpot.
+
+    The force is k_p u + (k_e - k_p) z with z' = v [1 - |z/u_y|ⁿ (γ + β sgn(v z))] and
+    u_y = F_y/k_e (Wen, J. Eng. Mech. Div. 102 (1976) 249). It starts with z = 0, and |z| comes
+    close to u_y/(β + γ)^(1/n) at most. The larger n is, the closer it comes to
+    `BilinearIsolator` with the same stiffnesses and yield force, if β + γ = 1.
+
+    Its kind in a table is ``"bouc-wen"``.
+
+    Parameters
+    ----------
+    elastic_stiffness
+        k_e in N/m, greater than 0; or text such as ``"500 kN/m"``.
+    post_yield_stiffness
+        k_p in N/m, from 0 to k_e.
+    yield_force
+        F_y in N, greater than 0; or text such as ``"1 kN"``.
+    damping
+        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+    exponent
+        n, a whole number from 1 to 100: how sharply it yields.
+    beta
+        β, at least 0: what takes energy. 0 is a nonlinear elastic spring.
+    gamma
+        γ, with β + γ greater than 0. For γ = β it unloads with the elastic stiffness.
+    damping_exponent
+        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or lies outside its bounds.
+    """
+
+    kind: ClassVar[str] = "bouc-wen"
+
+    elastic_stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+    post_yield_stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
+    yield_force: Annotated[float, Accepts(FORCE, above=0.0)]
+    exponent: Annotated[int, BeforeValidator(_whole)] = 1
+    beta: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0)] = 0.5
+    gamma: Annotated[float, Accepts(DIMENSIONLESS)] = 0.5
+
+    @constructor
+    def __init__(
+        self,
+        elastic_stiffness: float | str,
+        post_yield_stiffness: float | str,
+        yield_force: float | str,
+        damping: float | str,
+        exponent: int = 1,
+        beta: float | str = 0.5,
+        gamma: float | str = 0.5,
+        damping_exponent: float | str = 1.0,
+    ) -> None:
+        super().__init__(
+            elastic_stiffness=elastic_stiffness,
+            post_yield_stiffness=post_yield_stiffness,
+            yield_force=yield_force,
+            damping=damping,
+            exponent=exponent,
+            beta=beta,
+            gamma=gamma,
+            damping_exponent=damping_exponent,
+        )
+
+    @model_validator(mode="after")
+    def _yields(self) -> Self:
+        check_yielding(self)
+        if not self.beta + self.gamma > 0.0:
+            raise InputError(
+                f"gamma: {self.gamma:g} and beta, {self.beta:g}, have a sum that is not greater "
+                "than 0, and it would never yield; a sum greater than 0 is accepted"
+            )
+        if not self.hysteretic_limit < math.inf:
+            raise InputError(
+                f"gamma: {self.gamma:g} and beta, {self.beta:g}, bound the hysteretic "
+                "displacement outside the range of floating-point numbers; a larger sum is accepted"
+            )
+        return self
+
+    @property
+    def yield_displacement(self) -> float:
+        """u_y = F_y/k_e in m."""
+        return self.yield_force / self.elastic_stiffness
+
+    @property
+    def hysteretic_limit(self) -> float:
+        """What |z| never exceeds, u_y/(β + γ)^(1/n), in m."""
+        return self.yield_displacement * float((self.beta + self.gamma) ** (-1.0 / self.exponent))
+
+    @property
+    def initial_stiffness(self) -> float:
+        """k_e, N/m."""
+        return self.elastic_stiffness
+
+    def static_force(self, displacement: float) -> float:
+        """Force in N of a first loading to a displacement in m: k_p u + (k_e - k_p) z(u)."""
+        limit = self.hysteretic_limit
+        z = math.copysign(
+            limit * _saturation(abs(displacement) / limit, self.exponent), displacement
+        )
+        plastic = self.elastic_stiffness - self.post_yield_stiffness
+        return self.post_yield_stiffness * displacement + plastic * z
+
+    @property
+    def strongest(self) -> float:
+        """∞, or k_e times the limit of z without a post-yield stiffness."""
+        if self.post_yield_stiffness:
+            return super().strongest
+        return self.elastic_stiffness * self.hysteretic_limit
+
+
+def _saturation(x: float, n: int) -> float:
+    """The y of dy/dx = 1 - yⁿ, y(0) = 0."""
+    if n == 1:
+        return -math.expm1(-x)
+    if n == 2:
+        return math.tanh(x)
+    if n * (x - 1.0) > _SETTLED:
+        return 1.0
+    from scipy.optimize import brentq
+    from scipy.special import hyp2f1
+
+    def ahead(y: float) -> float:
+        # ∫ dy/(1 - yⁿ) = y ₂F₁(1, 1/n; 1 + 1/n; yⁿ)
+        return float(y * hyp2f1(1.0, 1.0 / n, 1.0 + 1.0 / n, y**n)) - x
+
+    almost = math.nextafter(1.0, 0.0)
+    if ahead(almost) <= 0.0:
+        return 1.0
+    return float(brentq(ahead, 0.0, almost, xtol=1e-300, rtol=1e-15))

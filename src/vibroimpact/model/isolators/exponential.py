@@ -1,0 +1,176 @@
+"""The exponential hysteretic model of Vaiana and others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Annotated, ClassVar, Self
+
+from pydantic import model_validator
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.isolators.law import IsolatorLaw
+from vibroimpact.model.quantities import DECAY, FORCE, STIFFNESS
+from vibroimpact.model.units import pretty
+from vibroimpact.model.validation import Accepts, constructor
+
+_LARGEST = 300.0
+"""What of |β| u the hyperbolic sine takes without overflow."""
+
+
+class ExponentialIsolator(IsolatorLaw):
+    """Hysteresis that fades exponentially after each reversal, with hardening, and a dashpot.
+
+    With s = sgn v, the force is
+
+        Q (e^{βu} - e^{-βu} - 2 βu) + k_b u + s f̄ - s (k_a - k_b)/α e^{-α(s u - u_j)},
+
+    f̄ = (k_a - k_b)/(2 α), and at each reversal u_j is such that the force goes on without a jump
+    (Vaiana, Sessa, Marmo and Rosati, Nonlinear Dynamics 93 (2018) 1647,
+    doi 10.1007/s11071-018-4282-2, where Q is 1 in the unit of force). It starts with no force at
+    u = 0.
+
+    Its kind in a table is ``"exponential"``.
+
+    Parameters
+    ----------
+    reversal_stiffness
+        k_a in N/m, greater than 0: the tangent at u = 0 just behind the reversal of a large loop;
+        or text such as ``"500 kN/m"``.
+    final_stiffness
+        k_b in N/m, from 0 to k_a: the tangent far behind a reversal, at u = 0.
+    decay
+        α in 1/m, greater than 0: how fast one goes over into the other.
+    damping
+        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+    hardening
+        β in 1/m: how fast it hardens at large displacements; below 0 it softens there, and 0 is
+        neither.
+    hardening_force
+        Q in N, at least 0.
+    damping_exponent
+        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or lies outside its bounds.
+    """
+
+    kind: ClassVar[str] = "exponential"
+
+    reversal_stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+    final_stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
+    decay: Annotated[float, Accepts(DECAY, above=0.0)]
+    hardening: Annotated[float, Accepts(DECAY)] = 0.0
+    hardening_force: Annotated[float, Accepts(FORCE, minimum=0.0)] = 1.0
+
+    @constructor
+    def __init__(
+        self,
+        reversal_stiffness: float | str,
+        final_stiffness: float | str,
+        decay: float | str,
+        damping: float | str,
+        hardening: float | str = 0.0,
+        hardening_force: float | str = 1.0,
+        damping_exponent: float | str = 1.0,
+    ) -> None:
+        super().__init__(
+            reversal_stiffness=reversal_stiffness,
+            final_stiffness=final_stiffness,
+            decay=decay,
+            damping=damping,
+            hardening=hardening,
+            hardening_force=hardening_force,
+            damping_exponent=damping_exponent,
+        )
+
+    @model_validator(mode="after")
+    def _fades(self) -> Self:
+        if self.final_stiffness > self.reversal_stiffness:
+            raise InputError(
+                f"final_stiffness: {pretty(self.final_stiffness, STIFFNESS)} is greater than "
+                f"reversal_stiffness, {pretty(self.reversal_stiffness, STIFFNESS)}; "
+                "at most that is accepted"
+            )
+        if not self.hysteretic_force < math.inf:
+            raise InputError(
+                f"decay: {pretty(self.decay, DECAY)} makes the half height of the loop no finite "
+                "number; a larger one is accepted"
+            )
+        return self
+
+    @property
+    def hysteretic_force(self) -> float:
+        """Half the height of a large loop, f̄ = (k_a - k_b)/(2 α), in N."""
+        return 0.5 * (self.reversal_stiffness - self.final_stiffness) / self.decay
+
+    @property
+    def initial_stiffness(self) -> float:
+        """(k_a + k_b)/2, N/m: from the start, half of the hysteretic stiffness has faded."""
+        return 0.5 * (self.reversal_stiffness + self.final_stiffness)
+
+    def elastic_force(self, displacement: float) -> float:
+        """The part without memory, Q (2 sinh βu - 2 βu) + k_b u, in N at a displacement in m."""
+        # From |βu| = 300 on it stands still, which no rig lives to see.
+        x = max(-_LARGEST, min(_LARGEST, self.hardening * displacement))
+        return 2.0 * self.hardening_force * _sinh_rest(x) + self.final_stiffness * displacement
+
+    def static_force(self, displacement: float) -> float:
+        """Force in N of a first loading to a displacement in m."""
+        faded = -math.expm1(-self.decay * abs(displacement))
+        return self.elastic_force(displacement) + math.copysign(
+            self.hysteretic_force * faded, displacement
+        )
+
+    @property
+    def reach(self) -> float:
+        """Where a softening one has its largest static force, in m; ∞ if it hardens."""
+
+        def tangent(u: float) -> float:
+            bent = 2.0 * math.sinh(0.5 * self.hardening * u) ** 2  # cosh βu - 1
+            faded = 0.5 * (self.reversal_stiffness - self.final_stiffness)
+            return (
+                2.0 * self.hardening_force * self.hardening * bent
+                + self.final_stiffness
+                + faded * math.exp(-self.decay * u)
+            )
+
+        return self._falling_zero(tangent)
+
+    @property
+    def strongest(self) -> float:
+        """What the static force does not exceed within the reach, N."""
+        flat = self.final_stiffness == 0.0 and not self.hardening * self.hardening_force
+        return self.hysteretic_force if flat else super().strongest
+
+    @property
+    def restoring_reach(self) -> float:
+        """Where the part without memory of a softening one changes its sign, in m."""
+        return self._falling_zero(lambda u: self.elastic_force(u) / u if u else 0.0)
+
+    def _falling_zero(self, falling: Callable[[float], float]) -> float:
+        """Where a function of u > 0 falls to zero, if the law softens."""
+        if not self.hardening * self.hardening_force < 0.0:
+            return math.inf
+        from scipy.optimize import brentq
+
+        far = _LARGEST / -self.hardening
+        small = math.ldexp(far, -60)
+        if falling(small) <= 0.0:
+            return 0.0
+        if falling(far) > 0.0:
+            return math.inf
+        return float(brentq(falling, small, far, xtol=1e-300, rtol=1e-15))
+
+
+def _sinh_rest(x: float) -> float:
+    """Sinh x - x, without the loss of digits of a small x."""
+    if abs(x) > 1.0:
+        return math.sinh(x) - x
+    square, term, total = x * x, x, 0.0
+    for k in range(3, 22, 2):
+        term *= square / (k * (k - 1))
+        total += term
+    return total

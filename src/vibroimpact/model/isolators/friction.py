@@ -1,0 +1,122 @@
+"""A spring with dry friction, such as a friction pendulum."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, ClassVar, Self
+
+from vibroimpact.model.isolators.law import IsolatorLaw
+from vibroimpact.model.quantities import (
+    DIMENSIONLESS,
+    FORCE,
+    GRAVITY,
+    LENGTH,
+    MASS,
+    STIFFNESS,
+)
+from vibroimpact.model.units import to_si
+from vibroimpact.model.validation import Accepts, constructor
+
+
+class FrictionIsolator(IsolatorLaw):
+    """A linear spring and dashpot with Coulomb friction beside them.
+
+    The force is K u + C v + F_c sgn v while the mass slides. It sticks where it stops and the
+    other forces do not exceed F_c, and stays until they do.
+
+    Its kind in a table is ``"friction"``.
+
+    Parameters
+    ----------
+    stiffness
+        K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
+    damping
+        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+    friction
+        F_c in N, at least 0, sliding and sticking alike; or text such as ``"120 N"``.
+    damping_exponent
+        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or lies outside its bounds.
+    """
+
+    kind: ClassVar[str] = "friction"
+
+    stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
+    friction: Annotated[float, Accepts(FORCE, minimum=0.0)]
+
+    @constructor
+    def __init__(
+        self,
+        stiffness: float | str,
+        damping: float | str,
+        friction: float | str,
+        damping_exponent: float | str = 1.0,
+    ) -> None:
+        super().__init__(
+            stiffness=stiffness,
+            damping=damping,
+            friction=friction,
+            damping_exponent=damping_exponent,
+        )
+
+    @classmethod
+    def from_pendulum(
+        cls,
+        mass: float | str,
+        radius: float | str,
+        coefficient: float | str,
+        damping: float | str = 0.0,
+    ) -> Self:
+        """Return the isolator that a friction pendulum bearing is.
+
+        Parameters
+        ----------
+        mass
+            What it carries, M in kg, greater than 0; or text such as ``"550 kg"``.
+        radius
+            Effective radius of the concave surface, R in m, greater than 0; or text such as
+            ``"2.5 m"``.
+        coefficient
+            Coefficient of friction μ, at least 0.
+        damping
+            C in N s/m, at least 0.
+
+        Returns
+        -------
+        FrictionIsolator
+            K = M g/R and F_c = μ M g, for displacements much smaller than R (Zayas, Low and
+            Mahin, Earthquake Spectra 6 (1990) 317).
+
+        Raises
+        ------
+        InputError
+            If a value is not finite, has a wrong unit or lies outside its bounds.
+
+        Examples
+        --------
+        >>> FrictionIsolator.from_pendulum("1000 kg", "9.80665 m", 0.05).stiffness
+        1000.0
+        """
+        weight = to_si(mass, MASS, "mass", above=0.0) * GRAVITY
+        r = to_si(radius, LENGTH, "radius", above=0.0)
+        mu = to_si(coefficient, DIMENSIONLESS, "coefficient", minimum=0.0)
+        return cls(weight / r, damping, mu * weight)
+
+    @property
+    def initial_stiffness(self) -> float:
+        """K, N/m: that of the spring, while it slides."""
+        return self.stiffness
+
+    def static_force(self, displacement: float) -> float:
+        """K u + F_c sgn u in N, at a displacement in m; at rest it may be anything up to ±F_c."""
+        friction = math.copysign(self.friction, displacement) if displacement else 0.0
+        return self.stiffness * displacement + friction
+
+    @property
+    def strongest(self) -> float:
+        """∞, or F_c without a spring."""
+        return super().strongest if self.stiffness else self.friction

@@ -1,0 +1,67 @@
+"""The linear spring and dashpot."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar
+
+from vibroimpact.model.isolators.law import IsolatorLaw
+from vibroimpact.model.quantities import STIFFNESS
+from vibroimpact.model.validation import Accepts, constructor
+
+
+class Isolator(IsolatorLaw):
+    """The linear spring and dashpot that carry the mass (the paper's damper D).
+
+    Its kind, ``"linear"``, need not be named in a table.
+
+    Parameters
+    ----------
+    stiffness
+        K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
+    damping
+        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+    damping_exponent
+        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or lies outside its bounds.
+    """
+
+    kind: ClassVar[str] = "linear"
+    usual: ClassVar[bool] = True
+
+    stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
+
+    @constructor
+    def __init__(
+        self,
+        stiffness: float | str,
+        damping: float | str,
+        damping_exponent: float | str = 1.0,
+    ) -> None:
+        super().__init__(
+            stiffness=stiffness,
+            damping=damping,
+            damping_exponent=damping_exponent,
+        )
+
+    @property
+    def linear(self) -> bool:
+        """Whether its force is K u + C v."""
+        return self.damping_exponent == 1.0
+
+    @property
+    def initial_stiffness(self) -> float:
+        """K, N/m."""
+        return self.stiffness
+
+    def static_force(self, displacement: float) -> float:
+        """K u in N, at a displacement in m."""
+        return self.stiffness * displacement
+
+    @property
+    def strongest(self) -> float:
+        """∞, or 0 without a spring."""
+        return super().strongest if self.stiffness else 0.0

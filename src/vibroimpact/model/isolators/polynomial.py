@@ -1,0 +1,100 @@
+"""A spring that hardens or softens: Duffing's."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, ClassVar
+
+from vibroimpact.model.isolators.law import IsolatorLaw
+from vibroimpact.model.quantities import STIFFNESS, power_stiffness
+from vibroimpact.model.validation import Accepts, constructor
+
+
+class PolynomialIsolator(IsolatorLaw):
+    """The restoring force K u + k₃ u³ + k₅ u⁵, and a dashpot.
+
+    Its kind in a table is ``"polynomial"``.
+
+    Parameters
+    ----------
+    stiffness
+        K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
+    damping
+        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+    cubic
+        k₃ in N/m³; or text such as ``"5 MN/m^3"``. Below 0 the spring softens.
+    quintic
+        k₅ in N/m⁵; or text such as ``"5 MN/m^5"``.
+    damping_exponent
+        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or lies outside its bounds.
+    """
+
+    kind: ClassVar[str] = "polynomial"
+
+    stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
+    cubic: Annotated[float, Accepts(power_stiffness(3.0))] = 0.0
+    quintic: Annotated[float, Accepts(power_stiffness(5.0))] = 0.0
+
+    @constructor
+    def __init__(
+        self,
+        stiffness: float | str,
+        damping: float | str,
+        cubic: float | str = 0.0,
+        quintic: float | str = 0.0,
+        damping_exponent: float | str = 1.0,
+    ) -> None:
+        super().__init__(
+            stiffness=stiffness,
+            damping=damping,
+            cubic=cubic,
+            quintic=quintic,
+            damping_exponent=damping_exponent,
+        )
+
+    @property
+    def initial_stiffness(self) -> float:
+        """K, N/m."""
+        return self.stiffness
+
+    def static_force(self, displacement: float) -> float:
+        """K u + k₃ u³ + k₅ u⁵ in N, at a displacement in m."""
+        square = displacement * displacement
+        return displacement * (self.stiffness + square * (self.cubic + square * self.quintic))
+
+    @property
+    def reach(self) -> float:
+        """The least u > 0 with K + 3 k₃ u² + 5 k₅ u⁴ = 0, in m; ∞ if there is none."""
+        return _first_zero(self.stiffness, 3.0 * self.cubic, 5.0 * self.quintic)
+
+    @property
+    def strongest(self) -> float:
+        """What the static force does not exceed within the reach, N; 0 without any spring."""
+        if not (self.stiffness or self.cubic or self.quintic):
+            return 0.0
+        return super().strongest
+
+    @property
+    def restoring_reach(self) -> float:
+        """The least u > 0 with K + k₃ u² + k₅ u⁴ = 0, in m; ∞ if there is none."""
+        return _first_zero(self.stiffness, self.cubic, self.quintic)
+
+
+def _first_zero(k: float, c: float, q: float) -> float:
+    """The least x > 0 from which on k + c x² + q x⁴ is below 0 (k at least 0); ∞ if nowhere."""
+    if k == 0.0 and (c < 0.0 or (c == 0.0 and q < 0.0)):
+        return 0.0
+    if k == 0.0:
+        return math.sqrt(-c / q) if q < 0.0 else math.inf
+    inside = c * c - 4.0 * q * k
+    if inside <= 0.0:
+        # Where it only touches zero, it rises again behind.
+        return math.inf
+    # 2 k/(√(c² - 4 q k) - c) does not lose digits for a small q.
+    root = math.sqrt(inside) - c
+    return math.sqrt(2.0 * k / root) if root > 0.0 and (c < 0.0 or q < 0.0) else math.inf

@@ -1,0 +1,24 @@
+"""What the mass can hit, a law a file.
+
+A stop pushes and never pulls. Its gap is the distance from the place of the mass at u = 0 to the
+stop at rest: u = gap on the right, u = -gap on the left. Where a gap is negative the stop
+presses the mass away from u = 0.
+
+A new law is a class derived from `Named` and an entry of `STOPS` and `Stop`. It has a gap, says
+whether it is linear and, unless it is rigid, its `static_force`.
+"""
+
+from typing import TypeAlias
+
+from vibroimpact.model.kinds import Kinds
+from vibroimpact.model.stops.bumper import Bumper
+from vibroimpact.model.stops.jankowski import JankowskiBumper
+from vibroimpact.model.stops.power import PowerBumper
+from vibroimpact.model.stops.rigid import RigidStop
+
+Stop: TypeAlias = Bumper | RigidStop | PowerBumper | JankowskiBumper
+"""Whatever the mass can hit."""
+
+STOPS = Kinds(Bumper, RigidStop, PowerBumper, JankowskiBumper)
+
+__all__ = ["STOPS", "Bumper", "JankowskiBumper", "PowerBumper", "RigidStop", "Stop"]

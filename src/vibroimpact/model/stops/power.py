@@ -1,0 +1,125 @@
+"""Contact by a power of the deformation: Hertz, and Hunt and Crossley's damping."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Self
+
+from pydantic import model_validator
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.kinds import Named
+from vibroimpact.model.quantities import (
+    DIMENSIONLESS,
+    DISSIPATION,
+    LENGTH,
+    STIFFNESS,
+    power_stiffness,
+)
+from vibroimpact.model.stops.dissipation import Relation, dissipation_number
+from vibroimpact.model.validation import Accepts, constructor
+
+
+class PowerBumper(Named):
+    """A stop without mass and memory whose force is a power of its deformation.
+
+    F = k δⁿ (1 + χ δ') where δ > 0, never less than 0, with δ the depth to which the mass has gone
+    into it: n = 1.5 is Hertz's contact of curved surfaces, 1 a spring. It takes energy by χ, or by
+    the restitution that impacts shall return, by which each contact has its own χ = d/v₀, v₀ its
+    closing speed; with neither it is elastic. A contact that does not begin with an impact, as that
+    of a preloaded stop, has no closing speed, and takes nothing by a restitution until the mass has
+    left the stop.
+
+    Its kind in a table is ``"power"``.
+
+    Parameters
+    ----------
+    stiffness
+        k in N/mⁿ, greater than 0; or text such as ``"2 GN/m^1.5"``.
+    gap
+        Distance in m from the mass at u = 0 to the stop at rest; or text such as ``"7.5 mm"``.
+        Below 0 it is preloaded.
+    exponent
+        n, at least 1.
+    dissipation
+        χ in s/m, at least 0; or None.
+    restitution
+        e, from 0 to 1: velocity of return over velocity of impact while nothing else acts; or
+        None.
+    relation
+        How d follows from e: ``"exact"``, by which e returns; or one of the approximations
+        ``"hunt-crossley"``, ``"lankarani-nikravesh"``, ``"flores"`` and ``"gonthier"``. The exact
+        one and the last two need an e greater than 0.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or lies outside its bounds; if both dissipation
+        and restitution are given.
+    """
+
+    kind: ClassVar[str] = "power"
+    _quiet: ClassVar = {"dissipation": None, "restitution": None, "relation": "exact"}
+
+    # The exponent stands first, for the unit of the stiffness depends on it.
+    exponent: Annotated[float, Accepts(DIMENSIONLESS, minimum=1.0)] = 1.5
+    stiffness: Annotated[
+        float, Accepts(STIFFNESS, above=0.0, by="exponent", family=power_stiffness)
+    ]
+    gap: Annotated[float, Accepts(LENGTH)]
+    dissipation: Annotated[float | None, Accepts(DISSIPATION, minimum=0.0, optional=True)] = None
+    restitution: Annotated[
+        float | None, Accepts(DIMENSIONLESS, minimum=0.0, maximum=1.0, optional=True)
+    ] = None
+    relation: str = "exact"
+
+    @constructor
+    def __init__(
+        self,
+        stiffness: float | str,
+        gap: float | str,
+        exponent: float | str = 1.5,
+        dissipation: float | str | None = None,
+        restitution: float | str | None = None,
+        relation: Relation = "exact",
+    ) -> None:
+        super().__init__(
+            stiffness=stiffness,
+            gap=gap,
+            exponent=exponent,
+            dissipation=dissipation,
+            restitution=restitution,
+            relation=relation,
+        )
+
+    @model_validator(mode="after")
+    def _takes_energy_one_way(self) -> Self:
+        if self.dissipation is not None and self.restitution is not None:
+            raise InputError(
+                f"dissipation: {self.dissipation:g} s/m, and a restitution of "
+                f"{self.restitution:g} as well; one of the two is accepted"
+            )
+        dissipation_number(1.0 if self.restitution is None else self.restitution, self.relation)
+        if self.restitution is None and self.relation != "exact":
+            raise InputError(
+                f"relation: {self.relation!r} is given without a restitution; it is accepted "
+                "beside one"
+            )
+        return self
+
+    @property
+    def dissipation_number(self) -> float | None:
+        """The d = χ v₀ that all its impacts share; None for a given χ, by which they do not."""
+        if self.dissipation is not None:
+            return None
+        return (
+            0.0 if self.restitution is None else dissipation_number(self.restitution, self.relation)
+        )
+
+    @property
+    def linear(self) -> bool:
+        """Whether its force is K_j d + C_j d'."""
+        return False
+
+    def static_force(self, deformation: float) -> float:
+        """Force in N of a stop that is slowly pressed by a deformation in m, k δⁿ."""
+        return float(self.stiffness * max(deformation, 0.0) ** self.exponent)
