@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import State
+    from vibroimpact.model.excitation import Of
 
 _BRANCH = Group("Branch", sort_key=1)
 _WITH_UNITS = Parameter(group=_BRANCH, allow_leading_hyphen=True)
@@ -112,7 +113,9 @@ def branch(
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
     along = parameter.replace("-", "_")
-    span = option_range(along, start, stop, ("--from", "--to"), default_span(what))
+    span = option_range(
+        along, start, stop, ("--from", "--to"), default_span(what), of=what.repeated.of
+    )
 
     first = _first(begin, period)
 
@@ -154,10 +157,11 @@ def option_range(
     options: tuple[str, str],
     default: tuple[float, float],
     field: str = "--parameter",
+    of: Of = "acceleration",
 ) -> tuple[float, float]:
     """A range of a parameter from two options; that of a frequency has a default, in Hz.
 
-    `field` is the option that names the parameter.
+    `field` is the option that names the parameter; `of` says what an amplitude is one of.
 
     Raises
     ------
@@ -167,7 +171,7 @@ def option_range(
     from vibroimpact.model import to_si
     from vibroimpact.model.parameters import parameter
 
-    varied = parameter(name, field)
+    varied = parameter(name, field, of)
     given: list[str | float | None] = [low, high]
     if name == "frequency":
         given = [
@@ -265,7 +269,7 @@ def _one_branch(
         raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
     hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
     phase = what.study.excitation.phase if what.study else 0.0
-    kind = varied(parameter).quantity
+    kind = varied(parameter, of=what.repeated.of).quantity
     here = varied(parameter).read(what.oscillator, what.at(hertz, phase))
     if not span[0] <= here <= span[1]:
         raise InputError(

@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.dimensionless import peak_displacement
-from vibroimpact.model.excitation import Repeated
+from vibroimpact.model.dimensionless import peak_displacement, scale_of
+from vibroimpact.model.excitation import QUANTITIES, Of, Repeated
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -44,6 +44,9 @@ _UNITS = {
     FORCE: "N",
 }
 """As datasets write them."""
+
+
+_PEAKS = {"displacement": "peak base displacement", "force": "peak force on the mass"}
 
 
 class Parameter(NamedTuple):
@@ -82,8 +85,8 @@ class Parameter(NamedTuple):
         return self.quantity is not DIMENSIONLESS
 
 
-def parameter(name: str, field: str = "parameter") -> Parameter:
-    """Look a parameter up.
+def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> Parameter:
+    """Look a parameter up; `of` says what an amplitude is one of.
 
     Raises
     ------
@@ -93,6 +96,8 @@ def parameter(name: str, field: str = "parameter") -> Parameter:
     key = name.replace("-", "_") if isinstance(name, str) else name
     if key not in PARAMETERS:
         raise InputError(f"{field}: {name!r}; one of {', '.join(PARAMETERS)} is accepted")
+    if key == "amplitude" and of != "acceleration":
+        return PARAMETERS[key]._replace(quantity=QUANTITIES[of], long_name=_PEAKS[of])
     return PARAMETERS[key]
 
 
@@ -213,10 +218,10 @@ def _gap_ratio() -> tuple[Read, Write]:
     gap_of, with_gap = _bumpers("gap")
 
     def read(rig: Oscillator, shaken: Repeated) -> float:
-        return gap_of(rig, shaken) / peak_displacement(rig, shaken.amplitude)
+        return gap_of(rig, shaken) / peak_displacement(rig, scale_of(rig, shaken))
 
     def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        return with_gap(rig, shaken, value * peak_displacement(rig, shaken.amplitude))
+        return with_gap(rig, shaken, value * peak_displacement(rig, scale_of(rig, shaken)))
 
     return read, write
 

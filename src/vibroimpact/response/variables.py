@@ -11,7 +11,7 @@ import xarray as xr
 from vibroimpact._version import __version__
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import PARAMETERS, parameter
 
 
 class Variable(NamedTuple):
@@ -277,6 +277,9 @@ def describe(
         if variable.comment:
             attributes["comment"] = variable.comment
         dataset[name].attrs.update(attributes)
+    if "amplitude" in dataset.variables and parameters and "of" in parameters:
+        varied = parameter("amplitude", of=parameters["of"])
+        dataset["amplitude"].attrs.update(units=varied.units, long_name=varied.long_name)
     if "status" in dataset.variables:
         dataset["status"].attrs["flag_values"] = [int(status) for status in Status]
         dataset["status"].attrs["flag_meanings"] = " ".join(s.name.lower() for s in Status)

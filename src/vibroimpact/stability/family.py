@@ -71,7 +71,7 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    varied = parameter(name)
+    varied = parameter(name, of=excitation.of)
     value = varied.read(oscillator, excitation)
     step = varied.beside(value) - value
     here = system_vector(oscillator, excitation)
