@@ -179,8 +179,7 @@ def scenario_map(
 def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     """What the map does not vary, in words."""
     from vibroimpact.model import Bumper, RigidStop, to_dimensionless
-    from vibroimpact.model.dimensionless import scale_of
-    from vibroimpact.model.parameters import PARAMETERS
+    from vibroimpact.model.parameters import PARAMETERS, scale_of
     from vibroimpact.model.quantities import LENGTH, STIFFNESS
     from vibroimpact.model.units import pretty
     from vibroimpact.scenario.axes import ONE_QUANTITY

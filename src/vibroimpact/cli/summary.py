@@ -25,7 +25,7 @@ from vibroimpact.model import (
     Stop,
     to_dimensionless,
 )
-from vibroimpact.model.dimensionless import scale_of
+from vibroimpact.model.parameters import scale_of
 from vibroimpact.model.quantities import DAMPING, FORCE, LENGTH, MASS, STIFFNESS, VELOCITY
 from vibroimpact.model.units import pretty
 from vibroimpact.response.resonance import Features, Range

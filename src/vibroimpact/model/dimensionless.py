@@ -20,7 +20,6 @@ import math
 from typing import Annotated, ClassVar, NamedTuple, TypeAlias
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.excitation import Harmonic, Repeated
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.kinds import Kinds, Named
 from vibroimpact.model.oscillator import Oscillator
@@ -320,25 +319,6 @@ def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
     """
     a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
     return _peak(oscillator.mass, oscillator.isolator.stiffness, oscillator.damping_ratio, a)
-
-
-def scale_of(oscillator: Oscillator, shaken: Repeated) -> float:
-    """Return the peak base acceleration (m/s²) by which gaps are scaled whatever shakes the mass.
-
-    Of a displacement X of the base it is X ω0², of a force F on the mass F/M: the largest
-    displacement in free flight is the same under it (see `peak_displacement`).
-
-    Raises
-    ------
-    InputError
-        If several harmonics shake it.
-    """
-    if not isinstance(shaken, Harmonic):
-        raise InputError(
-            "gap_ratio: gaps are scaled by the peak of free flight under one sine, and several "
-            "harmonics shake the mass; a Harmonic, or a gap in metres, is accepted"
-        )
-    return float(shaken.acceleration(oscillator.mass, oscillator.angular_frequency))
 
 
 def largest_free_flight(

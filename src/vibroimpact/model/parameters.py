@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.dimensionless import peak_displacement, scale_of
-from vibroimpact.model.excitation import QUANTITIES, Of, Repeated
+from vibroimpact.model.dimensionless import peak_displacement
+from vibroimpact.model.excitation import QUANTITIES, Harmonic, Of, Repeated
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -118,6 +118,25 @@ def bounds(varied: Parameter, low: float | str, high: float | str) -> tuple[floa
             f"high: {ends[1]:g} does not lie above low, {ends[0]:g}; a larger value is accepted"
         )
     return ends[0], ends[1]
+
+
+def scale_of(oscillator: Oscillator, shaken: Repeated) -> float:
+    """Return the peak base acceleration (m/s²) by which gaps are scaled whatever shakes the mass.
+
+    Of a displacement X of the base it is X ω0², of a force F on the mass F/M: the largest
+    displacement in free flight is the same under it (see `peak_displacement`).
+
+    Raises
+    ------
+    InputError
+        If several harmonics shake it.
+    """
+    if not isinstance(shaken, Harmonic):
+        raise InputError(
+            "gap_ratio: gaps are scaled by the peak of free flight under one sine, and several "
+            "harmonics shake the mass; a Harmonic, or a gap in metres, is accepted"
+        )
+    return float(shaken.acceleration(oscillator.mass, oscillator.angular_frequency))
 
 
 def _number(stop: Stop, name: str) -> float:

@@ -218,6 +218,9 @@ VARIABLES: dict[str, Variable] = {
     "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),
     "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
     "energy_bumpers": Variable("J", "energy lost in the stops per forcing cycle"),
+    "total_supplied": Variable("J", "work on the mass of what shakes it, over the motion"),
+    "total_isolator": Variable("J", "energy lost in the isolator over the motion"),
+    "total_bumpers": Variable("J", "energy lost in the stops over the motion"),
     # maps
     "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
     "confidence": Variable(

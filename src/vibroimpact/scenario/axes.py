@@ -20,9 +20,8 @@ from vibroimpact.model import (
     to_dimensionless,
     to_si,
 )
-from vibroimpact.model.dimensionless import scale_of
 from vibroimpact.model.excitation import Of
-from vibroimpact.model.parameters import PARAMETERS, parameter
+from vibroimpact.model.parameters import PARAMETERS, parameter, scale_of
 from vibroimpact.model.rigs import as_shaking
 
 _Array = NDArray[np.float64]
