@@ -177,7 +177,7 @@ def test_two_zeros_within_a_step(at, low, sign):
         return x
 
     mean = np.mean([function(x) for x in np.linspace(0.0, 1.0, 4001)])
-    found = between_zeros((function(0.0), function(1.0)), mean, solved, function)
+    found = between_zeros((function(0.0), function(1.0)), mean, 1.0, solved, function)
     assert len(calls) <= 8
     if low < 0.0:
         assert found is not None
@@ -185,8 +185,8 @@ def test_two_zeros_within_a_step(at, low, sign):
         assert found[1] == pytest.approx(at, abs=0.1)
     else:
         assert found is None
-    assert between_zeros((1.0, 2.0), 1.5, solved, function) is None
-    assert between_zeros((1.0, 1.0), -1.0, lambda x: None, function) is None
+    assert between_zeros((1.0, 2.0), 1.5, 1.0, solved, function) is None
+    assert between_zeros((1.0, 1.0), -1.0, 1.0, lambda x: None, function) is None
 
 
 def test_a_tangent_of_a_singular_border():

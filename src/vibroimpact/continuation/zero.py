@@ -83,6 +83,7 @@ def zero_within(
 def between_zeros(
     ends: tuple[float, float],
     mean: float,
+    end: float,
     solved: Callable[[float], S | None],
     function: Callable[[S], float],
 ) -> tuple[S, float] | None:
@@ -97,15 +98,17 @@ def between_zeros(
         Its values at the ends of the step, of one sign.
     mean
         Its mean over the step.
+    end
+        The step's length.
     solved
-        The solution after a share of the step, None if there is none.
+        The solution after a part of the step, None if there is none.
     function
         Smooth along the curve.
 
     Returns
     -------
     tuple or None
-        A solution between two zeros, and its share of the step; None if none was found.
+        A solution between two zeros, and the length of step there; None if none was found.
     """
     sign = math.copysign(1.0, ends[0])
     a, b = sign * ends[0], sign * ends[1]
@@ -119,11 +122,11 @@ def between_zeros(
             return None
         if abs(share - known[1][0]) < _SAME and number:
             return None
-        found = solved(share)
+        found = solved(share * end)
         if found is None:
             return None
         if (there := sign * function(found)) < 0.0:
-            return found, share
+            return found, share * end
         known = sorted([*(known if number else (known[0], known[2])), (share, there)])
         i = min(range(1, len(known) - 1), key=lambda i: known[i][1])
         known = known[i - 1 : i + 2]

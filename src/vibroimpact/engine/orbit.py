@@ -147,7 +147,9 @@ def _newton(
         facts[STEPS] += 1.0
     facts[RESIDUAL] = min(best, residual)
     _slope(plan, line, point, facts, image, columns, slope)
-    return DONE if facts[RESIDUAL] <= 1e-12 + _rounding(point, columns, slope, scale) else NOT_SETTLED
+    return (
+        DONE if facts[RESIDUAL] <= 1e-12 + _rounding(point, columns, slope, scale) else NOT_SETTLED
+    )
 
 
 @kernel

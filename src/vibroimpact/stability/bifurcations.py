@@ -115,18 +115,18 @@ def _between_folds(stations: list[Station]) -> Iterator[Station]:
     """A branch with an orbit more wherever it turns twice within a step, as beside a cusp."""
     for here, there in itertools.pairwise(stations):
         yield here
-        ends, step = (float(here.tangent[4]), float(there.tangent[4])), there.arclength - here.arclength
+        ends, step = (
+            (float(here.tangent[4]), float(there.tangent[4])),
+            there.arclength - here.arclength,
+        )
         if here.piece != there.piece or ends[0] * ends[1] <= 0.0 or not step > 0.0:
             continue
         (_, fold), *_ = _tests(here)
         mean = (there.orbit.value - here.orbit.value) / here.orbit.section.scale[4] / step
-        solve = partial(solved, here)
-        met = between_zeros(ends, mean, lambda share, step=step: solve(share * step), fold)
+        met = between_zeros(ends, mean, step, partial(solved, here), fold)
         if met is not None:
-            orbit, share = met
-            yield Station(
-                orbit, orbit.tangent(here.tangent), here.arclength + share * step, here.piece
-            )
+            tangent = met[0].tangent(here.tangent)
+            yield Station(met[0], tangent, here.arclength + met[1], here.piece)
     yield from stations[-1:]
 
 
