@@ -60,6 +60,7 @@ _HOME = {
     "sweeps": "response.sweep",
     "to_dimensionless": "model",
     "to_table": "response.table",
+    "totals": "response.totals",
 }
 
 __all__ = [
@@ -106,6 +107,7 @@ __all__ = [
     "sweeps",
     "to_dimensionless",
     "to_table",
+    "totals",
 ]
 
 if TYPE_CHECKING:
@@ -140,6 +142,7 @@ if TYPE_CHECKING:
     from vibroimpact.response.spectrum import spectrum
     from vibroimpact.response.sweep import sweep, sweeps
     from vibroimpact.response.table import to_table
+    from vibroimpact.response.totals import totals
     from vibroimpact.scenario.classify import classify
     from vibroimpact.scenario.map import scenario_map
     from vibroimpact.scenario.thresholds import Thresholds

@@ -48,6 +48,17 @@ def test_json(run, tmp_path):
     assert (tmp_path / facts["files"]["figure"]).suffix == ".pdf"
 
 
+def test_several_harmonics_are_refused(run, tmp_path):
+    (tmp_path / "saw.toml").write_text(
+        'case = "B2-G1-A3"\n[excitation]\namplitudes = ["0.05 g", "0.02 g"]\n', encoding="utf-8"
+    )
+    for words in (("saw",), ("saw", "--from", "1Hz")):
+        code, out, errors = run(*words)
+        assert (code, out) == (2, "")
+        assert "excitation: a Periodic, whose harmonics resonate" in errors
+        assert errors.count("\n") == 1
+
+
 def test_thresholds_and_what_they_change(run):
     code, out, _ = run("B2-G4-A1", "--touch", "0.05", "--json")
     assert code == 0

@@ -66,6 +66,24 @@ def test_physical_axes_of_a_case(run, tmp_path):
     np.testing.assert_allclose(data["bumper_stiffness"], [1e5, 10**5.5, 1e6])
 
 
+def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
+    (tmp_path / "moved.toml").write_text(
+        'case = "B2-G1-A3"\n[excitation]\namplitude = "5 mm"\n', encoding="utf-8"
+    )
+    words = ("--x", "amplitude", "2mm:4mm:2", "--y", "damping-ratio", "0.15:0.2:2", *STEP)
+    code, out, _ = run("moved", *words, "--refine", "0", "--no-border")
+    assert code == 0
+    assert "held: gap 7.5 mm, bumpers 510 kN/m, τ = 0.01" in out
+    name = "moved-amplitude-damping-ratio-map.zarr"
+    data = xr.open_zarr(tmp_path / "out" / name, consolidated=False)
+    np.testing.assert_allclose(data["amplitude"], [2e-3, 4e-3])
+    assert data["amplitude"].attrs["units"] == "m"
+    code, out, errors = run("moved", "--x", "amplitude", "0.1g:0.2g", "--refine", "0")
+    assert (code, out) == (2, "")
+    assert errors.startswith("vibroimpact: error: --x: '0.1g' is a mass; a length")
+    assert errors.count("\n") == 1
+
+
 def test_a_command_that_was_killed_goes_on(tmp_path, told):
     program = "import sys; from vibroimpact.cli import main; sys.exit(main(sys.argv[1:]))"
     asked = (*WORDS, "--refine", "2", "--no-border")
@@ -107,7 +125,7 @@ def test_another_map_in_the_same_place_is_refused(run):
     ],
 )
 def test_ranges(text, expected):
-    name, values, spacing = _axis("--x", "gap-ratio", text)
+    name, values, spacing = _axis("--x", "gap-ratio", text, "acceleration")
     assert (name, spacing) == ("gap_ratio", "log" if "log" in text else "linear")
     np.testing.assert_allclose(values, expected, rtol=1e-12)
 

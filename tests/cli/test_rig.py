@@ -103,7 +103,7 @@ def test_rigid_stops_have_no_stiffness(options, message):
 
 
 def test_gravity():
-    assert subject("B2-G1-A3", RigOptions(amplitude="0.04 g")).amplitude == 0.392266
+    assert subject("B2-G1-A3", RigOptions(amplitude="0.04 g")).repeated.amplitude == 0.392266
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ def test_own_oscillator(write):
     assert what.oscillator == vi.Oscillator(
         550, vi.Isolator(26800, 1100), vi.Bumper(510e3, 900, 7.5e-3)
     )
-    assert what.amplitude == 0.4903325
+    assert what.repeated.amplitude == 0.4903325
     assert what[:2] == ("wall", "wall")
 
 
@@ -58,8 +58,8 @@ def test_case_with_changes(write):
 
 def test_amplitude_of_the_study_comes_before_that_of_the_case(write):
     path = write('case = "B2-G1-A3"\n[excitation]\namplitude = "0.04 g"\n')
-    assert subject(str(path), RigOptions()).amplitude == 0.392266
-    assert subject(str(path), RigOptions(amplitude="0.03 g")).amplitude == 0.2941995
+    assert subject(str(path), RigOptions()).repeated.amplitude == 0.392266
+    assert subject(str(path), RigOptions(amplitude="0.03 g")).repeated.amplitude == 0.2941995
 
 
 def test_tables_of_the_commands(write):

@@ -18,7 +18,7 @@ from vibroimpact.continuation.arclength import (
     unit_tangent,
 )
 from vibroimpact.continuation.closing import crossing
-from vibroimpact.continuation.zero import zero_within
+from vibroimpact.continuation.zero import between_zeros, zero_within
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,6 +160,33 @@ def test_a_zero_to_rounding(root):
     assert found == length == pytest.approx(root, abs=1e-14)
     assert len(calls) < 40
     assert zero_within(0.0, 1.0, lambda x: None, lambda x: x - 0.5) is None
+
+
+@pytest.mark.parametrize("at", [0.07, 0.4, 0.9])
+@pytest.mark.parametrize("low", [-1e-8, -1e-3, 1e-8, 0.3])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_two_zeros_within_a_step(at, low, sign):
+    """They are seen however close they are; and where there are none, that is seen at once."""
+    calls = []
+
+    def function(x):
+        return sign * (low + 8.0 * (math.cosh(x - at) - 1.0) + (x - at) ** 3)
+
+    def solved(x):
+        calls.append(x)
+        return x
+
+    mean = np.mean([function(x) for x in np.linspace(0.0, 1.0, 4001)])
+    found = between_zeros((function(0.0), function(1.0)), mean, 1.0, solved, function)
+    assert len(calls) <= 8
+    if low < 0.0:
+        assert found is not None
+        assert sign * function(found[0]) < 0.0
+        assert found[1] == pytest.approx(at, abs=0.1)
+    else:
+        assert found is None
+    assert between_zeros((1.0, 2.0), 1.5, 1.0, solved, function) is None
+    assert between_zeros((1.0, 1.0), -1.0, 1.0, lambda x: None, function) is None
 
 
 def test_a_tangent_of_a_singular_border():

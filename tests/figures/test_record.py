@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.figures import record_history
+from vibroimpact.figures import hysteresis_cycle, phase_portrait, record_history, time_history
 
 RIG = vi.Oscillator(2.0, vi.Isolator(8.0, 0.8), vi.RigidStop(0.5, 0.2), vi.Bumper(90.0, 2.0, 0.1))
 RECORD = vi.Record(3.0 * np.sin(0.3 * np.arange(100)), 0.1)
@@ -39,3 +39,25 @@ def test_other_motions_are_refused() -> None:
     ):
         with pytest.raises(vi.InputError, match=r"^motion: this is no motion through a record; "):
             record_history(data)
+
+
+def test_portrait_and_force_loop_of_a_record() -> None:
+    """They take it; what is drawn against cycles refuses it and says what does."""
+    rig = vi.Oscillator(
+        2.0, vi.Isolator(5.0, 0.3), vi.Bumper(60.0, 0.9, 0.1), vi.RigidStop(0.4, 0.1)
+    )
+    values = np.random.default_rng(5).uniform(-4.0, 4.0, 65)
+    motion = vi.simulate(rig, vi.Record(values, 0.125), samples=8)
+    impact = int(np.flatnonzero(motion["event_contact"].values == 2)[0])
+    arrival = float(motion["event_velocity"][impact])
+    for draw in (phase_portrait, hysteresis_cycle):
+        ax = draw(motion)
+        u, v = ax.lines[0].get_data()
+        assert len(u) == motion.sizes["time"] + 2 * motion.sizes["event"]
+        assert np.isfinite(v).all()
+        if draw is phase_portrait:  # an impact turns the velocity round at once
+            at = int(np.flatnonzero(v == arrival)[0])
+            assert v[at + 1] == -0.4 * arrival
+            assert u[at + 1] == u[at]
+    with pytest.raises(vi.InputError, match="goes through a Record, which has no cycles"):
+        time_history(motion)

@@ -17,6 +17,7 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 from mpmath import mp
 
 import vibroimpact as vi
@@ -102,6 +103,71 @@ def test_budd_and_dux_period_doubling(r: float, sigma: float) -> None:
     kinds = data["bifurcation_kind"].values
     found = data["bifurcation_value"].values[kinds == "period doubling"]
     assert np.abs(found - at).min() < 1e-10
+
+
+@pytest.mark.parametrize("other", ["gap", "restitution", "amplitude", "damping"])
+def test_budd_and_dux_curves_of_period_doublings(other: str) -> None:
+    one = Oscillator(2.3 / math.tau, 0.0, 0.8, 0.05)
+    rig, shaken, data = _followed(one, low=0.9 * one.frequency, high=1.2 * one.frequency)
+    curve = _curve(rig, shaken, data, "period doubling", other, (0.5, 1.2))
+    for hertz, value in zip(curve["frequency"].values[::5], curve[other].values[::5], strict=True):
+        beside = _with(one, other, value)
+        assert float(doubling(beside, 0.98 * hertz, 1.02 * hertz)) == pytest.approx(
+            hertz, rel=1e-11
+        )
+
+
+@pytest.mark.parametrize("other", ["gap", "restitution", "amplitude", "damping"])
+def test_curves_of_folds_in_closed_form(other: str) -> None:
+    """Where the two (1, 1) orbits meet."""
+    one = Oscillator(1.49 / math.tau, 0.1, 0.8, 2.5)
+    rig, shaken, data = _followed(one, low=0.8 * one.frequency, high=1.2 * one.frequency)
+    curve = _curve(rig, shaken, data, "fold", other, (0.5, 1.2))
+    for hertz, value in zip(curve["frequency"].values, curve[other].values, strict=True):
+        beside = _with(one, other, value)._replace(frequency=hertz)
+        assert float(beside.fold) == pytest.approx(beside.gap, rel=1e-8)
+
+
+def _followed(one: Oscillator, **span: float) -> tuple[vi.Oscillator, vi.Harmonic, xr.Dataset]:
+    """The branch of the faster of its orbits."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, one.damping), vi.RigidStop(one.restitution, one.gap))
+    orbit = max(possible_orbits(one), key=lambda orbit: orbit.velocity)
+    u, v, phase = (float(x) for x in orbit.after(one.span / 3))
+    shaken = vi.Harmonic(1.0, one.frequency, phase)
+    return rig, shaken, vi.branch(rig, shaken, vi.State(u, v), **span)
+
+
+def _curve(
+    rig: vi.Oscillator,
+    shaken: vi.Harmonic,
+    data: xr.Dataset,
+    kind: str,
+    other: str,
+    shares: tuple[float, float],
+) -> xr.Dataset:
+    """One bifurcation followed over the frequency and another parameter, to both ends of it."""
+    values = {"gap": rig.right.gap, "restitution": 0.8, "amplitude": 1.0, "damping": 0.1}
+    low, high = (share * values[other] for share in shares)
+    if other == "damping":
+        low, high = 0.0, 0.2
+    i = int(np.flatnonzero(data["bifurcation_kind"].values == kind)[0])
+    found = vi.bifurcation_curve(
+        rig,
+        shaken,
+        data.isel(bifurcation=i),
+        parameters=("frequency", other),
+        low=(0.1, low),
+        high=(1.0, high),
+    )
+    assert float(found[other].min()) == pytest.approx(low, abs=1e-12)
+    assert float(found[other].max()) == pytest.approx(high, rel=1e-12)
+    return found
+
+
+def _with(one: Oscillator, other: str, value: float) -> Oscillator:
+    if other == "amplitude":  # the gap over it is what counts
+        return one._replace(gap=one.gap / value)
+    return one._replace(**{other: value})
 
 
 def test_budd_and_dux_chatter_ends_in_rest() -> None:

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.scenario.axes import one_sine
 from vibroimpact.scenario.evidence import each_evidence
 from vibroimpact.scenario.thresholds import Thresholds
 from vibroimpact.scenario.verdict import scenario
@@ -31,7 +32,9 @@ def named(step: int, **thresholds: float) -> dict[str, str]:
     data = vi.sweeps(cases, np.arange(50, 501, step) / 100)
     used = Thresholds(**thresholds)
     found = each_evidence(
-        [vi.Rig(case.oscillator, case.amplitude) for case in cases], data, 0.5 * used.prominence
+        [one_sine(case.oscillator, case.amplitude, case.code) for case in cases],
+        data,
+        0.5 * used.prominence,
     )
     return {case.code: scenario(one, used).label for case, one in zip(cases, found, strict=True)}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 import vibroimpact as vi
@@ -157,3 +158,14 @@ def test_ranges_that_cannot_be():
         bounds(parameter("gap"), 0.02, 0.01)
     with pytest.raises(vi.InputError, match=r"^low: "):
         bounds(parameter("gap"), "1 kg", 0.01)
+
+
+def test_a_gap_ratio_is_over_free_flight_under_what_is_held():
+    rig, read = vi.laboratory.case("B2-G1-A3").oscillator, PARAMETERS["gap_ratio"].read
+    xi = rig.damping_ratio
+    peak = 2e-3 / (2.0 * xi * np.sqrt(1.0 - xi**2))
+    assert read(rig, vi.Harmonic("2 mm", "2 Hz")) == pytest.approx(7.5e-3 / peak, rel=1e-12)
+    force = vi.Harmonic(0.3 * rig.mass, 2.0, of="force")
+    assert read(rig, force) == pytest.approx(read(rig, vi.Harmonic(0.3, 2.0)), rel=1e-12)
+    with pytest.raises(vi.InputError, match="gap_ratio: gaps are scaled by the peak"):
+        read(rig, vi.Periodic(2.0, [0.1, 0.2]))

@@ -183,3 +183,62 @@ def test_a_bumper_that_catches_up_with_a_receding_mass():
     assert (log["contact_closing_speed"].values > 0.0).all()
     assert np.isnan(log["contact_restitution"].values[receding]).all()
     assert np.isfinite(log["contact_restitution"].values[~receding]).all()
+
+
+class TestThroughARecord:
+    """Contacts of a motion that has no period."""
+
+    RIG = vi.Oscillator(
+        2.0, vi.Isolator(5.0, 0.3), vi.Bumper(60.0, 0.9, 0.1), vi.RigidStop(0.4, 0.15), force=0.2
+    )
+    ROUGH = vi.Record(np.random.default_rng(5).uniform(-4.0, 4.0, 65), 0.125)
+
+    def test_they_are_those_that_the_motion_tells(self):
+        data = vi.simulate(self.RIG, self.ROUGH, tail=1.0, samples=2000)
+        log = vi.contacts(data)
+        kind, side = data["event_contact"].values, data["event_side"].values
+        begins = data["event_time"].values[(kind == 1) & (side == 1)]
+        ends = data["event_time"].values[(kind == 0) & (side == 1)]
+        right = log.isel(contact_number=log["contact_side"].values == 1)
+        assert right.sizes["contact_number"] >= 4
+        np.testing.assert_array_equal(right["contact_start"], begins[: len(right["contact_start"])])
+        np.testing.assert_allclose(right["contact_end"], ends[: len(begins)], rtol=1e-13)
+        assert int((log["contact_side"] == -1).sum()) == int((kind[side == -1] == 2).sum())
+        assert not {"contact_start_phase", "contact_duration_share"} & set(log)
+        time, u, v, a = (
+            data[name].values for name in ("time", "displacement", "velocity", "acceleration")
+        )
+        push = -(2.0 * a + 0.3 * v + 5.0 * u - 0.2)
+        for row in right.to_dataframe().itertuples():
+            inside = (time > row.contact_start) & (time < row.contact_end)
+            assert row.contact_peak_force == pytest.approx(push[inside].max(), rel=1e-3)
+            assert row.contact_peak_force >= push[inside].max() * (1.0 - 1e-12)
+            summed = np.trapezoid(push[inside], time[inside])
+            assert row.contact_impulse == pytest.approx(summed, rel=1e-2)
+            deepest = data["right_bumper"].values[inside].max()
+            assert row.contact_penetration == pytest.approx(deepest, rel=1e-6)
+            sharpest = np.abs(a[inside]).max()
+            assert row.contact_peak_acceleration == pytest.approx(sharpest, rel=1e-3)
+            peak = row.contact_peak_time
+            assert row.contact_start <= peak <= row.contact_end
+
+    @pytest.mark.parametrize("parts", [2, 5])
+    def test_the_same_lines_in_parts_have_the_same_contacts(self, parts):
+        time = np.arange(64 * parts + 1) * (self.ROUGH.step / parts)
+        finer = vi.Record(self.ROUGH.at(time), self.ROUGH.step / parts)
+        one, other = (vi.contacts(vi.simulate(self.RIG, r, tail=1.0)) for r in (self.ROUGH, finer))
+        for name in set(one) - {"contact_grazing"}:
+            np.testing.assert_allclose(one[name], other[name], rtol=1e-9, atol=1e-11)
+
+    def test_samples_change_nothing(self):
+        few, many = (
+            vi.contacts(vi.simulate(self.RIG, self.ROUGH, tail=1.03, samples=n)) for n in (1, 30)
+        )
+        for name in set(few) - {"contact_grazing"}:
+            np.testing.assert_allclose(few[name], many[name], rtol=1e-9, atol=1e-13)
+
+    def test_sections_and_spectra_have_no_meaning(self):
+        data = vi.simulate(self.RIG, self.ROUGH)
+        for look in (vi.spectrum, vi.stroboscopic_section, vi.impact_section):
+            with pytest.raises(vi.InputError, match=r"^motion: it goes through a Record"):
+                look(data)

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 import vibroimpact as vi
+from vibroimpact.scenario.axes import one_sine
 from vibroimpact.scenario.evidence import evidence
 from vibroimpact.scenario.thresholds import Thresholds
 from vibroimpact.scenario.verdict import scenario
@@ -15,7 +16,9 @@ from vibroimpact.scenario.verdict import scenario
 GRID = np.round(np.arange(0.40, 3.01, 0.01), 10)
 
 
-RIG = vi.from_dimensionless(20.0, 0.3, 0.01, 0.15, mass=1.0, stiffness=(2.0 * math.pi) ** 2)
+RIG = one_sine(
+    *vi.from_dimensionless(20.0, 0.3, 0.01, 0.15, mass=1.0, stiffness=(2.0 * math.pi) ** 2), "RIG"
+)
 
 
 GAP = RIG.oscillator.right.gap
@@ -63,7 +66,7 @@ def made(forward, backward=None, *, touching=None, period=1, uneven=False, depth
 
 def named(data: xr.Dataset, oscillator=RIG.oscillator, **thresholds: float) -> str:
     used = Thresholds(**thresholds)
-    return scenario(evidence(oscillator, RIG.amplitude, data, 0.5 * used.prominence), used).label
+    return scenario(evidence(oscillator, RIG.shaken, data, 0.5 * used.prominence), used).label
 
 
 def primary() -> tuple[np.ndarray, np.ndarray]:

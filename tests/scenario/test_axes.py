@@ -9,19 +9,20 @@ import vibroimpact as vi
 from vibroimpact.scenario.axes import Base, axis, check_pair, logarithmic
 
 CASE = vi.laboratory.case("B2-G1-A3")
-BASE = Base(CASE.oscillator, CASE.amplitude)
+SINE = vi.Harmonic(CASE.amplitude, 1.0)
+BASE = Base(CASE.oscillator, SINE)
 
 
 def test_physical_parameters():
     """Of a bumper's stiffness C_j/K_j is kept, as the paper assumes (Section 7)."""
     rig = BASE.rig({"bumper_stiffness": 680e3, "gap": 9e-3})
-    assert rig.amplitude == CASE.amplitude
+    assert rig.shaken == SINE
     for side in (rig.oscillator.right, rig.oscillator.left):
         assert side.stiffness == 680e3
         assert side.gap == 9e-3
         ratio = CASE.oscillator.right.damping / CASE.oscillator.right.stiffness
         assert side.damping / side.stiffness == pytest.approx(ratio, rel=1e-14)
-    assert BASE.rig({"amplitude": 0.3}) == vi.Rig(CASE.oscillator, 0.3)
+    assert BASE.rig({"amplitude": 0.3}) == (CASE.oscillator, vi.Harmonic(0.3, 1.0))
 
 
 @pytest.mark.parametrize(
@@ -34,9 +35,9 @@ def test_physical_parameters():
     ],
 )
 def test_dimensionless_parameters_one_at_a_time(name, value):
-    before = vi.to_dimensionless(*BASE)
+    before = vi.to_dimensionless(CASE.oscillator, CASE.amplitude)
     rig = BASE.rig({name: value})
-    after = vi.to_dimensionless(*rig)
+    after = vi.to_dimensionless(rig.oscillator, CASE.amplitude)
     assert rig.oscillator.mass == CASE.oscillator.mass
     assert rig.oscillator.isolator.stiffness == CASE.oscillator.isolator.stiffness
     own = {"gap_ratio": "gap"}.get(name, name)
@@ -50,7 +51,7 @@ def test_dimensionless_parameters_one_at_a_time(name, value):
 
 def test_sides_keep_what_is_their_own():
     oscillator = CASE.oscillator.replace(left=None)
-    rig = Base(oscillator, CASE.amplitude).rig({"gap_ratio": 0.5, "stiffness_ratio": 2.0})
+    rig = Base(oscillator, SINE).rig({"gap_ratio": 0.5, "stiffness_ratio": 2.0})
     assert rig.oscillator.left is None
     assert rig.oscillator.right.stiffness == pytest.approx(2.0 * oscillator.isolator.stiffness)
 
@@ -107,7 +108,7 @@ def test_axes_that_do_not_go_together():
 
 def test_a_base_without_bumpers_is_refused():
     with pytest.raises(vi.InputError, match="base: there is no bumper"):
-        Base(CASE.oscillator.without_bumpers(), 0.3).rig({"gap": 1e-3})
+        Base(CASE.oscillator.without_bumpers(), SINE).rig({"gap": 1e-3})
 
 
 def test_a_physical_and_a_dimensionless_parameter():
@@ -117,10 +118,10 @@ def test_a_physical_and_a_dimensionless_parameter():
     assert rig.oscillator.damping_ratio == pytest.approx(0.05, rel=1e-12)
     assert rig.oscillator.right.stiffness == pytest.approx(510e3, rel=1e-12)
     rig = BASE.rig({"amplitude": 0.3, "stiffness_ratio": 5.0})
-    assert rig.amplitude == 0.3
+    assert rig.shaken.amplitude == 0.3
     assert rig.oscillator.right.gap == CASE.oscillator.right.gap
     ratio = rig.oscillator.right.stiffness / rig.oscillator.isolator.stiffness
     assert ratio == pytest.approx(5.0, rel=1e-12)
     # Here the gap follows the amplitude.
     rig = BASE.rig({"amplitude": 0.3, "gap_ratio": 0.5})
-    assert vi.to_dimensionless(*rig).right.gap == pytest.approx(0.5, rel=1e-12)
+    assert vi.to_dimensionless(rig.oscillator, 0.3).right.gap == pytest.approx(0.5, rel=1e-12)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
@@ -19,6 +18,8 @@ def test_maps_follow_the_branch_where_a_jump_may_hide(stiffness):
     assert in_map(rig) == {"60kN/m": "S6", "75kN/m": "S2"}[stiffness]
 
 
+# Beside a cusp, where two folds are closer than a step along the branch.
+@example(ratios=(60.0, 1.0), gaps=(0.15375, 1.0), damping=0.1574, scale=2.0)
 @settings(max_examples=8, deadline=None)
 @given(
     ratios=st.tuples(st.floats(0.5, 60.0), st.floats(0.5, 60.0)),
@@ -29,12 +30,6 @@ def test_maps_follow_the_branch_where_a_jump_may_hide(stiffness):
 def test_mirror_and_scale(ratios, gaps, damping, scale):
     rig = vi.from_dimensionless(ratios, gaps, 0.01, damping)
     named = in_map(rig)
-    if {named, in_map(vi.Rig(rig.oscillator.mirrored(), rig.amplitude))} == {"S2", "S6"}:
-        # Beside a cusp: two folds closer than a step along the branch may be passed unseen.
-        both = [vi.classify(o, rig.amplitude) for o in (rig.oscillator, rig.oscillator.mirrored())]
-        (folds,) = [one.features.folds for one in both if one.features.folds]
-        assert np.ptp(folds[-2:]) < 1e-3 * rig.oscillator.natural_frequency
-        return
     assert in_map(vi.Rig(rig.oscillator.mirrored(), rig.amplitude)) == named
     other = vi.to_dimensionless(*rig).to_physical(
         mass=scale, stiffness=scale**2, amplitude=1.0 / scale

@@ -8,7 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
+from vibroimpact.scenario.axes import Shaken, one_sine
 from vibroimpact.scenario.frequencies import LOW, STEP, frequencies, highest
+
+
+def sine(*parameters) -> Shaken:
+    return one_sine(*vi.from_dimensionless(*parameters), "rig")
 
 
 @settings(max_examples=25, deadline=None)
@@ -21,7 +26,7 @@ from vibroimpact.scenario.frequencies import LOW, STEP, frequencies, highest
 )
 def test_the_primary_resonance_lies_within(ratio, gap, time, damping, sides):
     pair = {"both": ratio, "right": (ratio, None), "left": (None, ratio)}[sides]
-    rig = vi.from_dimensionless(pair, gap, time, damping)
+    rig = sine(pair, gap, time, damping)
     held = frequencies(*rig, step=0.02)
     data = vi.sweep(*rig, held, "forward", max_cycles=500)
     one = data.isel(direction=0)
@@ -31,19 +36,19 @@ def test_the_primary_resonance_lies_within(ratio, gap, time, damping, sides):
 
 
 def test_grid():
-    rig = vi.from_dimensionless(20.0, 0.5, 0.01, 0.15)
+    rig = sine(20.0, 0.5, 0.01, 0.15)
     held = frequencies(*rig) / rig.oscillator.natural_frequency
     assert held[0] == pytest.approx(LOW)
     np.testing.assert_allclose(np.diff(held), STEP, rtol=1e-9)
     assert held[-1] == pytest.approx(highest(*rig))
     assert highest(*rig) % 0.5 == 0.0
     free = rig.oscillator.without_bumpers()
-    assert highest(free, 1.0) == 1.5
+    assert highest(free, rig.shaken) == 1.5
 
 
 def test_bounds():
     """Energy bounds a wide gap, stiffness a narrow one."""
-    wide = vi.from_dimensionless(1e4, 0.5, 0.01, 0.15)
+    wide = sine(1e4, 0.5, 0.01, 0.15)
     assert 1.1 * 1.0983 / 0.5 < highest(*wide) < 1.1 * 1.0983 / 0.5 + 0.6  # π√(1-ξ²)/(2√2 δ)
-    narrow = vi.from_dimensionless(24.0, 1e-6, 0.01, 0.15)
+    narrow = sine(24.0, 1e-6, 0.01, 0.15)
     assert 5.5 < highest(*narrow) < 6.1  # √(1 + λ) = 5

@@ -17,6 +17,7 @@ import zarr
 import vibroimpact as vi
 from scenario.small_map import OPTIONS, X, Y, rig_of, small
 from vibroimpact.response.variables import VARIABLES
+from vibroimpact.scenario.axes import one_sine
 from vibroimpact.scenario.cell import COUNTS, VALUES
 from vibroimpact.scenario.frequencies import frequencies
 from vibroimpact.scenario.kinds import Scenario
@@ -30,7 +31,7 @@ def test_nodes_are_classified_as_one_by_one():
             rig = vi.from_dimensionless(
                 float(data["stiffness_ratio"][x]), float(data["gap_ratio"][y]), 0.01, 0.15
             )
-            alone = vi.classify(*rig, frequencies(*rig, step))
+            alone = vi.classify(*rig, frequencies(*one_sine(*rig, "rig"), step))
             assert Scenario(int(data["scenario"][y, x])).label == alone.scenario, (x, y)
 
 

@@ -11,7 +11,7 @@ from vibroimpact.scenario.words import in_words
 
 
 def told(data, oscillator=RIG.oscillator) -> str:
-    return in_words(evidence(oscillator, RIG.amplitude, data, 0.01), Thresholds())
+    return in_words(evidence(oscillator, RIG.shaken, data, 0.01), Thresholds())
 
 
 def test_a_hysteresis_and_where_it_is():

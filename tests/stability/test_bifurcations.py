@@ -58,3 +58,19 @@ def test_steps_are_small_and_stability_changes_at_bifurcations_only():
     assert (stable[:-1][both] == stable[1:][both]).all()
     jump = np.abs(np.diff(data["displacement_excursion"].values))[within]
     assert jump.max() < 0.1 * float(data["displacement_excursion"].max())
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_two_folds_within_a_step(mirrored):
+    """Beside a cusp, 2e-5 of a frequency apart; the mirror image is followed by other steps."""
+    rig, amplitude = vi.from_dimensionless((60.0, 1.0), (0.15375, 1.0), 0.01, 0.1574)
+    natural = rig.natural_frequency
+    data = vi.branch(
+        rig.mirrored() if mirrored else rig,
+        vi.Harmonic(amplitude, 1.5 * natural),
+        low=0.4 * natural,
+        high=4.0 * natural,
+    )
+    low, high = values(data, "fold")[-2:]
+    assert high - low < 1e-4 * natural
+    np.testing.assert_allclose([low, high], [0.27274430771, 0.27274926534], rtol=1e-9)

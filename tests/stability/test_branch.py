@@ -138,3 +138,17 @@ def test_a_parameter_that_the_bumpers_do_not_share():
         vi.branch(rig, vi.Harmonic(0.5, 2.0), parameter="gap", low=1e-3, high=1e-2)
     data = vi.branch(rig, vi.Harmonic(0.5, 2.0), parameter="left_gap", low=1e-3, high=1e-2)
     assert data.sizes["point"] > 5
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "low", "high", "units"),
+    [("2 mm", "1 mm", "3 mm", "m"), ("100 N", "50 N", "150 N", "N")],
+)
+def test_an_amplitude_is_followed_in_its_own_unit(amplitude, low, high, units) -> None:
+    """Of a linear rig the excursion is proportional to it; the gap over free flight the inverse."""
+    rig = vi.laboratory.case("B2-Ginf-A3").oscillator
+    shaken = vi.Harmonic(amplitude, "2 Hz")
+    data = vi.branch(rig, shaken, parameter="amplitude", low=low, high=high)
+    assert data["amplitude"].attrs["units"] == units
+    ratio = data["displacement_excursion"].values / data["amplitude"].values
+    np.testing.assert_allclose(ratio, ratio[0], rtol=1e-10)

@@ -178,3 +178,29 @@ def test_grazing_of_one_bumper(side):
     k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
     swing = case().amplitude / np.hypot(k - omega**2, c * omega)
     np.testing.assert_allclose(data[f"{side}_gap"], swing, rtol=1e-9)
+
+
+@pytest.mark.parametrize("left", [None, vi.RigidStop(0.6, 0.025)], ids=["one wall", "two"])
+@pytest.mark.parametrize(("other", "low", "high"), [("gap", 5e-3, 40e-3), ("amplitude", 0.2, 1.0)])
+def test_grazing_of_rigid_stops_in_closed_form(left, other, low, high):
+    """Behind it the map is a square root, and Newton's method goes to and fro."""
+    rig = vi.Oscillator(550.0, vi.Isolator(26.8e3, 1.1e3), vi.RigidStop(0.6, 0.025), left)
+    shaken = vi.Harmonic("0.05 g", 3.0)
+    found = vi.branch(rig, shaken, low=0.6, high=3.0)
+    i = int(np.flatnonzero(found["bifurcation_kind"].values == "grazing")[0])
+    data = vi.bifurcation_curve(
+        rig,
+        shaken,
+        found.isel(bifurcation=i),
+        parameters=("frequency", other),
+        low=(0.3, low),
+        high=(6.0, high),
+    )
+    assert data.sizes["point"] < 300
+    for end in ("ended_low", "ended_high"):
+        assert data.attrs[end].startswith("the range of")
+    omega = 2 * np.pi * data["frequency"].values
+    size = data[other].values if other == "amplitude" else shaken.amplitude
+    gap = data[other].values if other == "gap" else 0.025
+    swing = size / np.hypot(26.8e3 / 550.0 - omega**2, 2.0 * omega)
+    np.testing.assert_allclose(swing, gap * np.ones_like(omega), rtol=1e-8)

@@ -68,3 +68,28 @@ def test_refused(wrong, told):
     case = vi.laboratory.case("B2-G1-A3")
     with pytest.raises(vi.InputError, match=told):
         vi.orbit(case.oscillator, vi.Harmonic(case.amplitude, 1.06, 0.0), **wrong)
+
+
+@pytest.mark.parametrize("start", [None, vi.State(), vi.State(0.3, -2.0)])
+@pytest.mark.parametrize("damping_ratio", [5e-4, 0.05])
+def test_free_flight_is_found_from_anywhere(damping_ratio, start):
+    """The problem is linear: how light the damping is, and how small the start, means nothing."""
+    omega0 = 2.0 * np.pi
+    force = 0.4
+    isolator = vi.Isolator(omega0**2, 2.0 * damping_ratio * omega0)
+    rig = vi.Oscillator(1.0, isolator, force=force)
+    for frequency in (0.05, 0.25, 0.5, 0.99, 1.0, 1.2, 2.0, 7.3):
+        omega = 2.0 * np.pi * frequency
+        found = vi.orbit(rig, vi.Harmonic(1.5, frequency), start)
+        swing = 1.5 / np.hypot(omega0**2 - omega**2, 2.0 * damping_ratio * omega0 * omega)
+        assert float(found["displacement_excursion"]) == pytest.approx(2.0 * swing, rel=1e-9)
+        assert float(found["eccentricity"]) == pytest.approx(force / omega0**2, abs=1e-9 * swing)
+        assert int(found["period"]) == 1
+
+
+@pytest.mark.parametrize("gap", [0.0, -0.02])
+def test_a_start_at_rest_beside_attached_bumpers_has_no_size(gap):
+    rig = vi.Oscillator(1.0, vi.Isolator(40.0, 0.6), vi.Bumper(100.0, 1.0, gap))
+    for frequency in (0.7, 1.3, 3.0, 8.0):
+        found = vi.orbit(rig, vi.Harmonic(1.0, frequency), vi.State())
+        assert float(found["residual"]) <= 1e-12

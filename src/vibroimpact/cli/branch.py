@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import Oscillator, State
+    from vibroimpact.model.excitation import Of
 
 _BRANCH = Group("Branch", sort_key=1)
 _WITH_UNITS = Parameter(group=_BRANCH, allow_leading_hyphen=True)
@@ -111,7 +112,15 @@ def branch(
     what = subject(rig, changes or RigOptions(), out.name)
     along = parameter.replace("-", "_")
     ends = ("--from", "--to")
-    span = option_range(along, start, stop, ends, default_span(what), rig=what.oscillator)
+    span = option_range(
+        along,
+        start,
+        stop,
+        ends,
+        default_span(what),
+        rig=what.oscillator,
+        of=what.repeated.of,
+    )
 
     first = _first(begin, period)
 
@@ -154,10 +163,12 @@ def option_range(
     default: tuple[float, float],
     field: str = "--parameter",
     rig: Oscillator | None = None,
+    of: Of = "acceleration",
 ) -> tuple[float, float]:
     """A range of a parameter from two options; that of a frequency has a default, in Hz.
 
-    `field` is the option that names the parameter; the unit of one may depend on the rig.
+    `field` is the option that names the parameter, whose unit may depend on the rig; `of` says
+    what an amplitude is one of.
 
     Raises
     ------
@@ -167,7 +178,7 @@ def option_range(
     from vibroimpact.model import to_si
     from vibroimpact.model.parameters import parameter
 
-    varied = parameter(name, field)
+    varied = parameter(name, field, of)
     if rig is not None:
         varied = varied.of(rig)
     given: list[str | float | None] = [low, high]
@@ -268,7 +279,7 @@ def _one_branch(
         raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
     hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
     phase = what.study.excitation.phase if what.study else 0.0
-    kind = varied(parameter).of(what.oscillator).quantity
+    kind = varied(parameter, of=what.repeated.of).of(what.oscillator).quantity
     here = varied(parameter).read(what.oscillator, what.at(hertz, phase))
     if not span[0] <= here <= span[1]:
         raise InputError(

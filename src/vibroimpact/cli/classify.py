@@ -17,7 +17,7 @@ from vibroimpact.cli.options import (
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
-    from vibroimpact.model import Oscillator
+    from vibroimpact.cli.rig import Subject
 
 _FREQUENCIES = Group("Frequencies", sort_key=1)
 _FREQUENCY = Parameter(group=_FREQUENCIES, allow_leading_hyphen=True)
@@ -69,7 +69,7 @@ def classify(
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
-    held = _frequencies(what.oscillator, what.amplitude, start, stop, step)
+    held = _frequencies(what, start, stop, step)
     used = (thresholds or ThresholdOptions()).thresholds()
 
     with output_folder(out.output) as folder:
@@ -86,7 +86,7 @@ def classify(
         with progress_bar("sweeping") as progress:
             found = run(
                 what.oscillator,
-                what.amplitude,
+                what.repeated,
                 held,
                 thresholds=used,
                 threads=threads,
@@ -137,13 +137,15 @@ def classify(
 
 
 def _frequencies(
-    oscillator: Oscillator,
-    amplitude: float,
+    what: Subject,
     start: str | None,
     stop: str | None,
     step: str | None,
 ) -> tuple[float, ...] | None:
     """The frequencies that were asked for; None for the default."""
+    from vibroimpact.scenario.axes import one_sine
+
+    oscillator, shaken = one_sine(what.oscillator, what.repeated, "excitation")
     if start is None and stop is None and step is None:
         return None
     from vibroimpact.cli.grid import frequency_grid
@@ -153,7 +155,7 @@ def _frequencies(
     from vibroimpact.scenario.frequencies import LOW, STEP, highest
 
     natural = oscillator.natural_frequency
-    defaults = (LOW * natural, highest(oscillator, amplitude) * natural, STEP * natural)
+    defaults = (LOW * natural, highest(oscillator, shaken) * natural, STEP * natural)
     numbers = [
         default if text is None else to_si(text, FREQUENCY, option, above=0.0)
         for option, text, default in zip(

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import Repeated
+    from vibroimpact.model.excitation import Of
 
 _CURVE = Group("Curve", sort_key=1)
 _WITH_UNITS = Parameter(group=_CURVE, allow_leading_hyphen=True)
@@ -82,8 +83,8 @@ def curve(
         raise InputError(f"--over: {over!r}; two, as frequency,gap, are accepted")
     shaken = _excitation(what, names[0], frequency)
     spans = [
-        _range("--first", names[0], first, default_span(what)),
-        _range("--second", names[1], second, default_span(what)),
+        _range("--first", names[0], first, default_span(what), shaken.of),
+        _range("--second", names[1], second, default_span(what), shaken.of),
     ]
     _check(what, shaken, (names[0], names[1]), spans)
 
@@ -145,16 +146,16 @@ def curve(
 
 
 def _range(
-    option: str, name: str, text: str | None, default: tuple[float, float]
+    option: str, name: str, text: str | None, default: tuple[float, float], of: Of
 ) -> tuple[float, float]:
     from vibroimpact.cli.branch import option_range
 
     if text is None and name == "frequency":
-        return option_range(name, None, None, (option, option), default, "--over")
+        return option_range(name, None, None, (option, option), default, "--over", of=of)
     low, colon, high = (text or "").partition(":")
     if not (low and colon and high):
         raise InputError(f"{option}: {text!r}; a range is accepted, such as 1mm:20mm")
-    return option_range(name, low, high, (option, option), default, "--over")
+    return option_range(name, low, high, (option, option), default, "--over", of=of)
 
 
 def _excitation(what: Subject, first: str, frequency: str | None) -> Repeated:

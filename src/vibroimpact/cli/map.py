@@ -21,12 +21,14 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from vibroimpact.cli.rig import Subject
+    from vibroimpact.model.excitation import Of
 
 _MAP = Group("Map", sort_key=1)
 _AXIS = Parameter(group=_MAP, allow_leading_hyphen=True)
 _Axis = tuple[str, list[float], str]
 """Name, values in SI units, and "log" or "linear"."""
 _PUBLISHED = "B3-10mm-A3"
+_SYMBOLS = {"acceleration": "A =", "displacement": "X =", "force": "F ="}
 _NODES = 21
 _MOST = 4_000_000
 
@@ -101,7 +103,8 @@ def scenario_map(
             name=what.name.replace(_PUBLISHED, "published rig"),
             slug=what.slug.replace(_PUBLISHED, "published"),
         )
-    axes = _axis("--x", *x), _axis("--y", *y)
+    of = what.repeated.of
+    axes = _axis("--x", *x, of), _axis("--y", *y, of)
     _check(what, axes, refine)
     used = (thresholds or ThresholdOptions()).thresholds()
 
@@ -124,7 +127,7 @@ def scenario_map(
             try:
                 data = run(
                     *axes,
-                    base=(what.oscillator, what.amplitude),
+                    base=(what.oscillator, what.repeated),
                     step=step,
                     refine=refine,
                     thresholds=used,
@@ -176,13 +179,14 @@ def scenario_map(
 def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     """What the map does not vary, in words."""
     from vibroimpact.model import Bumper, RigidStop, to_dimensionless
+    from vibroimpact.model.access import scale_of
     from vibroimpact.model.parameters import PARAMETERS
-    from vibroimpact.model.quantities import ACCELERATION, LENGTH, STIFFNESS
+    from vibroimpact.model.quantities import LENGTH, STIFFNESS
     from vibroimpact.model.units import pretty
     from vibroimpact.scenario.axes import ONE_QUANTITY
 
     varied = {name for name, *_ in axes}
-    stops = what.oscillator.stops
+    stops, shaken = what.oscillator.stops, what.repeated
     bumpers = [stop for stop in stops if isinstance(stop, Bumper)]
     walls = [stop for stop in stops if isinstance(stop, RigidStop)]
     for pair in ONE_QUANTITY:
@@ -199,11 +203,11 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
         quantities = {
             "gap": ("gap", [pretty(stop.gap, LENGTH) for stop in stops]),
             "bumper_stiffness": ("bumpers", [pretty(b.stiffness, STIFFNESS) for b in bumpers]),
-            "amplitude": ("A =", [pretty(what.amplitude, ACCELERATION)]),
+            "amplitude": (_SYMBOLS[shaken.of], [pretty(shaken.amplitude, shaken.quantity)]),
             **rest,
         }
     else:
-        group = to_dimensionless(what.oscillator, what.amplitude)
+        group = to_dimensionless(what.oscillator, scale_of(what.oscillator, shaken))
         halves = [b for b in (group.right, group.left) if b is not None]
         quantities = {
             "stiffness_ratio": ("λ =", [_ratio(b.stiffness_ratio) for b in halves]),
@@ -222,17 +226,17 @@ def _ratio(value: float) -> str:
     return f"{value:.4g}" if math.isfinite(value) else "∞"
 
 
-def _axis(option: str, name: str, text: str) -> _Axis:
+def _axis(option: str, name: str, text: str, of: Of) -> _Axis:
     """Read ``LOW:HIGH[:log][:NODES]``."""
     from vibroimpact.model import to_si
-    from vibroimpact.model.parameters import PARAMETERS
+    from vibroimpact.model.parameters import parameter
     from vibroimpact.scenario.axes import NAMES
 
     key = name.strip().replace("-", "_")
     if key not in NAMES:
         known = ", ".join(name.replace("_", "-") for name in NAMES)
         raise InputError(f"{option}: {name!r}; one of {known} is accepted")
-    parameter = PARAMETERS[key]
+    varied = parameter(key, option, of)
     parts = [part.strip() for part in text.split(":")]
     logarithmic = "log" in parts[2:3]
     rest = parts[3:] if logarithmic else parts[2:]
@@ -240,10 +244,10 @@ def _axis(option: str, name: str, text: str) -> _Axis:
         raise InputError(
             f"{option}: {text!r}; a range LOW:HIGH[:log][:NODES] is accepted, such as 0.5:100:log"
         )
-    above = None if parameter.zero and not logarithmic else 0.0
+    above = None if varied.zero and not logarithmic else 0.0
     least = 0.0 if above is None else None
     low, high = (
-        to_si(part, parameter.quantity, option, above=above, minimum=least, maximum=parameter.most)
+        to_si(part, varied.quantity, option, above=above, minimum=least, maximum=varied.most)
         for part in parts[:2]
     )
     if not low < high:
@@ -268,14 +272,16 @@ def _axis(option: str, name: str, text: str) -> _Axis:
 
 def _check(what: Subject, axes: tuple[_Axis, ...], refine: int) -> None:
     """Refuse what cannot be mapped before anything is written."""
-    from vibroimpact.scenario.axes import Base, axis, check_pair
+    from vibroimpact.scenario.axes import Base, axis, check_pair, one_sine
 
     try:
-        x, y = (axis(given, option) for given, option in zip(axes, ("--x", "--y"), strict=True))
-        check_pair(x, y)
-        Base(what.oscillator, what.amplitude).rig(
-            {one.name: float(one.values[-1]) for one in (x, y)}
+        base = Base(*one_sine(what.oscillator, what.repeated, "excitation"))
+        x, y = (
+            axis(given, option, base.shaken.of)
+            for given, option in zip(axes, ("--x", "--y"), strict=True)
         )
+        check_pair(x, y)
+        base.rig({one.name: float(one.values[-1]) for one in (x, y)})
     except InputError as error:
         raise InputError(_as_option(str(error))) from None
     if not 0 <= refine <= 8:

@@ -77,23 +77,6 @@ class Subject(NamedTuple):
         return self.repeated.replace(frequency=hertz, **changed)
 
     @property
-    def amplitude(self) -> float:
-        """Peak base acceleration in m/s².
-
-        Raises
-        ------
-        InputError
-            If what shakes it is not one sine of given acceleration.
-        """
-        shaken = self.repeated
-        if not isinstance(shaken, Harmonic) or shaken.of != "acceleration":
-            raise InputError(
-                f"excitation: {shaken}; scenarios are those of one sine of given base "
-                'acceleration, such as amplitude = "0.05 g"'
-            )
-        return shaken.amplitude
-
-    @property
     def title(self) -> str:
         """The name, in lines that fit above a figure, broken between changes."""
         whole = self.name.replace(" ", "\N{NO-BREAK SPACE}").replace(",\N{NO-BREAK SPACE}", ", ")

@@ -28,6 +28,7 @@ from vibroimpact.model import (
     Stop,
     to_dimensionless,
 )
+from vibroimpact.model.access import scale_of
 from vibroimpact.model.quantities import DAMPING, FORCE, LENGTH, MASS, STIFFNESS, VELOCITY
 from vibroimpact.model.units import pretty
 from vibroimpact.response.resonance import Features, Range
@@ -253,7 +254,7 @@ _SHAKEN = {"acceleration": "base", "displacement": "base", "force": "force on th
 
 def _dimensionless(subject: Subject) -> Dimensionless | None:
     try:
-        return to_dimensionless(subject.oscillator, subject.amplitude)
+        return to_dimensionless(subject.oscillator, scale_of(subject.oscillator, subject.repeated))
     except InputError:  # nothing to scale a gap by, or another kind of shaking
         return None
 

@@ -1,4 +1,4 @@
-"""A zero of a function along a curve, within one step."""
+"""Zeros of a function along a curve, within one step."""
 
 from __future__ import annotations
 
@@ -8,6 +8,12 @@ from collections.abc import Callable
 from typing import TypeVar
 
 S = TypeVar("S")
+
+_NEAR = 0.5
+"""Of the least value known, below which a parabola must lead to be followed."""
+_TRIES = 8
+_SAME = 1e-7
+"""Of the step, by which two of its shares differ at least."""
 
 
 def zero_within(
@@ -72,3 +78,67 @@ def zero_within(
         if not narrowed or abs(fn) < 1e-15:
             break
     return best[1], best[2]
+
+
+def between_zeros(
+    ends: tuple[float, float],
+    mean: float,
+    end: float,
+    solved: Callable[[float], S | None],
+    function: Callable[[S], float],
+) -> tuple[S, float] | None:
+    """Find where a function has another sign than at both ends of a step, if it has.
+
+    Parabolas lead to where it comes nearest to zero: first that which has its values at the ends
+    and its mean, then those through three of its values.
+
+    Parameters
+    ----------
+    ends
+        Its values at the ends of the step, of one sign.
+    mean
+        Its mean over the step.
+    end
+        The step's length.
+    solved
+        The solution after a part of the step, None if there is none.
+    function
+        Smooth along the curve.
+
+    Returns
+    -------
+    tuple or None
+        A solution between two zeros, and the length of step there; None if none was found.
+    """
+    sign = math.copysign(1.0, ends[0])
+    a, b = sign * ends[0], sign * ends[1]
+    # x = 1/2 has the value that Simpson's rule gives the mean with.
+    known = [(0.0, a), (0.5, 1.5 * sign * mean - 0.25 * (a + b)), (1.0, b)]
+    for number in range(_TRIES):
+        share, value = _vertex(known)
+        # Far from zero the parabola is believed; close to it the function is looked at.
+        lowest = min(a, b) if number == 0 or known[1][1] < _NEAR * min(a, b) else known[1][1]
+        if not (known[0][0] < share < known[2][0] and value < _NEAR * lowest):
+            return None
+        if abs(share - known[1][0]) < _SAME and number:
+            return None
+        found = solved(share * end)
+        if found is None:
+            return None
+        if (there := sign * function(found)) < 0.0:
+            return found, share * end
+        known = sorted([*(known if number else (known[0], known[2])), (share, there)])
+        i = min(range(1, len(known) - 1), key=lambda i: known[i][1])
+        known = known[i - 1 : i + 2]
+    return None
+
+
+def _vertex(known: list[tuple[float, float]]) -> tuple[float, float]:
+    """Where the parabola through three points has its least value, and that; NaN if nowhere."""
+    (x, fx), (y, fy), (z, fz) = known
+    left, right = (fy - fx) / (y - x), (fz - fy) / (z - y)
+    bend = (right - left) / (z - x)
+    if not bend > 0.0:
+        return math.nan, math.nan
+    at = 0.5 * (x + y) - 0.5 * left / bend
+    return at, fx + (at - x) * (left + bend * (at - y))

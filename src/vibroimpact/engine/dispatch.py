@@ -7,14 +7,15 @@ series elsewhere. Each is a folder whose modules have these kernels:
     too_much_work(plan, period)             whether one cycle takes too long
     stiff_rate(plan)                        what makes a velocity of a displacement (1/s)
 
-    begin(plan, motion, length), more(cursor), following(plan, cursor), following_window(…)
-    expanded(plan, cursor, series), expanded_at_node(…), expanded_force(…), accelerated(…)
-    sampled(plan, cursor, mode, x, v, tau)  absolute acceleration of a sample, as x is seen
+    begin(plan, motion, length), more(plan, cursor), following(plan, cursor)
+    expanded(plan, cursor, series), expanded_force(…), accelerated(…)
+    look(plan, cursor, before, tau, …)      the motion at a time of a stretch, for samples
     displacement(plan, mode, x), acceleration(plan, motion), acceleration_in(…)
 
     acceleration_of(plan, motion)           ü from all forces
     isolator_force(plan, u, v, z)           what the isolator pulls back with, per unit mass
     springs(plan, motion)                   its tangent stiffness, per unit mass
+    face(plan, motion, side)                how far a stop is deformed (m)
 """
 
 from __future__ import annotations
@@ -63,15 +64,14 @@ stiff_rate = _by_flow("stiff_rate")
 begin = _by_flow("begin")
 more = _by_flow("more")
 following = _by_flow("following")
-following_window = _by_flow("following_window")
 expanded = _by_flow("expanded")
-expanded_at_node = _by_flow("expanded_at_node")
 expanded_force = _by_flow("expanded_force")
 accelerated = _by_flow("accelerated")
-sampled = _by_flow("sampled")
+look = _by_flow("look")
 displacement = _by_flow("displacement")
 acceleration = _by_flow("acceleration")
 acceleration_in = _by_flow("acceleration_in")
 acceleration_of = _by_flow("acceleration_of")
 isolator_force = _by_flow("isolator_force")
 springs = _by_flow("springs")
+face = _by_flow("face")

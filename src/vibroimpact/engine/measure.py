@@ -35,10 +35,10 @@ _X, _W = np.polynomial.legendre.leggauss(12)
 _ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
 _WEIGHTS = tuple(float(w) for w in 0.5 * _W)
 
-# Columns of a phase to be measured: mode, x, x′, the forcing's phase (rad), the length (s).
-# In contact x is the bumper's deformation and x′ its rate, both towards the bumper.
-P_MODE, P_X, P_V, P_ANGLE, P_LENGTH = range(5)
-PHASE = 5
+# Columns of a phase to be measured: mode, x, x′, the forcing's clock, the length (s). In contact
+# x is the bumper's deformation and x′ its rate, both towards the bumper; the clock is not mirrored.
+P_MODE, P_X, P_V, P_S, P_C, P_LENGTH = range(6)
+PHASE = 6
 
 # Columns of what is found; forces and energies per unit mass. A left contact's are mirrored
 # back: all but x, force and impulse are as seen in the direction of u.
@@ -127,7 +127,7 @@ def measure_phases(
     rig, amplitude, frequency
         As in `batch.trajectory`.
     phases : ndarray, shape (phase, PHASE)
-        The phases, the forcing's phase as the mass sees it (not mirrored).
+        The phases.
     out : ndarray, shape (phase, MEASURES)
         Written.
     """
@@ -137,5 +137,5 @@ def measure_phases(
         phase = phases[i]
         mode = int(phase[P_MODE])
         sign = -1.0 if mode in (LEFT, SEEN_LEFT) else 1.0
-        s, c = sign * math.sin(phase[P_ANGLE]), sign * math.cos(phase[P_ANGLE])
-        measure_phase(plan, mode, Row(phase[P_X], phase[P_V], s, c), phase[P_LENGTH], out[i])
+        row = Row(phase[P_X], phase[P_V], sign * phase[P_S], sign * phase[P_C])
+        measure_phase(plan, mode, row, phase[P_LENGTH], out[i])

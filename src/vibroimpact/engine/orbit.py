@@ -10,10 +10,8 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import DONE, NOT_FINITE, NOT_SETTLED, measure
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.stops import rigid
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer, stack, workspace
-from vibroimpact.engine.motion import LEFT, RIGHT
 from vibroimpact.engine.observers.margin import Margin
 from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.section_map import (
@@ -35,6 +33,7 @@ from vibroimpact.engine.section_map import (
 
 _NEWTON_STEPS = 16
 _GOOD = 1e-14  # residual over the scale at which nothing is left to gain
+_ROUNDING = 2.0**-51
 _DIFFERENCE = 1e-7  # of the parameter's scale; less where impacts make the map steep
 _FARTHEST = 0.5  # scaled length of a Newton step
 
@@ -116,9 +115,10 @@ def _newton(
         elif last:
             # Rounding lets it come no closer.
             copy(found, point, POINT)
-        if last or residual <= _GOOD or facts[STEPS] >= _NEWTON_STEPS:
+        if last or residual <= _GOOD:
             break
-        if facts[STEPS] >= 4 and residual > 0.25 * best and best < 1e-12:
+        idle = facts[STEPS] >= 4 and residual > 0.25 * best and best < 1e-12
+        if idle or facts[STEPS] >= _NEWTON_STEPS:
             last = True
             copy(found, point, POINT)
             continue
@@ -146,7 +146,24 @@ def _newton(
         facts[STEPS] += 1.0
     facts[RESIDUAL] = min(best, residual)
     _slope(plan, line, point, facts, image, columns, slope)
-    return DONE if facts[RESIDUAL] <= 1e-12 else NOT_SETTLED
+    return (
+        DONE if facts[RESIDUAL] <= 1e-12 + _rounding(point, columns, slope, scale) else NOT_SETTLED
+    )
+
+
+@kernel
+def _rounding(point: Vector, columns: Vector, slope: Vector, scale: Vector) -> float:
+    """What rounding a point and the events on its way makes of P, over the scale.
+
+    Behind the grazing of a very stiff stop P is so steep that no point comes closer to its image.
+    """
+    most = 0.0
+    for i in range(DISTURBANCE):
+        change = abs(slope[i] * point[PARAMETER])
+        for j in range(DISTURBANCE):
+            change += abs(columns[j * DISTURBANCE + i] * point[j])
+        most = max(most, _ROUNDING * change / scale[i])
+    return most
 
 
 @kernel
@@ -161,15 +178,13 @@ def _slope(
 ) -> None:
     """∂P/∂p by a difference, on the side on which the contacts are the same.
 
-    At a grazing the derivative may jump; beside that of a rigid stop P is a square root, whose
-    second derivative is the square of its first. It only steers: a step's end is judged by P alone.
+    At a grazing the derivative may jump; beside that of a rigid or a very stiff stop P is a square
+    root, whose second derivative is the square of its first. It only steers: a step's end is judged
+    by P alone.
     """
     base, direction, phase, count, mirror, max_events, scale = line
-    steep = 1.0
-    if rigid(plan, RIGHT) or rigid(plan, LEFT):
-        for i in range(DISTURBANCE):
-            for j in range(DISTURBANCE):
-                steep = max(steep, abs(columns[j * DISTURBANCE + i]) * scale[j] / scale[i])
+    # Of its derivative's elements those that no section within a contact makes large.
+    steep = max(1.0, abs(columns[0]), abs(columns[DISTURBANCE + 1]))
     system, ignored = system_memory(), matrix_memory()
     other, trial, seen = workspace(), workspace(), workspace()
     for sign in range(2):
@@ -242,7 +257,8 @@ def correct(
     Returns
     -------
     outcome
-        DONE, NOT_SETTLED (the residual stays above 1e-12 of the scale), or what went wrong.
+        DONE, NOT_SETTLED (the residual stays above 1e-12 of the scale and what rounding explains),
+        or what went wrong.
     """
     plan = planned(given, rig)
     line = (pointer(base), pointer(direction), phase, count, mirror, max_events, pointer(scale))

@@ -54,7 +54,29 @@ HARMONIC, SEVERAL, RAMP = 0.0, 1.0, 2.0
 ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI = 0.0, 1.0, 2.0, 3.0, 4.0
 
 Stop = tuple[float, ...]
-"""K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop."""
+"""K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop; a `PowerLaw`."""
+
+
+class PowerLaw(NamedTuple):
+    """A bumper without memory: k δⁿ (1 + χ δ′), and c δ^¼ δ′ while it is approached.
+
+    Attributes
+    ----------
+    stiffness, exponent
+        k (N/mⁿ) and n.
+    dissipation
+        χ (s/m); below 0 minus the number d of χ = d / closing speed.
+    viscous
+        c, N s m^(−5/4).
+    gap
+        G0_j (m).
+    """
+
+    stiffness: float
+    exponent: float
+    dissipation: float
+    viscous: float
+    gap: float
 
 
 class Drive(NamedTuple):
@@ -135,7 +157,8 @@ def rig_vector(
     vector = np.zeros(WEIGHTS + 2 * len(drive.weights) if drive.weights else SIZE)
     vector[LOAD] = load / mass
     vector[CUBIC : DRAG + 1] = law
-    vector[CURVED] = law != Law()
+    curved = isinstance(right, PowerLaw) or isinstance(left, PowerLaw)
+    vector[CURVED] = curved or law != Law()
     for at in _PER_MASS:
         vector[at] /= mass
     vector[BASE], vector[SCALE], vector[POWER] = drive.base, drive.scale, drive.power
@@ -154,6 +177,12 @@ def rig_vector(
             continue
         if len(stop) == 2:
             vector[at + KIND], vector[at + RESTITUTION] = RIGID, stop[0]
+            continue
+        if isinstance(stop, PowerLaw):
+            vector[at + KIND] = JANKOWSKI if stop.viscous else POWER_LAW
+            vector[at + BUMPER_STIFFNESS] = stop.stiffness / mass
+            vector[at + BUMPER_DAMPING] = stop.viscous / mass
+            vector[at + EXPONENT], vector[at + DISSIPATION] = stop.exponent, stop.dissipation
             continue
         bumper_stiffness, bumper_damping, _ = stop
         vector[at + KIND] = KELVIN_VOIGT

@@ -24,8 +24,8 @@ def hysteresis_cycle(
     Parameters
     ----------
     motions
-        Dataset of `steady`, or of `simulate` with samples; or several of them by name. One
-        whose name holds "forward" is red, "backward" blue.
+        Dataset of `steady`, or of `simulate` with samples, through a `Record`, too; or several
+        of them by name. One whose name holds "forward" is red, "backward" blue.
     ax
         Axes to draw on. None makes a new figure.
     title
@@ -37,7 +37,7 @@ def hysteresis_cycle(
         If a dataset is not that of a motion with samples.
     """
     ax = axes_or_new(ax, (5.2, 4.4), title)
-    curves = shown(named(motions))
+    curves = shown(named(motions, records=True))
     for curve in curves:
         long = curve.at[-1] - curve.at[0] > 20.0
         ax.plot(

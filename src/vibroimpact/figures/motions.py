@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import new_axes
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
+from vibroimpact.model import Record
 from vibroimpact.response.contacts import contacts
-from vibroimpact.response.phases import phases, recorded, touches
+from vibroimpact.response.phases import any_recorded, phases, recorded, touches
 
 _Array = NDArray[np.float64]
 
@@ -30,7 +31,7 @@ class Shown(NamedTuple):
 
     look: Look
     at: _Array
-    """Time in forcing cycles."""
+    """Time in forcing cycles; of a motion through a `Record` in seconds."""
     values: dict[str, _Array]
     """By variable: displacement, velocity, acceleration, clearances."""
     touching: list[tuple[int, float, float]]
@@ -41,8 +42,10 @@ class Shown(NamedTuple):
     """Gap (m) on each side that has a bumper."""
 
 
-def named(motions: xr.Dataset | Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
-    """Motions by name; one alone is called "motion".
+def named(
+    motions: xr.Dataset | Mapping[str, xr.Dataset], records: bool = False
+) -> dict[str, xr.Dataset]:
+    """Motions by name; one alone is called "motion". Only `records` may go through a `Record`.
 
     Raises
     ------
@@ -57,7 +60,7 @@ def named(motions: xr.Dataset | Mapping[str, xr.Dataset]) -> dict[str, xr.Datase
     if not given:
         raise InputError("motions: there is none; at least one motion is accepted")
     for motion in given.values():
-        recorded(motion)
+        (any_recorded if records else recorded)(motion)
     return given
 
 
@@ -125,10 +128,14 @@ def name_lines(ax: Axes, curves: list[Shown]) -> None:
 
 
 def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
-    origin = recorded(motion)
-    frequency = origin.excitation.frequency
-    at = motion["cycle"].values
-    events = motion["event_cycle"].values + motion["event_cycle_time"].values * frequency
+    origin = any_recorded(motion)
+    shaken = origin.excitation
+    if isinstance(shaken, Record):
+        frequency, at = 1.0, motion["time"].values
+        events = motion["event_time"].values
+    else:
+        frequency, at = shaken.frequency, motion["cycle"].values
+        events = motion["event_cycle"].values + motion["event_cycle_time"].values * frequency
     times = np.concatenate([at, events, events])
     order = np.argsort(times, kind="stable")
 
@@ -136,9 +143,13 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         parts = [motion[name].values, motion[before].values, motion[behind].values]
         return np.asarray(np.concatenate(parts)[order], dtype=float)
 
+    every = phases(motion)
+    arrival = motion["event_velocity"].values
+    parting, begins = arrival.copy(), every.event >= 0
+    parting[every.event[begins]] = every.first[begins, 1]  # an impact turns it round
     values = {
         "displacement": merged("displacement", "event_displacement", "event_displacement"),
-        "velocity": merged("velocity", "event_velocity", "event_velocity"),
+        "velocity": np.concatenate([motion["velocity"].values, arrival, parting])[order],
         "acceleration": merged(
             "acceleration", "event_acceleration_before", "event_acceleration_behind"
         ),
@@ -154,13 +165,14 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         clearance = np.where(mine, 0.0, bumper.gap + side * distance)
         parts = [motion[f"{name}_clearance"].values, clearance, clearance]
         values[f"{name}_clearance"] = np.concatenate(parts)[order]
-    every = phases(motion)
     touching = [
         (side, begin, begin + float(every.length[i]) * frequency)
         for side in (1, -1)
         for i in np.flatnonzero(touches(every.contact, side))
         for begin in [float(every.begin[i]) * frequency]
     ]
+    if isinstance(shaken, Record):  # cut at each of its lines
+        touching = _joined(touching)
     log = motion if "contact_peak_time" in motion else contacts(motion)
     peak_at = log["contact_peak_time"].values * frequency
     height = np.interp(peak_at, times[order], values["acceleration"])

@@ -25,8 +25,8 @@ def phase_portrait(
     Parameters
     ----------
     motions
-        Dataset of `steady`, or of `simulate` with samples; or several of them by name. One
-        whose name holds "forward" is red, "backward" blue.
+        Dataset of `steady`, or of `simulate` with samples, through a `Record`, too; or several
+        of them by name. One whose name holds "forward" is red, "backward" blue.
     ax
         Axes to draw on. None makes a new figure.
     title
@@ -37,7 +37,7 @@ def phase_portrait(
     InputError
         If a dataset is not that of a motion with samples.
     """
-    given = named(motions)
+    given = named(motions, records=True)
     ax = axes_or_new(ax, (5.2, 4.4), title)
     curves = shown(given)
     for curve, motion in zip(curves, given.values(), strict=True):
@@ -53,6 +53,8 @@ def phase_portrait(
             label=curve.look.label,
             zorder=3,
         )
+        if "cycle" not in motion:  # through a record
+            continue
         at = motion["cycle"].values
         whole = np.flatnonzero(np.isclose(at, np.round(at), rtol=0.0, atol=1e-9))
         whole = whole[:-1] if len(whole) > 1 else whole

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.dimensionless import peak_displacement
-from vibroimpact.model.excitation import Repeated
+from vibroimpact.model.excitation import Harmonic, Repeated
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.stops import Bumper, Stop
@@ -142,15 +142,34 @@ def stiffness_ratio() -> tuple[Read, Write]:
     return read, write
 
 
+def scale_of(oscillator: Oscillator, shaken: Repeated) -> float:
+    """Return the peak base acceleration (m/s²) by which gaps are scaled whatever shakes the mass.
+
+    Of a displacement X of the base it is X ω0², of a force F on the mass F/M: the largest
+    displacement in free flight is the same under it (see `peak_displacement`).
+
+    Raises
+    ------
+    InputError
+        If several harmonics shake it.
+    """
+    if not isinstance(shaken, Harmonic):
+        raise InputError(
+            "gap_ratio: gaps are scaled by the peak of free flight under one sine, and several "
+            "harmonics shake the mass; a Harmonic, or a gap in metres, is accepted"
+        )
+    return float(shaken.acceleration(oscillator.mass, oscillator.angular_frequency))
+
+
 def gap_ratio() -> tuple[Read, Write]:
     """δ0 = G0_j/u_max at a fixed peak of free flight."""
     gap_of, with_gap = bumpers("gap")
 
     def read(rig: Oscillator, shaken: Repeated) -> float:
-        return gap_of(rig, shaken) / peak_displacement(rig, shaken.amplitude)
+        return gap_of(rig, shaken) / peak_displacement(rig, scale_of(rig, shaken))
 
     def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        return with_gap(rig, shaken, value * peak_displacement(rig, shaken.amplitude))
+        return with_gap(rig, shaken, value * peak_displacement(rig, scale_of(rig, shaken)))
 
     return read, write
 

@@ -52,7 +52,8 @@ def equilibrium(oscillator: Oscillator) -> State:
     linear = isinstance(oscillator.isolator, Isolator) and all(
         isinstance(stop, Bumper | RigidStop) for stop in oscillator.stops
     )
-    return State(_by_stiffness(oscillator) if linear else _by_root(oscillator))
+    u = _by_stiffness(oscillator) if linear else _by_root(oscillator)
+    return State(u, isolator=oscillator.isolator.remembered(u))
 
 
 def _by_stiffness(oscillator: Oscillator) -> float:

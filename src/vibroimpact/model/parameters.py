@@ -13,6 +13,7 @@ from typing import NamedTuple
 from vibroimpact.errors import InputError
 from vibroimpact.model import access
 from vibroimpact.model.access import Read, Write
+from vibroimpact.model.excitation import QUANTITIES, Of
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -45,6 +46,9 @@ _UNITS = {
     power_stiffness(5.0): "N m-5",
 }
 """As datasets write them; units of laws with other exponents as they are."""
+
+
+_PEAKS = {"displacement": "peak base displacement", "force": "peak force on the mass"}
 
 
 class Parameter(NamedTuple):
@@ -89,8 +93,8 @@ class Parameter(NamedTuple):
         return self.quantity is not DIMENSIONLESS
 
 
-def parameter(name: str, field: str = "parameter") -> Parameter:
-    """Look a parameter up.
+def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> Parameter:
+    """Look a parameter up; `of` says what an amplitude is one of.
 
     Raises
     ------
@@ -100,6 +104,8 @@ def parameter(name: str, field: str = "parameter") -> Parameter:
     key = name.replace("-", "_") if isinstance(name, str) else name
     if key not in PARAMETERS:
         raise InputError(f"{field}: {name!r}; one of {', '.join(PARAMETERS)} is accepted")
+    if key == "amplitude" and of != "acceleration":
+        return PARAMETERS[key]._replace(quantity=QUANTITIES[of], long_name=_PEAKS[of])
     return PARAMETERS[key]
 
 

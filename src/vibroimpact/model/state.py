@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
@@ -39,7 +40,8 @@ class State(Model):
         u̇ in m/s, relative to the base.
     right_bumper
         Deformation u_R in m of the right bumper, at least 0. None: at rest, or pressed by
-        the mass if the displacement exceeds the gap.
+        the mass if the displacement exceeds the gap. Of a stop without memory that is pressed,
+        the speed in m/s at which it was met, from which a restitution makes its dissipation.
     left_bumper
         Deformation u_L in m of the left bumper, at most 0. None: as for the right one.
     phase
@@ -47,6 +49,9 @@ class State(Model):
     contact
         Stop that the mass touches: -1 left, 0 none, 1 right, 2 both. None: deduced from the
         displacement and the deformations.
+    isolator
+        What a hysteretic isolator remembers, in m: the deformation z of its elastic part, the
+        z of Bouc and Wen, and of the exponential model the hysteretic force over k_a - k_b.
 
     Raises
     ------
@@ -54,12 +59,15 @@ class State(Model):
         If a value is not finite, has a wrong unit or a wrong sign.
     """
 
+    _quiet: ClassVar[Mapping[str, Any]] = {"isolator": 0.0}
+
     displacement: Annotated[float, Accepts(LENGTH)] = 0.0
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
     right_bumper: Annotated[float | None, Accepts(LENGTH, minimum=0.0, optional=True)] = None
     left_bumper: Annotated[float | None, Accepts(LENGTH, maximum=0.0, optional=True)] = None
     phase: Annotated[float | None, Accepts(ANGLE, optional=True)] = None
     contact: Annotated[Literal[-1, 0, 1, 2] | None, BeforeValidator(_contact)] = None
+    isolator: Annotated[float, Accepts(LENGTH)] = 0.0
 
     @constructor
     def __init__(
@@ -70,6 +78,7 @@ class State(Model):
         left_bumper: float | str | None = None,
         phase: float | str | None = None,
         contact: int | None = None,
+        isolator: float | str = 0.0,
     ) -> None:
         super().__init__(
             displacement=displacement,
@@ -78,4 +87,5 @@ class State(Model):
             left_bumper=left_bumper,
             phase=phase,
             contact=contact,
+            isolator=isolator,
         )

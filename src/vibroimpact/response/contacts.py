@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import measure
-from vibroimpact.model import to_si
+from vibroimpact.model import Record, Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.response.phases import (
     SIDES,
     Phases,
     Recorded,
+    any_recorded,
     cut,
     impact_loss,
     measured,
-    recorded,
     relaxation_loss,
     touches,
 )
@@ -41,7 +41,7 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples.
+        Dataset of `steady`, or of `simulate` with samples, through a `Record`, too.
     grazing
         Share of the motion's largest speed below which a closing velocity is flagged as grazing.
 
@@ -51,7 +51,8 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
         Dim ``contact_number``, in the order of their beginning. Velocities are relative to the
         base; forces press on the mass, positive; energies are lost in the bumper's dashpot.
         An impact on a rigid stop lasts 0 s: its force has no finite peak (NaN), but an impulse,
-        and it loses energy at once. A rest on it is a contact of its own.
+        and it loses energy at once. A rest on it is a contact of its own. Through a `Record`, which
+        has no period, there are no phases and no shares of one.
 
     Raises
     ------
@@ -59,14 +60,14 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
         If the dataset is not that of a motion with samples, or `grazing` is negative.
     """
     share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
-    origin = recorded(motion)
+    origin = any_recorded(motion)
     data = contact_log(motion, origin, cut(motion, origin), None, share)
     return describe(data, "vibroimpact.contacts", motion_parameters(motion))
 
 
 def contact_log(
     motion: xr.Dataset,
-    origin: Recorded,
+    origin: Recorded[Any],
     every: Phases,
     rows: NDArray[np.float64] | None,
     share: float = GRAZING,
@@ -86,7 +87,7 @@ def contact_log(
     every_kind = zip(*lasting, _impacts(motion, every, origin), strict=True)
     chosen = _Contacts(*map(np.concatenate, every_kind))
     chosen = chosen.take(np.argsort(chosen.order, kind="stable"))
-    mass, period = origin.oscillator.mass, origin.excitation.period
+    mass = origin.oscillator.mass
     side, begin = chosen.side, chosen.begin
     damping = origin.of_side(side, "damping")
     closing, parting = chosen.first[:, 1], chosen.last[:, 1]
@@ -104,10 +105,8 @@ def contact_log(
         "side": side,
         "start": begin,
         "end": begin + chosen.length,
-        "start_phase": chosen.angle % (2.0 * np.pi),
-        "end_phase": (chosen.angle + 2.0 * np.pi * chosen.length / period) % (2.0 * np.pi),
+        **_in_the_cycle(chosen, origin.excitation),
         "duration": chosen.length,
-        "duration_share": chosen.length / period,
         "start_velocity": closing,
         "end_velocity": parting,
         "peak_force": mass * chosen.force,
@@ -127,6 +126,18 @@ def contact_log(
     return xr.Dataset(
         {f"contact_{name}": ("contact_number", value) for name, value in values.items()}
     )
+
+
+def _in_the_cycle(chosen: _Contacts, shaken: Repeated | Record) -> dict[str, _Array]:
+    """When in the forcing's period contacts begin and end; nothing of a record, which has none."""
+    if isinstance(shaken, Record):
+        return {}
+    share = chosen.length / shaken.period
+    return {
+        "start_phase": chosen.angle % (2.0 * np.pi),
+        "end_phase": (chosen.angle + 2.0 * np.pi * share) % (2.0 * np.pi),
+        "duration_share": share,
+    }
 
 
 class _Contacts(NamedTuple):
@@ -157,7 +168,7 @@ class _Contacts(NamedTuple):
 
 
 def _lasting(
-    every: Phases, origin: Recorded, side: int, rows: NDArray[np.float64] | None
+    every: Phases, origin: Recorded[Any], side: int, rows: NDArray[np.float64] | None
 ) -> _Contacts:
     """The contacts with a bumper, or rests on a rigid stop, of one side."""
     runs = _runs(every, origin, side)
@@ -207,7 +218,7 @@ def _lasting(
     )
 
 
-def _runs(every: Phases, origin: Recorded, side: int) -> list[_Numbers]:
+def _runs(every: Phases, origin: Recorded[Any], side: int) -> list[_Numbers]:
     """The phases of each contact of a side that the record holds from beginning to end."""
     touched = touches(every.contact, side)
     end = len(touched) - 1
@@ -224,13 +235,13 @@ def _runs(every: Phases, origin: Recorded, side: int) -> list[_Numbers]:
     return runs
 
 
-def _impacts(motion: xr.Dataset, every: Phases, origin: Recorded) -> _Contacts:
+def _impacts(motion: xr.Dataset, every: Phases, origin: Recorded[Any]) -> _Contacts:
     """The impacts on rigid stops: contacts of no duration, whose force has no finite peak."""
     at = np.flatnonzero(every.struck)
-    before, behind = every.last[at - 1], every.first[at]
+    before, behind, event = every.last[at - 1], every.first[at], every.event[at]
     sharp = np.maximum(
-        np.abs(motion["event_acceleration_before"].values[at - 1]),
-        np.abs(motion["event_acceleration_behind"].values[at - 1]),
+        np.abs(motion["event_acceleration_before"].values[event]),
+        np.abs(motion["event_acceleration_behind"].values[event]),
     )
     none = np.zeros(len(at))
     return _Contacts(
@@ -251,7 +262,7 @@ def _impacts(motion: xr.Dataset, every: Phases, origin: Recorded) -> _Contacts:
     )
 
 
-def _relaxing(every: Phases, origin: Recorded, side: int, runs: list[_Numbers]) -> _Array:
+def _relaxing(every: Phases, origin: Recorded[Any], side: int, runs: list[_Numbers]) -> _Array:
     """Energy that the free bumper loses behind each contact, until it is pressed again."""
     lost = np.zeros(len(runs))
     touched = touches(every.contact, side)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Periodic, Repeated
+from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
 from vibroimpact.model.dimensionless import largest_free_flight
 
 _RESONANT = 1e-14
@@ -88,6 +88,18 @@ def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[floa
     at = 1.0 / math.sqrt(1.0 - 2.0 * xi**2)
     share = math.hypot(1.0, 2.0 * xi * at)
     return 2.0 * peak * size / omega0**2, 2.0 * peak * size * share
+
+
+def resonance_ratio(damping_ratio: float, shaken: Harmonic) -> float:
+    """Where free flight's displacement is largest, over the natural frequency.
+
+    At √(1 − 2ξ²), or at 1/√(1 − 2ξ²) where the displacement of the base is given. With ξ of 1/√2
+    or more there is no peak, and it is 0 or infinite: the end towards which the curve rises.
+    """
+    below = math.sqrt(max(0.0, 1.0 - 2.0 * damping_ratio**2))
+    if shaken.of != "displacement":
+        return below
+    return 1.0 / below if below else math.inf
 
 
 def check_bounded(oscillator: Oscillator, shaken: Repeated, field: str = "frequency") -> None:

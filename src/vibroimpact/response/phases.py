@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from typing import NamedTuple
+import math
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import xarray as xr
@@ -13,9 +14,11 @@ from vibroimpact.engine import measure
 from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, Repeated, RigidStop, State, validate
+from vibroimpact.model import Bumper, Oscillator, Record, Repeated, RigidStop, State, validate
 from vibroimpact.response.start import engine_rig
 from vibroimpact.response.variables import excitation_from
+
+_Shaking = TypeVar("_Shaking", bound=Repeated | Record, covariant=True)
 
 _Array = NDArray[np.float64]
 
@@ -24,14 +27,14 @@ SIDES = (1, -1)
 _COMPONENTS = ("displacement", "velocity", "right_bumper", "left_bumper")
 
 
-class Recorded(NamedTuple):
+class Recorded(NamedTuple, Generic[_Shaking]):
     """What a dataset of a motion says of its origin."""
 
     oscillator: Oscillator
-    excitation: Repeated
+    excitation: _Shaking
     """Its phase is that at the beginning of the record."""
     cycles: float
-    """Length of the record."""
+    """Length of the record; NaN of a motion through a `Record`, which has none."""
     periodic: bool
     """Whether the record is one period of a periodic motion: its end is its beginning."""
 
@@ -68,10 +71,15 @@ class Phases(NamedTuple):
     """Stop touched: -1 left, 0 none, 1 right, 2 both."""
     struck: NDArray[np.int64]
     """Side of the impact on a rigid stop with which the phase begins, or 0."""
+    event: NDArray[np.int64]
+    """Number of the event with which it begins, or -1."""
     begin: _Array
     """s, from the beginning of the record."""
     angle: _Array
-    """The forcing's phase at the beginning, rad; not reduced over the cycles of one record."""
+    """The forcing's phase at the beginning, rad; not reduced over the cycles of one record. NaN
+    through a `Record`."""
+    clock: _Array
+    """The two numbers of the forcing's clock at the beginning, shape (phase, 2)."""
     length: _Array
     """s."""
     first: _Array
@@ -85,7 +93,7 @@ class Phases(NamedTuple):
         return Phases(**parts)
 
 
-def recorded(motion: xr.Dataset) -> Recorded:
+def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
     """Whose motion a dataset holds.
 
     Raises
@@ -93,10 +101,8 @@ def recorded(motion: xr.Dataset) -> Recorded:
     InputError
         If it is not the dataset of a motion with samples and events.
     """
-    held = isinstance(motion, xr.Dataset) and {"event_time", "cycle", "velocity"} <= set(
-        motion.variables
-    )
-    if not held or not motion.sizes["time"]:
+    held = isinstance(motion, xr.Dataset) and {"event_time", "velocity"} <= set(motion.variables)
+    if not held or motion.sizes["time"] < ("cycle" not in motion) + 1:
         raise InputError(
             "motion: this is no recorded motion; a dataset of steady, or of simulate with samples, "
             "is accepted"
@@ -104,12 +110,44 @@ def recorded(motion: xr.Dataset) -> Recorded:
     parameters = json.loads(motion.attrs["parameters"])
     oscillator = validate(Oscillator, parameters["oscillator"], "motion.oscillator")
     assert isinstance(oscillator, Oscillator)
+    if "record" in parameters:
+        given = parameters["record"]
+        known = motion["base_acceleration"].values[_lines(motion, given["step"])]
+        return Recorded(
+            oscillator, Record(known[: given["samples"]], given["step"]), math.nan, False
+        )
     return Recorded(
         oscillator,
         excitation_from(parameters),
         float(motion["cycle"].values[-1]),
         "period" in motion and int(motion["period"]) > 0,
     )
+
+
+def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
+    """Whose motion under a repeated forcing a dataset holds.
+
+    Raises
+    ------
+    InputError
+        If it is not the dataset of such a motion with samples and events.
+    """
+    origin = any_recorded(motion)
+    shaken = origin.excitation
+    if isinstance(shaken, Record):
+        raise InputError(
+            "motion: it goes through a Record, which has no cycles; a motion under a Harmonic or a "
+            "Periodic is accepted (contacts, totals, record_history, phase_portrait and "
+            "hysteresis_cycle take this one)"
+        )
+    return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
+
+
+def _lines(motion: xr.Dataset, step: float) -> NDArray[np.int64]:
+    """The samples at which a straight line of the record begins, and the last one."""
+    time = motion["time"].values
+    each = max(1, round(step / time[1]))
+    return np.unique(np.append(np.arange(0, len(time), each), len(time) - 1))
 
 
 def beginning(motion: xr.Dataset) -> State:
@@ -130,20 +168,21 @@ def phases(motion: xr.Dataset) -> Phases:
     InputError
         If it is not the dataset of a motion with samples and events.
     """
-    return cut(motion, recorded(motion))
+    return cut(motion, any_recorded(motion))
 
 
-def cut(motion: xr.Dataset, origin: Recorded) -> Phases:
+def cut(motion: xr.Dataset, origin: Recorded[Repeated | Record]) -> Phases:
     """As `phases`, of a motion whose origin is known."""
-    period = origin.excitation.period
+    shaken = origin.excitation
     # A motion that was given up has events behind its last sample.
-    at = motion["event_cycle"].values + motion["event_cycle_time"].values / period
-    motion = motion.isel(event=at <= origin.cycles * (1.0 + 1e-12))
+    if isinstance(shaken, Record):
+        kept = motion["event_time"].values <= motion["time"].values[-1]
+    else:
+        at = motion["event_cycle"].values + motion["event_cycle_time"].values / shaken.period
+        kept = at <= origin.cycles * (1.0 + 1e-12)
+    motion = motion.isel(event=kept)
     at_events = np.stack([motion[f"event_{name}"].values for name in _COMPONENTS], axis=-1)
-    ends = [np.array([motion[name].values[i] for name in _COMPONENTS]) for i in (0, -1)]
     kinds, sides = motion["event_contact"].values, motion["event_side"].values
-    if len(at_events) and not motion["event_cycle"][0] and not motion["event_cycle_time"][0]:
-        ends[0] = at_events[0]  # the first sample lies behind an event at once
     struck = np.where(kinds == IMPACT, sides, 0)
     behind = at_events.copy()
     for side, stop in zip(SIDES, (origin.oscillator.right, origin.oscillator.left), strict=True):
@@ -152,19 +191,77 @@ def cut(motion: xr.Dataset, origin: Recorded) -> Phases:
             behind[(kinds == CONTACT_BEGINS) & (sides == side), 1] = 0.0
     right, left = (_touched(side, kinds, sides, int(motion["contact"].values[0])) for side in SIDES)
     contact = np.where(right & left, 2, right.astype(np.int64) - left)
+    events = _Events(at_events, behind, np.append(0, struck).astype(np.int64), contact)
+    if isinstance(shaken, Record):
+        return _along_lines(motion, shaken, events)
+    return _along_cycles(motion, shaken, origin.cycles, events)
+
+
+class _Events(NamedTuple):
+    """Contacts, detachments and impacts, a row each."""
+
+    before: _Array
+    behind: _Array
+    struck: NDArray[np.int64]
+    """Of what begins with each of them, and first of what begins with none."""
+    contact: NDArray[np.int64]
+    """The same."""
+
+
+def _along_cycles(motion: xr.Dataset, shaken: Repeated, cycles: float, events: _Events) -> Phases:
+    """The phases from event to event."""
+    period = shaken.period
+    ends = [np.array([motion[name].values[i] for name in _COMPONENTS]) for i in (0, -1)]
+    if len(events.before) and not motion["event_cycle"][0] and not motion["event_cycle_time"][0]:
+        ends[0] = events.before[0]  # the first sample lies behind an event at once
     # Differences within cycles keep digits that absolute times lose.
-    cycle = np.concatenate([[0], motion["event_cycle"].values, [np.floor(origin.cycles)]])
-    within = np.concatenate(
-        [[0.0], motion["event_cycle_time"].values, [(origin.cycles % 1.0) * period]]
-    )
+    cycle = np.concatenate([[0], motion["event_cycle"].values, [np.floor(cycles)]])
+    within = np.concatenate([[0.0], motion["event_cycle_time"].values, [(cycles % 1.0) * period]])
+    angle = shaken.phase + 2.0 * np.pi * within[:-1] / period
     return Phases(
-        contact,
-        np.append(0, struck).astype(np.int64),
+        events.contact,
+        events.struck,
+        np.arange(len(angle)) - 1,
         cycle[:-1] * period + within[:-1],
-        origin.excitation.phase + 2.0 * np.pi * within[:-1] / period,
+        angle,
+        np.column_stack([np.sin(angle), np.cos(angle)]),
         np.maximum(np.diff(cycle) * period + np.diff(within), 0.0),
-        np.vstack([ends[0], behind]),
-        np.vstack([at_events, ends[1]]),
+        np.vstack([ends[0], events.behind]),
+        np.vstack([events.before, ends[1]]),
+    )
+
+
+def _along_lines(motion: xr.Dataset, record: Record, events: _Events) -> Phases:
+    """The phases from event to event, and cut where a straight line of the record ends."""
+    nodes = _lines(motion, record.step)
+    time = motion["time"].values[nodes]
+    pull = motion["base_acceleration"].values[nodes]
+    slope = np.append(np.diff(pull) / np.diff(time), 0.0)
+    # The base stands still behind the record, at whose end it may stop at once.
+    pull, slope = (
+        np.where(np.arange(len(time)) < len(record.time) - 1, x, 0.0) for x in (pull, slope)
+    )
+    states = np.stack([motion[name].values[nodes] for name in _COMPONENTS], axis=-1)
+    count = len(events.before)
+    moments = np.concatenate([time[:-1], motion["event_time"].values, time[-1:]])
+    order = np.argsort(moments, kind="stable")
+    event = np.concatenate([np.full(len(time) - 1, -1), np.arange(count), [-1]])[order]
+    behind = np.vstack([states[:-1], events.behind, states[-1:]])[order]
+    before = np.vstack([states[:-1], events.before, states[-1:]])[order]
+    begin = moments[order]
+    line = np.clip(np.cumsum(event < 0) - 1, 0, len(time) - 1)
+    passed = np.cumsum(event >= 0)
+    clock = np.column_stack([pull[line] + slope[line] * (begin - time[line]), slope[line]])
+    return Phases(
+        events.contact[passed][:-1],
+        np.where(event >= 0, events.struck[passed], 0)[:-1],
+        event[:-1],
+        begin[:-1],
+        np.full(len(begin) - 1, np.nan),
+        clock[:-1],
+        np.diff(begin),
+        behind[:-1],
+        before[1:],
     )
 
 
@@ -186,7 +283,7 @@ def view(parts: Phases) -> NDArray[np.int64]:
     return np.where(parts.contact == 2, 1, parts.contact)
 
 
-def measured(origin: Recorded, parts: Phases, side: NDArray[np.int64] | None = None) -> _Array:
+def measured(origin: Recorded[Any], parts: Phases, side: NDArray[np.int64] | None = None) -> _Array:
     """Measure phases: rows of `engine.measure`, per unit mass, as the stop on a side sees them."""
     side = view(parts) if side is None else side
     both = parts.contact == 2
@@ -196,12 +293,18 @@ def measured(origin: Recorded, parts: Phases, side: NDArray[np.int64] | None = N
     x = np.where(side == 0, parts.first[:, 0], np.where(side == 1, parts.first[:, 2], 0.0))
     x = np.where(side == -1, -parts.first[:, 3], x)
     v = np.where(side == -1, -1.0, 1.0) * parts.first[:, 1]
-    table = np.column_stack([mode, x, v, parts.angle, parts.length])
+    table = np.column_stack([mode, x, v, parts.clock, parts.length])
     found = np.zeros((len(side), measure.MEASURES))
+    shaken = origin.excitation
+    if isinstance(shaken, Record):
+        steepest = float(np.abs(np.diff(shaken.acceleration)).max()) / shaken.step
+        size, frequency = shaken.peak, steepest / shaken.peak / math.tau if shaken.peak else 0.0
+    else:
+        size, frequency = shaken.amplitude, shaken.frequency
     measure.measure_phases(
-        engine_rig(origin.oscillator, origin.excitation),
-        origin.excitation.amplitude,
-        origin.excitation.frequency,
+        engine_rig(origin.oscillator, shaken),
+        size,
+        frequency,
         np.ascontiguousarray(table, dtype=np.float64),
         found,
     )
@@ -215,7 +318,7 @@ def measured(origin: Recorded, parts: Phases, side: NDArray[np.int64] | None = N
     return found
 
 
-def relaxation_loss(origin: Recorded, parts: Phases) -> _Array:
+def relaxation_loss(origin: Recorded[Any], parts: Phases) -> _Array:
     """Energy (J) that each free bumper loses in each phase, shape (phase, 2): right, left.
 
     What its spring no longer holds at the end.
@@ -231,13 +334,13 @@ def relaxation_loss(origin: Recorded, parts: Phases) -> _Array:
     return lost
 
 
-def impact_loss(origin: Recorded, parts: Phases) -> _Array:
+def impact_loss(origin: Recorded[Any], parts: Phases) -> _Array:
     """Energy (J) lost in the impact with which each phase begins; elsewhere nothing is."""
     arrival = np.append(parts.first[0, 1], parts.last[:-1, 1])
     return 0.5 * origin.oscillator.mass * (arrival**2 - parts.first[:, 1] ** 2)
 
 
-def settling(origin: Recorded, parts: Phases) -> NDArray[np.bool_]:
+def settling(origin: Recorded[Any], parts: Phases) -> NDArray[np.bool_]:
     """Whether a phase is the end of a chatter, whose last impacts are not told one by one."""
     rests = np.append(origin.resting(parts.contact)[1:], False)
     last: NDArray[np.bool_] = rests & (parts.struck != 0) & (parts.last[:, 1] == 0.0)

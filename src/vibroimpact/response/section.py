@@ -101,6 +101,7 @@ def impact_section(motion: xr.Dataset) -> xr.Dataset:
     InputError
         If the dataset is not that of a motion with samples.
     """
+    recorded(motion)  # its phases are asked for
     log = contacts(motion)
     chosen = log[["contact_side", "contact_start", "contact_start_phase", "contact_start_velocity"]]
     chosen.attrs["created_by"] = "vibroimpact.impact_section"

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Periodic, to_si
+from vibroimpact.model import Periodic, Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.response.phases import Phases, Recorded, phases, recorded, settling, view
 from vibroimpact.response.variables import describe, motion_parameters
@@ -76,7 +76,7 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     return describe(data, "vibroimpact.spectrum", motion_parameters(motion))
 
 
-def _exact(origin: Recorded, parts: Phases, order: NDArray[np.float64]) -> list[_Complex]:
+def _exact(origin: Recorded[Repeated], parts: Phases, order: NDArray[np.float64]) -> list[_Complex]:
     """Complex amplitudes at the given orders: of u, u̇ and ü + A_t."""
     rig, shaken = origin.oscillator, origin.excitation
     rig.check_linear("Fourier integrals in closed form")
@@ -167,7 +167,7 @@ def _circle_mean(
 
 
 def _windowed(
-    motion: xr.Dataset, origin: Recorded, highest: float
+    motion: xr.Dataset, origin: Recorded[Repeated], highest: float
 ) -> tuple[NDArray[np.float64], list[_Complex], int]:
     """Orders, complex amplitudes, and the number of cycles used: the first whole ones."""
     samples = int(np.searchsorted(motion["cycle"].values, 1.0 - 1e-9))

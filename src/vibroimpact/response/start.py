@@ -14,17 +14,8 @@ from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError
-from vibroimpact.model import (
-    Bumper,
-    Isolator,
-    Oscillator,
-    Periodic,
-    Record,
-    Repeated,
-    RigidStop,
-    State,
-    Stop,
-)
+from vibroimpact.model import Bumper, Oscillator, Periodic, Record, Repeated, RigidStop, State
+from vibroimpact.response.laws import isolator_numbers, stop_numbers
 from vibroimpact.response.variables import COMPONENTS
 
 TOUCHING = 1e-12
@@ -32,33 +23,17 @@ TOUCHING = 1e-12
 
 
 def engine_rig(oscillator: Oscillator, shaken: Repeated | Record) -> NDArray[np.float64]:
-    """The oscillator and what shakes it as the vector that the engine reads.
-
-    Raises
-    ------
-    InputError
-        If the isolator or a stop follows a law that the engine has no flow for.
-    """
-    oscillator.check_linear("flow in the engine")
-    isolator = oscillator.isolator
-    assert isinstance(isolator, Isolator)
-
-    def numbers(stop: Stop | None) -> tuple[float, ...] | None:
-        if stop is None:
-            return None
-        if isinstance(stop, RigidStop):
-            return stop.restitution, stop.gap
-        assert isinstance(stop, Bumper)
-        return stop.stiffness, stop.damping, stop.gap
-
+    """The oscillator and what shakes it as the vector that the engine reads."""
+    stiffness, damping, law = isolator_numbers(oscillator.isolator)
     return rig_vector(
         oscillator.mass,
-        isolator.stiffness,
-        isolator.damping,
-        numbers(oscillator.right),
-        numbers(oscillator.left),
+        stiffness,
+        damping,
+        stop_numbers(oscillator.right),
+        stop_numbers(oscillator.left),
         oscillator.force,
         _drive(oscillator, shaken),
+        law,
     )
 
 
@@ -110,10 +85,8 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     Raises
     ------
     InputError
-        If the mass lies inside a bumper, or is said to touch one that it does not touch; if the
-        isolator or a stop follows a law that the engine has no flow for.
+        If the mass lies inside a bumper, or is said to touch one that it does not touch.
     """
-    oscillator.check_linear("flow in the engine")
     u, v = state.displacement, state.velocity
     deformations = [0.0, 0.0]
     mode = FLIGHT
@@ -145,8 +118,9 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
             touches, deformation = _on_wall(stop, sign, state, name, reach, slack, said)
             if touches:
                 u = sign * stop.gap
+        elif not isinstance(stop, Bumper):
+            touches, deformation = _on_power_law(sign, state, reach, slack, said, sign * v)
         else:
-            assert isinstance(stop, Bumper)
             touches, deformation = _on_bumper(stop, sign, state, name, reach, slack, said, sign * v)
         if touches:
             mode |= RIGHT if sign == 1 else LEFT
@@ -156,7 +130,23 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     vector[layout.FRESH] = mode  # what touches begins to
     vector[layout.U], vector[layout.V] = u, v
     vector[layout.RIGHT_BUMPER], vector[layout.LEFT_BUMPER] = deformations
+    vector[layout.ISOLATOR] = state.isolator
     return vector
+
+
+def _on_power_law(
+    sign: int, state: State, reach: float, slack: float, said: bool | None, closing: float
+) -> tuple[bool, float]:
+    """Whether the mass presses a stop without memory, and the speed at which it met it (m/s)."""
+    given = state.right_bumper if sign == 1 else state.left_bumper
+    touches = reach > slack or (abs(reach) <= slack and (bool(said) or closing > 0.0))
+    if said is not None and said != touches and abs(reach) > slack:
+        raise InputError(
+            f"start.contact: {state.contact}, but the mass is {-reach:g} m away from the stop; "
+            f"{sign if touches else 0} is accepted"
+        )
+    met = sign * given if given is not None else closing if abs(reach) <= slack else 0.0
+    return touches, max(met, 0.0) if touches else 0.0
 
 
 def _on_wall(
@@ -246,6 +236,7 @@ def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]
             -deformations[..., 1],
             np.broadcast_to(phase % (2.0 * math.pi), mode.shape),
             np.take(record.TOUCHING, mode.astype(np.int64)),
+            vector[..., layout.ISOLATOR],
         ],
         axis=-1,
     )

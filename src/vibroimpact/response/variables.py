@@ -11,7 +11,7 @@ import xarray as xr
 from vibroimpact._version import __version__
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import PARAMETERS, parameter
 
 
 class Variable(NamedTuple):
@@ -218,6 +218,9 @@ VARIABLES: dict[str, Variable] = {
     "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),
     "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
     "energy_bumpers": Variable("J", "energy lost in the stops per forcing cycle"),
+    "total_supplied": Variable("J", "work on the mass of what shakes it, over the motion"),
+    "total_isolator": Variable("J", "energy lost in the isolator over the motion"),
+    "total_bumpers": Variable("J", "energy lost in the stops over the motion"),
     # maps
     "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
     "confidence": Variable(
@@ -255,7 +258,15 @@ VARIABLES: dict[str, Variable] = {
     "mirrored_pair_count": Variable("1", "number of ranges with mirrored pairs of motions"),
 }
 
-COMPONENTS = ["displacement", "velocity", "right_bumper", "left_bumper", "phase", "contact"]
+COMPONENTS = [
+    "displacement",
+    "velocity",
+    "right_bumper",
+    "left_bumper",
+    "phase",
+    "contact",
+    "isolator",
+]
 """Components of a state in a dataset, in the order of `State`'s fields."""
 
 
@@ -277,6 +288,9 @@ def describe(
         if variable.comment:
             attributes["comment"] = variable.comment
         dataset[name].attrs.update(attributes)
+    if "amplitude" in dataset.variables and parameters and "of" in parameters:
+        varied = parameter("amplitude", of=parameters["of"])
+        dataset["amplitude"].attrs.update(units=varied.units, long_name=varied.long_name)
     if "status" in dataset.variables:
         dataset["status"].attrs["flag_values"] = [int(status) for status in Status]
         dataset["status"].attrs["flag_meanings"] = " ".join(s.name.lower() for s in Status)

@@ -13,14 +13,17 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import (
     Bumper,
     Dimensionless,
+    Harmonic,
     Model,
     Oscillator,
-    Rig,
     RigidStop,
     to_dimensionless,
     to_si,
 )
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.access import scale_of
+from vibroimpact.model.excitation import Of
+from vibroimpact.model.parameters import PARAMETERS, parameter
+from vibroimpact.model.rigs import as_shaking
 
 _Array = NDArray[np.float64]
 
@@ -81,8 +84,10 @@ def logarithmic(values: _Array) -> bool:
     return bool(spread < 0.05 and spread < 0.1 * uneven)
 
 
-def axis(given: Any, field: str) -> Axis:
+def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
     """Read an axis: the name of a parameter, its values, and "linear" or "log" if it is not clear.
+
+    `of` says what amplitudes are measured in.
 
     Raises
     ------
@@ -98,16 +103,13 @@ def axis(given: Any, field: str) -> Axis:
     name, values = given[:2]
     if name not in NAMES:
         raise InputError(f"{field}: {name!r}; one of {', '.join(NAMES)} is accepted")
-    parameter = PARAMETERS[name]
+    varied = parameter(name, of=of)
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise InputError(f"{field}: {values!r} is no list of values; at least two are accepted")
-    limits: dict[str, Any] = {"minimum": 0.0} if parameter.zero else {"above": 0.0}
-    limits["maximum"] = parameter.most
+    limits: dict[str, Any] = {"minimum": 0.0} if varied.zero else {"above": 0.0}
+    limits["maximum"] = varied.most
     numbers = np.array(
-        [
-            to_si(value, parameter.quantity, f"{field}[{i}]", **limits)
-            for i, value in enumerate(values)
-        ]
+        [to_si(value, varied.quantity, f"{field}[{i}]", **limits) for i, value in enumerate(values)]
     )
     if len(numbers) < 2:
         raise InputError(f"{field}: {len(numbers)} values given; at least two are accepted")
@@ -143,14 +145,57 @@ def check_pair(x: Axis, y: Axis) -> None:
         )
 
 
+class Shaken(NamedTuple):
+    """An oscillator, and what shakes it at whatever frequency."""
+
+    oscillator: Oscillator
+    shaken: Harmonic
+
+
+def one_sine(oscillator: Oscillator, amplitude: Any, where: str) -> Shaken:
+    """Read what a scenario is asked of.
+
+    Raises
+    ------
+    InputError
+        If it is not one sine, or the mass has no spring.
+    """
+    shaken, sizes = as_shaking(amplitude, where)
+    if sizes is not None:
+        raise InputError(
+            f"{where}: {len(sizes)} of them; a scenario is that of one amplitude at all frequencies"
+        )
+    if not isinstance(shaken, Harmonic):
+        raise InputError(
+            f"{where}: a Periodic, whose harmonics resonate below the primary resonance in free "
+            "flight already, so that no scenario can be told; one sine is accepted"
+        )
+    if oscillator.isolator.initial_stiffness == 0.0:
+        raise InputError(
+            "isolator.stiffness: 0 leaves no natural frequency, by which scenarios are scaled; "
+            "one greater than 0 is accepted"
+        )
+    return Shaken(oscillator, shaken.replace(frequency=1.0, phase=0.0))
+
+
+def room(oscillator: Oscillator) -> dict[str, float]:
+    """How far each stop stands from where the isolator would hold the mass at rest (m).
+
+    That is its gap, shifted by what the constant force does to the isolator.
+    """
+    oscillator.check_linear("free flight in closed form", stops=False)
+    rest = oscillator.force / oscillator.isolator.initial_stiffness
+    sides = {"right": (oscillator.right, -rest), "left": (oscillator.left, rest)}
+    return {side: stop.gap + shift for side, (stop, shift) in sides.items() if stop is not None}
+
+
 class Base(NamedTuple):
     """The rig whose other parameters all nodes share."""
 
     oscillator: Oscillator
-    amplitude: float
-    """m/s²"""
+    shaken: Harmonic
 
-    def rig(self, values: Mapping[str, float]) -> Rig:
+    def rig(self, values: Mapping[str, float]) -> Shaken:
         """The rig at a node.
 
         Physical parameters are set on both sides, where the stop has them; of the bumpers' damping
@@ -165,7 +210,7 @@ class Base(NamedTuple):
         """
         self._check(values)
         physical = {name for name in values if PARAMETERS[name].physical or name == "restitution"}
-        rig = self._physical(values) if physical else Rig(self.oscillator, self.amplitude)
+        rig = self._physical(values) if physical else Shaken(*self)
         if len(physical) == len(values):
             return rig
         scaled = Base(*rig)._dimensionless(values)
@@ -176,7 +221,7 @@ class Base(NamedTuple):
             stop = getattr(scaled.oscillator, side)
             if stop is not None:
                 sides[side] = stop.replace(gap=getattr(rig.oscillator, side).gap)
-        return Rig(scaled.oscillator.replace(**sides), scaled.amplitude)
+        return Shaken(scaled.oscillator.replace(**sides), scaled.shaken)
 
     def _check(self, values: Mapping[str, float]) -> None:
         stops = self.oscillator.stops
@@ -194,7 +239,7 @@ class Base(NamedTuple):
                     "one or two is accepted"
                 )
 
-    def _physical(self, values: Mapping[str, float]) -> Rig:
+    def _physical(self, values: Mapping[str, float]) -> Shaken:
         changes: dict[str, Model] = {}
         for side in ("right", "left"):
             stop = getattr(self.oscillator, side)
@@ -206,21 +251,24 @@ class Base(NamedTuple):
                 damping = stop.damping * (stiffness / stop.stiffness)
                 stop = stop.replace(stiffness=stiffness, damping=damping)
             changes[side] = stop
-        return Rig(self.oscillator.replace(**changes), values.get("amplitude", self.amplitude))
+        size = values.get("amplitude", self.shaken.amplitude)
+        return Shaken(self.oscillator.replace(**changes), self.shaken.replace(amplitude=size))
 
-    def _dimensionless(self, values: Mapping[str, float]) -> Rig:
-        group = to_dimensionless(self.oscillator, self.amplitude)
+    def _dimensionless(self, values: Mapping[str, float]) -> Shaken:
+        scale = scale_of(self.oscillator, self.shaken)
+        group = to_dimensionless(self.oscillator, scale)
         own = {key: values[key] for key in _OF_STOPS if key in values and key != "gap"}
         sides = {
             side: None if stop is None else _with(stop, own)
             for side, stop in (("right", group.right), ("left", group.left))
         }
         changed = Dimensionless(values.get("damping_ratio", group.damping_ratio), **sides)
-        return changed.to_physical(
+        made, _ = changed.to_physical(
             mass=self.oscillator.mass,
             stiffness=self.oscillator.isolator.initial_stiffness,
-            amplitude=self.amplitude,
+            amplitude=scale,
         )
+        return Shaken(made.replace(force=self.oscillator.force), self.shaken)
 
 
 def _with(stop: Any, values: Mapping[str, float]) -> Any:

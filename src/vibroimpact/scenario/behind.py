@@ -24,7 +24,7 @@ _MAX_EVENTS = 10_000
 def with_kinds(
     found: Evidence,
     oscillator: Oscillator,
-    amplitude: float,
+    shaken: Harmonic,
     data: xr.Dataset,
     cycles: int = KIND_CYCLES,
 ) -> Evidence:
@@ -33,12 +33,12 @@ def with_kinds(
     Of each range, the motion in its middle is named; one that no verdict was found for stays
     "not periodic".
     """
-    named = tuple(_named(item, oscillator, amplitude, data, cycles) for item in found.irregular)
+    named = tuple(_named(item, oscillator, shaken, data, cycles) for item in found.irregular)
     return found._replace(irregular=named)
 
 
 def _named(
-    item: Irregular, oscillator: Oscillator, amplitude: float, data: xr.Dataset, cycles: int
+    item: Irregular, oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset, cycles: int
 ) -> Irregular:
     if item.not_periodic is None:
         return item
@@ -46,7 +46,7 @@ def _named(
     wandering = np.flatnonzero(inside["period"].values == 0)
     i = int(wandering[len(wandering) // 2])
     start = as_state(inside["section"].isel(frequency=i, drop=True))
-    excitation = Harmonic(amplitude, float(inside["frequency"][i]), start.phase or 0.0)
+    excitation = shaken.replace(frequency=float(inside["frequency"][i]), phase=start.phase or 0.0)
     state = engine_state(oscillator, start)
     followed = Settled(oscillator, excitation, state, 0, 0, Status.NOT_SETTLED)
     judged, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
@@ -61,17 +61,17 @@ def _named(
 
 
 def with_folds(
-    found: Evidence, oscillator: Oscillator, amplitude: float, data: xr.Dataset
+    found: Evidence, oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset
 ) -> Evidence:
     """Find where the branch through the primary resonance turns back, where it can be followed."""
-    return found._replace(folds=_folds(oscillator, amplitude, data, found))
+    return found._replace(folds=_folds(oscillator, shaken, data, found))
 
 
 def _folds(
-    oscillator: Oscillator, amplitude: float, data: xr.Dataset, found: Evidence
+    oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset, found: Evidence
 ) -> tuple[float, ...] | None:
     """Where the branch through the primary resonance turns back (Hz), rising; None if unknown."""
-    orbits = primary_branch(found, oscillator, amplitude, data)
+    orbits = primary_branch(found, oscillator, shaken, data)
     if orbits is None:
         return None
     low, high = found.swept
@@ -80,7 +80,7 @@ def _folds(
 
 
 def primary_branch(
-    found: Evidence, oscillator: Oscillator, amplitude: float, data: xr.Dataset
+    found: Evidence, oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset
 ) -> xr.Dataset | None:
     """The branch of orbits through the primary resonance, over the frequencies that were swept.
 
@@ -93,7 +93,7 @@ def primary_branch(
     hold = data.sel(direction="forward", frequency=tops[0].frequency)
     if int(hold["period"]) != 1:
         return None
-    excitation = Harmonic(amplitude, tops[0].frequency)
+    excitation = shaken.replace(frequency=tops[0].frequency, phase=0.0)
     low, high = found.swept
     try:
         return branch(oscillator, excitation, hold["section"], low=low, high=high)

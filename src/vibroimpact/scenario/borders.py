@@ -13,10 +13,10 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, Rig
+from vibroimpact.model import Oscillator
 from vibroimpact.response.sweep import sweep
-from vibroimpact.response.variables import describe
-from vibroimpact.scenario.axes import Base
+from vibroimpact.response.variables import describe, excitation_from
+from vibroimpact.scenario.axes import Base, Shaken, one_sine
 from vibroimpact.scenario.behind import primary_branch
 from vibroimpact.scenario.evidence import evidence
 from vibroimpact.scenario.frequencies import frequencies
@@ -60,8 +60,9 @@ def jump_border(data: xr.Dataset, lines: int = 12) -> xr.Dataset:
     points = []
     if along is not None:
         other = y if along == x else x
-        base = settings["base"]
-        start = Base(Oscillator.model_validate(base["oscillator"]), base["amplitude"])
+        base = dict(settings["base"])
+        oscillator = Oscillator.model_validate(base.pop("oscillator"))
+        start = Base(*one_sine(oscillator, excitation_from(base, frequency=1.0), "data"))
         candidates = _beside(data, along, other)
         chosen = np.unique(np.linspace(0, len(candidates) - 1, lines).round().astype(int))
         for value, at in [candidates[i] for i in chosen] if candidates else []:
@@ -93,14 +94,14 @@ def _beside(data: xr.Dataset, along: str, other: str) -> list[tuple[float, float
     return found
 
 
-def _cusp(rig: Rig, along: str, value: float) -> float | None:
+def _cusp(rig: Shaken, along: str, value: float) -> float | None:
     """Value of a parameter at the cusp of the rig's folds that is nearest; None if not found."""
-    oscillator, amplitude = rig
-    held = frequencies(oscillator, amplitude)
-    data = sweep(oscillator, amplitude, held)
-    seen = evidence(oscillator, amplitude, data, 0.02)
+    oscillator, shaken = rig
+    held = frequencies(oscillator, shaken)
+    data = sweep(oscillator, shaken, held)
+    seen = evidence(oscillator, shaken, data, 0.02)
     try:
-        orbits = primary_branch(seen, oscillator, amplitude, data)
+        orbits = primary_branch(seen, oscillator, shaken, data)
         if orbits is None:
             return None
         kinds = orbits["bifurcation_kind"].values
@@ -110,7 +111,7 @@ def _cusp(rig: Rig, along: str, value: float) -> float | None:
         i = int(folds[np.argmax(orbits["bifurcation_value"].values[folds])])
         curve = bifurcation_curve(
             oscillator,
-            Harmonic(amplitude, float(orbits["bifurcation_value"][i])),
+            shaken.replace(frequency=float(orbits["bifurcation_value"][i])),
             orbits.isel(bifurcation=i),
             parameters=("frequency", along),
             low=(float(held[0]), value / _REACH),

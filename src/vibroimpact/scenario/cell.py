@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.model import Rig
 from vibroimpact.response.peaks import Curve
 from vibroimpact.response.sweep import sweeps
 from vibroimpact.response.swept import Direction
 from vibroimpact.response.threads import Progress
+from vibroimpact.scenario.axes import Shaken
 from vibroimpact.scenario.behind import with_folds, with_kinds
 from vibroimpact.scenario.evidence import Evidence, each_evidence
 from vibroimpact.scenario.frequencies import cycles, grid, highest
@@ -60,7 +60,7 @@ COUNTS: dict[str, Count] = {
 
 
 def classified(
-    rigs: Sequence[Rig],
+    rigs: Sequence[Shaken],
     thresholds: Thresholds,
     step: float,
     max_cycles: int | None,
@@ -92,14 +92,14 @@ def classified(
     }
 
 
-def _way(rig: Rig, max_cycles: int | None) -> tuple[float, int]:
+def _way(rig: Shaken, max_cycles: int | None) -> tuple[float, int]:
     """Up to which frequency (over the natural one), and how long at most, a rig is swept."""
     high = highest(*rig)
     return high, cycles(rig.oscillator, high, MAX_CYCLES) if max_cycles is None else max_cycles
 
 
 def _seen(
-    rigs: list[Rig],
+    rigs: list[Shaken],
     held: NDArray[np.float64],
     thresholds: Thresholds,
     max_cycles: int,

@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, to_si
-from vibroimpact.model.quantities import ACCELERATION
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model import Oscillator
+from vibroimpact.model.rigs import AnyShaking, takes_rig
 from vibroimpact.model.table import table
 from vibroimpact.response.sweep import sweep
 from vibroimpact.response.threads import Progress
+from vibroimpact.scenario.axes import one_sine
 from vibroimpact.scenario.behind import with_folds, with_kinds
 from vibroimpact.scenario.evidence import Evidence, evidence
 from vibroimpact.scenario.frequencies import cycles, highest
@@ -74,7 +74,7 @@ class Classification:
 @takes_rig
 def classify(
     oscillator: Oscillator,
-    amplitude: float | str,
+    amplitude: AnyShaking,
     frequencies: Iterable[float | str] | None = None,
     *,
     thresholds: Thresholds | None = None,
@@ -93,7 +93,9 @@ def classify(
     oscillator
         What vibrates; or a laboratory case or its code, and then the amplitude may be left out.
     amplitude
-        Peak base acceleration A in m/s², greater than 0; or text such as ``"0.05 g"``.
+        What is held at all frequencies: the peak A of the base acceleration in m/s², greater
+        than 0; or text such as ``"0.05 g"``, ``"5 mm"`` (displacement of the base) or ``"120 N"``
+        (force on the mass); or a `Harmonic`, whose own frequency is left out of account.
     frequencies
         The frequencies to hold in Hz, rising. None for steps of a hundredth of the natural
         frequency from 0.4 times it to beyond where the primary resonance can lie.
@@ -116,7 +118,7 @@ def classify(
         If a value cannot be used.
     """
     used = checked(thresholds)
-    peak = to_si(amplitude, ACCELERATION, "amplitude", above=0.0)
+    _, peak = one_sine(oscillator, amplitude, "amplitude")
     held = default_frequencies(oscillator, peak) if frequencies is None else frequencies
     if max_cycles is None:
         max_cycles = cycles(oscillator, highest(oscillator, peak), MAX_CYCLES)

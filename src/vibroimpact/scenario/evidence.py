@@ -17,11 +17,12 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Rig
-from vibroimpact.model.dimensionless import largest_free_flight
+from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.response.free_flight import reference_excursions, resonance_ratio
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs, each_swept
+from vibroimpact.scenario.axes import Shaken, room
 from vibroimpact.scenario.onset import foot_in_contact, onset, within
 
 UNEVEN = 1e-6
@@ -162,14 +163,14 @@ class Evidence(NamedTuple):
 
 
 def evidence(
-    oscillator: Oscillator, amplitude: float, data: xr.Dataset, prominence: float
+    oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset, prominence: float
 ) -> Evidence:
     """What the sweep of one rig shows.
 
     Parameters
     ----------
-    oscillator, amplitude
-        The rig and its peak base acceleration (m/s²).
+    oscillator, shaken
+        The rig and what shakes it, at whatever frequency.
     data
         Dataset of its sweep in both directions.
     prominence
@@ -180,11 +181,13 @@ def evidence(
     InputError
         If the dataset is not that of the sweep of one rig in both directions.
     """
-    (found,) = each_evidence([Rig(oscillator, amplitude)], as_rigs(data), prominence)
+    (found,) = each_evidence([Shaken(oscillator, shaken)], as_rigs(data), prominence)
     return found
 
 
-def each_evidence(rigs: Sequence[Rig], data: xr.Dataset, prominence: float) -> Iterator[Evidence]:
+def each_evidence(
+    rigs: Sequence[Shaken], data: xr.Dataset, prominence: float
+) -> Iterator[Evidence]:
     """What the sweep of each rig of `sweeps` shows, one after the other."""
     if data.sizes["direction"] != 2:
         raise InputError(
@@ -212,7 +215,7 @@ def each_evidence(rigs: Sequence[Rig], data: xr.Dataset, prominence: float) -> I
 
 
 def _one(
-    rig: Rig,
+    rig: Shaken,
     both: Swept,
     uneven: Flags,
     free: Array,
@@ -220,16 +223,16 @@ def _one(
     least: float,
     prominence: float,
 ) -> Evidence:
-    oscillator, amplitude = rig
+    oscillator = rig.oscillator
     frequency = both.frequency
-    reached = {"right": most, "left": -least}
-    sides = {"right": oscillator.right, "left": oscillator.left}
-    gaps = {side: stop.gap for side, stop in sides.items() if stop is not None}
+    rest = oscillator.force / oscillator.isolator.initial_stiffness
+    reached = {"right": most - rest, "left": rest - least}
+    gaps = room(oscillator)
     touched = np.flatnonzero(both.touching.any(axis=0))
     apart = hysteresis(both)
     found = peaks(both, prominence=prominence)
     irregular = ~both.settled | (both.period != 1) | uneven
-    begins = onset(oscillator, both, irregular, apart, free, prominence)
+    begins = onset(rig, both, irregular, apart, prominence)
     primary = {p.direction: p for p in found if p.primary and p.curve == "eta_a"}
     swing = next(
         (p for p in found if p.primary and p.curve == "eta_d" and p.direction == "forward"), None
@@ -247,8 +250,8 @@ def _one(
         known=bool(
             np.isfinite(both.eta_a).mean(axis=1).min() >= KNOWN and both.settled.mean() >= SETTLED
         ),
-        within=not beyond and _resonance_within(oscillator, both),
-        gap_ratio=min(gaps.values(), default=math.inf) / _largest(oscillator, amplitude, free),
+        within=not beyond and _resonance_within(rig, both),
+        gap_ratio=min(gaps.values(), default=math.inf) / _largest(rig, free),
         penetration=max(
             ((reached[side] - gap) / gap for side, gap in gaps.items() if gap > 0.0),
             default=math.nan,
@@ -284,20 +287,19 @@ def _one(
     )
 
 
-def _resonance_within(oscillator: Oscillator, both: Swept) -> bool:
-    oscillator.check_linear("free flight in closed form", stops=False)
-    ratio = math.sqrt(max(0.0, 1.0 - 2.0 * oscillator.damping_ratio**2))
-    at = ratio * oscillator.natural_frequency
-    return bool(at <= both.frequency[-1] and (at == 0.0 or both.frequency[0] <= at))
-
-
-def _largest(oscillator: Oscillator, amplitude: float, free: Array) -> float:
-    """Largest amplitude of free flight (m); without damping that at the frequencies swept."""
-    oscillator.check_linear("free flight in closed form", stops=False)
-    swing, _ = largest_free_flight(
-        oscillator.angular_frequency, oscillator.damping_ratio, amplitude
+def _resonance_within(rig: Shaken, both: Swept) -> bool:
+    rig.oscillator.check_linear("free flight in closed form", stops=False)
+    at = (
+        resonance_ratio(rig.oscillator.damping_ratio, rig.shaken) * rig.oscillator.natural_frequency
     )
-    return swing if math.isfinite(swing) else float(free.max())
+    low, high = both.frequency[[0, -1]]
+    return bool((at == 0.0 or low <= at) and (math.isinf(at) or at <= high))
+
+
+def _largest(rig: Shaken, free: Array) -> float:
+    """Largest amplitude of free flight (m); without damping that at the frequencies swept."""
+    damped = rig.oscillator.damping_ratio > 0.0
+    return 0.5 * reference_excursions(*rig)[0] if damped else float(free.max())
 
 
 def _irregular(

@@ -7,7 +7,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.model import Bumper, Oscillator
+from vibroimpact.model import Bumper, Harmonic, Oscillator
+from vibroimpact.response.free_flight import resonance_ratio
+from vibroimpact.scenario.axes import room
 
 LOW = 0.4
 """Lowest frequency over the natural one: that at which the published tests begin (0.40 to
@@ -15,7 +17,8 @@ LOW = 0.4
 STEP = 0.01
 """Step over the natural frequency: a tenth of that of the published tests."""
 LEAST_HIGH = 1.5
-"""Highest frequency over the natural one, at least; free flight's resonance lies below 1."""
+"""Highest frequency over that of free flight's resonance, or over the natural one if that lies
+higher, at least."""
 
 MOST_HIGH = 20.0
 """Highest frequency over the natural one for a rigid stop, whose stiffness sets no bound: that of
@@ -29,7 +32,7 @@ ROUND = 0.5
 """Rigs that differ little are swept over the same range, many at once."""
 
 
-def highest(oscillator: Oscillator, amplitude: float) -> float:
+def highest(oscillator: Oscillator, shaken: Harmonic) -> float:
     """Frequency over the natural one below which the primary resonance lies.
 
     Two bounds, the lower one counts, with a margin, rounded up to a multiple of `ROUND`:
@@ -39,25 +42,42 @@ def highest(oscillator: Oscillator, amplitude: float) -> float:
       supplies at most M A √(mean of u̇²/2) of power, the isolator alone takes C (mean of u̇²):
       f ≤ M A/(2√2 C (G_R + G_L)). A motion that reaches one bumper alone travels 2 G of that
       side at least, for the mean of u is not on its side: it only pushes. So of a rig whose gaps
-      differ, or that has one bumper, the smallest gap takes the place of the sum.
+      differ, or that has one bumper, the smallest gap takes the place of the sum. A force F on
+      the mass takes the place of M A; a given displacement of the base supplies the more the
+      faster it moves, and sets no bound.
     - Stiffness. Nothing is stiffer than isolator and bumper in contact all the time, whose
-      resonance lies at f0 √(1 + λ); damping and flights lower it. With a rigid stop it is
-      `MOST_HIGH`.
+      resonance lies at f0 √(1 + λ); flights lower it, and so does damping, or raises it where
+      the displacement of the base is given. With a rigid stop it is `MOST_HIGH`.
     """
+    free = max(1.0, resonance_ratio(oscillator.damping_ratio, shaken))
+    least = ROUND * math.ceil(min(LEAST_HIGH * free, MOST_HIGH) / ROUND)
     found = oscillator.stops
     if not found:
-        return LEAST_HIGH
-    bumpers = [b.stiffness for b in found if isinstance(b, Bumper)]
+        return least
+    bumpers = [b for b in found if isinstance(b, Bumper)]
     stiff = MOST_HIGH
     if len(bumpers) == len(found):
-        stiff = math.sqrt(1.0 + max(bumpers) / oscillator.isolator.initial_stiffness)
-    gaps = [b.gap for b in found]
+        stiff = max(_in_contact(oscillator, bumper, shaken) for bumper in bumpers)
+    gaps = list(room(oscillator).values())
     apart = sum(gaps) if len(gaps) == 2 and gaps[0] == gaps[1] else min(gaps)
     travel = apart * oscillator.isolator.damping
-    supplied = oscillator.mass * amplitude / (2.0 * math.sqrt(2.0))
-    energy = supplied / travel / oscillator.natural_frequency if travel > 0.0 else math.inf
+    energy = math.inf
+    if travel > 0.0 and shaken.of != "displacement":
+        supplied = oscillator.mass * float(shaken.acceleration(oscillator.mass, 0.0))
+        energy = supplied / (2.0 * math.sqrt(2.0)) / travel / oscillator.natural_frequency
     bound = 1.1 * min(stiff, energy) + 0.1
-    return max(LEAST_HIGH, ROUND * math.ceil(bound / ROUND))
+    return max(least, ROUND * math.ceil(bound / ROUND))
+
+
+def _in_contact(oscillator: Oscillator, bumper: Bumper, shaken: Harmonic) -> float:
+    """Resonance over the natural frequency of a mass in contact with a bumper all the time."""
+    stiffer = math.sqrt(1.0 + bumper.stiffness / oscillator.isolator.initial_stiffness)
+    if shaken.of != "displacement":
+        return stiffer
+    natural = stiffer * oscillator.angular_frequency
+    damping = oscillator.isolator.damping + bumper.damping
+    higher = stiffer * resonance_ratio(damping / (2.0 * oscillator.mass * natural), shaken)
+    return min(higher, max(stiffer, MOST_HIGH))
 
 
 def cycles(oscillator: Oscillator, high: float, least: int) -> int:
@@ -72,10 +92,10 @@ def cycles(oscillator: Oscillator, high: float, least: int) -> int:
 
 
 def frequencies(
-    oscillator: Oscillator, amplitude: float, step: float = STEP
+    oscillator: Oscillator, shaken: Harmonic, step: float = STEP
 ) -> NDArray[np.float64]:
     """Frequencies (Hz) from `LOW` by `step` to `highest`, all over the natural frequency."""
-    return grid(highest(oscillator, amplitude), step) * oscillator.natural_frequency
+    return grid(highest(oscillator, shaken), step) * oscillator.natural_frequency
 
 
 def grid(high: float, step: float) -> NDArray[np.float64]:

@@ -13,13 +13,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Rig, from_dimensionless, to_si
+from vibroimpact.model import from_dimensionless
 from vibroimpact.model.counts import share, whole
-from vibroimpact.model.quantities import ACCELERATION
 from vibroimpact.model.rigs import AnyRig, as_rig
 from vibroimpact.response.threads import Progress, available
-from vibroimpact.response.variables import oscillator_parameters
-from vibroimpact.scenario.axes import Axis, Base, axis, check_pair
+from vibroimpact.response.variables import excitation_parameters, oscillator_parameters
+from vibroimpact.scenario.axes import Axis, Base, Shaken, axis, check_pair, one_sine
 from vibroimpact.scenario.cell import classified
 from vibroimpact.scenario.frequencies import STEP
 from vibroimpact.scenario.nodes import UNKNOWN, Nodes, Scenarios
@@ -54,7 +53,8 @@ def scenario_map(
     ----------
     x, y
         Name and rising values of a parameter. Physical: ``"gap"`` (m, of each side),
-        ``"amplitude"`` (m/s²), ``"bumper_stiffness"`` (N/m, at the base's C_j/K_j).
+        ``"amplitude"`` (in the unit of the base's), ``"bumper_stiffness"`` (N/m, at the base's
+        C_j/K_j).
         Dimensionless: ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ,
         ``"damping_ratio"`` ξ, ``"restitution"`` e. They are set on both sides alike, where the
         stop has them: a rigid one has only a gap and a restitution. Between dimensionless ones
@@ -62,8 +62,8 @@ def scenario_map(
         ``"log"`` or ``"linear"`` behind the values says how they are refined, if they do not.
     base
         A laboratory case or its code, a `Rig` or a pair of oscillator and amplitude, for all other
-        parameters. None for ξ = 0.15, τ = 0.01,
-        λ = 25.9 and δ0 = 0.5, on two sides.
+        parameters; the amplitude is one of acceleration, displacement or force. None for ξ = 0.15,
+        τ = 0.01, λ = 25.9 and δ0 = 0.5, on two sides.
     step
         Step of the sweeps, as a share of the natural frequency.
     refine
@@ -98,16 +98,16 @@ def scenario_map(
     InputError
         If a value cannot be used, or the store holds something else.
     """
-    first, second = axis(x, "x"), axis(y, "y")
-    check_pair(first, second)
     start = _base(base)
+    first, second = (axis(given, where, start.shaken.of) for given, where in ((x, "x"), (y, "y")))
+    check_pair(first, second)
     used = checked(thresholds)
     settings = {
         "x": {"name": first.name, "values": first.values.tolist(), "log": first.logarithmic},
         "y": {"name": second.name, "values": second.values.tolist(), "log": second.logarithmic},
         "base": {
             "oscillator": oscillator_parameters(start.oscillator),
-            "amplitude": start.amplitude,
+            **excitation_parameters(start.shaken, "frequency", "phase"),
         },
         "step": (fine_step := share(step, "step")),
         "refine": (refine := _refinement(refine)),
@@ -126,7 +126,7 @@ def scenario_map(
         start,
     )
 
-    def compute(rigs: list[Rig], check: Progress) -> dict[str, NDArray[Any]]:
+    def compute(rigs: list[Shaken], check: Progress) -> dict[str, NDArray[Any]]:
         return classified(rigs, used, fine_step, max_cycles, check)
 
     with map_store(store, fine, plan.chunk, refine + 1, settings) as held:
@@ -155,12 +155,12 @@ class _Plan(NamedTuple):
             for c, column in enumerate(columns):
                 yield r, c, (slice(row, row + self.chunk), slice(column, column + self.chunk))
 
-    def rig(self, row: int, column: int) -> Rig:
+    def rig(self, row: int, column: int) -> Shaken:
         x, y = self.axes
         return self.base.rig({x.name: float(x.values[column]), y.name: float(y.values[row])})
 
 
-Compute = Callable[[list[Rig], Progress], dict[str, NDArray[Any]]]
+Compute = Callable[[list[Shaken], Progress], dict[str, NDArray[Any]]]
 
 
 def _level(
@@ -201,7 +201,7 @@ def _known(plan: _Plan, held: MapStore, level: int) -> Scenarios:
 
 
 def _parallel(
-    rigs: list[Rig],
+    rigs: list[Shaken],
     compute: Compute,
     workers: int,
     progress: Progress | None,
@@ -251,6 +251,5 @@ def _refinement(given: object) -> int:
 
 def _base(given: AnyRig | None) -> Base:
     if given is None:
-        return Base(*from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO))
-    oscillator, amplitude = as_rig(given, "base")
-    return Base(oscillator, to_si(amplitude, ACCELERATION, "base[1]", above=0.0))
+        given = from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO)
+    return Base(*one_sine(*as_rig(given, "base"), "base[1]"))

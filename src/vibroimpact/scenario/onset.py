@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
-from vibroimpact.model import Oscillator
 from vibroimpact.response.resonance import Hysteresis
-from vibroimpact.response.swept import Array, Flags, Swept
+from vibroimpact.response.swept import Flags, Swept
+from vibroimpact.scenario.axes import Shaken, room
 
 
 def onset(
-    oscillator: Oscillator,
+    rig: Shaken,
     both: Swept,
     irregular: Flags,
     apart: tuple[Hysteresis, ...],
-    free: Array,
     prominence: float,
 ) -> tuple[tuple[float, float], ...]:
     """Ranges, not regular or with left hysteresis, that belong to where contact begins."""
@@ -29,7 +26,7 @@ def onset(
         (float(both.frequency[first]), float(both.frequency[end - 1]))
         for first, end in edges
         if not (
-            _pressed_at_rest(oscillator, both, free)
+            _pressed_at_rest(rig)
             if first == 0
             else foot_in_contact(both, 0, int(first), prominence)
         )
@@ -56,14 +53,14 @@ def foot_in_contact(both: Swept, k: int, i: int, prominence: float) -> bool:
     return bool(both.touching[k, foot])
 
 
-def _pressed_at_rest(oscillator: Oscillator, both: Swept, free: Array) -> bool:
-    """Whether the mass presses a bumper at any low frequency: A/ω0² is larger than a gap."""
-    oscillator.check_linear("free flight in closed form", stops=False)
-    gaps = [b.gap for b in (oscillator.right, oscillator.left) if b is not None]
-    # Free flight's amplitude A/ω0² |H| at the lowest frequency, without its gain |H|.
-    ratio = float(both.frequency[0]) / oscillator.natural_frequency
-    inverse = math.hypot((1.0 - ratio) * (1.0 + ratio), 2.0 * oscillator.damping_ratio * ratio)
-    return bool(gaps) and float(free[0]) * inverse >= min(gaps)
+def _pressed_at_rest(rig: Shaken) -> bool:
+    """Whether the mass presses a bumper at any low frequency.
+
+    Its amplitude there is A/ω0², or 0 where the displacement of the base is given.
+    """
+    oscillator, shaken = rig
+    swing = float(shaken.acceleration(oscillator.mass, 0.0)) / oscillator.angular_frequency**2
+    return any(swing >= gap for gap in room(oscillator).values())
 
 
 def within(frequency: float, spans: tuple[tuple[float, float], ...]) -> bool:

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from vibroimpact._version import __version__
 from vibroimpact.errors import InputError
+from vibroimpact.model.parameters import parameter
 from vibroimpact.response.variables import VARIABLES
 from vibroimpact.scenario.axes import Axis
 from vibroimpact.scenario.cell import COUNTS, VALUES
@@ -237,6 +238,8 @@ def _make(
         array = group[one.name]
         assert isinstance(array, zarr.Array)
         array[:] = one.values
+        known = parameter(one.name, of=parameters["base"].get("of", "acceleration"))
+        array.attrs.update(units=known.units, long_name=known.long_name)
     chunks = (min(chunk, shape[0]), min(chunk, shape[1]))
     _create(group, "scenario", shape, chunks, "i1", UNKNOWN, dims)
     group["scenario"].attrs.update(

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.continuation.zero import zero_within
+from vibroimpact.continuation.zero import between_zeros, zero_within
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import SEEN, Orbit, corrected, is_fixed
@@ -76,7 +76,7 @@ def remembers(orbit: Orbit) -> bool:
 
 def find(stations: list[Station]) -> Iterator[Bifurcation]:
     """Bifurcations on a branch, in its order; between stations of one smooth piece."""
-    for here, there in itertools.pairwise(stations):
+    for here, there in itertools.pairwise(_between_folds(stations)):
         if here.orbit.section.family.phase != there.orbit.section.family.phase:
             continue  # one orbit, seen at two sections
         if here.piece != there.piece:
@@ -109,6 +109,25 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
             else:
                 orbit, arclength = _locate(here, there, function)
             yield Bifurcation(kind, orbit, arclength, turns or kind == FOLD, orbit.contacts)
+
+
+def _between_folds(stations: list[Station]) -> Iterator[Station]:
+    """A branch with an orbit more wherever it turns twice within a step, as beside a cusp."""
+    for here, there in itertools.pairwise(stations):
+        yield here
+        ends, step = (
+            (float(here.tangent[4]), float(there.tangent[4])),
+            there.arclength - here.arclength,
+        )
+        if here.piece != there.piece or ends[0] * ends[1] <= 0.0 or not step > 0.0:
+            continue
+        (_, fold), *_ = _tests(here)
+        mean = (there.orbit.value - here.orbit.value) / here.orbit.section.scale[4] / step
+        met = between_zeros(ends, mean, step, partial(solved, here), fold)
+        if met is not None:
+            tangent = met[0].tangent(here.tangent)
+            yield Station(met[0], tangent, here.arclength + met[1], here.piece)
+    yield from stations[-1:]
 
 
 def _tests(here: Station) -> list[tuple[str, Callable[[Orbit], float]]]:

@@ -31,6 +31,8 @@ class Spot(NamedTuple):
     y: _Array
     """z, p, q."""
     orbit: Orbit
+    residual: _Array
+    """Of the defining system in scaled components, shape (5,)."""
     jacobian: _Array
     """Of the defining system in scaled components, shape (5, 6)."""
 
@@ -96,7 +98,7 @@ class Defining(NamedTuple):
                 # The margin has a kink at grazing: its slope is that on the side of `here`.
                 if self.kind != GRAZING or there[1][4] * residual[4] > 0.0:
                     break
-        return Spot(y, orbit, jacobian)
+        return Spot(y, orbit, residual, jacobian)
 
 
 def solve(system: Defining, y: _Array, normal: _Array) -> Spot | None:
@@ -104,22 +106,25 @@ def solve(system: Defining, y: _Array, normal: _Array) -> Spot | None:
 
     Where differences across a kink steer it to and fro, the best that it came by is taken.
     """
-    y, aim = y.copy(), y.copy()
+    y, aim, plane = y.copy(), y.copy(), normal * SEEN
     best, spot = np.inf, None
     for _ in range(_NEWTON):
-        here = system.value(y)
-        if here is None:
-            return None
-        size = float(np.abs(here[1]).max())
         now = system.spot(y)
         if now is None:
             return None
+        size = float(np.abs(now.residual).max())
         if size < best or spot is None:
             best, spot = size, now
         if best <= _GOOD:
             return spot
-        matrix = np.vstack([now.jacobian, normal * SEEN])
-        right = np.append(-here[1], -(normal * SEEN) @ ((y - aim) / system.scale))
+        across = now.jacobian[4] * SEEN
+        across = across - (across @ plane) / (plane @ plane) * plane
+        if system.kind == GRAZING and now.residual[4] < 0.0 < across @ across:
+            # Behind the grazing of a rigid stop P is a square root: go on from the clear side.
+            y = y - 2.0 * now.residual[4] * across / (across @ across) * system.scale
+            continue
+        matrix = np.vstack([now.jacobian, plane])
+        right = np.append(-now.residual, -plane @ ((y - aim) / system.scale))
         try:
             change = np.linalg.solve(matrix, right)
         except np.linalg.LinAlgError:

@@ -72,7 +72,7 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    varied = parameter(name).of(oscillator)
+    varied = parameter(name, of=excitation.of).of(oscillator)
     value = varied.read(oscillator, excitation)
     step = varied.beside(value) - value
     here = system_vector(oscillator, excitation)

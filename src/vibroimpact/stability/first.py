@@ -32,6 +32,8 @@ _SAME = 1e-6
 """Distance, over the motion's size, from the motion from rest of an orbit that is it."""
 _RETURNS = 400
 """Forcing cycles over which the motion from rest is watched for close returns."""
+_LARGER = (1e3, 1e6)
+"""How much larger motions are sought that begin at rest."""
 _TRIES = 16
 """Close returns from which Newton's method is tried."""
 
@@ -50,6 +52,8 @@ def first_orbit(
     InputError
         If Newton's method finds none.
     """
+    if start is None and not fam.oscillator.stops:
+        start = equilibrium(fam.oscillator)  # there is one orbit, however long motions take to it
     if start is None:
         found = _from_rest(fam, span, period)
     else:
@@ -76,8 +80,19 @@ def _least(
     fam: Family, span: tuple[float, float], period: int, point: _Array, mode: float
 ) -> tuple[Status, Orbit]:
     """Newton's method from a point; the orbit with its least period."""
-    section = Section(fam, period, False, scales(fam, span, point))
-    status, found = corrected(section, point, mode)
+    scale = scales(fam, span, point)
+    status, found = corrected(Section(fam, period, False, scale), point, mode)
+    told_by_none = scale[0] == _least_size(fam) or not fam.oscillator.stops
+    if status is Status.NOT_SETTLED and told_by_none:
+        # Neither the start nor a gap tells the motion's size, which bounds a step; without stops
+        # the map is linear, and a step of any length is right.
+        for factor in _LARGER:
+            wide = scale * [factor, factor, factor, factor, 1.0]
+            status, found = corrected(Section(fam, period, False, wide), point, mode)
+            if status is Status.DONE:
+                section = Section(fam, period, False, scales(fam, span, found.point))
+                status, found = corrected(section, found.point, found.facts[section_map.MODE])
+                break
     return status, reduced(found) if status is Status.DONE else found
 
 
@@ -180,16 +195,20 @@ def symmetric_if_so(found: Orbit) -> Orbit:
     return mirrored if status is Status.DONE else found
 
 
+def _least_size(fam: Family) -> float:
+    """Of a displacement where nothing else tells one."""
+    return 1e-3 * reach_at_rest(fam.oscillator, fam.excitation)
+
+
 def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
     """Sizes of displacement, velocity, deformations and parameter."""
-    rig, shaken = fam.oscillator, fam.excitation
+    rig, omega = fam.oscillator, fam.excitation.angular_frequency
     # The nearer bumper: the other may be far out of reach.
     gap = min((b.gap for b in (rig.right, rig.left) if b is not None), default=0.0)
-    omega = shaken.angular_frequency
     size = max(
         gap,
         abs(float(point[0])),
         abs(float(point[1])) / omega,
-        1e-3 * reach_at_rest(rig, shaken),
+        _least_size(fam),
     )
     return np.array([size, size * omega, size, size, span[1] - span[0]])

@@ -10,7 +10,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import measure
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -18,16 +17,10 @@ from vibroimpact.model import Oscillator, Repeated, State, equilibrium
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.contacts import contact_log
-from vibroimpact.response.phases import (
-    Recorded,
-    cut,
-    impact_loss,
-    measured,
-    relaxation_loss,
-    view,
-)
+from vibroimpact.response.phases import Recorded, cut, measured
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, state_from
+from vibroimpact.response.totals import energies, extremes
 from vibroimpact.response.variables import describe
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.family import family
@@ -210,32 +203,16 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     origin = Recorded(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
     every = cut(data, origin)
     rows = measured(origin, every)
-    rig = origin.oscillator
-    side = view(every)
-    face = side * origin.of_side(side, "gap")
-    # A left contact is measured towards the bumper.
-    least = np.where(side == -1, -rows[:, measure.X_MOST], rows[:, measure.X_LEAST]) + face
-    most = np.where(side == -1, -rows[:, measure.X_LEAST], rows[:, measure.X_MOST]) + face
-    high, low = float(most.max()), float(least.min())
-    top, bottom = float(rows[:, measure.A_MOST].max()), float(rows[:, measure.A_LEAST].min())
     log = contact_log(data, origin, every, rows)
     cycles = max(origin.cycles, 1.0)
-    pressed = origin.of_side(every.contact, "damping")
-    lost = relaxation_loss(origin, every).sum() + impact_loss(origin, every).sum()
-    squares = rows[:, measure.SQUARES]
+    supplied, isolator, bumpers = energies(origin, every, rows)
     values: dict[str, Any] = {
-        "displacement_max": high,
-        "displacement_min": low,
-        "displacement_excursion": high - low,
-        "acceleration_max": top,
-        "acceleration_min": bottom,
-        "acceleration_excursion": top - bottom,
-        "eccentricity": 0.5 * (high + low),
+        **extremes(origin, every, rows),
         "impacts_right": int((log["contact_side"] == 1).sum()) / cycles,
         "impacts_left": int((log["contact_side"] == -1).sum()) / cycles,
-        "energy_supplied": -rig.mass * rows[:, measure.WORK].sum() / cycles,
-        "energy_isolator": rig.isolator.damping * squares.sum() / cycles,
-        "energy_bumpers": float(pressed @ squares + lost) / cycles,
+        "energy_supplied": supplied / cycles,
+        "energy_isolator": isolator / cycles,
+        "energy_bumpers": bumpers / cycles,
     }
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"

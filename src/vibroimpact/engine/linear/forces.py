@@ -36,3 +36,9 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
             a -= sign * plan[at + par.BUMPER_STIFFNESS] * deformation
             a -= plan[at + par.BUMPER_DAMPING] * motion.v
     return a
+
+
+@kernel
+def face(plan: Vector, motion: Motion, side: int) -> float:
+    """How far the stop on a side is deformed (m)."""
+    return motion.right if side == RIGHT else motion.left

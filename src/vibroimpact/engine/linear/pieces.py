@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand, pull_series, turned, value
-from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.evaluate import absolute_acceleration, moved, node
+from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner, moved, node
 from vibroimpact.engine.linear.layout import (
     LATE_TABLES,
     MIDDLE,
@@ -186,14 +186,40 @@ def acceleration_in(plan: Vector, mode: int, motion: Motion, v: float) -> float:
     return acceleration(plan, Motion(mode, fresh, u, v, right, left, z, age, clock))
 
 
-@kernel
-def sampled(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, tau: float) -> float:
-    """Absolute acceleration so many seconds behind the stretch's start, seen as x is."""
+@inlined
+def look(
+    plan: Vector, cursor: Cursor, before: Motion, tau: float, about: int, series: Vector
+) -> tuple[Cursor, int, float, float, float]:
+    """The motion so many seconds behind a stretch's start, not before where the cursor is.
+
+    Parameters
+    ----------
+    before
+        The motion at the stretch's start.
+    about, series
+        The node that the series is about; −1 if it is still to be written.
+
+    Returns
+    -------
+    cursor, about, x, v, a
+        The mode's own coordinate and its rate, and the absolute acceleration as they are seen.
+    """
+    y = (tau - cursor.t) * plan[cursor.table + RATE]
+    while y >= NODES:
+        cursor = following_window(plan, cursor)
+        about = -1
+        y = (tau - cursor.t) * plan[cursor.table + RATE]
+    j = int(y + 0.5)
+    if j != about:
+        expanded_at_node(plan, cursor, j, series)
+    x, v = horner(series, y - j)
+    v *= plan[cursor.table + RATE]
     sign = -1.0 if before.mode == LEFT else 1.0
     s, c = 0.0, 0.0
     if plan[cursor.table + RESTING] != 0.0:
         s, c = turned(plan, before.clock[0], before.clock[1], tau)
-        return sign * (plan[par.BASE] * value(plan, s, c))
+        return cursor, j, x, v, sign * (plan[par.BASE] * value(plan, s, c))
     if plan[par.BASE] == 0.0:  # else the clock is not asked for
         s, c = turned(plan, before.clock[0], before.clock[1], tau)
-    return absolute_acceleration(plan, before.mode, Row(x, v, sign * s, sign * c))
+    a = absolute_acceleration(plan, before.mode, Row(x, v, sign * s, sign * c))
+    return cursor, j, x, v, a

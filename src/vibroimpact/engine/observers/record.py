@@ -11,13 +11,11 @@ from vibroimpact.engine.dispatch import (
     acceleration_in,
     begin,
     displacement,
-    expanded_at_node,
-    following_window,
-    sampled,
+    face,
+    look,
 )
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import horner, relaxed
-from vibroimpact.engine.linear.layout import NODES, RATE
+from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, TURNED, Motion, Stretch
 from vibroimpact.engine.observe import observer
@@ -92,7 +90,8 @@ def write_sample(
 @kernel
 def write(plan: Vector, motion: Motion, out: Vector, k: int) -> None:
     """Write the motion at this instant as sample k."""
-    mode, _, u, v, right, left, _, _, _ = motion
+    mode, u, v = motion.mode, motion.u, motion.v
+    right, left = face(plan, motion, RIGHT), face(plan, motion, LEFT)
     a = acceleration(plan, motion)
     write_sample(plan, mode, TOUCHING[mode], u, v, a, right, left, out, k)
 
@@ -116,18 +115,8 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
     about = -1  # the node that the series is about
     while i < n and i * step < t + reach:
         tau = max(i * step - t, 0.0)
-        y = (tau - cursor.t) * plan[cursor.table + RATE]
-        if y >= NODES:
-            cursor = following_window(plan, cursor)
-            about = -1
-            continue
-        j = int(y + 0.5)
-        if j != about:
-            expanded_at_node(plan, cursor, j, series)
-            about = j
-        x, v = horner(series, y - j)
-        v *= plan[cursor.table + RATE]
-        a = sign * sampled(plan, cursor, before, x, v, tau)
+        cursor, about, x, v, a = look(plan, cursor, before, tau, about, series)
+        a *= sign
         right = x if mode & RIGHT else relaxed(before.right, rate_r, tau)
         left = x if mode == LEFT else relaxed(before.left, rate_l, tau)
         if mode == BOTH:
@@ -155,7 +144,7 @@ def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
             row[E_KIND] = CONTACT_BEGINS if after.mode & side else IMPACT
         row[E_SIDE] = 1.0 if side == RIGHT else -1.0
         row[E_U], row[E_V] = after.u, arrival
-        row[E_RIGHT], row[E_LEFT] = after.right, -after.left
+        row[E_RIGHT], row[E_LEFT] = face(plan, after, RIGHT), -face(plan, after, LEFT)
         row[E_BEFORE] = acceleration_in(plan, before.mode, after, arrival)
         row[E_BEHIND] = acceleration(plan, after)
         written += 1

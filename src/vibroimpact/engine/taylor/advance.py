@@ -47,7 +47,6 @@ from vibroimpact.engine.taylor.frame import (
 from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, X, Z
 from vibroimpact.engine.taylor.pieces import EVEN, PIECES, begun, motion_at, push_series, shifted
 
-
 DETACHED_LEFT, YIELDS, UNBENT, EASED = 16, 17, 18, 19
 """Events of a step besides those of a stretch."""
 

@@ -203,3 +203,14 @@ def branch_of(plan: Vector, motion: Motion, sign: float) -> Branch:
     else:
         bend = plan[par.KNEE] + plan[par.TURNING] * way * side
     return Branch(plan[par.SLOPE], bend, sign * way)
+
+
+@kernel
+def face(plan: Vector, motion: Motion, side: int) -> float:
+    """How far the stop on a side is deformed (m)."""
+    if not curved_stop(plan, side):
+        return motion.right if side == RIGHT else motion.left
+    if not motion.mode & side:
+        return 0.0
+    gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
+    return max((motion.u if side == RIGHT else -motion.u) - gap, 0.0)

@@ -290,12 +290,6 @@ def expanded(plan: Vector, cursor: Cursor, series: Vector) -> tuple[float, float
 
 
 @kernel
-def expanded_at_node(plan: Vector, cursor: Cursor, j: int, series: Vector) -> None:
-    """Write the series of x about the beginning of piece j, good for |y| ≤ 1/2."""
-    shifted(plan, X, 2 * j, series)
-
-
-@kernel
 def push_series(plan: Vector, mode: int, side: int) -> None:
     """Write the force per unit mass of the pressed bumper on a side, over the step, to ASKED."""
     facing = -1.0 if mode == BOTH and side == LEFT else 1.0
@@ -354,9 +348,20 @@ def acceleration_in(plan: Vector, mode: int, motion: Motion, v: float) -> float:
 
 
 @kernel
-def sampled(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, tau: float) -> float:
-    """Absolute acceleration so many seconds behind the stretch's start, seen as x is."""
-    frame = frame_of(plan, cursor.start.mode)
+def look(
+    plan: Vector, cursor: Cursor, before: Motion, tau: float, about: int, series: Vector
+) -> tuple[Cursor, int, float, float, float]:
+    """The motion so many seconds behind a stretch's start, not before where the cursor is.
+
+    Returns
+    -------
+    cursor, about, x, v, a
+        The mode's own coordinate and its rate, and the absolute acceleration as they are seen.
+    """
+    while tau >= cursor.t + cursor.step and cursor.t + cursor.step < cursor.length:
+        cursor = following_window(plan, cursor)
+    frame = frame_of(plan, before.mode)
     y = (tau - cursor.t) * (plan[HEADER + RATE] / PIECES)
     here = motion_at(plan, cursor.start, frame, y)
-    return frame.sign * acceleration(plan, here)
+    a = frame.sign * acceleration(plan, here)
+    return cursor, about, coordinate(plan, here), frame.sign * here.v, a

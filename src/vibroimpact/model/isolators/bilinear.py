@@ -84,6 +84,12 @@ class BilinearIsolator(IsolatorLaw):
         plastic = self.elastic_stiffness - self.post_yield_stiffness
         return self.post_yield_stiffness * displacement + plastic * z
 
+    def remembered(self, displacement: float) -> float:
+        """Its memory z (m) after a first loading to a displacement (m)."""
+        spring = self.elastic_stiffness - self.post_yield_stiffness
+        held = self.static_force(displacement) - self.post_yield_stiffness * displacement
+        return held / spring if spring else 0.0
+
     @property
     def strongest(self) -> float:
         """∞, or F_y without a post-yield stiffness."""

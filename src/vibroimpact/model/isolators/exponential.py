@@ -124,6 +124,12 @@ class ExponentialIsolator(IsolatorLaw):
             self.hysteretic_force * faded, displacement
         )
 
+    def remembered(self, displacement: float) -> float:
+        """Its memory z (m) after a first loading to a displacement (m)."""
+        spring = self.reversal_stiffness - self.final_stiffness
+        held = self.static_force(displacement) - self.elastic_force(displacement)
+        return held / spring if spring else 0.0
+
     @property
     def reach(self) -> float:
         """Where a softening one has its largest static force, in m; ∞ if it hardens."""

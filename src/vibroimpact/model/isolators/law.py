@@ -53,6 +53,10 @@ class IsolatorLaw(Named):
         """Force (N) after a first, slow displacement (m) from rest: an odd function."""
         raise NotImplementedError
 
+    def remembered(self, displacement: float) -> float:
+        """Its memory z (m, see `State.isolator`) after a first loading to a displacement (m)."""
+        return 0.0
+
     @property
     def reach(self) -> float:
         """Displacement (m) up to which the static force grows; ∞ if it grows on and on."""

@@ -1,0 +1,90 @@
+"""A whole motion measured: its exact extremes, and where the energy went."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import measure
+from vibroimpact.response.phases import (
+    Phases,
+    Recorded,
+    any_recorded,
+    cut,
+    impact_loss,
+    measured,
+    relaxation_loss,
+    view,
+)
+from vibroimpact.response.variables import describe, motion_parameters
+
+
+def totals(motion: xr.Dataset) -> xr.Dataset:
+    """Return the exact extremes of a motion, between its samples too, and its energies.
+
+    Parameters
+    ----------
+    motion
+        Dataset of `steady`, or of `simulate` with samples, through a `Record`, too.
+
+    Returns
+    -------
+    xarray.Dataset
+        The extremes and excursions of the displacement and of the absolute acceleration, as
+        those of a sweep, and the energies over the whole motion: ``total_supplied`` by what
+        shakes the mass, ``total_isolator`` and ``total_bumpers`` lost in the isolator and in the
+        stops.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a motion with samples.
+    """
+    origin = any_recorded(motion)
+    every = cut(motion, origin)
+    rows = measured(origin, every)
+    supplied, isolator, bumpers = energies(origin, every, rows)
+    values = {
+        **extremes(origin, every, rows),
+        "total_supplied": supplied,
+        "total_isolator": isolator,
+        "total_bumpers": bumpers,
+    }
+    return describe(xr.Dataset(values), "vibroimpact.totals", motion_parameters(motion))
+
+
+def extremes(origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]) -> dict[str, float]:
+    """Extremes and excursions, of a motion whose phases were measured."""
+    side = view(every)
+    face = side * origin.of_side(side, "gap")
+    # A left contact is measured towards the bumper.
+    least = np.where(side == -1, -rows[:, measure.X_MOST], rows[:, measure.X_LEAST]) + face
+    most = np.where(side == -1, -rows[:, measure.X_LEAST], rows[:, measure.X_MOST]) + face
+    high, low = float(most.max()), float(least.min())
+    top, bottom = float(rows[:, measure.A_MOST].max()), float(rows[:, measure.A_LEAST].min())
+    return {
+        "displacement_max": high,
+        "displacement_min": low,
+        "displacement_excursion": high - low,
+        "acceleration_max": top,
+        "acceleration_min": bottom,
+        "acceleration_excursion": top - bottom,
+        "eccentricity": 0.5 * (high + low),
+    }
+
+
+def energies(
+    origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]
+) -> tuple[float, float, float]:
+    """Energy (J) supplied, and lost in the isolator and in the stops, over the whole motion."""
+    rig = origin.oscillator
+    squares = rows[:, measure.SQUARES]
+    lost = relaxation_loss(origin, every).sum() + impact_loss(origin, every).sum()
+    return (
+        -rig.mass * float(rows[:, measure.WORK].sum()),
+        rig.isolator.damping * float(squares.sum()),
+        float(origin.of_side(every.contact, "damping") @ squares + lost),
+    )

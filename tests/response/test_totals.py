@@ -1,0 +1,88 @@
+"""A whole motion measured: its exact extremes and its energies, through a record, too."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+
+BUMPERS = vi.Oscillator(
+    2.0, vi.Isolator(5.0, 0.3), vi.Bumper(60.0, 0.9, 0.1), vi.Bumper(40.0, 0.5, 0.15), force=0.3
+)
+WALLS = BUMPERS.replace(right=vi.RigidStop(0.5, 0.2), left=vi.RigidStop(0.3, 0.1))
+PRESSED = BUMPERS.replace(right=vi.Bumper(60.0, 0.9, -0.05), left=vi.Bumper(40.0, 0.5, 0.02))
+LOOSE = BUMPERS.replace(isolator=vi.Isolator(0.0, 0.3), left=vi.RigidStop(0.4, 0.1))
+RIGS = {"bumpers": BUMPERS, "walls": WALLS, "pressed": PRESSED, "no spring": LOOSE}
+ROUGH = vi.Record(np.random.default_rng(7).uniform(-4.0, 4.0, 81), 0.125)
+MOTIONS = ("displacement", "acceleration")
+
+
+def stored(rig: vi.Oscillator, data: xr.Dataset, at: int) -> float:
+    """Energy (J) relative to the base, the constant force's included."""
+    u, v, right, left = (
+        float(data[name][at])
+        for name in ("displacement", "velocity", "right_bumper", "left_bumper")
+    )
+    held = rig.mass * v**2 + rig.isolator.stiffness * u**2
+    for stop, x in ((rig.right, right), (rig.left, left)):
+        held += getattr(stop, "stiffness", 0.0) * x**2
+    return 0.5 * held - rig.force * u
+
+
+@pytest.mark.parametrize("name", RIGS)
+def test_the_extremes_are_those_of_ever_more_samples(name: str) -> None:
+    exact = vi.totals(vi.simulate(RIGS[name], ROUGH, tail=2.0))
+    for samples, near in ((40, 3e-2), (4000, 3e-6)):
+        data = vi.simulate(RIGS[name], ROUGH, tail=2.0, samples=samples)
+        for one in MOTIONS:
+            # Both sides of an event count: the samples lie on one of them.
+            high, low = (float(exact[f"{one}_{end}"]) for end in ("max", "min"))
+            values = [data[one].values]
+            if one == "acceleration":
+                values += [
+                    data[f"event_acceleration_{side}"].values for side in ("before", "behind")
+                ]
+            seen = np.concatenate(values)
+            slack = near * (high - low)
+            assert high - slack <= seen.max() <= high + 1e-12 * (high - low)
+            assert low - 1e-12 * (high - low) <= seen.min() <= low + slack
+    assert float(exact["displacement_excursion"]) == high_less_low(exact, "displacement")
+
+
+def high_less_low(data: xr.Dataset, one: str) -> float:
+    return float(data[f"{one}_max"] - data[f"{one}_min"])
+
+
+@pytest.mark.parametrize(
+    "shaken", [ROUGH, vi.Harmonic(2.0, 0.4), vi.Harmonic(1.5, 0.3, of="force")]
+)
+@pytest.mark.parametrize("name", ["bumpers", "walls", "pressed"])
+def test_no_energy_is_lost_count_of(name: str, shaken: vi.Harmonic | vi.Record) -> None:
+    rig = RIGS[name]
+    how = {"tail": 1.3} if isinstance(shaken, vi.Record) else {"cycles": 6}
+    data = vi.simulate(rig, shaken, start=vi.State(0.0, 0.4), **how)
+    found = vi.totals(data)
+    change = stored(rig, data, -1) - stored(rig, data, 0)
+    balance = found["total_supplied"] - found["total_isolator"] - found["total_bumpers"]
+    scale = float(found["total_isolator"] + found["total_bumpers"])
+    assert scale > 0.01
+    assert float(balance) == pytest.approx(change, abs=1e-11 * scale)
+
+
+def test_those_of_a_steady_motion() -> None:
+    case = vi.laboratory.case("B2-G1-A3")
+    data = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, 2.0))
+    found = vi.totals(data)
+    for name in ("displacement_max", "acceleration_min", "eccentricity"):
+        assert float(found[name]) == float(data[name])
+    cycles = int(data["period"])
+    for name in ("supplied", "isolator", "bumpers"):
+        assert float(found[f"total_{name}"]) == cycles * float(data[f"energy_{name}"])
+
+
+def test_no_motion() -> None:
+    for wrong in (None, vi.simulate(BUMPERS, ROUGH, samples=0)):
+        with pytest.raises(vi.InputError, match=r"motion: .* simulate with samples, is accepted"):
+            vi.totals(wrong)
