@@ -10,6 +10,7 @@ series elsewhere. Each is a folder whose modules have these kernels:
     begin(plan, motion, length), more(plan, cursor), following(plan, cursor)
     expanded(plan, cursor, series), expanded_force(…), accelerated(…)
     look(plan, cursor, before, tau, …)      the motion at a time of a stretch, for samples
+    coordinate(plan, motion)                the mode's own
     displacement(plan, mode, x), acceleration(plan, motion), acceleration_in(…)
 
     acceleration_of(plan, motion)           ü from all forces
@@ -75,3 +76,4 @@ acceleration_of = _by_flow("acceleration_of")
 isolator_force = _by_flow("isolator_force")
 springs = _by_flow("springs")
 face = _by_flow("face")
+coordinate = _by_flow("coordinate")

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
 from vibroimpact.model.dimensionless import largest_free_flight
+from vibroimpact.response.own_flight import largest_flight
 
 _RESONANT = 1e-14
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
@@ -63,9 +64,11 @@ def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[floa
     the paper's free-flight sweep, Section 4). An undamped isolator has none: there they are
     2A/ω0² and 2A, those under a base acceleration that changes slowly. Under a given displacement
     of the base the acceleration grows on with the frequency: it is taken where the displacement
-    is largest. Without a spring there is no such scale, and both are NaN.
+    is largest. Without a spring there is no such scale, and both are NaN. Of an isolator that is
+    not linear they are those of a backward sweep of its own free flight (`own_flight`).
     """
-    oscillator.check_linear("free flight in closed form", stops=False)
+    if not oscillator.isolator.linear:
+        return largest_flight(oscillator, shaken)
     omega0 = oscillator.angular_frequency
     if omega0 == 0.0:
         return math.nan, math.nan

@@ -34,6 +34,7 @@ from vibroimpact.response.free_flight import (
     free_flight_excursions,
     reference_excursions,
 )
+from vibroimpact.response.own_flight import swept_flight
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.threads import Progress, run
 from vibroimpact.response.variables import (
@@ -183,8 +184,11 @@ def sweeps(
         for i, frequency in enumerate(grid):
             check_bounded(oscillator, shaken.replace(frequency=frequency), f"frequencies[{i}]")
         levels = _levels(sizes, shaken, grid)
-        free[:, r] = free_flight_excursions(oscillator, shaken, grid)
-        free[:, r] *= levels / shaken.amplitude
+        if oscillator.isolator.linear:
+            free[:, r] = free_flight_excursions(oscillator, shaken, grid)
+            free[:, r] *= levels / shaken.amplitude
+        else:
+            free[:, r] = swept_flight(oscillator, shaken, grid, levels)
         largest[:, r] = reference_excursions(oscillator, shaken.replace(amplitude=levels.max()))
         prepared.append(
             (

@@ -157,6 +157,13 @@ def accelerated(plan: Vector, cursor: Cursor, s: float, c: float, series: Vector
 
 
 @kernel
+def coordinate(plan: Vector, motion: Motion) -> float:
+    """The mode's own coordinate."""
+    _, row = coordinates(motion)
+    return row.x
+
+
+@kernel
 def displacement(plan: Vector, mode: int, x: float) -> float:
     """The displacement of the mass from the mode's own coordinate."""
     left = par.BUMPER + par.WIDTH

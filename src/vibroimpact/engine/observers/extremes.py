@@ -13,6 +13,7 @@ from vibroimpact.engine.dispatch import (
     accelerated,
     acceleration,
     begin,
+    coordinate,
     displacement,
     expanded,
     following,
@@ -22,7 +23,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.linear.roots import jet
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import LEFT, RIGHT, Stretch, coordinates
+from vibroimpact.engine.motion import LEFT, RIGHT, Stretch
 from vibroimpact.engine.observe import observer
 
 _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
@@ -104,8 +105,9 @@ def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
     before, event, step = stretch.before, stretch.event, stretch.step
     u_least, u_most, a_least, a_most, hits_right, hits_left = notes
     series = workspace()
-    sign, row = coordinates(before)
-    x_least, x_most = row.x, row.x
+    sign = -1.0 if before.mode == LEFT else 1.0
+    x = coordinate(plan, before)
+    x_least, x_most = x, x
     a = sign * acceleration(plan, before)
     least_a, most_a = a, a
     cursor = begin(plan, before, step)

@@ -77,7 +77,7 @@ def first_in_step(
     `launched` says that the clearance vanishes at the step's beginning by construction, `first`
     behind which share no root is asked for.
     """
-    offset, sign, memory, rate, double = clearance
+    offset, sign, memory, rate, _ = clearance
     room = workspace()
     pace = rate / PIECES  # per piece
     for part in range(3):
