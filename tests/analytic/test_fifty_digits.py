@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 import vibroimpact as vi
 from reference import fifty_digits
+from reference.rig import Rig, Stop
 from samples import sample
 
 CYCLES = sample(20, 6)
@@ -68,17 +69,17 @@ SETUPS = {
 }
 
 
-def oscillator_and_reference_rig(setup: Setup) -> tuple[vi.Oscillator, fifty_digits.Rig]:
+def oscillator_and_reference_rig(setup: Setup) -> tuple[vi.Oscillator, Rig]:
     damping = 2.0 * setup.damping_ratio * OMEGA * MASS
     numbers = [
         side and (side[0] * STIFFNESS, side[1] * side[0] * STIFFNESS / OMEGA, side[2])
         for side in (setup.right, setup.left)
     ]
     right, left = (side and vi.Bumper(*side) for side in numbers)
-    stops = (side and fifty_digits.Stop(*side) for side in numbers)
+    stops = (side and Stop(*side) for side in numbers)
     return (
         vi.Oscillator(MASS, vi.Isolator(STIFFNESS, damping), right, left),
-        fifty_digits.Rig(MASS, STIFFNESS, damping, *stops),
+        Rig(MASS, STIFFNESS, damping, *stops),
     )
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.cli import main
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.rig import subject
 from vibroimpact.cli.study import read_study
@@ -174,3 +177,101 @@ def test_files_that_cannot_be_read(tmp_path):
     (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(vi.InputError, match="not UTF-8"):
         read_study(tmp_path / "binary.toml")
+
+
+class TestWhatShakes:
+    """Written in a study and read again, the same object."""
+
+    @pytest.mark.parametrize(
+        ("text", "expected"),
+        [
+            ('amplitude = "0.05 g"', vi.Harmonic("0.05 g", 1.0)),
+            ("amplitude = 0.3\nphase = 0.25", vi.Harmonic(0.3, 1.0, 0.25)),
+            ('amplitude = "5 mm"\nphase = "90 deg"', vi.Harmonic("5 mm", 1.0, "90 deg")),
+            ('amplitude = "120 N"', vi.Harmonic("120 N", 1.0)),
+            (
+                'amplitudes = ["0.05 g", 0, "0.02 g"]\nphases = [0.0, 0.0, "30 deg"]',
+                vi.Periodic(1.0, ["0.05 g", 0, "0.02 g"], [0.0, 0.0, "30 deg"]),
+            ),
+            ('amplitudes = ["5 mm", "1 mm"]', vi.Periodic(1.0, ["5 mm", "1 mm"])),
+            (
+                'amplitudes = ["120 N", "40 N"]\nphase = 0.5',
+                vi.Periodic(1.0, ["120 N", "40 N"], phase=0.5),
+            ),
+        ],
+    )
+    def test_amplitudes_of_every_kind(self, write, text, expected):
+        what = subject(str(write(RIG + f"[excitation]\n{text}\n")), RigOptions())
+        assert what.shaking == expected
+        assert what.shaking.of == expected.of
+        assert what.at(2.5) == expected.replace(frequency=2.5)
+
+    def test_a_record_beside_the_study(self, write, tmp_path):
+        values = [0.0, 0.3, -0.2, 0.1]
+        write("\n".join(map(repr, values)), "quake.csv")
+        path = write(
+            RIG + '[excitation]\nrecord = "quake.csv"\nstep = "20 ms"\n[simulate]\ntail = "5 s"\n'
+        )
+        what = subject(str(path), RigOptions())
+        assert what.shaking == vi.Record(values, 0.02)
+        assert what.study.simulate.tail == 5.0
+        with pytest.raises(vi.InputError, match=r"^excitation.record: a record has no period"):
+            _ = what.repeated
+
+    def test_a_record_of_displacements_with_times(self, write):
+        time = np.arange(40) * 0.05
+        moved = 3.0 * np.sin(4.0 * time)
+        rows = (f"{float(t)!r},{float(x)!r}" for t, x in zip(time, moved, strict=True))
+        write("\n".join(["t,x", *rows]), "x.csv")
+        path = write(RIG + '[excitation]\nrecord = "x.csv"\nunit = "mm"\n')
+        shaking = subject(str(path), RigOptions()).shaking
+        expected = vi.Record.from_displacement(1e-3 * moved, 0.05)
+        assert shaking.step == pytest.approx(expected.step, rel=1e-14)
+        assert shaking.acceleration == pytest.approx(expected.acceleration, abs=1e-11)
+
+    @pytest.mark.parametrize(
+        ("text", "csv", "message"),
+        [
+            ('step = "1 ms"', "0.1\nnan\n0.2", r"acceleration\[1\]: nan is not finite"),
+            ('step = "1 ms"', "0.1", r"acceleration: 1; at least 2 samples"),
+            ("step = 0", "0.1\n0.2", r"excitation.step: 0 is not greater than 0"),
+            ('step = "-1 ms"', "0.1\n0.2", r"excitation.step: '-1 ms' is not greater than 0"),
+            ("", "0.1\n0.2", r"excitation.step: missing, and .* has no times"),
+            ("", "0,1\n0,2", r"its time 0 s is not evenly spaced"),
+            ('step = 1\nunit = "N"', "0.1\n0.2", r"excitation.unit: '1 N' is a force; an acceler"),
+            (
+                'step = 1\nunit = "mm"',
+                "\n".join("0" * 20 + "5" * 20),
+                r"displacement\[\d+\]: it jumps or is too rough",
+            ),
+            ('step = 1\namplitude = "0.1 g"', "1\n2", r"amplitude and record are given; one of"),
+        ],
+    )
+    def test_records_that_cannot_be_used(self, write, capsys, text, csv, message):
+        write(csv, "quake.csv")
+        path = write(RIG + f'[excitation]\nrecord = "quake.csv"\n{text}\n')
+        assert main(("simulate", str(path))) == 2
+        told = capsys.readouterr()
+        assert told.out == ""
+        assert told.err.startswith(f"vibroimpact: error: study {str(path)!r}: excitation")
+        assert re.search(message, told.err)
+        assert told.err.count("\n") == 1
+
+    @pytest.mark.parametrize(
+        ("text", "message"),
+        [
+            (
+                'amplitudes = ["1 mm", "2 mm"]\nphases = [0.0]',
+                r"phases: 1 of them, but 2 amplitudes",
+            ),
+            ('amplitudes = ["0.05 g", "20 N"]', r"amplitudes\[1\]: '20 N' is a force; an acceler"),
+            ('amplitude = "3 kg"', r"amplitude: '3 kg' is a mass; an acceleration greater than 0"),
+            ("phases = [0.0]\namplitude = 1", r"phases is given without amplitudes"),
+        ],
+    )
+    def test_amplitudes_that_cannot_be_used(self, write, capsys, text, message):
+        path = write(RIG + f"[excitation]\n{text}\n")
+        assert main(("sweep", str(path))) == 2
+        told = capsys.readouterr().err
+        assert re.search(rf"study '.*': excitation[.:] ?{message}", told)
+        assert told.count("\n") == 1

@@ -29,71 +29,14 @@ rig take about a second, contacts that last for thousands of M / C_j take minute
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import zip_longest
-from typing import NamedTuple
 
 from mpmath import mp, mpf
 
 from reference.chatter import accumulation
 from reference.first_zero import first_zero, polynomial_value
+from reference.rig import Event, Reference, Rig, Side, State
 from reference.shaking import Shaking, Sines
-
-State = tuple[mpf, mpf, mpf, mpf]
-
-
-@dataclass(frozen=True)
-class Stop:
-    """A massless bumper: stiffness (N/m, positive), damping (N s/m), initial gap (m)."""
-
-    stiffness: float
-    damping: float
-    gap: float
-
-
-@dataclass(frozen=True)
-class Wall:
-    """A rigid stop: restitution from 0 to 1, gap (m)."""
-
-    restitution: float
-    gap: float
-
-
-@dataclass(frozen=True)
-class Rig:
-    """A mass (kg) on an isolator (N/m, N s/m) between two optional stops; a constant force (N)."""
-
-    mass: float
-    stiffness: float
-    damping: float
-    right: Stop | Wall | None = None
-    left: Stop | Wall | None = None
-    force: float = 0.0
-
-
-class Event(NamedTuple):
-    """A change of phase: its time (s), what happened, and the state there.
-
-    `kind` is 'contact_right', 'detach_right', 'impact_right', or the same on the left. On a rigid
-    stop contact and detachment are the beginning and the end of rest. The velocity of an impact is
-    that before it. Of a chatter the first impacts are listed, as many as its limit was found from.
-    """
-
-    time: mpf
-    kind: str
-    u: mpf
-    v: mpf
-    u_right: mpf
-    u_left: mpf
-
-
-@dataclass(frozen=True)
-class Reference:
-    """The states (u, v, u_R, u_L) at the end of every span (a forcing period, or the line between
-    two samples of a record), and the events in order of time."""
-
-    states: list[State]
-    events: list[Event]
 
 
 def integrate(
@@ -167,28 +110,6 @@ def _working(digits: int, order: int) -> int:
     return digits + 20 + order // 6
 
 
-class _Side:
-    """One stop with its sign: +1 on the right, -1 on the left; `wall` is its rest position."""
-
-    def __init__(self, name: str, sign: int, stop: Stop | Wall) -> None:
-        self.name = name
-        self.sign = sign
-        self.wall = sign * mpf(stop.gap)
-        self.restitution: mpf | None = None
-        self.rate: mpf | None = None
-        if isinstance(stop, Wall):
-            if not 0 <= stop.restitution <= 1:
-                raise ValueError(f"impossible {name} stop: {stop}")
-            self.restitution = mpf(stop.restitution)
-            return
-        if not (stop.stiffness > 0 and stop.damping >= 0):
-            raise ValueError(f"impossible {name} stop: {stop}")
-        self.stiffness = mpf(stop.stiffness)
-        self.damping = mpf(stop.damping)
-        # Relaxation rate; an elastic bumper is back at rest at once and remembers nothing.
-        self.rate = self.stiffness / self.damping if stop.damping > 0 else None
-
-
 class _Run:
     """A trajectory under way: the state, what is in contact, and the time within the span."""
 
@@ -207,7 +128,7 @@ class _Run:
         self.shaking = shaking
         self.order, self.tolerance = order, tolerance
         pairs = (("right", 1, rig.right), ("left", -1, rig.left))
-        self.sides = [_Side(name, sign, stop) for name, sign, stop in pairs if stop is not None]
+        self.sides = [Side(name, sign, stop) for name, sign, stop in pairs if stop is not None]
         self.overlap = sum(side.sign * side.wall for side in self.sides) < 0
         self.u, self.v = mpf(start[0]), mpf(start[1])
         self.bumper = {"right": mpf(start[2]), "left": mpf(start[3])}
@@ -215,15 +136,15 @@ class _Run:
         self.number, self.elapsed, self.before = 0, mpf(0), mpf(0)
         self.period = shaking.span(0)
         self.events: list[Event] = []
-        self.pressed: list[_Side] = []
-        self.resting: _Side | None = None
+        self.pressed: list[Side] = []
+        self.resting: Side | None = None
         # How often the clearance or the force that ended the last phase vanishes here, by side.
         self.known_zeros: dict[str, int] = {}
         self.changes_here = 0
         for side in self.sides:
             self._settle(side)
 
-    def _settle(self, side: _Side) -> None:
+    def _settle(self, side: Side) -> None:
         """Check the start against one stop, and undo the rounding of a touching start."""
         depth, bumper = side.sign * (self.u - side.wall), side.sign * self.bumper[side.name]
         if bumper < 0:
@@ -319,7 +240,7 @@ class _Run:
         return step, u, v, push
 
     def _next_zero(
-        self, side: _Side, step: mpf, u: list[mpf], v: list[mpf], push: list[mpf]
+        self, side: Side, step: mpf, u: list[mpf], v: list[mpf], push: list[mpf]
     ) -> tuple[mpf | None, mpf | None]:
         """First zero of what ends a phase of one side, or a shorter step on which to ask again."""
         if side is self.resting:
@@ -331,14 +252,14 @@ class _Run:
             return None, None  # at most where one contact ends, when the other one may begin
         return self._touch(side, u, step)
 
-    def _release(self, side: _Side, u: list[mpf], v: list[mpf]) -> mpf | None:
+    def _release(self, side: Side, u: list[mpf], v: list[mpf]) -> mpf | None:
         """First zero of the contact force on the step, as a fraction of it."""
         stiffness, damping = side.sign * side.stiffness, side.sign * side.damping
         rest = [-stiffness * side.wall]
         elastic, viscous = [stiffness * value for value in u], [damping * value for value in v]
         return self._first_zero(side, rest, elastic, viscous)
 
-    def _touch(self, side: _Side, u: list[mpf], step: mpf) -> tuple[mpf | None, mpf | None]:
+    def _touch(self, side: Side, u: list[mpf], step: mpf) -> tuple[mpf | None, mpf | None]:
         """First zero of a clearance on the step, or a shorter step on which to ask again.
 
         A relaxing bumper can be far faster than the mass. Its deformation only shrinks, so its
@@ -363,7 +284,7 @@ class _Run:
         # rounding from finding the same zero again.
         return None, zero if zero is None else max(step * zero * 9 / 10, resolved)
 
-    def _first_zero(self, side: _Side, *terms: list[mpf]) -> mpf | None:
+    def _first_zero(self, side: Side, *terms: list[mpf]) -> mpf | None:
         """First zero of a sum of series that is not the event which began the phase."""
         total = [sum(column) for column in zip_longest(*terms, fillvalue=mp.zero)]
         known = self.known_zeros.get(side.name, 0)
@@ -384,7 +305,7 @@ class _Run:
                 fade = mpf(0) if side.rate is None else mp.exp(-side.rate * time)
                 self.bumper[side.name] *= fade
 
-    def _change_phase(self, side: _Side) -> None:
+    def _change_phase(self, side: Side) -> None:
         """Do what the zero of a clearance or of a force brings with it."""
         self.changes_here += 1
         if self.changes_here > 6:
@@ -402,11 +323,11 @@ class _Run:
     def time(self) -> mpf:
         return self.before + self.elapsed
 
-    def _note(self, what: str, side: _Side) -> None:
+    def _note(self, what: str, side: Side) -> None:
         if self.time > 0 or what != "contact" or self.events:
             self.events.append(Event(self.time, f"{what}_{side.name}", *self.state))
 
-    def _press_or_part(self, side: _Side) -> None:
+    def _press_or_part(self, side: Side) -> None:
         """Begin or end the contact with a bumper."""
         began = side not in self.pressed
         elastic = side.rate is None
@@ -420,7 +341,7 @@ class _Run:
         self.bumper[side.name] = mpf(0) if elastic and not began else self.u - side.wall
         self._note("contact" if began else "detach", side)
 
-    def _hit(self, side: _Side) -> None:
+    def _hit(self, side: Side) -> None:
         """Hit a rigid stop: fly back, or rest there at once, or after a chatter."""
         e = side.restitution
         assert e is not None
@@ -442,17 +363,17 @@ class _Run:
             self._pass(limit)
             self._rest(side)
 
-    def _rest(self, side: _Side) -> None:
+    def _rest(self, side: Side) -> None:
         self.resting, self.known_zeros[side.name] = side, 0
         self._note("contact", side)
 
-    def _pressing(self, side: _Side) -> mpf:
+    def _pressing(self, side: Side) -> mpf:
         """Acceleration towards a stop that the mass would have there without velocity."""
         stiffness, _, load = self._coefficients()
         base = self.shaking.value(self.number, self.elapsed)
         return side.sign * (load - base - stiffness * side.wall)
 
-    def _chatters(self, side: _Side) -> bool:
+    def _chatters(self, side: Side) -> bool:
         """Whether impacts on a stop certainly go on until they accumulate, within this span.
 
         While the acceleration towards the stop stays within a (1 ± d), d = (1 - e)/8, an impact is
@@ -483,7 +404,7 @@ class _Run:
                     return False
         return self.elapsed + longest < self.period
 
-    def _impacts(self, side: _Side) -> Iterator[mpf]:
+    def _impacts(self, side: Side) -> Iterator[mpf]:
         """Times of the impacts of a chatter, from the one that was, which is at zero."""
         start = self.elapsed
         yield mpf(0)

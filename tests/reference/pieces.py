@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from mpmath import mp, mpc, mpf
 
-from reference.fifty_digits import Event, Reference, Rig, State, Stop, Wall
+from reference.rig import Event, Reference, Rig, State, Stop, Wall
 
 Shaken = tuple[float, float, float]
 """Amplitude (m/s²), frequency (Hz), phase (rad) of the base acceleration."""

@@ -9,7 +9,7 @@ import xarray as xr
 from mpmath import mp, mpf
 
 import vibroimpact as vi
-from reference.fifty_digits import Reference, Rig, Stop, Wall
+from reference.rig import Reference, Rig, Stop, Wall
 from reference.shaking import Lines, Shaking, Sines
 from vibroimpact.model import equilibrium
 

@@ -5,9 +5,10 @@ import math
 import pytest
 from mpmath import mp, mpc, mpf
 
-from reference.fifty_digits import Reference, Rig, State, Stop, integrate
+from reference.fifty_digits import integrate
 from reference.first_zero import first_zero
 from reference.pieces import Piece, closed_form, largest_difference, pieces
+from reference.rig import Reference, Rig, State, Stop
 from samples import sample
 
 MASS, STIFFNESS, FREQUENCY, AMPLITUDE = 550.0, 26290.0, 1.1, 0.05 * 9.80665

@@ -3,8 +3,9 @@
 import pytest
 from mpmath import mp, mpf
 
-from reference.fifty_digits import Rig, State, Wall, integrate
+from reference.fifty_digits import integrate
 from reference.impact_orbits import Orbit, Oscillator, doubling, orbits, possible_orbits
+from reference.rig import Rig, State, Wall
 
 CASES = {
     "resonant": Oscillator(0.16, 0.1, 0.8, 1.0),

@@ -4,8 +4,9 @@ import pytest
 from mpmath import mp, mpf
 
 from reference.chatter import accumulation
-from reference.fifty_digits import Reference, Rig, State, Stop, Wall, integrate
+from reference.fifty_digits import integrate
 from reference.pieces import Shaken, largest_difference, pieces
+from reference.rig import Reference, Rig, State, Stop, Wall
 
 # With M = K = 1; the isolator's damping ratio is 0.05 unless said.
 SHAKEN = (1.0, 0.25, 0.3)

@@ -56,7 +56,7 @@ def read_columns(path: Path | str, step: float | str | None = None, unit: str = 
     try:
         return made(values, spacing)
     except InputError as error:
-        raise InputError(f"{str(path)!r}: {error}") from None
+        raise InputError(f"record: {str(path)!r}: {error}") from None
 
 
 def _numbers(path: Path) -> list[list[float]]:

@@ -1,0 +1,62 @@
+"""Several harmonics of one phasor."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from engine.forcing.plans import begun
+from vibroimpact.engine.forcing import several
+from vibroimpact.engine.linear.layout import MOST, PLAN, STEEPEST, TABLES
+from vibroimpact.engine.parameters import Drive
+
+SHAPE = vi.Periodic(1.0, [0.6, 0.0, 0.9, 0.3], [0.2, 0.0, -1.0, 2.5])
+OMEGA = 2.0 * math.pi * 0.5
+WEIGHTS = tuple(
+    (size * math.cos(angle), size * math.sin(angle))
+    for size, angle in zip(SHAPE.amplitudes, SHAPE.phases, strict=True)
+)
+
+
+@pytest.mark.parametrize("of", ["acceleration", "displacement"])
+def test_their_sum_is_that_of_the_model(of: str) -> None:
+    moved = of == "displacement"
+    drive = Drive(1.0, -1.0 if moved else 1.0, 2.0 if moved else 0.0, WEIGHTS)
+    plan = begun(several, drive, 1.0, OMEGA)
+    model = vi.Periodic(0.5, SHAPE.amplitudes, SHAPE.phases, of=of)
+    angles = np.linspace(0.0, 7.0, 40)
+    found = [several.value(plan, math.sin(a), math.cos(a)) for a in angles]
+    np.testing.assert_allclose(found, model.at(angles), atol=1e-12)
+    # Bounds on the sum and on its slope.
+    assert np.abs(found).max() <= plan[MOST]
+    slopes = np.diff(model.at(OMEGA * np.linspace(0.0, 2.0, 4001))) / 5e-4
+    assert np.abs(slopes).max() <= plan[STEEPEST]
+
+
+def test_each_has_its_rate_and_its_place() -> None:
+    plan = begun(several, Drive(weights=WEIGHTS), 2.0, OMEGA)
+    assert several.count(plan) == 4
+    assert several.pace(plan) == 4 * OMEGA
+    assert len(plan) == several.room(4)
+    places = [several.plane(plan, n) for n in (1, 2, 3, 4)]
+    assert places[0] == 0
+    assert TABLES + places[1] == PLAN + 2 * 4
+    assert np.diff(places[1:]).tolist() == [PLAN - TABLES] * 2
+    assert places[3] + PLAN == len(plan)
+    for n in (1, 2, 3, 4):
+        wave, mirrored = several.wave(plan, n, False), several.wave(plan, n, True)
+        assert (wave.amplitude, wave.rate) == (2.0, n * OMEGA)
+        # Half a turn later an even harmonic is as it was: seen from the other side it is turned.
+        sign = 1.0 if n % 2 else -1.0
+        assert (mirrored.sine, mirrored.cosine) == (sign * wave.sine, sign * wave.cosine)
+
+
+def test_powers_of_a_phasor() -> None:
+    s, c = math.sin(0.3), math.cos(0.3)
+    sn, cn = s, c
+    for n in range(2, 9):
+        sn, cn = several.raised(s, c, sn, cn)
+        assert (sn, cn) == pytest.approx((math.sin(0.3 * n), math.cos(0.3 * n)), abs=1e-14)
