@@ -30,7 +30,8 @@ def branch(
             group=_BRANCH,
             help=(
                 "What is varied: frequency, amplitude, force, gap, right-gap, left-gap, "
-                "bumper-stiffness, right-stiffness, left-stiffness, bumper-damping, "
+                "bumper-stiffness, right-stiffness, left-stiffness, proportional-stiffness, "
+                "bumper-damping, "
                 "right-damping, left-damping, "
                 "restitution, right-restitution, left-restitution, "
                 "stiffness, damping, stiffness-ratio, gap-ratio, relaxation-time, damping-ratio."

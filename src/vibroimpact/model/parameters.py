@@ -164,9 +164,9 @@ def _bumpers(name: str) -> tuple[Read, Write]:
 
     def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         changed = {
-            side: bumper.replace(**{name: value})
-            for side, bumper in (("right", rig.right), ("left", rig.left))
-            if bumper is not None
+            side: stop.replace(**{name: value})
+            for side, stop in (("right", rig.right), ("left", rig.left))
+            if stop is not None and name in type(stop).model_fields
         }
         return rig.replace(**changed), shaken
 
@@ -213,18 +213,18 @@ def _forcing(name: str) -> tuple[Read, Write]:
     )
 
 
-def _stiffness_ratio() -> tuple[Read, Write]:
-    """λ = K_j/K at a fixed relaxation time C_j/K_j."""
+def _in_proportion(unit: Callable[[Oscillator], float]) -> tuple[Read, Write]:
+    """The bumpers' stiffness over a unit, at a fixed relaxation time C_j/K_j."""
     stiffness_of, _ = _bumpers("stiffness")
 
     def read(rig: Oscillator, shaken: Repeated) -> float:
-        return stiffness_of(rig, shaken) / rig.isolator.stiffness
+        return stiffness_of(rig, shaken) / unit(rig)
 
     def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         changed = {}
         for side, bumper in (("right", rig.right), ("left", rig.left)):
             if isinstance(bumper, Bumper):
-                stiffness = value * rig.isolator.stiffness
+                stiffness = value * unit(rig)
                 time = bumper.damping / bumper.stiffness
                 changed[side] = bumper.replace(stiffness=stiffness, damping=stiffness * time)
         return rig.replace(**changed), shaken
@@ -315,6 +315,13 @@ PARAMETERS: dict[str, Parameter] = {
             for side in ("right", "left")
         ),
         *_of_stops("stiffness", "bumper_stiffness", STIFFNESS, False),
+        Parameter(
+            "proportional_stiffness",
+            STIFFNESS,
+            "stiffness of both bumpers, their damping in proportion",
+            *_in_proportion(lambda rig: 1.0),
+            False,
+        ),
         *_of_stops("damping", "bumper_damping", DAMPING),
         *_of_stops("restitution", "restitution", DIMENSIONLESS, stop="rigid stop", most=1.0),
         Parameter("stiffness", STIFFNESS, "stiffness of the isolator", *_isolator("stiffness")),
@@ -323,7 +330,7 @@ PARAMETERS: dict[str, Parameter] = {
             "stiffness_ratio",
             DIMENSIONLESS,
             "stiffness ratio of the bumpers",
-            *_stiffness_ratio(),
+            *_in_proportion(lambda rig: rig.isolator.stiffness),
             False,
             "K_j / K",
         ),
@@ -352,5 +359,5 @@ PARAMETERS: dict[str, Parameter] = {
         ),
     )
 }
-"""By name. `bumper_stiffness` keeps the bumpers' damping, `stiffness_ratio` their C_j/K_j, the
-other ratios keep what else they are made of."""
+"""By name. `bumper_stiffness` keeps the bumpers' damping C_j, `proportional_stiffness` and
+`stiffness_ratio` keep their C_j/K_j, the other ratios keep what else they are made of."""

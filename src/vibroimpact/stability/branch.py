@@ -50,8 +50,8 @@ def branch(
         What is varied: "frequency", "amplitude", "force" (constant); "gap", "bumper_stiffness",
         "bumper_damping" or "restitution" of both sides, "right_gap", "left_gap",
         "right_stiffness" and so on of one; "stiffness" and "damping" of the isolator,
-        "stiffness_ratio" (λ, the bumpers' C_j/K_j kept), "gap_ratio" (δ0), "relaxation_time" (τ)
-        or "damping_ratio" (ξ).
+        "proportional_stiffness" and "stiffness_ratio" (λ) of the bumpers at a fixed C_j/K_j,
+        "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
     low, high
         Range of the parameter, in SI units or as text.
     period
