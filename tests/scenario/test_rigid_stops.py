@@ -52,7 +52,7 @@ def test_nodes_change_what_each_stop_has() -> None:
     assert rig.left.stiffness == pytest.approx(30.0)
     assert rig.left.gap == pytest.approx(0.5)
     rig = Base(both, SINE).rig({"gap": 0.1, "proportional_stiffness": 30.0}).oscillator
-    assert (rig.right, rig.left) == (vi.RigidStop(0.6, 0.1), vi.Bumper(30.0, 0.4 * 1.5, 0.1))
+    assert (rig.right, rig.left) == (vi.RigidStop(0.6, 0.1), vi.Bumper(30.0, 0.6, 0.1))
 
 
 @pytest.mark.parametrize("name", ["bumper_stiffness", "proportional_stiffness", "relaxation_time"])
