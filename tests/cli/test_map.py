@@ -58,12 +58,12 @@ def test_without_the_border(run):
 
 
 def test_physical_axes_of_a_case(run, tmp_path):
-    words = ("--x", "gap", "5mm:15mm:3", "--y", "bumper-stiffness", "100kN/m:1MN/m:log:3")
+    words = ("--x", "gap", "5mm:15mm:3", "--y", "proportional-stiffness", "100kN/m:1MN/m:log:3")
     code, out, _ = run("B2-G1-A3", *words, "--refine", "0", *STEP, "--json")
     assert code == 0
     data = xr.open_zarr(tmp_path / json.loads(out)["files"]["data"], consolidated=False)
     np.testing.assert_allclose(data["gap"], [0.005, 0.01, 0.015])
-    np.testing.assert_allclose(data["bumper_stiffness"], [1e5, 10**5.5, 1e6])
+    np.testing.assert_allclose(data["proportional_stiffness"], [1e5, 10**5.5, 1e6])
 
 
 def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):

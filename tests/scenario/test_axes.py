@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.scenario.axes import Base, axis, check_pair, logarithmic
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.scenario.axes import NAMES, Base, axis, check_pair, logarithmic
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SINE = vi.Harmonic(CASE.amplitude, 1.0)
@@ -14,8 +15,8 @@ BASE = Base(CASE.oscillator, SINE)
 
 
 def test_physical_parameters():
-    """Of a bumper's stiffness C_j/K_j is kept, as the paper assumes (Section 7)."""
-    rig = BASE.rig({"bumper_stiffness": 680e3, "gap": 9e-3})
+    """A proportional stiffness keeps C_j/K_j, as the paper assumes (Section 7)."""
+    rig = BASE.rig({"proportional_stiffness": 680e3, "gap": 9e-3})
     assert rig.shaken == SINE
     for side in (rig.oscillator.right, rig.oscillator.left):
         assert side.stiffness == 680e3
@@ -23,6 +24,27 @@ def test_physical_parameters():
         ratio = CASE.oscillator.right.damping / CASE.oscillator.right.stiffness
         assert side.damping / side.stiffness == pytest.approx(ratio, rel=1e-14)
     assert BASE.rig({"amplitude": 0.3}) == (CASE.oscillator, vi.Harmonic(0.3, 1.0))
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "damping_ratio"])
+def test_a_name_means_in_maps_what_it_means_along_branches(name):
+    varied = PARAMETERS[name]
+    oscillator = CASE.oscillator
+    if name == "restitution":
+        oscillator = oscillator.replace(left=vi.RigidStop(0.5, oscillator.left.gap))
+        assert Base(oscillator, SINE).rig({name: 0.7}).oscillator.left.restitution == 0.7
+        return
+    value = 1.3 * varied.read(oscillator, SINE)
+    assert Base(oscillator, SINE).rig({name: value}) == varied.write(oscillator, SINE, value)
+
+
+def test_a_stiffness_keeps_the_dashpot_and_a_proportional_one_the_relaxation_time():
+    stiffness = 2.0 * CASE.oscillator.right.stiffness
+    alone = BASE.rig({"bumper_stiffness": stiffness}).oscillator.right
+    scaled = BASE.rig({"proportional_stiffness": stiffness}).oscillator.right
+    assert alone.stiffness == scaled.stiffness == stiffness
+    assert alone.damping == CASE.oscillator.right.damping
+    assert scaled.damping == pytest.approx(2.0 * alone.damping, rel=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -144,7 +144,11 @@ def test_a_physical_map_agrees_with_the_dimensionless_one():
     stiffness = [ratio * case.oscillator.isolator.stiffness for ratio in X[1][2:]]
     gaps = [ratio * peak for ratio in Y[1][1:4]]
     data = vi.scenario_map(
-        ("bumper_stiffness", stiffness), ("gap", gaps), rig_of(case), step=OPTIONS["step"], block=2
+        ("proportional_stiffness", stiffness),
+        ("gap", gaps),
+        rig_of(case),
+        step=OPTIONS["step"],
+        block=2,
     )
     scaled = small().isel(gap_ratio=slice(2, 7, 2), stiffness_ratio=slice(4, 7, 2))
     np.testing.assert_array_equal(data["scenario"], scaled["scenario"])

@@ -51,11 +51,11 @@ def test_nodes_change_what_each_stop_has() -> None:
     assert rig.right.gap == pytest.approx(0.5 * PEAK)
     assert rig.left.stiffness == pytest.approx(30.0)
     assert rig.left.gap == pytest.approx(0.5)
-    rig = Base(both, SINE).rig({"gap": 0.1, "bumper_stiffness": 30.0}).oscillator
-    assert (rig.right, rig.left) == (vi.RigidStop(0.6, 0.1), vi.Bumper(30.0, 0.4 * 1.5, 0.1))
+    rig = Base(both, SINE).rig({"gap": 0.1, "proportional_stiffness": 30.0}).oscillator
+    assert (rig.right, rig.left) == (vi.RigidStop(0.6, 0.1), vi.Bumper(30.0, 0.6, 0.1))
 
 
-@pytest.mark.parametrize("name", ["bumper_stiffness", "stiffness_ratio", "relaxation_time"])
+@pytest.mark.parametrize("name", ["bumper_stiffness", "proportional_stiffness", "relaxation_time"])
 def test_a_rigid_stop_has_no_stiffness_to_map_over(name: str) -> None:
     axes = (name, [1.0, 2.0]), ("gap_ratio", [0.5, 1.0])
     with pytest.raises(vi.InputError, match=f"^base: '{name}' is that of bumpers, but every stop"):

@@ -45,7 +45,8 @@ def scenario_map(
             show_default=False,
             help=(
                 "Parameter and range, NAME LOW:HIGH[:log][:NODES], 21 nodes if none are given. "
-                "Physical: gap, amplitude, bumper-stiffness; dimensionless: stiffness-ratio, "
+                "Physical: gap, amplitude, bumper-stiffness, proportional-stiffness (at a fixed "
+                "C/K); dimensionless: stiffness-ratio, "
                 "gap-ratio, relaxation-time, damping-ratio, restitution. "
                 "stiffness-ratio 0.5:100:log."
             ),
@@ -90,7 +91,7 @@ def scenario_map(
     For example:
 
         vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
-        vibroimpact map B2-G1-A3 --x gap 2mm:20mm:10 --y bumper-stiffness 50kN/m:2MN/m:log
+        vibroimpact map B2-G1-A3 --x gap 2mm:20mm:10 --y proportional-stiffness 50kN/m:2MN/m:log
         vibroimpact map --x stiffness-ratio 1:100:log:41 --y damping-ratio 0.05:0.3 --refine 1
     """
     from vibroimpact.cli.output import output_folder, progress_bar, tell
@@ -191,6 +192,8 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     walls = [stop for stop in stops if isinstance(stop, RigidStop)]
     for pair in ONE_QUANTITY:
         varied |= pair if varied & pair else set()
+    if any(name == "bumper_stiffness" for name, *_ in axes):
+        varied.add("relaxation_time")  # the damping is held
     rest = {
         "restitution": ("e =", [f"{stop.restitution:.3g}" for stop in walls]),
         "relaxation_time": (
@@ -202,7 +205,10 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     if any(PARAMETERS[name].physical for name, *_ in axes):
         quantities = {
             "gap": ("gap", [pretty(stop.gap, LENGTH) for stop in stops]),
-            "bumper_stiffness": ("bumpers", [pretty(b.stiffness, STIFFNESS) for b in bumpers]),
+            "proportional_stiffness": (
+                "bumpers",
+                [pretty(b.stiffness, STIFFNESS) for b in bumpers],
+            ),
             "amplitude": (_SYMBOLS[shaken.of], [pretty(shaken.amplitude, shaken.quantity)]),
             **rest,
         }

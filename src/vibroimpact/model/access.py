@@ -62,9 +62,9 @@ def bumpers(name: str) -> tuple[Read, Write]:
 
     def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         changed = {
-            side: bumper.replace(**{name: value})
-            for side, bumper in (("right", rig.right), ("left", rig.left))
-            if bumper is not None
+            side: stop.replace(**{name: value})
+            for side, stop in (("right", rig.right), ("left", rig.left))
+            if stop is not None and name in type(stop).model_fields
         }
         return rig.replace(**changed), shaken
 
@@ -116,25 +116,24 @@ def forcing(name: str) -> tuple[Read, Write]:
     )
 
 
-def _spring(rig: Oscillator, name: str) -> float:
+def spring(rig: Oscillator, name: str) -> float:
     """The isolator's K, for a ratio that only linear laws have."""
     rig.check_linear(f"{name!r}")
     return rig.isolator.initial_stiffness
 
 
-def stiffness_ratio() -> tuple[Read, Write]:
-    """λ = K_j/K at a fixed relaxation time C_j/K_j."""
+def in_proportion(unit: Callable[[Oscillator], float]) -> tuple[Read, Write]:
+    """The bumpers' stiffness over a unit, at a fixed relaxation time C_j/K_j."""
     stiffness_of, _ = bumpers("stiffness")
 
     def read(rig: Oscillator, shaken: Repeated) -> float:
-        spring = _spring(rig, "stiffness_ratio")
-        return stiffness_of(rig, shaken) / spring
+        return stiffness_of(rig, shaken) / unit(rig)
 
     def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
         changed = {}
         for side, bumper in (("right", rig.right), ("left", rig.left)):
             if isinstance(bumper, Bumper):
-                stiffness = value * _spring(rig, "stiffness_ratio")
+                stiffness = value * unit(rig)
                 time = bumper.damping / bumper.stiffness
                 changed[side] = bumper.replace(stiffness=stiffness, damping=stiffness * time)
         return rig.replace(**changed), shaken

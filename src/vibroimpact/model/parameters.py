@@ -211,6 +211,13 @@ PARAMETERS: dict[str, Parameter] = {
             for side in ("right", "left")
         ),
         *_of_stops("stiffness", "bumper_stiffness", STIFFNESS, False, powers=True),
+        Parameter(
+            "proportional_stiffness",
+            STIFFNESS,
+            "stiffness of both bumpers, their damping in proportion",
+            *access.in_proportion(lambda rig: 1.0),
+            False,
+        ),
         *_of_stops("damping", "bumper_damping", DAMPING),
         *_of_stops("restitution", "restitution", DIMENSIONLESS, stop="stop", most=1.0),
         *_of_stops("exponent", "bumper_exponent", DIMENSIONLESS, False, least=1.0),
@@ -236,7 +243,7 @@ PARAMETERS: dict[str, Parameter] = {
             "stiffness_ratio",
             DIMENSIONLESS,
             "stiffness ratio of the bumpers",
-            *access.stiffness_ratio(),
+            *access.in_proportion(lambda rig: access.spring(rig, "stiffness_ratio")),
             False,
             "K_j / K",
         ),
@@ -265,5 +272,5 @@ PARAMETERS: dict[str, Parameter] = {
         ),
     )
 }
-"""By name. `bumper_stiffness` keeps the bumpers' damping, `stiffness_ratio` their C_j/K_j, the
-other ratios keep what else they are made of."""
+"""By name. `bumper_stiffness` keeps the bumpers' damping C_j, `proportional_stiffness` and
+`stiffness_ratio` keep their C_j/K_j, the other ratios keep what else they are made of."""

@@ -12,15 +12,13 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
     Bumper,
-    Dimensionless,
     Harmonic,
-    Model,
     Oscillator,
     RigidStop,
-    to_dimensionless,
     to_si,
 )
 from vibroimpact.model.access import scale_of
+from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.parameters import PARAMETERS, parameter
 from vibroimpact.model.rigs import as_shaking
@@ -32,6 +30,7 @@ NAMES = (
     "gap",
     "amplitude",
     "bumper_stiffness",
+    "proportional_stiffness",
     "restitution",
     "stiffness_ratio",
     "gap_ratio",
@@ -40,18 +39,15 @@ NAMES = (
 )
 """Parameters over which a map can be drawn; lengths and stiffnesses are those of each side."""
 
-ONE_QUANTITY = ({"gap", "gap_ratio"}, {"bumper_stiffness", "stiffness_ratio"})
-"""Pairs that say the same."""
+ONE_QUANTITY = (
+    {"gap", "gap_ratio"},
+    {"proportional_stiffness", "stiffness_ratio"},
+    {"bumper_stiffness", "stiffness_ratio"},
+    {"bumper_stiffness", "proportional_stiffness"},
+)
+"""Pairs that say the same of one rig."""
 
-_OF_BUMPERS = ("bumper_stiffness", "stiffness_ratio", "relaxation_time")
-_OF_STOPS = {
-    "gap": "gap",
-    "restitution": "restitution",
-    "stiffness_ratio": "stiffness_ratio",
-    "gap_ratio": "gap",
-    "relaxation_time": "relaxation_time",
-}
-"""Fields of a stop, or of its dimensionless twin, by parameter."""
+_OF_BUMPERS = ("bumper_stiffness", "proportional_stiffness", "stiffness_ratio", "relaxation_time")
 
 
 class Axis(NamedTuple):
@@ -189,6 +185,10 @@ def room(oscillator: Oscillator) -> dict[str, float]:
     return {side: stop.gap + shift for side, (stop, shift) in sides.items() if stop is not None}
 
 
+def _peak(oscillator: Oscillator, shaken: Harmonic) -> float:
+    return peak_displacement(oscillator, scale_of(oscillator, shaken))
+
+
 class Base(NamedTuple):
     """The rig whose other parameters all nodes share."""
 
@@ -198,10 +198,8 @@ class Base(NamedTuple):
     def rig(self, values: Mapping[str, float]) -> Shaken:
         """The rig at a node.
 
-        Physical parameters are set on both sides, where the stop has them; of the bumpers' damping
-        the relaxation time C_j/K_j is kept. Dimensionless ones are set at the base's mass,
-        isolator stiffness and amplitude: between dimensionless ones the gap ratio is kept, beside
-        a physical one the gap.
+        Parameters are set on both sides, where the stop has them, each as `PARAMETERS` does. If
+        all of them are dimensionless, the gap ratio is kept where it is not varied.
 
         Raises
         ------
@@ -209,19 +207,22 @@ class Base(NamedTuple):
             If there is no stop to set, or the base has no dimensionless parameters.
         """
         self._check(values)
-        physical = {name for name in values if PARAMETERS[name].physical or name == "restitution"}
-        rig = self._physical(values) if physical else Shaken(*self)
-        if len(physical) == len(values):
-            return rig
-        scaled = Base(*rig)._dimensionless(values)
-        if physical <= {"restitution"} or "gap_ratio" in values:
-            return scaled
-        sides = {}
-        for side in ("right", "left"):
-            stop = getattr(scaled.oscillator, side)
-            if stop is not None:
-                sides[side] = stop.replace(gap=getattr(rig.oscillator, side).gap)
-        return Shaken(scaled.oscillator.replace(**sides), scaled.shaken)
+        made = Shaken(*self)
+        # The gap ratio scales by what else is set, and the relaxation time sets the damping last.
+        for name in sorted(values, key=("relaxation_time", "gap_ratio").__contains__):
+            oscillator, shaken = PARAMETERS[name].write(*made, values[name])
+            assert isinstance(shaken, Harmonic)
+            made = Shaken(oscillator, shaken)
+        physical = any(PARAMETERS[name].physical for name in values)
+        if physical or "gap_ratio" in values or "damping_ratio" not in values:
+            return made
+        grown = _peak(*made) / _peak(*self)
+        sides = {
+            side: stop.replace(gap=grown * stop.gap)
+            for side, stop in (("right", made.oscillator.right), ("left", made.oscillator.left))
+            if stop is not None
+        }
+        return made._replace(oscillator=made.oscillator.replace(**sides))
 
     def _check(self, values: Mapping[str, float]) -> None:
         stops = self.oscillator.stops
@@ -238,41 +239,3 @@ class Base(NamedTuple):
                     "base: 'restitution' is that of rigid stops, but there is none; a rig with "
                     "one or two is accepted"
                 )
-
-    def _physical(self, values: Mapping[str, float]) -> Shaken:
-        changes: dict[str, Model] = {}
-        for side in ("right", "left"):
-            stop = getattr(self.oscillator, side)
-            if stop is None:
-                continue
-            stop = _with(stop, {k: values[k] for k in ("gap", "restitution") if k in values})
-            if isinstance(stop, Bumper) and "bumper_stiffness" in values:
-                stiffness = values["bumper_stiffness"]
-                damping = stop.damping * (stiffness / stop.stiffness)
-                stop = stop.replace(stiffness=stiffness, damping=damping)
-            changes[side] = stop
-        size = values.get("amplitude", self.shaken.amplitude)
-        return Shaken(self.oscillator.replace(**changes), self.shaken.replace(amplitude=size))
-
-    def _dimensionless(self, values: Mapping[str, float]) -> Shaken:
-        scale = scale_of(self.oscillator, self.shaken)
-        group = to_dimensionless(self.oscillator, scale)
-        own = {key: values[key] for key in _OF_STOPS if key in values and key != "gap"}
-        sides = {
-            side: None if stop is None else _with(stop, own)
-            for side, stop in (("right", group.right), ("left", group.left))
-        }
-        changed = Dimensionless(values.get("damping_ratio", group.damping_ratio), **sides)
-        made, _ = changed.to_physical(
-            mass=self.oscillator.mass,
-            stiffness=self.oscillator.isolator.initial_stiffness,
-            amplitude=scale,
-        )
-        return Shaken(made.replace(force=self.oscillator.force), self.shaken)
-
-
-def _with(stop: Any, values: Mapping[str, float]) -> Any:
-    """A stop with those of the values that it has."""
-    fields = type(stop).model_fields
-    own = {_OF_STOPS[key]: value for key, value in values.items() if _OF_STOPS[key] in fields}
-    return stop.replace(**own)

@@ -54,7 +54,7 @@ def scenario_map(
     x, y
         Name and rising values of a parameter. Physical: ``"gap"`` (m, of each side),
         ``"amplitude"`` (in the unit of the base's), ``"bumper_stiffness"`` (N/m, at the base's
-        C_j/K_j).
+        damping C_j), ``"proportional_stiffness"`` (N/m, at the base's C_j/K_j).
         Dimensionless: ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ,
         ``"damping_ratio"`` ξ, ``"restitution"`` e. They are set on both sides alike, where the
         stop has them: a rigid one has only a gap and a restitution. Between dimensionless ones

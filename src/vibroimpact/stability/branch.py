@@ -51,9 +51,9 @@ def branch(
         "bumper_damping" or "restitution" of both sides, "right_gap", "left_gap",
         "right_stiffness" and so on of one; "stiffness", "damping" and whatever other number the
         isolator has, such as "yield_force"; what other numbers the stops have, such as
-        "dissipation", "bumper_exponent" or "bumper_mass";
-        "stiffness_ratio" (λ, the bumpers' C_j/K_j kept), "gap_ratio" (δ0), "relaxation_time" (τ)
-        or "damping_ratio" (ξ).
+        "dissipation", "bumper_exponent" or "bumper_mass"; "proportional_stiffness" and
+        "stiffness_ratio" (λ) of the bumpers at a fixed C_j/K_j, "gap_ratio" (δ0),
+        "relaxation_time" (τ) or "damping_ratio" (ξ).
     low, high
         Range of the parameter, in SI units or as text.
     period
