@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, hold
+from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.equilibrium import equilibrium
@@ -43,7 +44,7 @@ def swept_flight(
     """
     free = oscillator.without_bumpers()
     results = np.empty((len(frequencies), hold.RESULTS))
-    states = np.zeros((len(frequencies), batch.STATE))
+    states = np.zeros((len(frequencies), layout.STATE))
     state = engine_state(free, equilibrium(free))
     batch.sweep(
         engine_rig(free, shaken),

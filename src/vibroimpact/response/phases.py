@@ -285,6 +285,7 @@ def view(parts: Phases) -> NDArray[np.int64]:
 
 def measured(origin: Recorded[Any], parts: Phases, side: NDArray[np.int64] | None = None) -> _Array:
     """Measure phases: rows of `engine.measure`, per unit mass, as the stop on a side sees them."""
+    origin.oscillator.check_linear("phases measured one by one")
     side = view(parts) if side is None else side
     both = parts.contact == 2
     mode = np.select(

@@ -51,6 +51,7 @@ def stroboscopic_section(
         If the dataset is not that of a motion with samples, or a value cannot be used.
     """
     origin = recorded(motion)
+    origin.oscillator.check_linear("growth of disturbances, which is written beside each point")
     angle = to_si(phase, ANGLE, "phase")
     count = max(1, math.floor(origin.cycles)) if cycles is None else whole(cycles, "cycles")
     start = beginning(motion)

@@ -72,6 +72,7 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
+    oscillator.check_linear("growth of disturbances")
     varied = parameter(name, of=excitation.of).of(oscillator)
     value = varied.read(oscillator, excitation)
     step = varied.beside(value) - value

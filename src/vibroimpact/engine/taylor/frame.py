@@ -127,7 +127,7 @@ def pushing(push: Push, deformation: float, closing: float) -> float:
         return 0.0
     force = push.stiffness * deformation**push.exponent * (1.0 + push.dissipation * closing)
     force += push.viscous * math.sqrt(math.sqrt(deformation)) * closing
-    return max(force, 0.0)
+    return max(force, 0.0)  # type: ignore[no-any-return]
 
 
 @kernel
@@ -168,7 +168,7 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
         return a
     if stuck(plan, motion):
         return 0.0
-    return a - plan[par.FRICTION] * way_of(plan, motion)
+    return a - plan[par.FRICTION] * way_of(plan, motion)  # type: ignore[no-any-return]
 
 
 @kernel
@@ -213,4 +213,4 @@ def face(plan: Vector, motion: Motion, side: int) -> float:
     if not motion.mode & side:
         return 0.0
     gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
-    return max((motion.u if side == RIGHT else -motion.u) - gap, 0.0)
+    return max((motion.u if side == RIGHT else -motion.u) - gap, 0.0)  # type: ignore[no-any-return]

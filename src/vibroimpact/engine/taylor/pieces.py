@@ -115,7 +115,7 @@ def unit_of(plan: Vector, motion: Motion, frame: Frame, laws: Laws, x: float) ->
     for push, deformation in ((laws.push, x), (laws.other, laws.apart - x)):
         if push.stiffness != 0.0:
             k += push.stiffness * push.exponent * deformation ** (push.exponent - 1.0)
-    return 1.0 / (math.sqrt(k) + frame.damping + pace(plan) + 1e-300)
+    return 1.0 / (math.sqrt(k) + frame.damping + pace(plan) + 1e-300)  # type: ignore[no-any-return]
 
 
 @kernel
@@ -208,8 +208,8 @@ def clock_at(plan: Vector, clock: Clock, y: float) -> Clock:
     """The clock y pieces behind the step's start."""
     angle = plan[HEADER + SCALED_W] * y
     if abs(angle) < _SMALL:
-        return turn(plan, clock[0], clock[1], angle)
-    return turned(plan, clock[0], clock[1], y * plan[HEADER + H])
+        return turn(plan, clock[0], clock[1], angle)  # type: ignore[no-any-return]
+    return turned(plan, clock[0], clock[1], y * plan[HEADER + H])  # type: ignore[no-any-return]
 
 
 @kernel
@@ -327,7 +327,7 @@ def accelerated(plan: Vector, cursor: Cursor, s: float, c: float, series: Vector
     plan[ASKED + DEGREE - 1] = 0.0
     plan[ASKED + DEGREE] = 0.0
     shifted(plan, ASKED, 2 * cursor.i + 1, series)
-    return 1.0 / square
+    return 1.0 / square  # type: ignore[no-any-return]
 
 
 @kernel

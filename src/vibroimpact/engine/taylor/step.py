@@ -115,7 +115,7 @@ def pressed(
     if push.viscous != 0.0:
         raised_to(plan, deformation, 0.25, into + ROOM, n)
         force += sign * push.viscous / unit * pushed(plan, into + ROOM, n)
-    return force * unit * unit
+    return force * unit * unit  # type: ignore[no-any-return]
 
 
 class Laws(NamedTuple):
