@@ -17,6 +17,9 @@ series elsewhere. Each is a folder whose modules have these kernels:
     isolator_force(plan, u, v, z)           what the isolator pulls back with, per unit mass
     springs(plan, motion)                   its tangent stiffness, per unit mass
     face(plan, motion, side)                how far a stop is deformed (m)
+
+    carry(plan, stretch, q, rows)           disturbances through a stretch, and what is lost
+    start_growth(…), grow(plan, notes, …)   two of them, for the exponents
 """
 
 from __future__ import annotations
@@ -77,3 +80,6 @@ isolator_force = _by_flow("isolator_force")
 springs = _by_flow("springs")
 face = _by_flow("face")
 coordinate = _by_flow("coordinate")
+carry = _by_flow("carry")
+grow = _by_flow("grow")
+start_growth = _by_flow("start_growth")

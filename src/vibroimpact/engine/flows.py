@@ -24,12 +24,16 @@ from vibroimpact.engine.dispatch import answer
 from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import OPTIONS, Vector
 from vibroimpact.engine.linear import advance as linear_advance
+from vibroimpact.engine.linear import carry as linear_carry
 from vibroimpact.engine.linear import forces, pieces, tables
+from vibroimpact.engine.linear import growth as linear_growth
 from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
 from vibroimpact.engine.motion import Motion
+from vibroimpact.engine.taylor import carry as taylor_carry
 from vibroimpact.engine.taylor import frame
+from vibroimpact.engine.taylor import growth as taylor_growth
 from vibroimpact.engine.taylor import pieces as taylor_pieces
 from vibroimpact.engine.taylor import plan as taylor_plan
 from vibroimpact.engine.taylor.advance import advance_taylor
@@ -98,8 +102,8 @@ _CURVED: dict[float, type] = {
     par.RAMP: CurvedRecorded,
 }
 
-answer(False, tables, linear_advance, forces, pieces)
-answer(True, taylor_plan, frame, taylor_pieces)
+answer(False, tables, linear_advance, forces, pieces, linear_carry, linear_growth)
+answer(True, taylor_plan, frame, taylor_pieces, taylor_carry, taylor_growth)
 
 
 def _flow(rig: Vector) -> type:

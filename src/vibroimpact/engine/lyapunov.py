@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from vibroimpact.engine.dispatch import build, stiff_rate, too_much_work
+from vibroimpact.engine.dispatch import build, start_growth, stiff_rate, too_much_work
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
@@ -14,13 +14,13 @@ from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer, workspace
 from vibroimpact.engine.motion import finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.growth import Growth, begin
+from vibroimpact.engine.observers.growth import Growth
 from vibroimpact.engine.observers.tangent import Tangent, unit_disturbances
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
 # the damping, and the state at the section behind the cycle.
 FIRST, SECOND, DISSIPATION, SECTION = range(4)
-GROWTH = SECTION + 4
+GROWTH = SECTION + 5
 
 
 @entry("UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[::1], i8, i8, i8, f8[:, ::1])")
@@ -64,7 +64,7 @@ def growth(
     weight = stiff_rate(plan)
     q = workspace()
     w = workspace()
-    begin(q, w, weight, motion.mode)
+    start_growth(plan, q, w, weight, motion.mode)
     outcome = DONE
     number = -transient - discard
     while outcome == DONE and number < len(out):
@@ -81,6 +81,7 @@ def growth(
                 row[DISSIPATION] = notes.dissipation
                 row[SECTION], row[SECTION + 1] = motion.u, motion.v
                 row[SECTION + 2], row[SECTION + 3] = motion.right, -motion.left
+                row[SECTION + 4] = motion.z
         if events > max_events:
             outcome = TOO_MANY_EVENTS
         elif not finite(motion):
@@ -133,7 +134,7 @@ def monodromy(
     clock = (math.sin(phase), math.cos(phase))
     motion = unpacked(state, clock)
     q = pointer(columns)
-    unit_disturbances(motion.mode, q)
+    unit_disturbances(plan, motion.mode, q)
     damping[0] = 0.0
     done = 0
     while outcome == DONE and done < cycles:

@@ -244,7 +244,7 @@ def correct(
     scale : ndarray, shape (POINT,)
         Sizes by which the components are compared.
     tangent : ndarray, shape (POINT,)
-        Normal of the plane, in scaled components; (0, 0, 0, 0, 1) holds the parameter.
+        Normal of the plane, in scaled components; (0, 0, 0, 0, 0, 1) holds the parameter.
     point : ndarray, shape (POINT,)
         Where to begin; the solution.
     facts : ndarray, shape (FACTS,)
@@ -325,7 +325,9 @@ def measure_orbit(
     plan = planned(given, system)
     build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
     clock = (math.sin(phase), math.cos(phase))
-    motion = placed(plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], clock)
+    motion = placed(
+        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], point[4], clock
+    )
     period = 1.0 / system[FREQUENCY]
     outcome, _ = measure(plan, motion, clock, period, cycles, max_events, pointer(result))
     return outcome
@@ -369,7 +371,9 @@ def grazing_margin(
     if too_much_work(plan, period):
         return math.nan
     clock = (math.sin(phase), math.cos(phase))
-    motion = placed(plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], clock)
+    motion = placed(
+        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], point[4], clock
+    )
     notes = Margin(math.inf)
     for _ in range(cycles):
         events, motion, notes = cycle(plan, motion, clock, period, max_events, notes)

@@ -22,7 +22,7 @@ AMPLITUDE = par.SIZE
 FREQUENCY = par.SIZE + 1
 SYSTEM = par.SIZE + 2
 
-# A point: the state u, u̇, u_R, u_L (signed as in the paper), then the parameter.
+# A point: the state u, u̇, u_R, u_L (signed as in the paper), z, then the parameter.
 PARAMETER = DISTURBANCE
 POINT = DISTURBANCE + 1
 
@@ -54,7 +54,14 @@ def system_plan(base: Vector, direction: Vector, p: float, plan: Vector, system:
 
 @kernel
 def placed(
-    plan: Vector, mode: int, u: float, v: float, right: float, left: float, clock: Clock
+    plan: Vector,
+    mode: int,
+    u: float,
+    v: float,
+    right: float,
+    left: float,
+    z: float,
+    clock: Clock,
 ) -> Motion:
     """The nearest state that can be: no mass inside a bumper, no bumper that pulls.
 
@@ -76,6 +83,11 @@ def placed(
                 u = sign * plan[at + par.GAP]
             if mode & side and reach >= 0.0 and v == 0.0:
                 found |= side
+        elif kind != par.KELVIN_VOIGT:
+            if reach > 0.0 or (reach == 0.0 and mode & side):
+                found |= side
+            else:
+                deformation = 0.0
         else:
             if mode & side or reach > deformation:
                 force = plan[at + par.BUMPER_STIFFNESS] * reach
@@ -89,7 +101,8 @@ def placed(
             right = deformation
         else:
             left = deformation
-    return Motion(found, found, u, v, right, left, 0.0, 0.0, clock)
+    z = min(max(z, -plan[par.YIELD]), plan[par.YIELD])
+    return Motion(found, found, u, v, right, left, z, 0.0, clock)
 
 
 @kernel
@@ -113,13 +126,15 @@ def section_map(
         if not abs(point[i]) < 1e200:
             return NOT_FINITE
     clock = (math.sin(phase), math.cos(phase))
-    motion = placed(plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], clock)
-    point[2], point[3] = motion.right, -motion.left
+    motion = placed(
+        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], point[4], clock
+    )
+    point[2], point[3], point[4] = motion.right, -motion.left, motion.z
     facts[MODE] = motion.mode
     period = (0.5 if mirror else 1.0) / system[FREQUENCY]
     if too_much_work(plan, period):
         return TOO_MUCH_WORK
-    unit_disturbances(motion.mode, q)
+    unit_disturbances(plan, motion.mode, q)
     facts[CONTACTS_RIGHT], facts[CONTACTS_LEFT], facts[DAMPING] = 0.0, 0.0, 0.0
     for _ in range(count):
         notes = Tangent(q, 0.0, 0, 0)
@@ -135,7 +150,9 @@ def section_map(
                 at = i * DISTURBANCE
                 q[at], q[at + 1] = -q[at], -q[at + 1]
                 q[at + 2], q[at + 3] = -q[at + 3], -q[at + 2]
+                q[at + 4] = -q[at + 4]
     image[0], image[1], image[2], image[3] = motion.u, motion.v, motion.right, -motion.left
+    image[4] = motion.z
     if motion.mode != FLIGHT:
         facts[MODE] = motion.mode
     return DONE

@@ -51,7 +51,6 @@ def stroboscopic_section(
         If the dataset is not that of a motion with samples, or a value cannot be used.
     """
     origin = recorded(motion)
-    origin.oscillator.check_linear("growth of disturbances, which is written beside each point")
     angle = to_si(phase, ANGLE, "phase")
     count = max(1, math.floor(origin.cycles)) if cycles is None else whole(cycles, "cycles")
     start = beginning(motion)
@@ -69,7 +68,8 @@ def stroboscopic_section(
     points = np.empty((0, len(_NAMES)))
     if status is Status.DONE:
         status, rows = grown(rig, shaken.replace(phase=angle), state, count, _MAX_EVENTS)
-        points = np.vstack([first, rows[:, lyapunov.SECTION :]])[:count]
+        known = rows[:, lyapunov.SECTION :][:, : len(_NAMES)]
+        points = np.vstack([first, known])[:count]
     if len(points) < count:
         warnings.warn(
             f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}",

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.continuation.zero import between_zeros, zero_within
 from vibroimpact.engine import section_map
+from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import SEEN, Orbit, corrected, is_fixed
 from vibroimpact.stability.parents import half_plus, parent, slid
@@ -86,14 +87,14 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
                 GRAZING,
                 exact.orbit,
                 exact.arclength,
-                bool(here.tangent[4] * there.tangent[4] < 0.0),
+                bool(here.tangent[PARAMETER] * there.tangent[PARAMETER] < 0.0),
                 other.orbit.contacts,
             )
             continue
         met = parent(here.orbit, there.orbit)
         for kind, function in _tests(here):
             if kind == FOLD:  # the tangents are known
-                first, second = float(here.tangent[4]), float(there.tangent[4])
+                first, second = float(here.tangent[PARAMETER]), float(there.tangent[PARAMETER])
             else:
                 first, second = function(here.orbit), function(there.orbit)
             # A zero at the end belongs to the next step.
@@ -116,13 +117,13 @@ def _between_folds(stations: list[Station]) -> Iterator[Station]:
     for here, there in itertools.pairwise(stations):
         yield here
         ends, step = (
-            (float(here.tangent[4]), float(there.tangent[4])),
+            (float(here.tangent[PARAMETER]), float(there.tangent[PARAMETER])),
             there.arclength - here.arclength,
         )
         if here.piece != there.piece or ends[0] * ends[1] <= 0.0 or not step > 0.0:
             continue
         (_, fold), *_ = _tests(here)
-        mean = (there.orbit.value - here.orbit.value) / here.orbit.section.scale[4] / step
+        mean = (there.orbit.value - here.orbit.value) / here.orbit.section.scale[PARAMETER] / step
         met = between_zeros(ends, mean, step, partial(solved, here), fold)
         if met is not None:
             tangent = met[0].tangent(here.tangent)
@@ -134,7 +135,7 @@ def _tests(here: Station) -> list[tuple[str, Callable[[Orbit], float]]]:
     along = here.tangent
     doubling = BREAKING if here.orbit.section.mirror else DOUBLING
     return [
-        (FOLD, lambda orbit: float(orbit.tangent(along)[4])),
+        (FOLD, lambda orbit: float(orbit.tangent(along)[PARAMETER])),
         (doubling, half_plus),
         (NEIMARK, spiral),
     ]
@@ -184,7 +185,7 @@ def born(found: Bifurcation) -> Iterator[Station]:
     else:
         return
     values, vectors = np.linalg.eig(found.orbit.carried.T)
-    vector = np.real(vectors[:, np.argmin(np.abs(values + 1.0))]) / section.scale[:4]
+    vector = np.real(vectors[:, np.argmin(np.abs(values + 1.0))]) / section.scale[:PARAMETER]
     normal = np.append(vector, 0.0)
     size = float(np.linalg.norm(normal * SEEN))
     if not size > 0.0:
@@ -205,7 +206,7 @@ def born(found: Bifurcation) -> Iterator[Station]:
 def with_critical(stations: list[Station], found: list[Bifurcation]) -> list[Station]:
     """A branch with the orbits of its bifurcations among the others, where they belong."""
     added = [
-        Station(b.orbit, np.zeros(5), b.arclength, -1, critical=True)
+        Station(b.orbit, np.zeros(PARAMETER + 1), b.arclength, -1, critical=True)
         for b in found
         if b.kind != GRAZING
     ]

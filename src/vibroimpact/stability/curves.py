@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.engine.observers import record
+from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.counts import whole
@@ -162,7 +163,7 @@ def _start(
 ) -> tuple[Defining, _Array]:
     state = start["bifurcation_section"].values
     p = float(start["bifurcation_value"])
-    point = np.append(state[:4], p)
+    point = np.array([*state[:4], state[6], p])
     scale = np.append(scales(over.family, spans[0], point), spans[1][1] - spans[1][0])
     own = kind == BREAKING or bool(int(start["bifurcation_antisymmetric"]))
     mode = float(record.TOUCHING.index(state[5]))
@@ -179,7 +180,7 @@ def _dataset(
     ended: tuple[str, str],
 ) -> xr.Dataset:
     names = (over.family.parameter.name, over.other.name)
-    values = np.array([spot.y[4:] for spot in spots])
+    values = np.array([spot.y[PARAMETER:] for spot in spots])
     multipliers = np.array([spot.orbit.multipliers for spot in spots])
     sections = np.array([state_of(spot.orbit) for spot in spots])
     data = xr.Dataset(
@@ -187,8 +188,11 @@ def _dataset(
             "section": (("point", "component"), sections),
             "multiplier_real": (("point", "multiplier"), multipliers.real),
             "multiplier_imag": (("point", "multiplier"), multipliers.imag),
-            "cusp_first": ("cusp_number", np.array([c.y[4] for c in cusps], dtype=float)),
-            "cusp_second": ("cusp_number", np.array([c.y[5] for c in cusps], dtype=float)),
+            "cusp_first": ("cusp_number", np.array([c.y[PARAMETER] for c in cusps], dtype=float)),
+            "cusp_second": (
+                "cusp_number",
+                np.array([c.y[PARAMETER + 1] for c in cusps], dtype=float),
+            ),
         },
         coords={
             names[0]: ("point", values[:, 0]),

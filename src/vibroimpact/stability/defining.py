@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.bifurcations import FOLD, GRAZING, NEIMARK, spiral
 from vibroimpact.stability.fixed_points import Orbit, Section, evaluated, margin_of
@@ -15,7 +16,7 @@ from vibroimpact.stability.plane import Plane
 
 _Array = NDArray[np.float64]
 
-SEEN = np.array([1.0, 1.0, 0.0, 0.0, 1.0, 1.0])
+SEEN = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0])
 """Components of (z, p, q) by which lengths and angles are measured, as in `fixed_points`."""
 
 _FAR = 1e3  # scaled; Newton's method has lost its way
@@ -50,26 +51,32 @@ class Defining(NamedTuple):
 
     def section(self, q: float) -> Section:
         """The section's map at a value of q."""
-        return Section(self.plane.at_vectors(q), self.cycles, self.mirror, self.scale[:5])
+        return Section(
+            self.plane.at_vectors(q), self.cycles, self.mirror, self.scale[: PARAMETER + 1]
+        )
 
     def value(self, y: _Array) -> tuple[Orbit, _Array] | None:
         """The orbit that y stands for, and the residual in scaled components."""
-        if not (np.isfinite(y).all() and np.abs(y[:4] / self.scale[:4]).max() < _FAR):
+        if not (
+            np.isfinite(y).all() and np.abs(y[:PARAMETER] / self.scale[:PARAMETER]).max() < _FAR
+        ):
             return None
-        section = self.section(y[5])
-        status, orbit, image = evaluated(section, y[:5], self.mode)
+        section = self.section(y[PARAMETER + 1])
+        status, orbit, image = evaluated(section, y[: PARAMETER + 1], self.mode)
         if status is not Status.DONE or not np.isfinite(orbit.carried).all():
             return None
-        residual = np.empty(5)
-        residual[:4] = (image[:4] - orbit.point[:4]) / self.scale[:4]
-        residual[4] = self.test(orbit)
+        residual = np.empty(PARAMETER + 1)
+        residual[:PARAMETER] = (image[:PARAMETER] - orbit.point[:PARAMETER]) / self.scale[
+            :PARAMETER
+        ]
+        residual[PARAMETER] = self.test(orbit)
         return (orbit, residual) if np.isfinite(residual).all() else None
 
     def test(self, orbit: Orbit) -> float:
         """The condition φ."""
         if self.kind == FOLD:
             with np.errstate(all="ignore"):  # far from any orbit it may overflow
-                return float(np.linalg.det(orbit.carried - np.eye(4)))
+                return float(np.linalg.det(orbit.carried - np.eye(PARAMETER)))
         if self.kind == NEIMARK:
             return spiral(orbit)
         if self.kind == GRAZING:
@@ -82,8 +89,8 @@ class Defining(NamedTuple):
         if here is None:
             return None
         orbit, residual = here
-        jacobian = np.empty((5, 6))
-        jacobian[:4, :5] = orbit.jacobian
+        jacobian = np.empty((PARAMETER + 1, PARAMETER + 2))
+        jacobian[:PARAMETER, : PARAMETER + 1] = orbit.jacobian
         for j in range(6):
             for step in (_STEP, -_STEP):
                 beside = y.copy()
@@ -92,11 +99,11 @@ class Defining(NamedTuple):
                 if there is None:
                     return None
                 change = (there[1] - residual) / step
-                jacobian[4, j] = change[4]
-                if j == 5:
-                    jacobian[:4, 5] = change[:4]
+                jacobian[PARAMETER, j] = change[PARAMETER]
+                if j == PARAMETER + 1:
+                    jacobian[:PARAMETER, PARAMETER + 1] = change[:PARAMETER]
                 # The margin has a kink at grazing: its slope is that on the side of `here`.
-                if self.kind != GRAZING or there[1][4] * residual[4] > 0.0:
+                if self.kind != GRAZING or there[1][PARAMETER] * residual[PARAMETER] > 0.0:
                     break
         return Spot(y, orbit, residual, jacobian)
 
@@ -117,11 +124,11 @@ def solve(system: Defining, y: _Array, normal: _Array) -> Spot | None:
             best, spot = size, now
         if best <= _GOOD:
             return spot
-        across = now.jacobian[4] * SEEN
+        across = now.jacobian[PARAMETER] * SEEN
         across = across - (across @ plane) / (plane @ plane) * plane
-        if system.kind == GRAZING and now.residual[4] < 0.0 < across @ across:
+        if system.kind == GRAZING and now.residual[PARAMETER] < 0.0 < across @ across:
             # Behind the grazing of a rigid stop P is a square root: go on from the clear side.
-            y = y - 2.0 * now.residual[4] * across / (across @ across) * system.scale
+            y = y - 2.0 * now.residual[PARAMETER] * across / (across @ across) * system.scale
             continue
         matrix = np.vstack([now.jacobian, plane])
         right = np.append(-now.residual, -plane @ ((y - aim) / system.scale))

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine import section_map
+from vibroimpact.engine.section_map import PARAMETER
+from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.access import Setting
 from vibroimpact.model.parameters import Parameter, parameter
@@ -36,6 +38,12 @@ class Family(NamedTuple):
     base: _Array
     direction: _Array
     """The engine's system vector is base + p · direction."""
+
+    @property
+    def states(self) -> int:
+        """Components of a state: the isolator's memory is one only where it has any."""
+        remembers = self.base[par.HYSTERETIC] or self.direction[par.HYSTERETIC]
+        return PARAMETER if remembers else PARAMETER - 1
 
     @property
     def phase(self) -> float:
@@ -72,7 +80,6 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    oscillator.check_linear("growth of disturbances")
     varied = parameter(name, of=excitation.of).of(oscillator)
     value = varied.read(oscillator, excitation)
     step = varied.beside(value) - value
@@ -83,8 +90,38 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     same = here == there
     difference = np.subtract(there, here, out=np.zeros_like(here), where=~same)
     direction = difference / step
+    if here[par.CURVED]:
+        _check_straight(varied, oscillator, excitation, value, step, here, direction)
     base = np.subtract(here, value * direction, out=here.copy(), where=~same)
     return Family(varied, oscillator, excitation, value, base, direction)
+
+
+def _check_straight(
+    varied: Parameter,
+    oscillator: Oscillator,
+    excitation: Repeated,
+    value: float,
+    step: float,
+    here: _Array,
+    direction: _Array,
+) -> None:
+    """Refuse a parameter that no straight line in the engine's numbers follows.
+
+    Raises
+    ------
+    InputError
+        If there is one.
+    """
+    middle = system_vector(*varied.write(oscillator, excitation, value + 0.5 * step))
+    middle[RATES] = np.inf
+    moving = direction != 0.0
+    along = here[moving] + 0.5 * step * direction[moving]
+    if not np.allclose(middle[moving], along, rtol=1e-9, atol=0.0):
+        raise InputError(
+            f"parameter: {varied.name!r} is not followed under this law, in whose numbers it does "
+            "not count in proportion; the frequency, the amplitude, a gap, a force or another "
+            "stiffness or damping is accepted"
+        )
 
 
 def system_vector(oscillator: Oscillator, excitation: Repeated) -> _Array:

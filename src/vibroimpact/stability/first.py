@@ -111,7 +111,7 @@ def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Or
     repeats = rest.period and period % rest.period == 0
     least, status = None, Status.NOT_SETTLED
     for vector in [rest.state] if repeats else _returns(rest, begin, period):
-        point = np.array([vector[2], vector[3], vector[4], -vector[5], fam.value])
+        point = np.array([vector[2], vector[3], vector[4], -vector[5], vector[6], fam.value])
         outcome, found = _least(fam, span, period, point, float(vector[layout.MODE]))
         if outcome is not Status.DONE:
             status = outcome
@@ -211,4 +211,4 @@ def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
         abs(float(point[1])) / omega,
         _least_size(fam),
     )
-    return np.array([size, size * omega, size, size, span[1] - span[0]])
+    return np.array([size, size * omega, size, size, size, span[1] - span[0]])

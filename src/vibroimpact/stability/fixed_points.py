@@ -14,6 +14,7 @@ from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import orbit, section_map
 from vibroimpact.engine.flows import carries
+from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.model.access import Setting
 from vibroimpact.response.follow import moved_on
@@ -25,10 +26,10 @@ MAX_EVENTS = 1000
 
 _GRAZES = 1e-4
 
-HELD = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
+HELD = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 """Normal of the plane on which the parameter does not change."""
 
-SEEN = np.array([1.0, 1.0, 0.0, 0.0, 1.0])
+SEEN = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
 """Components by which lengths and angles along a branch are measured. A bumper's deformation is
 left out: at a section that passes from flight into contact it begins to move with the mass, and a
 smooth branch would have a corner.
@@ -44,7 +45,7 @@ class Section:
     """Forcing cycles; or half cycles, each followed by the mirror."""
     mirror: bool
     scale: _Array
-    """Sizes of u, u̇, u_R, u_L and the parameter."""
+    """Sizes of u, u̇, u_R, u_L, z and the parameter."""
 
     @property
     def period(self) -> int:
@@ -87,7 +88,7 @@ class Orbit:
 
     section: Section
     point: _Array
-    """u, u̇, u_R, u_L and the parameter."""
+    """u, u̇, u_R, u_L, z and the parameter."""
     facts: _Array
     """See `engine.orbit`."""
     carried: _Array
@@ -108,10 +109,16 @@ class Orbit:
         # The other half of a motion that is its own mirror image.
         return (right + left, right + left) if self.section.mirror else (right, left)
 
+    @property
+    def own(self) -> _Array:
+        """The map's derivative; of the isolator's memory only where it has one."""
+        states = self.section.family.states
+        return self.carried[:states, :states].T
+
     @cached_property
     def map_multipliers(self) -> NDArray[np.complex128]:
         """Eigenvalues of the map's derivative, the largest first."""
-        found = np.linalg.eigvals(self.carried.T).astype(complex)
+        found = np.linalg.eigvals(self.own).astype(complex)
         return found[np.argsort(-np.abs(found), kind="stable")]
 
     @property
@@ -125,7 +132,7 @@ class Orbit:
     @property
     def monodromy(self) -> _Array:
         """Derivative of the state after one period."""
-        matrix = self.carried.T
+        matrix = self.own
         return matrix @ matrix if self.section.mirror else matrix
 
     @property
@@ -135,11 +142,14 @@ class Orbit:
 
     @cached_property
     def jacobian(self) -> _Array:
-        """Derivative of P(z; p) − z in scaled components, shape (4, 5)."""
+        """Derivative of P(z; p) − z in scaled components, shape (5, 6)."""
         scale = self.section.scale
-        matrix = np.empty((4, section_map.POINT))
-        matrix[:, :4] = self.carried.T * scale[:4] / scale[:4, np.newaxis] - np.eye(4)
-        matrix[:, 4] = self.slope * scale[4] / scale[:4]
+        matrix = np.empty((PARAMETER, section_map.POINT))
+        states = scale[:PARAMETER]
+        matrix[:, :PARAMETER] = self.carried.T * states / states[:, np.newaxis] - np.eye(
+            len(states)
+        )
+        matrix[:, PARAMETER] = self.slope * scale[PARAMETER] / states
         return matrix
 
     def tangent(self, along: _Array) -> _Array:
@@ -168,7 +178,13 @@ def _blank(section: Section, point: _Array, mode: float) -> Orbit:
     """What the engine writes an orbit into."""
     facts = np.zeros(section_map.FACTS)
     facts[section_map.MODE] = mode
-    return Orbit(section, np.array(point, dtype=np.float64), facts, np.zeros((4, 4)), np.zeros(4))
+    return Orbit(
+        section,
+        np.array(point, dtype=np.float64),
+        facts,
+        np.zeros((PARAMETER, PARAMETER)),
+        np.zeros(PARAMETER),
+    )
 
 
 def corrected(
@@ -265,11 +281,12 @@ def beyond(found: Orbit, what: str, where: str) -> str:
 def vector_of(found: Orbit) -> _Array:
     """The state at the section as the engine's vector."""
     mode = float(found.facts[section_map.MODE])
-    u, v, right, left = found.point[:4]
+    u, v, right, left, z = found.point[:PARAMETER]
     state = np.zeros(layout.STATE)
     state[layout.MODE], state[layout.FRESH] = mode, mode
     state[layout.U], state[layout.V] = u, v
     state[layout.RIGHT_BUMPER], state[layout.LEFT_BUMPER] = right, -left
+    state[layout.ISOLATOR] = z
     return state
 
 
@@ -285,7 +302,8 @@ def seen_at(found: Orbit, phase: float) -> tuple[_Array, float] | None:
         if status is not Status.DONE:
             return None
     right, left = state[layout.RIGHT_BUMPER], -state[layout.LEFT_BUMPER]
-    point = np.array([state[layout.U], state[layout.V], right, left, found.value])
+    z = state[layout.ISOLATOR]
+    point = np.array([state[layout.U], state[layout.V], right, left, z, found.value])
     return point, float(state[layout.MODE])
 
 

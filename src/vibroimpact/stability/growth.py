@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
+from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.response.follow import grown
 from vibroimpact.response.start import engine_rig
@@ -23,7 +24,7 @@ _TINY = 1e-10
 
 def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int, Status]:
     """Exponents of a periodic motion from its monodromy matrix; the rest as `judge_wandering`."""
-    carried = np.empty((4, 4))
+    carried = np.empty((PARAMETER, PARAMETER))
     damping = np.empty(1)
     state = found.state.copy()
     rates = []
@@ -65,7 +66,7 @@ def _rates(carried: _Array, damping: float) -> _Array:
     lost in rounding follows from the damping over the orbit, which is that of a motion whose
     bumpers forget.
     """
-    touched = [j for j in (2, 3) if carried[:2, j].any() or carried[j, :2].any()]
+    touched = [j for j in (2, 3, 4) if carried[:2, j].any() or carried[j, :2].any()]
     kept = [0, 1, *touched]
     moduli = np.sort(np.abs(np.linalg.eigvals(carried[np.ix_(kept, kept)])))[::-1]
     with np.errstate(divide="ignore"):
@@ -93,7 +94,7 @@ def judge_wandering(
         max_events,
         discard=DISCARD,
     )
-    size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0])
+    size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0, 1.0])
     kind = judge(
         rows[:, : lyapunov.DISSIPATION],
         rows[:, lyapunov.SECTION :] / size,

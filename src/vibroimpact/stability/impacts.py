@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import section_map
+from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.model.stops import RigidStop
 from vibroimpact.stability.fixed_points import (
@@ -110,7 +111,7 @@ def _clear_of(last: Orbit, guess: _Array) -> tuple[Orbit, float] | None:
 def _closest(clear: Orbit, sense: float) -> Orbit:
     """Go on along the parameter to where the clearance vanishes: by secants from its clear side."""
     section, margin = clear.section, margin_of(clear)
-    step = 1e-8 * section.scale[4]  # towards the grazing
+    step = 1e-8 * section.scale[PARAMETER]  # towards the grazing
     for _ in range(_HALVINGS):
         point = clear.point - sense * step * HELD
         status, found = corrected(section, point, clear.facts[section_map.MODE])
@@ -140,12 +141,12 @@ def taken_up(grazing: Orbit) -> tuple[Orbit, _Array] | None:
         return None
     if np.abs(hit.jacobian).max() < _STEEP * np.abs(grazing.jacobian).max():
         return None  # it is a bumper that is met
-    kick = (image - point)[:4] / section.scale[:4]
+    kick = (image - point)[:PARAMETER] / section.scale[:PARAMETER]
     kick -= grazing.jacobian @ (-depth / size * gradient)
     matrix = np.vstack([grazing.jacobian, gradient])
     try:
         first = np.linalg.solve(matrix, np.append(-kick / math.sqrt(depth), 0.0))
-        second = np.linalg.solve(matrix, np.append(np.zeros(4), -1.0))
+        second = np.linalg.solve(matrix, np.append(np.zeros(PARAMETER), -1.0))
     except np.linalg.LinAlgError:
         return None
     along = first / float(np.linalg.norm(first * SEEN))
@@ -195,7 +196,7 @@ def _beside(orbit: Orbit, change: _Array) -> _Array:
 
 def _margin_gradient(orbit: Orbit) -> _Array:
     """How the scaled clearance changes with the point, in scaled components."""
-    section, gradient = orbit.section, np.zeros(5)
+    section, gradient = orbit.section, np.zeros(PARAMETER + 1)
     for j in np.flatnonzero(SEEN):
         ends = []
         for step in (_PROBE, -_PROBE):

@@ -50,7 +50,7 @@ def as_dataset(
     ]
     orbits = [s.orbit for _, s in stations]
     sizes = _sizes(orbits)
-    multipliers = np.array([one.multipliers for one in orbits]).reshape(-1, 4)
+    multipliers = np.array([one.multipliers for one in orbits])
     values = {
         "arclength": [s.arclength for _, s in stations],
         **sizes,
@@ -67,7 +67,7 @@ def as_dataset(
         "multiplier_real": (("point", "multiplier"), multipliers.real),
         "multiplier_imag": (("point", "multiplier"), multipliers.imag),
         "section": (("point", "component"), np.array([state_of(one) for one in orbits])),
-        **_bifurcations(followed),
+        **_bifurcations(followed, fam.states),
     }
     coordinates = {name: ("point", [one.value for one in orbits]), "component": COMPONENTS}
     data = xr.Dataset(variables, coordinates)
@@ -89,10 +89,10 @@ def as_dataset(
     )
 
 
-def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
+def _bifurcations(followed: list[Followed], states: int) -> dict[str, Any]:
     """The bifurcations as variables."""
     found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
-    multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, 4)
+    multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, states)
     sizes = _sizes([b.orbit for _, b in found])
     told = ("displacement_excursion", "eta_d", "eta_a", "eccentricity")
     values: dict[str, Any] = {
@@ -106,7 +106,7 @@ def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
         "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
         "contacts": np.array([_contacts(b) for _, b in found], dtype=str),
     }
-    states = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
+    sections = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
     return {
         **{
             f"bifurcation_{key}": ("bifurcation", np.asarray(value))
@@ -114,7 +114,7 @@ def _bifurcations(followed: list[Followed]) -> dict[str, Any]:
         },
         "bifurcation_multiplier_real": (("bifurcation", "multiplier"), multipliers.real),
         "bifurcation_multiplier_imag": (("bifurcation", "multiplier"), multipliers.imag),
-        "bifurcation_section": (("bifurcation", "component"), states),
+        "bifurcation_section": (("bifurcation", "component"), sections),
     }
 
 
@@ -129,7 +129,7 @@ def _contacts(found: Bifurcation) -> str:
 def state_of(one: Orbit) -> list[float]:
     """The state at the section as the components of a dataset's state."""
     contact = record.TOUCHING[int(one.facts[section_map.MODE])]
-    return [*one.point[:4], one.section.family.phase, contact]
+    return [*one.point[:4], one.section.family.phase, contact, one.point[4]]
 
 
 def _sizes(orbits: list[Orbit]) -> dict[str, _Array]:

@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from vibroimpact.continuation.arclength import distance, predicted, strays, unit_tangent
 from vibroimpact.continuation.closing import returned
 from vibroimpact.continuation.zero import zero_within
+from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.stability.defining import SEEN, Defining, Spot, solve
 from vibroimpact.stability.fixed_points import beyond, images, seen_at
 from vibroimpact.stability.trace import CLOSED, PHASES
 
 _Array = NDArray[np.float64]
 
-_PARAMETERS = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
+_PARAMETERS = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,11 +82,11 @@ class Locus:
         """See `Path`."""
         over = here.system.plane
         for i, (low, high) in enumerate(self.spans):
-            value = there.y[4 + i]
+            value = there.y[PARAMETER + i]
             if not low <= value <= high:
                 bound = low if value < low else high
                 name = (over.family.parameter, over.other)[i].name
-                return self._on_bound(here, there, 4 + i, bound), (
+                return self._on_bound(here, there, PARAMETER + i, bound), (
                     f"the range of {name} ends at {bound:.9g}"
                 )
         return ([there], CLOSED) if self._returned(here, there) else None
@@ -117,11 +118,11 @@ class Locus:
         if start is None:
             return []
         point, mode = start
-        parameters = self.first.y[4:]
-        here = system._replace(mode=mode).value(np.append(point[:4], parameters))
+        parameters = self.first.y[PARAMETER:]
+        here = system._replace(mode=mode).value(np.append(point[:PARAMETER], parameters))
         found: list[tuple[_Array, _Array]] = []
         for image, mode in () if here is None else images(here[0], mirrored=False):
-            y = np.append(image[:4], parameters)
+            y = np.append(image[:PARAMETER], parameters)
             spot = system._replace(mode=mode).spot(y)
             if spot is None:
                 break
@@ -143,7 +144,7 @@ class Locus:
                 plane=over._replace(family=over.family._replace(excitation=turned)), mode=mode
             )
             along = here.tangent * _PARAMETERS
-            spot = solve(system, np.append(point[:4], here.y[4:]), along)
+            spot = solve(system, np.append(point[:PARAMETER], here.y[PARAMETER:]), along)
             if spot is not None:
                 tangent = unit_tangent(spot.jacobian, along, SEEN)
                 return Place(system, spot, tangent, here.arclength, number + 1)
@@ -151,16 +152,19 @@ class Locus:
 
     def lost(self, here: Place) -> str:
         """See `Path`."""
-        where = ", ".join(f"{value:.9g}" for value in here.y[4:])
+        where = ", ".join(f"{value:.9g}" for value in here.y[PARAMETER:])
         return beyond(here.spot.orbit, here.system.kind, f"({where})")
 
     def cusp(self, here: Place, there: Place) -> Spot | None:
         """The point between two at which both parameters turn back, if they do."""
-        if here.phase != there.phase or here.tangent[4:] @ there.tangent[4:] >= 0.0:
+        if here.phase != there.phase or here.tangent[PARAMETER:] @ there.tangent[PARAMETER:] >= 0.0:
             return None
 
         def forwards(spot: Spot) -> float:
-            return float(unit_tangent(spot.jacobian, here.tangent, SEEN)[4:] @ here.tangent[4:])
+            return float(
+                unit_tangent(spot.jacobian, here.tangent, SEEN)[PARAMETER:]
+                @ here.tangent[PARAMETER:]
+            )
 
         length = float((there.y - here.y) / self.scale * SEEN @ here.tangent)
         found = zero_within(here.spot, length, partial(self.solved, here), forwards)

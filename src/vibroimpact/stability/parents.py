@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import section_map
+from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
     SEEN,
@@ -37,7 +38,7 @@ _SHRINKS = (0.2, 0.8)
 def half_plus(orbit: Orbit) -> float:
     """det(M + I) of an orbit's map: zero where an eigenvalue is −1."""
     with np.errstate(all="ignore"):  # far from any orbit it may overflow
-        return float(np.linalg.det(orbit.carried + np.eye(4)))
+        return float(np.linalg.det(orbit.carried + np.eye(PARAMETER)))
 
 
 def slid(found: Orbit) -> bool:
@@ -94,7 +95,7 @@ def _zero(near: Orbit, test: Callable[[Orbit], float]) -> Orbit | None:
     guess = near.point + 0.5 * near.missed[1] * section.scale
     mode = float(near.facts[section_map.MODE])
     first = float(guess[section_map.PARAMETER])
-    values = [first, first + 1e-6 * section.scale[4]]
+    values = [first, first + 1e-6 * section.scale[PARAMETER]]
     tests: list[float] = []
     point = guess.copy()
     for _ in range(30):
@@ -110,7 +111,7 @@ def _zero(near: Orbit, test: Callable[[Orbit], float]) -> Orbit | None:
         step = -tests[-1] * (values[-1] - values[-2]) / rise if rise else 0.0
         if abs(step) <= 1e-15 * abs(values[-1]):
             return found
-        if abs(values[-1] + step - first) > _REACH * section.scale[4]:
+        if abs(values[-1] + step - first) > _REACH * section.scale[PARAMETER]:
             return None
         values.append(values[-1] + step)
     return found

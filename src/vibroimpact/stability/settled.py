@@ -57,7 +57,6 @@ def approach(
     InputError
         If the start cannot be, or an undamped mass that no bumper stops is at resonance.
     """
-    oscillator.check_linear("growth of disturbances")
     tolerance = share(tolerance, "tolerance")
     check_bounded(oscillator, excitation)
     if isinstance(start, State):

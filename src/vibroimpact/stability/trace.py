@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from vibroimpact.continuation.arclength import distance, predicted, strays
 from vibroimpact.continuation.closing import returned
 from vibroimpact.engine import section_map
+from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
     HELD,
@@ -93,12 +94,15 @@ class Branch:
         section = here.orbit.section
         aim, normal = predicted(self, here, length), here.tangent
         mode = here.orbit.facts[section_map.MODE]
-        bound = min(max(aim[4], self.low), self.high)
-        if section.family.parameter.most is not None and bound not in (aim[4], here.orbit.value):
+        bound = min(max(aim[PARAMETER], self.low), self.high)
+        if section.family.parameter.most is not None and bound not in (
+            aim[PARAMETER],
+            here.orbit.value,
+        ):
             # Beyond the bound there may be no such rig.
-            length = (bound - here.orbit.value) / (here.tangent[4] * self.scale[4])
+            length = (bound - here.orbit.value) / (here.tangent[PARAMETER] * self.scale[PARAMETER])
             aim, normal = predicted(self, here, length), HELD
-            aim[4] = bound
+            aim[PARAMETER] = bound
         status, found = corrected(section, aim, mode, normal)
         if status is not Status.DONE or strays(self, found.point, aim, length) or slid(found):
             return None
@@ -136,7 +140,7 @@ class Branch:
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:
         """The orbit at the end of the range, if there is one."""
-        share = (value - here.orbit.value) / (here.tangent[4] * self.scale[4])
+        share = (value - here.orbit.value) / (here.tangent[PARAMETER] * self.scale[PARAMETER])
         point = predicted(self, here, share)
         point[section_map.PARAMETER] = value
         mode = here.orbit.facts[section_map.MODE]
@@ -179,7 +183,7 @@ class Branch:
                 break
             # The parameter is the same for all of them, and so is its sense.
             tangent = orbit.tangent(HELD)
-            sense = math.copysign(1.0, tangent[4] * self.first.tangent[4])
+            sense = math.copysign(1.0, tangent[PARAMETER] * self.first.tangent[PARAMETER])
             found.append((image, sense * tangent))
         return found
 
@@ -189,7 +193,7 @@ class Branch:
             found = at_phase(here.orbit, here.orbit.section.family.phase + PHASES[number])
             if found is None or found.contacts != here.orbit.contacts:
                 continue
-            tangent = found.tangent(HELD * math.copysign(1.0, here.tangent[4]))
+            tangent = found.tangent(HELD * math.copysign(1.0, here.tangent[PARAMETER]))
             return Station(found, tangent, here.arclength, here.piece, phases_tried=number + 1)
         return None
 

@@ -2,82 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
-from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import LEFT, LIMIT, RIGHT, Stretch
+from vibroimpact.engine.dispatch import grow
+from vibroimpact.engine.jit import Vector
+from vibroimpact.engine.motion import Stretch
 from vibroimpact.engine.observe import observer
-from vibroimpact.engine.observers.tangent import (
-    DISTURBANCE,
-    contraction,
-    damping,
-    disturb,
-    disturb_area,
-    press_area,
-    tie,
-)
-
-AREA = 6
-"""Components of the area that two disturbances span, see `tangent.disturb_area`."""
-
-_RANGE = 150.0  # twice this may pass between two looks; the square of exp(−300) is a number
-
-
-@kernel
-def sizes(q: Vector, w: Vector, weight: float, mode: int) -> tuple[float, float]:
-    """Sizes of a disturbance and of an area.
-
-    The norm of a disturbance is weight² (u² + u_R² + u_L²) + v², that of an area the one that
-    belongs to it. A pressed bumper moves with the mass and is left out.
-    """
-    w2 = weight * weight
-    right = 0.0 if mode & RIGHT else 1.0
-    left = 0.0 if mode & LEFT else 1.0
-    length = math.sqrt((w2 * q[0] ** 2 + q[1] ** 2) + w2 * (right * q[2] ** 2 + left * q[3] ** 2))
-    area = weight * math.sqrt(
-        (w[0] ** 2 + right * w[3] ** 2 + left * w[4] ** 2)
-        + w2 * (right * w[1] ** 2 + left * w[2] ** 2 + right * left * w[5] ** 2)
-    )
-    return length, area
-
-
-@kernel
-def scale(q: Vector, w: Vector, length: float, area: float) -> None:
-    """Divide a disturbance and an area by sizes."""
-    for j in range(DISTURBANCE):
-        q[j] /= length
-    for j in range(AREA):
-        w[j] /= area
-
-
-@kernel
-def begin(q: Vector, w: Vector, weight: float, mode: int) -> None:
-    """A disturbance and an area of displacement and velocity, of unit size."""
-    for j in range(DISTURBANCE):
-        q[j] = 0.0
-    for j in range(AREA):
-        w[j] = 0.0
-    q[0], q[1], w[0] = 1.0, weight, 1.0
-    tie(mode, q, 0)
-    press_area(mode, w)
-    length, area = sizes(q, w, weight, mode)
-    scale(q, w, length, area)
-
-
-@kernel
-def normalise(q: Vector, w: Vector, weight: float, mode: int) -> tuple[float, float]:
-    """Bring a disturbance and an area to unit size; return the logarithms of their sizes."""
-    length, area = sizes(q, w, weight, mode)
-    if length == 0.0:  # a rest forgets everything
-        begin(q, w, weight, mode)
-        return -math.inf, -math.inf
-    scale(q, w, length, area if area > 0.0 else 1.0)
-    return math.log(length), math.log(area) if area > 0.0 else -math.inf
 
 
 class Growth(NamedTuple):
-    """One disturbance and the area of two, both of unit size after each cycle.
+    """One disturbance, and what its flow keeps of a second one, of unit size after each cycle.
 
     `first` and `both` are the logarithms of how much they have grown since the section, which
     comes again at `length` (s); `dissipation` is the integral of the damping; `shrunk` bounds
@@ -85,7 +19,7 @@ class Growth(NamedTuple):
     """
 
     disturbance: Vector
-    area: Vector
+    second: Vector
     weight: float
     length: float
     first: float
@@ -97,21 +31,4 @@ class Growth(NamedTuple):
 @observer(Growth)
 def growth(plan: Vector, notes: Growth, stretch: Stretch) -> Growth:
     """Carry both through one stretch."""
-    before, t, event, step, arrival, after = stretch
-    q, w, weight, length, first, both, dissipation, shrunk = notes
-    here = damping(plan, before.mode)
-    # In pieces over which nothing shrinks below the range of numbers.
-    pieces = 1 + int((here + weight) * step / _RANGE)
-    for piece in range(1, pieces + 1):
-        last = piece == pieces
-        end, behind = (event, after) if last else (LIMIT, before)
-        disturb(plan, before.mode, end, arrival, behind, step / pieces, q, 1)
-        disturb_area(plan, before.mode, end, arrival, behind, step / pieces, w)
-        shrunk += (here + weight) * step / pieces
-        if shrunk > _RANGE or (last and (event == LIMIT or t + step >= length)):
-            more, more_both = normalise(q, w, weight, behind.mode)
-            first += more
-            both += more_both
-            shrunk = 0.0
-    dissipation += here * step + contraction(plan, event, after)
-    return Growth(q, w, weight, length, first, both, dissipation, shrunk)
+    return grow(plan, notes, stretch)  # type: ignore[no-any-return]

@@ -31,10 +31,17 @@ BENT = FALLING + ROOM  # z′/u′
 SPEED = BENT + ROOM  # |x′|
 DRAG = SPEED + ROOM  # |x′|^α
 PRESSED = DRAG + ROOM  # of the other stop that is pressed, its deformation
-PUSH = PRESSED + ROOM  # δⁿ and √√δ of the stop that the coordinate is of, then of the other
-POWERS = PUSH + 4 * ROOM  # z², z³, …
-ASKED = POWERS + 7 * ROOM  # what is asked of the motion: its acceleration, a force, a velocity
-END = ASKED + ROOM
+PUSH = PRESSED + ROOM  # powers of δ, four of the stop that the coordinate is of, four of the other
+POWERS = PUSH + 8 * ROOM  # z², z³, …
+ASKED = POWERS + 8 * ROOM  # what is asked of the motion: its acceleration, a force, a velocity
+BY_X = ASKED + ROOM  # slopes of the forces: by displacement, by velocity, by the closing speeds
+BY_V = BY_X + ROOM
+BY_SPEED = BY_V + ROOM
+BY_Z = BY_SPEED + 2 * ROOM  # of z′, by velocity and, with the sign turned, by z
+BY_Z_OF_Z = BY_Z + ROOM
+D_X = BY_Z_OF_Z + ROOM  # a disturbance
+D_V = D_X + ROOM
+D_Z = D_V + ROOM
 
 SHARPEST = 8
 """The highest power of z that there is room for."""

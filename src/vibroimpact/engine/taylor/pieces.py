@@ -132,7 +132,8 @@ def shallow(push: Push, deformation: float, closing: float, longest: float) -> t
     if push.viscous > 0.0:
         little = min(little, (_NOTHING * closing / push.viscous) ** 0.8)
     if deformation > little:
-        return push, longest
+        # The series of its slope ends where it begins to be pressed.
+        return push, min(longest, 0.5 * deformation / abs(closing)) if closing else longest
     if closing > 0.0:
         longest = min(longest, (1.01 * little - deformation) / closing)
     return NO_PUSH, longest

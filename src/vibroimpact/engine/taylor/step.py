@@ -207,7 +207,7 @@ def step(
         if push.stiffness != 0.0:
             force += pressed(plan, push, 1.0, X, PUSH, unit, n)
         if other.stiffness != 0.0:
-            force -= pressed(plan, other, -1.0, PRESSED, PUSH + 2 * ROOM, unit, n)
+            force -= pressed(plan, other, -1.0, PRESSED, PUSH + 4 * ROOM, unit, n)
         new = (plan[SHAKEN + n] - force) * (1.0 / ((n + 1) * (n + 2)))
         plan[X + n + 2], plan[U + n + 2], plan[PRESSED + n + 2] = new, new, -new
     reach = reached(plan, max(abs(u), abs(v) * unit, plan[MOST] * squared), hysteretic)
