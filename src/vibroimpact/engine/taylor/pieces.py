@@ -197,7 +197,8 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
         stay(plan, frame, x, z, motion.clock, length)
     else:
         laws, most = laws_of(plan, motion, frame, x, longest)
-        unit = unit_of(plan, motion, frame, laws, x)
+        # Beside a singularity the coefficients would overflow in a longer unit.
+        unit = min(unit_of(plan, motion, frame, laws, x), 8.0 * most)
         length = step(plan, frame, laws, x, frame.sign * motion.v, z, motion.clock, unit, most)
     headed(plan, length / PIECES)
     plan[HEADER + RESTING] = 1.0 if held else 0.0
