@@ -47,12 +47,12 @@ _announced = threading.Event()
 
 def kernel(function: F) -> F:
     """Compile a function that only other compiled functions call."""
-    return numba.njit(**OPTIONS)(function)  # type: ignore[no-any-return]
+    return numba.njit(no_cfunc_wrapper=True, **OPTIONS)(function)  # type: ignore[no-any-return]
 
 
 def inlined(function: F) -> F:
     """As `kernel`, merged into each function that calls it: for what a hot loop consists of."""
-    return numba.njit(**OPTIONS, forceinline=True)(function)  # type: ignore[no-any-return]
+    return numba.njit(no_cfunc_wrapper=True, forceinline=True, **OPTIONS)(function)  # type: ignore[no-any-return]
 
 
 def cache_directory() -> Path:
