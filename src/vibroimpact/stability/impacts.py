@@ -38,8 +38,8 @@ _BACK = (0.3, 0.1, 0.03)
 """Of w, by which the branch is looked at on its way to the grazing."""
 _ASIDE = (1e-6, 1e-5, 1e-7, 1e-4)
 """Scaled change of the parameter at which the orbit without the impact is sought."""
-_CLOSE = 1e-14
-"""Scaled clearance of an orbit that grazes."""
+_CLOSE, _GRAZES = 1e-14, 1e-10
+"""Scaled clearance of an orbit that grazes: where the search for it ends, and what it may miss."""
 _HALVINGS = 60
 _PROBE = 1e-7
 _FLAT = 1e-12
@@ -103,7 +103,14 @@ def _clear_of(last: Orbit, guess: _Array) -> tuple[Orbit, float] | None:
             point = guess + sense * aside * HELD * section.scale
             status, found = corrected(section, point, mode)
             if status is Status.DONE and fewer(found, last) and margin_of(found) > 0.0:
-                return _closest(found, sense), sense
+                found = _closest(found, sense)
+                # Of a poor guess both sides may be clear, or it leads to another branch.
+                missed, gone = (
+                    np.linalg.norm((found.point - there) / section.scale * SEEN)
+                    for there in (guess, last.point)
+                )
+                if margin_of(found) <= _GRAZES and missed < gone:
+                    return found, sense
     return None
 
 
