@@ -30,7 +30,7 @@ from vibroimpact.stability.fixed_points import (
     margin_of,
     seen_at,
 )
-from vibroimpact.stability.impacts import dies_out, has_rigid_stop, taken_up
+from vibroimpact.stability.impacts import at_wall, dies_out, has_rigid_stop, taken_up
 from vibroimpact.stability.parents import parent, shrinks_onto, simplest, slid
 
 _Array = NDArray[np.float64]
@@ -254,6 +254,8 @@ class Branch:
                 break
         else:
             return None
+        if at_wall(last, other):
+            return None  # the way back (`dies_out` finds the way on)
         mode = other.facts[section_map.MODE]
         for sign in (1.0, -1.0):
             # Forwards first: a corner may turn the branch back, but need not.
