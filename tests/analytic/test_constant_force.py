@@ -193,3 +193,15 @@ def test_a_mass_bounces_once_a_cycle_on_a_shaken_floor(of: str) -> None:
     jump = (1 + e) * (-G - amplitude * math.sin(angle)) / (-up / e)
     trace = complex(*(found[f"multiplier_{part}"].values.sum() for part in ("real", "imag")))
     assert trace == pytest.approx(-2 * e + jump * period, rel=1e-9)
+
+
+def test_a_fall_through_a_thick_fluid_on_a_weak_spring_keeps_its_digits():
+    """Slower than its dashpot's rate the spring's rest, 10⁸ m away, is not felt by what is near."""
+    k, c, g, t = 1e-7, 5.0, 9.81, 25.0
+    fast = 0.5 * c + math.sqrt(0.25 * c * c - k)
+    slow = k / fast
+    expected = -g * (-math.expm1(-slow * t) / k - math.exp(-slow * t) / (fast * (fast - slow)))
+    rig = vi.Oscillator(1.0, vi.Isolator(k, c), force=-g)
+    fallen = vi.simulate(rig, vi.Harmonic(0.0, 1.0 / t), 1, vi.State(0.0), samples=0)
+    found = float(fallen["final_state"].sel(component="displacement"))
+    assert found == pytest.approx(expected, rel=1e-13)

@@ -350,3 +350,16 @@ class TestGivenUp:
         data = vi.sweep(rig, 1.0, [0.1])
         assert (data["status"] == 3).all()
         assert data["eta_d"].isnull().all()
+
+
+@pytest.mark.parametrize(
+    "left", [vi.RigidStop(0.6, "-20 mm"), vi.Bumper("510 kN/m", 0.0, "-20 mm")]
+)
+def test_behind_a_hold_that_was_given_up_a_preloaded_rig_goes_on_from_its_start(left):
+    """u = 0 would be inside its stop."""
+    rig = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"), None, left)
+    told = {"directions": "forward", "max_events": 1}
+    both = vi.sweep(rig, [5.0, 0.5], [0.5, 1.6], **told)
+    alone = vi.sweep(rig, 0.5, [1.6], **told)
+    assert both["status"].values.ravel().tolist() == [2, 0]
+    assert both["displacement_max"].values[0, 1] == alone["displacement_max"].values[0, 0]

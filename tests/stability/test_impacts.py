@@ -89,3 +89,47 @@ def test_the_margin_goes_on_through_the_grazing(side, clear):
     assert status is Status.DONE
     assert sum(found.contacts) == (clear < 0.0)
     assert margin_of(found) == pytest.approx(clear, rel=2.0 * abs(clear) + 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("gap", "left", "whose"),
+    [("25 mm", False, "of period 1"), ("15 mm", True, "that are their own mirror image")],
+)
+def test_a_branch_that_is_born_in_the_grazing_of_free_flight_ends_there(gap, left, whose):
+    """Beyond, the same orbits come again: a cycle later, or as mirror images."""
+    wall = vi.RigidStop(0.6, gap)
+    rig = vi.Oscillator("550 kg", FREE, wall, wall if left else None)
+    data = vi.resonance_diagram(rig, "0.05 g", 0.6, 3.0)
+    grazes = reaches(float(wall.gap), 0.6, 1.2)[0]
+    branches = np.unique(data["branch"])
+    ended = [data.attrs[f"branch_{i}_ended_{end}"] for i in branches for end in ("low", "high")]
+    assert f"it is born at {grazes:.9g}, in a grazing of the orbits {whose}" in ended
+    for i in branches:
+        told = listed(data.isel(bifurcation=data["bifurcation_branch"].values == i))
+        # The mirror image of an event is one on the other side.
+        assert len(told) == len(set(told))
+
+
+@pytest.mark.parametrize("phase", [0.0, 2.5])
+def test_a_branch_is_the_same_wherever_it_is_begun(phase):
+    """Of period 4: from a doubling through one impact more to the grazing of free flight."""
+    rig = vi.Oscillator("550 kg", FREE, WALL)
+    data = vi.resonance_diagram(rig, "0.05 g", 0.6, 3.0, phase=phase)
+    three = data["impacts_right"].values * data["period"].values == 3.0
+    four = data.isel(point=three & (data["period"].values == 4))
+    for i in np.linspace(0, four.sizes["point"] - 2, 5).astype(int):
+        here = four.isel(point=i)
+        shaken = vi.Harmonic("0.05 g", float(here["frequency"]), phase)
+        again = vi.branch(rig, shaken, here["section"], low=0.6, high=3.0, period=4)
+        assert [one[:2] for one in listed(again)] == [
+            (0.9115988, "grazing"),
+            (0.9142847, "period doubling"),
+            (0.9145636, "grazing"),
+        ]
+
+
+def listed(data) -> list[tuple[float, str, str]]:
+    """Where each bifurcation is, its kind, and what touches."""
+    names = ("value", "kind", "contacts")
+    rows = zip(*(data[f"bifurcation_{name}"].values for name in names), strict=True)
+    return sorted((round(float(value), 7), str(kind), str(told)) for value, kind, told in rows)

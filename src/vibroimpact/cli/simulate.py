@@ -30,10 +30,15 @@ def simulate(
     ] = None,
     samples: Annotated[
         Whole | None,
-        Parameter(group=_MOTION, help="Samples per cycle; 256. No value depends on it."),
+        Parameter(
+            group=_MOTION,
+            help="Samples per cycle, 256; or per step of a record, 1. No value depends on it.",
+        ),
     ] = None,
     displacement: Annotated[
-        str | None, _WITH_UNITS, Parameter(help="Displacement at the start, such as 5mm; 0.")
+        str | None,
+        _WITH_UNITS,
+        Parameter(help="Displacement at the start, such as 5mm; the equilibrium."),
     ] = None,
     velocity: Annotated[
         str | None, _WITH_UNITS, Parameter(help="Velocity at the start, such as 100mm/s; 0.")

@@ -62,7 +62,8 @@ def crossing(path: Path[P], here: P, there: P, mark: Array, tangent: Array) -> A
     normal = tangent * path.seen
     before = float((here.y - mark) / path.scale @ normal)
     behind = float((there.y - mark) / path.scale @ normal)
-    if not before < 0.0 <= behind:
+    # From the mark itself the first step only leaves it.
+    if not before < -SAME <= behind:
         return None
     step = distance(path, here.y, there.y)
     if min(distance(path, end.y, mark) for end in (here, there)) > _NEAR * step:

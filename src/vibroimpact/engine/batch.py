@@ -25,7 +25,7 @@ from vibroimpact.engine.hold import (
 )
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.loop import cycle
-from vibroimpact.engine.motion import STATE, finite, pack, unpacked
+from vibroimpact.engine.motion import finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.record import Record, write
 
@@ -79,9 +79,7 @@ def sweep(
         progress[0] += 1
         outcome = results[i, OUTCOME]
         if outcome in (TOO_MANY_EVENTS, TOO_MUCH_WORK, NOT_FINITE):
-            # Nothing sound to carry on: start the next frequency from rest.
-            for j in range(STATE):
-                state[j] = 0.0
+            # Nothing sound to carry on: the next frequency starts where the sweep did.
             motion = unpacked(state, clock)
     pack(motion, state)
 

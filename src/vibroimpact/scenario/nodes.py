@@ -16,8 +16,6 @@ Scenarios = NDArray[np.int8]
 """Number of the scenario of each node; `UNKNOWN` where it is not known yet."""
 
 UNKNOWN = -1
-INHERITED = -1
-"""Level of a node that was given its neighbours' scenario."""
 
 
 class Nodes(NamedTuple):

@@ -40,10 +40,6 @@ from vibroimpact.response.variables import (
 )
 from vibroimpact.stability.bifurcations import (
     BREAKING,
-    DOUBLING,
-    FOLD,
-    GRAZING,
-    NEIMARK,
 )
 from vibroimpact.stability.defining import SEEN, Defining, Spot, solve
 from vibroimpact.stability.first import scales
@@ -53,8 +49,6 @@ from vibroimpact.stability.plane import Plane, plane
 from vibroimpact.stability.trace import CLOSED
 
 _Array = NDArray[np.float64]
-
-KINDS = (FOLD, BREAKING, DOUBLING, NEIMARK, GRAZING)
 
 _NOTHING = xr.DataArray([np.nan])
 

@@ -39,8 +39,8 @@ _BACK = (0.3, 0.1, 0.03)
 """Of w, by which the branch is looked at on its way to the grazing."""
 _ASIDE = (1e-6, 1e-5, 1e-7, 1e-4)
 """Scaled change of the parameter at which the orbit without the impact is sought."""
-_CLOSE = 1e-14
-"""Scaled clearance of an orbit that grazes."""
+_CLOSE, _GRAZES = 1e-14, 1e-10
+"""Scaled clearance of an orbit that grazes: where the search for it ends, and what it may miss."""
 _HALVINGS = 60
 _PROBE = 1e-7
 _FLAT = 1e-12
@@ -62,6 +62,12 @@ def has_rigid_stop(orbit: Orbit) -> bool:
 def fewer(one: Orbit, other: Orbit) -> bool:
     """Whether one orbit has fewer contacts than the other."""
     return sum(one.contacts) < sum(other.contacts)
+
+
+def at_wall(hit: Orbit, clear: Orbit) -> bool:
+    """Whether what one orbit hardly hits, and the other misses, is a rigid stop and no bumper."""
+    steep = np.abs(hit.jacobian).max() >= _STEEP * np.abs(clear.jacobian).max()
+    return has_rigid_stop(hit) and fewer(clear, hit) and bool(steep)
 
 
 def dies_out(last: Orbit, earlier: Callable[[float], Orbit | None]) -> tuple[Orbit, float] | None:
@@ -92,19 +98,27 @@ def dies_out(last: Orbit, earlier: Callable[[float], Orbit | None]) -> tuple[Orb
         if not w[0] < w[1] < w[2]:
             return None
         guess = _at([(w[i], one.point) for i, one in enumerate(seen)], 0.0)
-        return _clear_of(last, guess)
+        return _clear_of(last, guess, last.point - seen[1].point)
     return None
 
 
-def _clear_of(last: Orbit, guess: _Array) -> tuple[Orbit, float] | None:
-    """The orbit without an impact whose clearance vanishes, near a guess."""
+def _clear_of(last: Orbit, guess: _Array, ahead: _Array) -> tuple[Orbit, float] | None:
+    """The orbit without an impact whose clearance vanishes, near a guess, and ahead of the last."""
     section, mode = last.section, float(last.facts[section_map.MODE])
     for aside in _ASIDE:
         for sense in (1.0, -1.0):
             point = guess + sense * aside * HELD * section.scale
             status, found = corrected(section, point, mode)
             if status is Status.DONE and fewer(found, last) and margin_of(found) > 0.0:
-                return _closest(found, sense), sense
+                found = _closest(found, sense)
+                # Of a poor guess both sides may be clear, or it leads to another branch.
+                missed, gone, way = (
+                    change / section.scale * SEEN
+                    for change in (found.point - guess, found.point - last.point, ahead)
+                )
+                nearer = missed @ missed < gone @ gone
+                if margin_of(found) <= _GRAZES and nearer and gone @ way > 0.0:
+                    return found, sense
     return None
 
 
@@ -137,10 +151,8 @@ def taken_up(grazing: Orbit) -> tuple[Orbit, _Array] | None:
     depth = _PROBED
     point = _beside(grazing, -depth / size * gradient)
     status, hit, image = evaluated(section, point, mode)
-    if status is not Status.DONE or not fewer(grazing, hit):
+    if status is not Status.DONE or not at_wall(hit, grazing):
         return None
-    if np.abs(hit.jacobian).max() < _STEEP * np.abs(grazing.jacobian).max():
-        return None  # it is a bumper that is met
     kick = (image - point)[:PARAMETER] / section.scale[:PARAMETER]
     kick -= grazing.jacobian @ (-depth / size * gradient)
     matrix = np.vstack([grazing.jacobian, gradient])

@@ -21,6 +21,7 @@ from vibroimpact.stability.fixed_points import (
     SEEN,
     Orbit,
     corrected,
+    evaluated,
     margin_of,
 )
 
@@ -44,6 +45,13 @@ def half_plus(orbit: Orbit) -> float:
 def slid(found: Orbit) -> bool:
     """Whether an orbit has become one of a simpler map: its own mirror image, or half as long."""
     return found.missed is not None and found.missed[0] <= _SLID
+
+
+def simplest(found: Orbit) -> Orbit:
+    """An orbit as that of the simplest map whose fixed point it is."""
+    while slid(found) and (section := found.section.parent()) is not None:
+        _, found, _ = evaluated(section, found.point, found.facts[section_map.MODE])
+    return found
 
 
 def parent(here: Orbit, there: Orbit) -> Orbit | None:

@@ -31,8 +31,8 @@ from vibroimpact.stability.fixed_points import (
     margin_of,
     seen_at,
 )
-from vibroimpact.stability.impacts import dies_out, has_rigid_stop, taken_up
-from vibroimpact.stability.parents import parent, shrinks_onto, slid
+from vibroimpact.stability.impacts import at_wall, dies_out, has_rigid_stop, taken_up
+from vibroimpact.stability.parents import parent, shrinks_onto, simplest, slid
 
 _Array = NDArray[np.float64]
 
@@ -129,6 +129,9 @@ class Branch:
             return self._on_bound(here, bound), f"the range ends at {bound:.9g}"
         if value in (self.low, self.high):
             return [there], f"the range ends at {value:.9g}"
+        if slid(there.orbit):
+            # The impacts by which it differed are gone: beyond, the same orbits come again.
+            return [replace(there, tangent=-here.tangent)], _born_grazing(simplest(there.orbit))
         if self._returned(here, there):
             return [there], CLOSED
         met = None if here.orbit.section.count % 2 else parent(here.orbit, there.orbit)
@@ -200,10 +203,7 @@ class Branch:
     def lost(self, here: Station) -> str:
         """See `Path`."""
         if (met := shrinks_onto(here.orbit)) is not None:
-            whose = (
-                "their own mirror image" if met.section.mirror else f"period {met.section.period}"
-            )
-            return f"it is born at {met.value:.9g}, in a grazing of the orbits of {whose}"
+            return _born_grazing(met)
         return beyond(here.orbit, "orbit", f"{here.orbit.value:.9g}")
 
     def corner(self, here: Station, length: float) -> list[Station]:
@@ -258,6 +258,8 @@ class Branch:
                 break
         else:
             return None
+        if at_wall(last, other):
+            return None  # the way back (`dies_out` finds the way on)
         mode = other.facts[section_map.MODE]
         for sign in (1.0, -1.0):
             # Forwards first: a corner may turn the branch back, but need not.
@@ -294,6 +296,13 @@ class Branch:
 def solved(start: Station, length: float) -> Orbit | None:
     """The orbit after a part of a step, whatever its contacts."""
     return Branch(start, -math.inf, math.inf).stepped(start, length)
+
+
+def _born_grazing(met: Orbit) -> str:
+    """Why a branch ends that has shrunk onto a simpler orbit, which grazes."""
+    period = met.section.period
+    whose = "that are their own mirror image" if met.section.mirror else f"of period {period}"
+    return f"it is born at {met.value:.9g}, in a grazing of the orbits {whose}"
 
 
 def _near_other_contacts(last: Orbit, along: _Array, ahead: float) -> bool:

@@ -104,10 +104,10 @@ def late_series(
         now, after = p * s + q * co, wh * turned
         for n in range(_SERIES):
             out[n * COLUMNS + column] = now + z
-            if n == 0:
-                out[n * COLUMNS + column] += one * d / k
             now, after = after, -squared * now / ((n + 1) * (n + 2))
             z *= -slow * h / (n + 1)
+    # Of d/k and the slow mode from it next to nothing is left where the spring is weak.
+    out[COLUMNS - 1] = -d / (fast * (fast - slow)) if slow > 0.0 else d / k
 
 
 @kernel
