@@ -38,6 +38,9 @@ OPTIONS: dict[str, Any] = {
     "nogil": True,
 }
 
+_WITHIN: dict[str, Any] = {**OPTIONS, "no_cfunc_wrapper": True}
+"""Of what only compiled code and tests call: nothing calls it as a function of C."""
+
 announce: Callable[[str], None] = lambda text: print(text, file=sys.stderr, flush=True)  # noqa: E731
 """Called with one line before the first compilation of a process, which takes seconds."""
 
@@ -47,12 +50,12 @@ _announced = threading.Event()
 
 def kernel(function: F) -> F:
     """Compile a function that only other compiled functions call."""
-    return numba.njit(no_cfunc_wrapper=True, **OPTIONS)(function)  # type: ignore[no-any-return]
+    return numba.njit(**_WITHIN)(function)  # type: ignore[no-any-return]
 
 
 def inlined(function: F) -> F:
     """As `kernel`, merged into each function that calls it: for what a hot loop consists of."""
-    return numba.njit(no_cfunc_wrapper=True, forceinline=True, **OPTIONS)(function)  # type: ignore[no-any-return]
+    return numba.njit(**_WITHIN, forceinline=True)(function)  # type: ignore[no-any-return]
 
 
 def cache_directory() -> Path:
