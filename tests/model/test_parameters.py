@@ -169,3 +169,12 @@ def test_a_gap_ratio_is_over_free_flight_under_what_is_held():
     assert read(rig, force) == pytest.approx(read(rig, vi.Harmonic(0.3, 2.0)), rel=1e-12)
     with pytest.raises(vi.InputError, match="gap_ratio: gaps are scaled by the peak"):
         read(rig, vi.Periodic(2.0, [0.1, 0.2]))
+
+
+def test_of_a_bumper_beside_a_wall_the_numbers_are_its_own() -> None:
+    rig = vi.Oscillator(
+        550.0, vi.Isolator(26.0e3, 1.1e3), vi.Bumper(510.0e3, 900.0, 0.01), vi.RigidStop(0.7, 0.01)
+    )
+    shaken = vi.Harmonic(0.5, 1.0)
+    assert parameter("bumper_stiffness").read(rig, shaken) == 510.0e3
+    assert parameter("restitution").read(rig, shaken) == 0.7

@@ -144,5 +144,7 @@ def monodromy(
         done += 1
         if events > max_events:
             outcome = TOO_MANY_EVENTS
+        elif not finite(motion):
+            outcome = NOT_FINITE
     pack(motion, state)
     return outcome

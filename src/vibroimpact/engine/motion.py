@@ -154,7 +154,7 @@ def mirror_image(state: Vector) -> Vector:
 @kernel
 def finite(motion: Motion) -> bool:
     """Whether displacement and velocity are within the range of numbers."""
-    return abs(motion.u) < 1e200 and abs(motion.v) < 1e200
+    return abs(motion.u) < 1e200 and abs(motion.v) < 1e200  # and no NaN
 
 
 @kernel

@@ -14,7 +14,7 @@ from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.hold import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.loop import cycle
-from vibroimpact.engine.motion import FLIGHT, RIGHT, Clock, Motion, mirrored
+from vibroimpact.engine.motion import FLIGHT, RIGHT, Clock, Motion, finite, mirrored
 from vibroimpact.engine.observers.tangent import DISTURBANCE, Tangent, unit_disturbances
 
 # The system vector: the rig (`parameters`), then the forcing.
@@ -151,6 +151,8 @@ def section_map(
                 q[at], q[at + 1] = -q[at], -q[at + 1]
                 q[at + 2], q[at + 3] = -q[at + 3], -q[at + 2]
                 q[at + 4] = -q[at + 4]
+    if not finite(motion):
+        return NOT_FINITE
     image[0], image[1], image[2], image[3] = motion.u, motion.v, motion.right, -motion.left
     image[4] = motion.z
     if motion.mode != FLIGHT:

@@ -44,8 +44,9 @@ def bumpers(name: str) -> tuple[Read, Write]:
     """Read and write a number that both bumpers share."""
 
     def read(rig: Oscillator, shaken: Repeated) -> float:
-        values = {number(stop, name) for stop in rig.stops}
-        kinds = {quantity(stop, name) for stop in rig.stops}
+        stops = [stop for stop in rig.stops if name in type(stop).model_fields] or rig.stops
+        values = {number(stop, name) for stop in stops}
+        kinds = {quantity(stop, name) for stop in stops}
         if len(values) != 1 or len(kinds) != 1:
             told = (
                 "there is no bumper"

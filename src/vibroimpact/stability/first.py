@@ -61,7 +61,7 @@ def first_orbit(
         if state.phase is not None:
             fam = fam._replace(excitation=fam.excitation.replace(phase=state.phase))
         bumpers = (state.right_bumper or 0.0, state.left_bumper or 0.0)
-        point = np.array([state.displacement, state.velocity, *bumpers, fam.value])
+        point = np.array([state.displacement, state.velocity, *bumpers, state.isolator, fam.value])
         mode = float(record.TOUCHING.index(state.contact or 0))
         status, found = _least(fam, span, period or 1, point, mode)
         if status is not Status.DONE:

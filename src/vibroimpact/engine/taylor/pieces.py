@@ -41,6 +41,9 @@ PIECES = 2
 _NOTHING = 2.0**-60
 """A share of the motion's energy or force that leaves no trace in it."""
 
+_ROUNDING = 2.0**-53
+"""Of a number, as a share of it."""
+
 EVEN = 1e-14
 """1 + χ δ′ where a stop begins or ceases to push: its own rounding."""
 
@@ -119,11 +122,14 @@ def unit_of(plan: Vector, motion: Motion, frame: Frame, laws: Laws, x: float) ->
 
 
 @kernel
-def shallow(push: Push, deformation: float, closing: float, longest: float) -> tuple[Push, float]:
+def shallow(
+    push: Push, deformation: float, closing: float, grain: float, longest: float
+) -> tuple[Push, float]:
     """A stop that is pressed so little that nothing comes of it is left out, while it is.
 
-    The work that its force has done is then a share ε of the motion's. The power of the
-    deformation has a singularity where it begins, which no series passes.
+    The work that its force has done is then a share ε of the motion's, or the deformation is no
+    more than the rounding of a displacement, `grain`. The power of the deformation has a
+    singularity where it begins, which no series passes.
     """
     if push.stiffness == 0.0:
         return push, longest
@@ -131,11 +137,12 @@ def shallow(push: Push, deformation: float, closing: float, longest: float) -> t
     little = (_NOTHING * energy / push.stiffness) ** (1.0 / (push.exponent + 1.0))
     if push.viscous > 0.0:
         little = min(little, (_NOTHING * closing / push.viscous) ** 0.8)
+    little = max(little, grain)
     if deformation > little:
         # The series of its slope ends where it begins to be pressed.
         return push, min(longest, 0.5 * deformation / abs(closing)) if closing else longest
     if closing > 0.0:
-        longest = min(longest, (1.01 * little - deformation) / closing)
+        longest = min(longest, (2.0 * little - deformation) / closing)
     return NO_PUSH, longest
 
 
@@ -149,17 +156,18 @@ def laws_of(
     branch = branch_of(plan, motion, frame.sign)
     push, other, apart = NO_PUSH, NO_PUSH, 0.0
     if mode:
+        grain = 16.0 * _ROUNDING * (abs(x) + abs(frame.offset))
         side = LEFT if mode == LEFT else RIGHT
         memory = motion.left if mode == LEFT else motion.right
         if curved_stop(plan, side):
             push = push_of(plan, side, branch.way if v == 0.0 else v, memory)
             push = pressing(push, v, frame.sign * without_friction(plan, motion))
-            push, longest = shallow(push, x, v, longest)
+            push, longest = shallow(push, x, v, grain, longest)
         if mode == BOTH and curved_stop(plan, LEFT):
             apart = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
             other = push_of(plan, LEFT, -(branch.way if v == 0.0 else v), motion.left)
             other = pressing(other, -v, -frame.sign * without_friction(plan, motion))
-            other, longest = shallow(other, apart - x, -v, longest)
+            other, longest = shallow(other, apart - x, -v, grain, longest)
     drag = 0.0
     exponent = plan[par.DRAG]
     if exponent != 1.0:
