@@ -21,7 +21,8 @@ def fold():
     data = vi.branch(CASE.oscillator, SHAKEN, low=1.0, high=4.0)
     row = int(np.flatnonzero(data["bifurcation_kind"].values == "fold")[-1])
     one = data.isel(bifurcation=row)
-    point = np.append(one["bifurcation_section"].values[:4], float(one["bifurcation_value"]))
+    state = one["bifurcation_section"].values
+    point = np.array([*state[:4], state[6], float(one["bifurcation_value"])])
     over = plane(CASE.oscillator, SHAKEN, ("frequency", "gap"))
     scale = np.append(scales(over.family, (1.0, 4.0), point), 0.02)
     mirror = bool(int(one["bifurcation_antisymmetric"]))
@@ -40,7 +41,7 @@ def test_newton_comes_back_to_it(fold, share):
     beside = y + share * system.scale * np.array([1.0, -1.0, 0.0, 0.0, 0.5, 0.0])
     spot = solve(system, beside, HOLD_GAP)
     assert spot is not None
-    assert spot.y[4] == pytest.approx(y[4], rel=1e-9)
+    assert spot.y[5] == pytest.approx(y[5], rel=1e-9)
     assert spot.y[5] == y[5]
     assert np.abs(spot.orbit.map_multipliers - 1.0).min() < 1e-7
 

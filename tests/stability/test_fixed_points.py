@@ -23,7 +23,7 @@ def test_monodromy_against_differences_of_the_map(motion: Motion, phase: float) 
     size = max(abs(settled[0]), abs(settled[1]) / shaken.angular_frequency, 1e-12)
     scale = np.array([size, size * shaken.angular_frequency, size, size, shaken.frequency])
     section = Section(fam, 1, False, scale)
-    point = np.append(settled[:4], shaken.frequency)
+    point = np.array([*settled[:4], 0.0, shaken.frequency])
     mode = {1: 1.0, -1: 2.0}.get(int(settled[5]), 0.0)
     status, here, _ = evaluated(section, point, mode)
     assume(int(status) == 0)
@@ -53,7 +53,7 @@ def test_the_half_cycle_map_squared_is_the_map():
     case = vi.laboratory.case("B2-G1-A3")
     fam = family(case.oscillator, vi.Harmonic(case.amplitude, 1.3, 0.3), "frequency")
     settled = vi.steady(case.oscillator, fam.excitation)["final_state"].values
-    point = np.append(settled[:4], 1.3)
+    point = np.array([*settled[:4], 0.0, 1.3])
     scale = np.array([7.5e-3, 0.06, 7.5e-3, 7.5e-3, 1.0])
     halves = [corrected(Section(fam, 1, mirror, scale), point, 0.0) for mirror in (True, False)]
     assert all(int(status) == 0 for status, _ in halves)

@@ -84,7 +84,7 @@ def test_the_margin_goes_on_through_the_grazing(side, clear):
     swing = 1.0 - clear
     fam = family(rig, vi.Harmonic(swing * abs(response), w / math.tau, phase), "frequency")
     section = Section(fam, 1, False, np.ones(5))
-    point = np.array([-sign * swing, 0.0, 0.0, 0.0, w / math.tau])
+    point = np.array([-sign * swing, 0.0, 0.0, 0.0, 0.0, w / math.tau])
     status, found, _ = evaluated(section, point, 0.0)
     assert status is Status.DONE
     assert sum(found.contacts) == (clear < 0.0)

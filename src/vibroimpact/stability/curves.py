@@ -121,9 +121,9 @@ def bifurcation_curve(
             f"{over.value:g}; a range that holds it is accepted"
         )
     system, y = _start(over, kind, start, spans)
-    first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+    first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
     if first is None:
-        first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
+        first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
     if first is None:
         raise InputError(
             f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; one that "
@@ -131,7 +131,7 @@ def bifurcation_curve(
         )
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
-        along = sense * np.array([0.0, 0.0, 0.0, 0.0, 0.3, 1.0])
+        along = sense * np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 1.0])
         begin = Place(system, first, unit_tangent(first.jacobian, along, SEEN), 0.0)
         locus = Locus(begin, spans)
         traces.append(arclength.follow(locus, begin, most_points, told))

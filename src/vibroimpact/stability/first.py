@@ -87,7 +87,7 @@ def _least(
         # Neither the start nor a gap tells the motion's size, which bounds a step; without stops
         # the map is linear, and a step of any length is right.
         for factor in _LARGER:
-            wide = scale * [factor, factor, factor, factor, 1.0]
+            wide = scale * [factor, factor, factor, factor, factor, 1.0]
             status, found = corrected(Section(fam, period, False, wide), point, mode)
             if status is Status.DONE:
                 section = Section(fam, period, False, scales(fam, span, found.point))
