@@ -12,7 +12,7 @@ from vibroimpact.stability.plane import plane
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 2.0)
-HOLD_GAP = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+HOLD_GAP = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 
 
 @pytest.fixture(scope="module")
@@ -38,16 +38,16 @@ def test_a_bifurcation_solves_it(fold):
 @pytest.mark.parametrize("share", [1e-6, 1e-4])
 def test_newton_comes_back_to_it(fold, share):
     system, y = fold
-    beside = y + share * system.scale * np.array([1.0, -1.0, 0.0, 0.0, 0.5, 0.0])
+    beside = y + share * system.scale * np.array([1.0, -1.0, 0.0, 0.0, 0.0, 0.5, 0.0])
     spot = solve(system, beside, HOLD_GAP)
     assert spot is not None
     assert spot.y[5] == pytest.approx(y[5], rel=1e-9)
-    assert spot.y[5] == y[5]
+    assert spot.y[6] == y[6]
     assert np.abs(spot.orbit.map_multipliers - 1.0).min() < 1e-7
 
 
 def test_far_from_any_there_is_none(fold):
     system, y = fold
-    assert system.value(np.full(6, np.nan)) is None
+    assert system.value(np.full(7, np.nan)) is None
     assert system.value(y + 1e4 * system.scale) is None
-    assert solve(system, np.full(6, np.nan), HOLD_GAP) is None
+    assert solve(system, np.full(7, np.nan), HOLD_GAP) is None

@@ -21,7 +21,7 @@ def test_monodromy_against_differences_of_the_map(motion: Motion, phase: float) 
     fam = family(rig, shaken, "frequency")
     settled = vi.simulate(rig, shaken, 20, samples=0)["final_state"].values
     size = max(abs(settled[0]), abs(settled[1]) / shaken.angular_frequency, 1e-12)
-    scale = np.array([size, size * shaken.angular_frequency, size, size, shaken.frequency])
+    scale = np.array([size, size * shaken.angular_frequency, size, size, size, shaken.frequency])
     section = Section(fam, 1, False, scale)
     point = np.array([*settled[:4], 0.0, shaken.frequency])
     mode = {1: 1.0, -1: 2.0}.get(int(settled[5]), 0.0)
@@ -40,9 +40,9 @@ def test_monodromy_against_differences_of_the_map(motion: Motion, phase: float) 
                     )
                 status, other, image = evaluated(section, beside, mode)
                 assume(int(status) == 0 and other.contacts == here.contacts)
-                ends.append(image[:4])
+                ends.append(image[:5])
             slopes.append((ends[0] - ends[1]) / (2.0 * step * scale[component]))
-        weight = scale[component] / scale[:4]
+        weight = scale[component] / scale[:5]
         spread = np.max(np.abs(slopes[0] - slopes[1]) * weight)
         assume(spread < 1e-6)
         error = np.max(np.abs(slopes[1] - here.carried[component]) * weight)
@@ -54,7 +54,7 @@ def test_the_half_cycle_map_squared_is_the_map():
     fam = family(case.oscillator, vi.Harmonic(case.amplitude, 1.3, 0.3), "frequency")
     settled = vi.steady(case.oscillator, fam.excitation)["final_state"].values
     point = np.array([*settled[:4], 0.0, 1.3])
-    scale = np.array([7.5e-3, 0.06, 7.5e-3, 7.5e-3, 1.0])
+    scale = np.array([7.5e-3, 0.06, 7.5e-3, 7.5e-3, 7.5e-3, 1.0])
     halves = [corrected(Section(fam, 1, mirror, scale), point, 0.0) for mirror in (True, False)]
     assert all(int(status) == 0 for status, _ in halves)
     (_, half), (_, full) = halves
