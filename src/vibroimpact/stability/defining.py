@@ -91,7 +91,7 @@ class Defining(NamedTuple):
         orbit, residual = here
         jacobian = np.empty((PARAMETER + 1, PARAMETER + 2))
         jacobian[:PARAMETER, : PARAMETER + 1] = orbit.jacobian
-        for j in range(6):
+        for j in range(PARAMETER + 2):
             for step in (_STEP, -_STEP):
                 beside = y.copy()
                 beside[j] += step * self.scale[j]
