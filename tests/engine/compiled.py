@@ -14,10 +14,14 @@ import sys
 from vibroimpact import engine
 from vibroimpact.engine import jit
 from vibroimpact.engine.entry import Entry
-from vibroimpact.engine.parameters import free_rig, rig_vector
+from vibroimpact.engine.parameters import Law, free_rig, rig_vector
 from vibroimpact.engine.recorded import follow
 
-RIGS = {"Apart": free_rig(), "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None)}
+RIGS = {
+    "Apart": free_rig(),
+    "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None),
+    "Curved": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0)),
+}
 """A rig for each flow of one sine; the flows of other forcings are compiled by their tests."""
 
 

@@ -14,6 +14,8 @@ from vibroimpact.engine.motion import (
     LEFT,
     RELEASED,
     RIGHT,
+    SLIPS_LEFT,
+    SLIPS_RIGHT,
     STATE,
     Motion,
     aged,
@@ -31,12 +33,12 @@ SWAPPED = {FLIGHT: FLIGHT, RIGHT: LEFT, LEFT: RIGHT, BOTH: BOTH}
 
 
 def motion(mode: int, fresh: int = 0) -> Motion:
-    """One whose seven numbers all differ."""
-    return Motion(mode, fresh, 0.1, -0.2, 0.3, 0.4, 0.5, CLOCK)
+    """One whose eight numbers all differ."""
+    return Motion(mode, fresh, 0.1, -0.2, 0.3, 0.4, 0.6, 0.5, CLOCK)
 
 
 @pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("fresh", [0, RIGHT, LEFT | RELEASED])
+@pytest.mark.parametrize("fresh", [0, RIGHT, LEFT | RELEASED, SLIPS_RIGHT])
 def test_packing_loses_nothing(mode: int, fresh: int) -> None:
     state = np.full(STATE, math.nan)
     pack(motion(mode, fresh), state)
@@ -50,7 +52,7 @@ def test_the_mirror_image_in_the_kernel_and_in_python(mode: int, fresh: int) -> 
     image = mirrored(one)
     assert image.mode == SWAPPED[mode]
     assert image.fresh == SWAPPED[fresh & BOTH] | (fresh & RELEASED)
-    assert image[2:] == (-0.1, 0.2, 0.4, 0.3, 0.5, CLOCK)
+    assert image[2:] == (-0.1, 0.2, 0.4, 0.3, -0.6, 0.5, CLOCK)
     assert mirrored(image) == one
     here, there = np.empty(STATE), np.empty(STATE)
     pack(one, here)
@@ -65,6 +67,11 @@ def test_a_left_contact_is_seen_as_the_mirror_image_of_a_right_one() -> None:
     assert coordinates(motion(RIGHT)) == (1.0, (0.3, -0.2, s, c))
     assert coordinates(motion(LEFT)) == (-1.0, (0.4, 0.2, -s, -c))
     assert coordinates(motion(BOTH)) == (1.0, (0.3, -0.2, s, c))
+
+
+def test_which_way_friction_lets_go_is_mirrored() -> None:
+    assert mirrored(motion(FLIGHT, SLIPS_RIGHT)).fresh == SLIPS_LEFT
+    assert mirrored(motion(RIGHT, SLIPS_LEFT | LEFT)).fresh == SLIPS_RIGHT | RIGHT
 
 
 def test_what_is_set_anew_is_set_alone() -> None:

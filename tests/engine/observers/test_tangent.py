@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from functools import cache
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import assume, given
@@ -14,7 +13,7 @@ from hypothesis import strategies as st
 import vibroimpact as vi
 from properties.strategies import Motion, examples, motions, simulated
 from vibroimpact.engine import lyapunov
-from vibroimpact.engine.observers.tangent import transition
+from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
 from vibroimpact.response.start import engine_rig, engine_state
 
 COMPONENTS = ("displacement", "velocity", "right_bumper", "left_bumper")
@@ -22,7 +21,7 @@ COMPONENTS = ("displacement", "velocity", "right_bumper", "left_bumper")
 
 def derivative(rig, shaken, start, cycles=1):
     """Rows: what becomes of a unit disturbance of each component; and the damping integral."""
-    columns, damping = np.empty((4, 4)), np.empty(1)
+    columns, damping = np.empty((DISTURBANCE, DISTURBANCE)), np.empty(1)
     state = engine_state(rig, start)
     phase = shaken.phase if start.phase is None else start.phase
     outcome = lyapunov.monodromy(
@@ -37,18 +36,9 @@ def derivative(rig, shaken, start, cycles=1):
         damping,
     )
     assert outcome == 0
-    return columns, float(damping[0])
-
-
-@pytest.mark.parametrize("c", [0.0, 0.3, 2.0 - 1e-9, 2.0, 2.0 + 1e-9, 5.0, 400.0])
-@pytest.mark.parametrize("t", [0.0, 1e-9, 0.01, 1.7, 30.0])
-def test_transition_is_the_matrix_exponential(c, t):
-    with mpmath.workdps(50):
-        exact = mpmath.expm(mpmath.matrix([[0, 1], [-1, -mpmath.mpf(c)]]) * mpmath.mpf(t))
-        expected = [float(exact[i, j]) for i in range(2) for j in range(2)]
-    np.testing.assert_allclose(transition(c, 1.0, t), expected, rtol=3e-8, atol=1e-15)
-    if abs(c - 2.0) > 1e-6:
-        np.testing.assert_allclose(transition(c, 1.0, t), expected, rtol=1e-11, atol=1e-15)
+    # A linear isolator remembers nothing.
+    assert not columns[MEMORY].any() and not columns[:, MEMORY].any()
+    return columns[:MEMORY, :MEMORY], float(damping[0])
 
 
 def flow(motion: Motion, values) -> np.ndarray:
@@ -132,14 +122,6 @@ def test_section_in_a_contact():
     ]
     expected = (ends[0] - ends[1]).values / (2.0 * step)
     np.testing.assert_allclose(rows[0], expected, rtol=1e-6, atol=1e-6)
-
-
-@pytest.mark.parametrize(("c", "row"), [(0.0, (1.0, 3.0, 0.0, 1.0)), (0.5, None)])
-def test_transition_without_a_spring(c, row):
-    """x = x₀ + v₀ t, or x₀ + v₀ (1 - exp(-c t))/c."""
-    fading = math.exp(-c * 3.0)
-    expected = row or (1.0, (1.0 - fading) / c, 0.0, fading)
-    np.testing.assert_allclose(transition(c, 0.0, 3.0), expected, rtol=1e-15, atol=0.0)
 
 
 def test_multipliers_of_free_flight():
