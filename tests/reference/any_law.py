@@ -17,8 +17,8 @@ from rest, tau stands still. There the run begins a time `INSTANT` later: any ve
 one that the push alone would give, its slope times INSTANT²/2, is right to that much, and dashpots
 forget the difference.
 
-**Turns.** Laws change their formula with the sign of v; so every zero of v is an event, and the sign
-behind it follows from the forces there. With friction the mass may stick.
+**Turns.** Laws change their formula with the sign of v; so every zero of v is an event, and the
+sign behind it follows from the forces there. With friction the mass may stick.
 
 Out of reach, and refused: chatter and rest on a rigid stop, both stops at once, and exponents that
 are no small fractions.
@@ -35,7 +35,7 @@ from mpmath import mp, mpf
 import vibroimpact as vi
 from reference import laws_mpmath as laws
 from reference.first_zero import first_zero
-from reference.jets import BITS, Jet, Tape, Unknown, number, rescaled, value
+from reference.jets import Jet, Tape, Unknown, number, rescaled, value
 from reference.law_series import fraction, law_of, restoring
 from reference.public_motion import reference_shaking
 
@@ -43,6 +43,8 @@ DIGITS = 105
 """To work with: a little more than the series have."""
 INSTANT = mpf(10) ** -26
 """s."""
+SLOWEST = mpf(10) ** -9
+"""Impact, m/s; slower ones are a chatter."""
 
 
 class Event(NamedTuple):
@@ -418,8 +420,8 @@ class _Run:
     def _touch(self, side: _Side) -> None:
         if side.rigid:
             self._note(f"impact_{side.name}")
-            if len(self.motion.events) > 5000 or not side.stop.restitution:
-                raise ArithmeticError("impacts without end")
+            if abs(self.v) < SLOWEST or not side.stop.restitution:
+                raise ArithmeticError(f"impacts without end at t = {mp.nstr(self.t, 20)}")
             self.u, self.v = side.sign * side.gap, -self.v * mpf(side.stop.restitution)
             self.way = -self.way
             self.s = abs(self.v) ** (1 / mpf(self.root))
@@ -451,6 +453,3 @@ class _Run:
 
 def _times(one: Jet, other: Jet | None) -> Jet:
     return one if other is None else one * other
-
-
-__all__ = ["BITS", "Event", "Motion", "Step", "follow"]

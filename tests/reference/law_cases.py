@@ -128,7 +128,7 @@ FRICTION = {
         vi.Oscillator(
             MASS,
             vi.FrictionIsolator(STIFFNESS, 200.0, 100.0),
-            bumper(6e-3),
+            bumper(5e-3),
             hertz(5e-3, restitution=0.6),
         ),
         vi.Periodic(1.0, [0.5, 0.2, 0.15], [0.3, 0.0, -1.0]),
