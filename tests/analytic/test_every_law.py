@@ -1,0 +1,38 @@
+"""Every law of isolators and stops against its stored motion to 25 digits.
+
+From rest, after 1, 5 and 20 cycles with contacts on both sides, the state agrees within 1e-11 of the
+largest displacement or velocity seen at the sections.
+"""
+
+from __future__ import annotations
+
+import pytest
+from mpmath import mp, mpf
+
+import vibroimpact as vi
+from reference.law_cases import CASES, CYCLES
+from reference.law_states import STATES
+from reference.store_law_states import AT
+
+TOLERANCE = 1e-11
+
+
+def error(name: str) -> float:
+    """The largest over the stored states, over the largest displacement or velocity."""
+    rig, shaken = CASES[name]
+    data = vi.simulate(rig, shaken, CYCLES, samples=1)
+    columns = [data[which].values for which in ("displacement", "velocity")]
+    last = vi.simulate(rig, shaken, CYCLES, samples=0)["final_state"].values
+    assert [float(column[-1]) for column in columns] == last[:2].tolist()
+    worst = 0.0
+    with mp.workdps(40):
+        for i, column in enumerate(columns):
+            size = float(abs(column).max())
+            for n, stored in zip(AT, STATES[name], strict=True):
+                worst = max(worst, float(abs(mpf(float(column[n])) - mpf(stored[i]))) / size)
+    return worst
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_stored_motions_are_met(name: str) -> None:
+    assert error(name) <= TOLERANCE
