@@ -1,7 +1,7 @@
 """Every law of isolators and stops against its stored motion to 25 digits.
 
-From rest, after 1, 5 and 20 cycles with contacts on both sides, the state agrees within 1e-11 of the
-largest displacement or velocity seen at the sections.
+From rest, after 1, 5 and 20 cycles with contacts on both sides, the state agrees within 1e-11 of
+the largest displacement or velocity seen at the sections.
 """
 
 from __future__ import annotations

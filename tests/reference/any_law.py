@@ -37,6 +37,7 @@ from reference import laws_mpmath as laws
 from reference.first_zero import first_zero
 from reference.jets import Jet, Tape, Unknown, number, rescaled, value
 from reference.law_series import fraction, law_of, restoring
+from reference.law_stops import Side, times
 from reference.public_motion import reference_shaking
 
 DIGITS = 105
@@ -125,39 +126,6 @@ def follow(
     return run.motion
 
 
-class _Side:
-    """A stop with its sign, 1 right and -1 left."""
-
-    def __init__(self, name: str, sign: int, stop: Any) -> None:
-        self.name, self.sign, self.stop = name, sign, stop
-        self.gap = mpf(stop.gap)
-        self.rigid = isinstance(stop, vi.RigidStop)
-        self.curved = isinstance(stop, vi.PowerBumper | vi.JankowskiBumper)
-        self.number: mpf | None = None
-        if self.curved:
-            self.stiffness = mpf(stop.stiffness)
-        if isinstance(stop, vi.PowerBumper):
-            exponent = fraction(stop.exponent)
-            self.root, self.degree = exponent.denominator, exponent.numerator
-            self.chi = mpf(stop.dissipation or 0)
-            if stop.restitution is not None:
-                self.number = laws.dissipation(stop.restitution, stop.relation)
-        elif isinstance(stop, vi.JankowskiBumper):
-            self.root, self.degree, self.chi = 4, 6, mpf(0)
-            xi = laws.jankowski_ratio(stop.restitution)
-            self.closing = 2 * xi * mp.sqrt(mpf(stop.mass) * self.stiffness)
-        elif isinstance(stop, vi.Bumper):
-            self.stiffness, self.damping = mpf(stop.stiffness), mpf(stop.damping)
-            self.rate = self.stiffness / self.damping if stop.damping else None
-
-    def held(self, u: mpf) -> mpf:
-        """Its force, N, where the mass stands still in it."""
-        depth = self.sign * u - self.gap
-        if not self.curved:
-            return self.stiffness * depth
-        return laws.power_contact(self.stiffness, mpf(self.degree) / self.root, 0, depth, 0)
-
-
 class _Run:
     """Where the motion is, and what piece of it."""
 
@@ -178,14 +146,14 @@ class _Run:
         exponent = fraction(rig.isolator.damping_exponent) if self.damping else fraction(1)
         self.degree, self.root = exponent.numerator, exponent.denominator
         pairs = (("right", 1, rig.right), ("left", -1, rig.left))
-        self.sides = [_Side(name, sign, stop) for name, sign, stop in pairs if stop is not None]
+        self.sides = [Side(name, sign, stop) for name, sign, stop in pairs if stop is not None]
         self.shaking = reference_shaking(rig, shaken)
         self.t, self.z, self.u, self.v = mpf(0), mpf(0), mpf(start[0]), mpf(start[1])
         self.w, self.s = mpf(0), abs(self.v) ** (1 / mpf(self.root))
         if any(side.sign * self.u >= side.gap for side in self.sides):
             raise ValueError("the start touches a stop")
         self.memory: dict[str, mpf] = {}
-        self.contact: _Side | None = None
+        self.contact: Side | None = None
         self.chi, self.clamped, self.stuck = mpf(0), False, False
         self.way, self.branch = laws.sign(self.v), 0
         self.step = mpf(1) / 1000 / mpf(shaken.frequency)
@@ -206,7 +174,7 @@ class _Run:
         while self.t < end:
             self._step(end)
 
-    # -- one step ------------------------------------------------------------------------------
+    # -- one step
 
     def _step(self, end: mpf) -> None:
         tape = Tape()
@@ -284,11 +252,11 @@ class _Run:
                 if side.root > 1:
                     steep = w.power(side.root - 1) * side.root
                 u = (w.power(side.root) + side.gap) * side.sign
-                w.rate = _times(v * side.sign, slow)
+                w.rate = times(v * side.sign, slow)
             else:
                 u = Unknown(tape, self.u)
-            clock = slow if steep is None else _times(steep, slow)
-            du = _times(v, clock)
+            clock = slow if steep is None else times(steep, slow)
+            du = times(v, clock)
             if isinstance(u, Unknown):
                 u.rate = du
             force = restoring(self.law, tape, u, du, z, self.way, self.branch, self.u)
@@ -297,11 +265,14 @@ class _Run:
             if self.friction:
                 force = force + self.friction * self.way
             if side is not None:
-                pressing = self._pressing(side, u, v, waiting)
-                if pressing is not None:
+                pressing, margin = side.pressing(u, v, self.depth, self.way, self.chi)
+                waiting.append(("part", pressing if self.depth is None else self.depth))
+                if margin is not None:
+                    waiting.append(("clamp", margin * -1 if self.clamped else margin))
+                if not self.clamped:
                     force = force + pressing * side.sign
             a = (force * -1 + self.load) * (1 / self.mass) - base
-            s.rate = _times(a * self.way, steep)
+            s.rate = times(a * self.way, steep)
             waiting.append(("turn", s))
             if isinstance(self.law, laws.Bilinear) and not self.branch:
                 waiting.append(("yield", z * -self.way + self.law.limit))
@@ -309,11 +280,11 @@ class _Run:
                 waiting.append(("zero", z * self.branch))
         t.rate = clock if clock is not None else tape.constant(1)
         for omega, sine, cosine in waves:
-            sine.rate, cosine.rate = _times(cosine * omega, clock), _times(sine * -omega, clock)
+            sine.rate, cosine.rate = times(cosine * omega, clock), times(sine * -omega, clock)
         for other in self.sides:
             memory = self.relaxing.get(other.name)
             if memory is not None:
-                memory.rate = _times(memory * -other.rate, clock)
+                memory.rate = times(memory * -other.rate, clock)
             if side is None:
                 clearance = u * -other.sign + other.gap
                 waiting.append(
@@ -321,26 +292,7 @@ class _Run:
                 )
         return t, u, v, z, waiting
 
-    def _pressing(self, side: _Side, u: Jet, v: Jet, waiting: list[tuple[Any, Jet]]) -> Jet | None:
-        """Force of the stop that is touched."""
-        inward = v * side.sign
-        if not side.curved:
-            force = (u * side.sign - side.gap) * side.stiffness + inward * side.damping
-            waiting.append(("part", force))
-            return force
-        w = self.depth
-        assert w is not None
-        waiting.append(("part", w))
-        force = w.power(side.degree) * side.stiffness
-        if isinstance(side.stop, vi.JankowskiBumper):
-            return force + w * inward * side.closing if self.way == side.sign else force
-        if not self.chi:
-            return force
-        grip = inward * self.chi + 1
-        waiting.append(("clamp", grip * -1 if self.clamped else grip))
-        return None if self.clamped else force * grip
-
-    # -- events --------------------------------------------------------------------------------
+    # -- events
 
     def _note(self, kind: str) -> None:
         self.motion.events.append(Event(self.t, kind, self.u, self.v))
@@ -417,7 +369,7 @@ class _Run:
         if isinstance(self.law, laws.BoucWen):
             self.branch = laws.sign(self.z) or self.way
 
-    def _touch(self, side: _Side) -> None:
+    def _touch(self, side: Side) -> None:
         if side.rigid:
             self._note(f"impact_{side.name}")
             if abs(self.v) < SLOWEST or not side.stop.restitution:
@@ -449,7 +401,3 @@ class _Run:
             self.memory[side.name] = side.sign * self.u - side.gap
             self.known["touch", side] = 2
         self._note(f"detach_{side.name}")
-
-
-def _times(one: Jet, other: Jet | None) -> Jet:
-    return one if other is None else one * other
