@@ -23,6 +23,7 @@ def error(name: str) -> float:
     """The largest over the stored states, over the largest displacement or velocity."""
     rig, shaken = CASES[name]
     data = vi.simulate(rig, shaken, CYCLES, samples=1)
+    assert data.sizes["time"] == CYCLES + 1, data.attrs["status"]
     columns = [data[which].values for which in ("displacement", "velocity")]
     last = vi.simulate(rig, shaken, CYCLES, samples=0)["final_state"].values
     worst = 0.0
