@@ -1,0 +1,102 @@
+"""Compute the states that `law_states.py` holds, and write that file.
+
+    python tests/reference/store_law_states.py            all rigs of `law_cases`
+    python tests/reference/store_law_states.py drag 0.5   those whose name has these words in it
+
+A rig is stored if two runs of other orders and digits agree to 1e-27, if it touches both stops in
+the last cycle, and if a disturbance of 1e-12 grows by less than 1e2. It takes some 10 s a rig.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+from mpmath import mp, mpf
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from reference import law_states
+from reference.any_law import Motion, follow
+from reference.law_cases import CASES, CYCLES, Case
+
+AT = (1, 5, CYCLES)
+"""Cycles behind which states are stored."""
+DIGITS = 25
+SMALL = mpf("1e-12")
+
+States = tuple[tuple[str, str], ...]
+
+
+def difference(one: Motion, other: Motion, speed: Any) -> mpf:
+    """The largest over all cycles, m; velocities count over `speed`, 1/s."""
+    pairs = zip(one.states, other.states, strict=True)
+    return max(max(abs(a[0] - b[0]), abs(a[1] - b[1]) / speed) for a, b in pairs)
+
+
+def states(one: Case) -> States:
+    """u and v of a rig to 25 digits.
+
+    Raises
+    ------
+    ValueError
+        If it is not fit to be stored.
+    """
+    with mp.workdps(60):
+        speed = 2 * mp.pi * one.shaken.frequency
+        motion = follow(one.rig, one.shaken, CYCLES)
+        other = follow(one.rig, one.shaken, CYCLES, order=36, digits=33)
+        error = difference(motion, other, speed)
+        if error > mpf("1e-29"):
+            raise ValueError(f"two runs differ by {mp.nstr(error, 3)} m")
+        disturbed = follow(one.rig, one.shaken, CYCLES, (SMALL, 0), order=36, digits=33)
+        growth = difference(motion, disturbed, speed) / SMALL
+        if growth > 100:
+            raise ValueError(f"a disturbance grows by {mp.nstr(growth, 3)}")
+        late = {event.kind for event in motion.events if event.time * one.shaken.frequency > 19}
+        for side in ("right", "left"):
+            if not any(kind.endswith(side) for kind in late):
+                raise ValueError(f"the {side} stop is not touched")
+        kinds = [event.kind for event in motion.events]
+        told = ", ".join(f"{kinds.count(kind)} {kind}" for kind in sorted(set(kinds)))
+        print(f"  error {mp.nstr(error, 2)} m, growth {mp.nstr(growth, 3)}; {told}", flush=True)
+        stored = [motion.states[n] for n in AT]
+        return tuple((mp.nstr(u, DIGITS), mp.nstr(v, DIGITS)) for u, v in stored)
+
+
+def write(known: dict[str, States]) -> None:
+    """The file, in the order of `CASES`."""
+    lines = [
+        '"""u (m) and v (m/s) of the rigs of `law_cases` after 1, 5 and 20 cycles from rest.',
+        "",
+        "Written by `store_law_states.py`, from a run to forty digits; all digits are right.",
+        '"""',
+        "",
+        "STATES: dict[str, tuple[tuple[str, str], ...]] = {",
+    ]
+    for name in CASES:
+        if name in known:
+            lines.append(f'    "{name}": (')
+            lines += [f'        ("{u}", "{v}"),' for u, v in known[name]]
+            lines.append("    ),")
+    Path(__file__).with_name("law_states.py").write_text("\n".join([*lines, "}", ""]))
+
+
+def main(words: str) -> None:
+    """Store the rigs whose names have these words."""
+    known = dict(law_states.STATES)
+    for name, one in CASES.items():
+        if words in name:
+            print(name, flush=True)
+            try:
+                known[name] = states(one)
+            except (ValueError, ArithmeticError) as error:
+                print(f"  NOT STORED: {error}", flush=True)
+                known.pop(name, None)
+            write(known)
+
+
+if __name__ == "__main__":
+    main(" ".join(sys.argv[1:]))
