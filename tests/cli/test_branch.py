@@ -355,3 +355,10 @@ def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
     assert (code, errors) == (0, "")
     data = vi.load(tmp_path / "out/quay-frequency-branches.nc")
     assert float(data["displacement_max"].max()) == pytest.approx(5e-3, rel=1e-12)
+
+
+def test_help_names_every_parameter() -> None:
+    from vibroimpact.cli.branch import PARAMETERS as told
+    from vibroimpact.model.parameters import PARAMETERS
+
+    assert told == ", ".join(name.replace("_", "-") for name in PARAMETERS)

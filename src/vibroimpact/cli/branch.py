@@ -8,7 +8,6 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.errors import InputError
-from vibroimpact.model.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,6 +17,18 @@ if TYPE_CHECKING:
     from vibroimpact.model.excitation import Of
 
 _BRANCH = Group("Branch", sort_key=1)
+PARAMETERS = (
+    "frequency, amplitude, force, gap, right-gap, left-gap, bumper-stiffness, right-stiffness, "
+    "left-stiffness, proportional-stiffness, bumper-damping, right-damping, left-damping, "
+    "restitution, right-restitution, left-restitution, bumper-exponent, right-exponent, "
+    "left-exponent, dissipation, right-dissipation, left-dissipation, bumper-mass, right-mass, "
+    "left-mass, stiffness, damping, damping-exponent, friction, elastic-stiffness, "
+    "post-yield-stiffness, yield-force, cubic, quintic, beta, gamma, reversal-stiffness, "
+    "final-stiffness, decay, hardening, hardening-force, stiffness-ratio, gap-ratio, "
+    "relaxation-time, damping-ratio"
+)
+"""Those of the registry, written out: help loads nothing that computes."""
+
 _WITH_UNITS = Parameter(group=_BRANCH, allow_leading_hyphen=True)
 
 
@@ -29,10 +40,7 @@ def branch(
         str,
         Parameter(
             group=_BRANCH,
-            help=(
-                "What is varied, if the rig has it: "
-                f"{', '.join(name.replace('_', '-') for name in PARAMETERS)}."
-            ),
+            help=f"What is varied, if the rig has it: {PARAMETERS}.",
         ),
     ] = "frequency",
     start: Annotated[

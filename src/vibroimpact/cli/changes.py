@@ -12,7 +12,6 @@ from vibroimpact.cli.options import RigOptions
 from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.excitation import QUANTITIES, sized
-from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import MASS
 from vibroimpact.model.units import pretty, to_si
 
@@ -70,6 +69,8 @@ def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
         size, of = sized(value, None, option)
         text = f"{size / GRAVITY:.6g} g" if of == "acceleration" else pretty(size, QUANTITIES[of])
     else:
+        from vibroimpact.model.parameters import PARAMETERS
+
         varied = PARAMETERS.get(option)
         if varied is not None and rig is not None:
             varied = varied.of(rig)

@@ -96,7 +96,7 @@ class Locus:
         share = (bound - here.y[which]) / (there.y[which] - here.y[which])
         y = here.y + share * (there.y - here.y)
         y[which] = bound
-        spot = solve(here.system, y, np.eye(6)[which])
+        spot = solve(here.system, y, np.eye(PARAMETER + 2)[which])
         return [] if spot is None else [self._after(here, spot)]
 
     def _returned(self, here: Place, there: Place) -> bool:

@@ -12,7 +12,7 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import let_go, turned, value
+from vibroimpact.engine.forcing.dispatch import let_go, pace, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers
 from vibroimpact.engine.linear.evaluate import relaxed
@@ -46,6 +46,7 @@ from vibroimpact.engine.taylor.frame import (
 )
 from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, X, Z
 from vibroimpact.engine.taylor.pieces import EVEN, PIECES, begun, motion_at, push_series, shifted
+from vibroimpact.engine.taylor.step import headed
 
 DETACHED_LEFT, YIELDS, UNBENT, EASED = 16, 17, 18, 19
 """Events of a step besides those of a stretch."""
@@ -310,10 +311,11 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next event, or for the time `limit` if that comes first."""
     if motion.fresh & SETTLING:
         return settle(plan, motion, limit)
-    if resting(plan, motion.mode):
+    if resting(plan, motion.mode) or stuck(plan, motion):
+        headed(plan, 0.25 / max(pace(plan), 1e-300))  # by which several harmonics find their way
+        if stuck(plan, motion):
+            return held(plan, motion, limit)
         return rest(plan, motion, limit)
-    if stuck(plan, motion):
-        return held(plan, motion, limit)
     t = 0.0
     here = motion
     while True:

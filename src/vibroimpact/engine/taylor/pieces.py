@@ -16,7 +16,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import relaxed
-from vibroimpact.engine.linear.layout import ORDER, RATE, RESTING, SCALED_W, H
+from vibroimpact.engine.linear.layout import MOST, ORDER, RATE, RESTING, SCALED_W, H
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
 from vibroimpact.engine.taylor.frame import (
@@ -33,6 +33,7 @@ from vibroimpact.engine.taylor.frame import (
     without_friction,
 )
 from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, SHAKEN, X, Z
+from vibroimpact.engine.taylor.plan import stiff_rate
 from vibroimpact.engine.taylor.step import Laws, at, headed, stay, step
 
 PIECES = 2
@@ -147,6 +148,29 @@ def shallow(
 
 
 @kernel
+def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float]:
+    """Below which velocity the drag is left out, and how long a step may be beside it (s).
+
+    A power of the velocity has a singularity where the mass turns. What the drag would do while it
+    is left out is a share ε of the velocities that the forces make in the motion's own time.
+    """
+    v, a = abs(motion.v), abs(without_friction(plan, motion))
+    unit = 1.0 / (stiff_rate(plan) + pace(plan) + 1e-300)
+    force = max(a, plan[MOST]) + 1e-300
+    drag = plan[par.DAMPING]
+    if drag == 0.0:
+        return 0.0, math.inf
+    time = (_NOTHING * force * unit / (2.0 * drag * force**exponent * math.sqrt(unit))) ** (
+        1.0 / (exponent + 0.5)
+    )
+    little = force * min(time, unit)
+    # The velocity grows with the acceleration or, where that vanishes, with its rate.
+    if v <= little:
+        return little, 2.0 * little / (a + math.sqrt(little * force / unit))
+    return little, 0.5 * v / (a + math.sqrt(v * force / unit))
+
+
+@kernel
 def laws_of(
     plan: Vector, motion: Motion, frame: Frame, x: float, longest: float
 ) -> tuple[Laws, float]:
@@ -173,11 +197,10 @@ def laws_of(
     if exponent != 1.0:
         drag = plan[par.DAMPING]
         if exponent != 2.0:
-            push_back = abs(without_friction(plan, motion)) + 1e-300
-            little = (_NOTHING * push_back / max(drag, 1e-300)) ** (1.0 / exponent)
+            little, most = slow(plan, motion, exponent)
+            longest = min(longest, most)
             if abs(motion.v) <= little:
                 drag = 0.0
-                longest = min(longest, 1.01 * little / push_back)
     return Laws(branch, push, other, apart, drag), longest
 
 
