@@ -361,4 +361,4 @@ def test_help_names_every_parameter() -> None:
     from vibroimpact.cli import branch
     from vibroimpact.model.parameters import PARAMETERS
 
-    assert branch.PARAMETERS == ", ".join(name.replace("_", "-") for name in PARAMETERS)
+    assert ", ".join(name.replace("_", "-") for name in PARAMETERS) == branch.PARAMETERS

@@ -49,23 +49,3 @@ def test_starts_on_absent_bumpers() -> None:
     with pytest.raises(vi.InputError, match=r"^start.contact: 1, but .* no bumper there"):
         vi.simulate(rig, SHAKEN, 1, vi.State(contact=1))
     vi.simulate(rig, SHAKEN, 1, vi.State(right_bumper=0.0))
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        (
-            {"isolator": vi.PolynomialIsolator(3e4, 1e3, 1e6)},
-            r"^isolator: its law, polynomial, has",
-        ),
-        ({"isolator": vi.Isolator(3e4, 1e3, 2)}, r"^isolator: its law, a dashpot with an exponent"),
-        (
-            {"left": vi.PowerBumper(3e9, 1e-3)},
-            r"^left: its law, power, has no flow in the engine; ",
-        ),
-    ],
-)
-def test_a_law_without_a_flow_is_refused_and_never_taken_for_another(changes, message):
-    rig = vi.laboratory.case("B2-G1-A3").oscillator.replace(**changes)
-    with pytest.raises(vi.InputError, match=message):
-        vi.simulate(rig, vi.Harmonic("0.05 g", 2.0), 1)
