@@ -119,6 +119,7 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
             if touches:
                 u = sign * stop.gap
         elif not isinstance(stop, Bumper):
+            slack = TOUCHING * max(abs(stop.gap), abs(u))
             touches, deformation = _on_power_law(sign, state, reach, slack, said, sign * v)
         else:
             touches, deformation = _on_bumper(stop, sign, state, name, reach, slack, said, sign * v)
