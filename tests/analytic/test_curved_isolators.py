@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -80,7 +81,7 @@ def test_sharp_bouc_wen_is_nearly_bilinear() -> None:
     for exponent in (1, 2, 4, 8):
         law = vi.BoucWenIsolator(elastic, after, force, 0.1, exponent)
         errors.append(np.abs(np.array([held(law, cycles=t) for t in times]) - sharp).max())
-    assert all(later < 0.7 * before for before, later in zip(errors, errors[1:], strict=False))
+    assert all(later < 0.7 * before for before, later in itertools.pairwise(errors))
     assert errors[-1] < 0.03
 
 

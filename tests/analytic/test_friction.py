@@ -57,7 +57,8 @@ def test_held_until_the_force_exceeds_friction() -> None:
     release = math.asin(friction) / ratio
     held = t < release
     assert 200 < held.sum() < 300
-    assert not u[held].any() and not data["velocity"].values[held].any()
+    assert not u[held].any()
+    assert not data["velocity"].values[held].any()
     size = 1.0 / (1.0 - ratio**2)
     # −sin θ + F + its own vibration, from u = u′ = 0 where sin θ = F.
     s, c = math.sin(ratio * release), math.cos(ratio * release)

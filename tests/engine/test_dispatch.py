@@ -13,7 +13,7 @@ from vibroimpact.engine.parameters import Law, free_rig, rig_vector
 NAMES = [
     name
     for name, value in vars(dispatch).items()
-    if inspect.isfunction(value) and value.__qualname__.startswith("_by_flow")
+    if inspect.isfunction(value) and value.__qualname__.startswith("_by_flow.")
 ]
 
 

@@ -37,7 +37,8 @@ def derivative(rig, shaken, start, cycles=1):
     )
     assert outcome == 0
     # A linear isolator remembers nothing.
-    assert not columns[MEMORY].any() and not columns[:, MEMORY].any()
+    assert not columns[MEMORY].any()
+    assert not columns[:, MEMORY].any()
     return columns[:MEMORY, :MEMORY], float(damping[0])
 
 

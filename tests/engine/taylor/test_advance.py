@@ -43,7 +43,9 @@ def test_linear_rigs_as_by_the_tables(motion: Motion) -> None:
     assert np.abs((found - exact) / scale).max() < 1e-13
 
 
-@pytest.mark.parametrize("isolator", [name for name in ISOLATORS if name not in ("fluid", "friction")])
+@pytest.mark.parametrize(
+    "isolator", [name for name in ISOLATORS if name not in ("fluid", "friction")]
+)
 def test_each_isolator_against_dop853(isolator: str) -> None:
     rig = between(isolator, None)
     exact = integrated(*isolator_numbers(ISOLATORS[isolator]), SHAKEN, 10)

@@ -43,7 +43,9 @@ def test_a_stop_never_pulls() -> None:
     assert pushing(push, 0.0, 3.0) == pushing(push, -0.1, 3.0) == 0.0
 
 
-@pytest.mark.parametrize(("u", "holds"), [(0.0, True), (0.15, True), (0.1501, False), (-0.2, False)])
+@pytest.mark.parametrize(
+    ("u", "holds"), [(0.0, True), (0.15, True), (0.1501, False), (-0.2, False)]
+)
 def test_friction_holds_up_to_its_force(u: float, holds: bool) -> None:
     plan = plan_of("friction")
     still = Motion(FLIGHT, 0, u, 0.0, 0.0, 0.0, 0.0, 0.0, (0.0, 1.0))

@@ -1,4 +1,4 @@
-"""Exponents under curved laws: their sum is what the damping says, their size what a return says."""
+"""Exponents under curved laws: their sum is what the damping says, and the tangent map."""
 
 from __future__ import annotations
 

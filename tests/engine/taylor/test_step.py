@@ -31,7 +31,9 @@ def exact(law: Law, damping: float, u: float, v: float, clock, degree: int) -> l
         for n in range(degree - 1):
             cube = times(times(x, x), x)
             fifth = times(times(cube, x), x)
-            force = x[n] + damping * (n + 1) * x[n + 1] + law.cubic * cube[n] + law.quintic * fifth[n]
+            force = (
+                x[n] + damping * (n + 1) * x[n + 1] + law.cubic * cube[n] + law.quintic * fifth[n]
+            )
             x.append((-0.6 * sine[n] - force) / ((n + 1) * (n + 2)))
             sine.append(-(mpmath.mpf("1.3") ** 2) * sine[n] / ((n + 1) * (n + 2)))
         return x
@@ -49,7 +51,9 @@ def test_coefficients(name: str) -> None:
     assert 0.1 < length < 6.0
     expected = exact(law, 0.1, 0.4, -0.7, clock, DEGREE + 20)
     terms = [float(c * mpmath.mpf(length) ** n) for n, c in enumerate(expected)]
-    np.testing.assert_allclose(plan[X : X + DEGREE + 1], terms[: DEGREE + 1], atol=1e-16, rtol=1e-12)
+    np.testing.assert_allclose(
+        plan[X : X + DEGREE + 1], terms[: DEGREE + 1], atol=1e-16, rtol=1e-12
+    )
     assert abs(math.fsum(terms[DEGREE + 1 :])) < 2e-16
     end = motion_at(plan, motion, frame, 1.0)
     assert end.u == pytest.approx(math.fsum(terms), abs=1e-15)
