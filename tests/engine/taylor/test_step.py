@@ -1,0 +1,59 @@
+"""The series of one Taylor step against exact coefficients, and how far it says it reaches."""
+
+from __future__ import annotations
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.flows import flow_of, planned
+from vibroimpact.engine.motion import FLIGHT, Motion
+from vibroimpact.engine.parameters import Law, rig_vector
+from vibroimpact.engine.taylor.layout import DEGREE, X
+from vibroimpact.engine.taylor.pieces import begun, motion_at
+from vibroimpact.engine.taylor.plan import build
+
+LAWS = {"cubic": Law(cubic=3.0), "both": Law(cubic=-0.4, quintic=0.7), "linear": Law(drag=1.0)}
+
+
+def exact(law: Law, damping: float, u: float, v: float, clock, degree: int) -> list[mpmath.mpf]:
+    """Coefficients of u in time (s), of mass and stiffness 1, −sin θ shaking at ω = 1.3."""
+    with mpmath.workdps(40):
+        x = [mpmath.mpf(u), mpmath.mpf(v)]
+        sine = [mpmath.mpf(clock[0]), mpmath.mpf("1.3") * mpmath.mpf(clock[1])]
+
+        def times(a, b):
+            return [sum(a[j] * b[n - j] for j in range(n + 1)) for n in range(len(a))]
+
+        for n in range(degree - 1):
+            cube = times(times(x, x), x)
+            fifth = times(times(cube, x), x)
+            force = (
+                x[n] + damping * (n + 1) * x[n + 1] + law.cubic * cube[n] + law.quintic * fifth[n]
+            )
+            x.append((-0.6 * sine[n] - force) / ((n + 1) * (n + 2)))
+            sine.append(-(mpmath.mpf("1.3") ** 2) * sine[n] / ((n + 1) * (n + 2)))
+        return x
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_coefficients(name: str) -> None:
+    law, clock = LAWS[name], (0.6, 0.8)
+    rig = rig_vector(1.0, 1.0, 0.1, None, None, law=law)
+    rig[par.CURVED] = 1.0
+    plan = planned(flow_of(rig), rig)
+    build(plan, 0.6, 1.3)
+    motion = Motion(FLIGHT, 0, 0.4, -0.7, 0.0, 0.0, 0.0, 0.0, clock)
+    frame, length = begun(plan, motion, math.inf)
+    assert 0.1 < length < 6.0
+    expected = exact(law, 0.1, 0.4, -0.7, clock, DEGREE + 20)
+    terms = [float(c * mpmath.mpf(length) ** n) for n, c in enumerate(expected)]
+    np.testing.assert_allclose(
+        plan[X : X + DEGREE + 1], terms[: DEGREE + 1], atol=1e-16, rtol=1e-12
+    )
+    assert abs(math.fsum(terms[DEGREE + 1 :])) < 2e-16
+    end = motion_at(plan, motion, frame, 1.0)
+    assert end.u == pytest.approx(math.fsum(terms), abs=1e-15)

@@ -1,0 +1,48 @@
+"""Both flows answer every question, with a kernel of their own."""
+
+from __future__ import annotations
+
+import inspect
+
+import pytest
+
+from vibroimpact.engine import dispatch
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.parameters import Law, free_rig, rig_vector
+
+NAMES = [
+    name
+    for name, value in vars(dispatch).items()
+    if inspect.isfunction(value) and value.__qualname__.startswith("_by_flow.")
+]
+
+
+def test_the_questions() -> None:
+    assert {"build", "carry", "grow", "look", "acceleration"} <= set(NAMES)
+    assert len(NAMES) == 21
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_both_answer_alike(name: str) -> None:
+    linear, taylor = (dispatch._found(curved, name) for curved in (False, True))
+    assert ".linear." in linear.__module__
+    assert ".taylor." in taylor.__module__
+    assert len(inspect.signature(linear.py_func).parameters) == len(
+        inspect.signature(taylor.py_func).parameters
+    )
+
+
+def test_what_is_not_there_is_said() -> None:
+    with pytest.raises(AttributeError, match="the Taylor flow has no nonsense"):
+        dispatch._found(True, "nonsense")
+    with pytest.raises(AttributeError, match="the linear flow has no nonsense"):
+        dispatch._found(False, "nonsense")
+
+
+def test_without_a_compiler_the_rig_decides() -> None:
+    curved = rig_vector(1.0, 4.0, 0.1, None, None, law=Law(hysteretic=5.0))
+    assert curved[par.CURVED] == 1.0
+    assert dispatch.stiff_rate(curved) == 3.0
+    linear = free_rig()
+    assert linear[par.CURVED] == 0.0
+    assert dispatch._found(False, "stiff_rate").__module__.startswith("vibroimpact.engine.linear")
