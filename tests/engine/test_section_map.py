@@ -15,7 +15,7 @@ DAMPED, PLAIN, WALL = (20.0, 0.4, 1.0), (20.0, 0.0, 1.0), (0.5, 1.0)
 def put(
     right: Stop | None, left: Stop | None, mode: int, u: float, v: float, r: float, lft: float
 ) -> Motion:
-    return placed(rig_vector(1.0, 1.0, 0.1, right, left), mode, u, v, r, lft, CLOCK)
+    return placed(rig_vector(1.0, 1.0, 0.1, right, left), mode, u, v, r, lft, 0.0, CLOCK)
 
 
 @pytest.mark.parametrize(

@@ -30,6 +30,7 @@ from vibroimpact.engine.taylor.frame import (
     push_of,
     springs,
     stuck,
+    way_of,
     without_friction,
 )
 from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, SHAKEN, X, Z
@@ -352,7 +353,10 @@ def accelerated(plan: Vector, cursor: Cursor, s: float, c: float, series: Vector
     ü + A_t on a base that moves, ü on one that stands still; at rest it is that of the base.
     """
     shaking = plan[par.BASE]
-    load = frame_of(plan, cursor.start.mode).load
+    frame = frame_of(plan, cursor.start.mode)
+    load = frame.load
+    if plan[par.FRICTION] != 0.0 and plan[HEADER + RESTING] == 0.0:
+        load -= frame.sign * way_of(plan, cursor.start) * plan[par.FRICTION]
     square = 1.0 / (plan[HEADER + RATE] / PIECES) ** 2
     for n in range(DEGREE - 1):
         plan[ASKED + n] = (n + 1) * (n + 2) * plan[X + n + 2] - shaking * plan[SHAKEN + n]
