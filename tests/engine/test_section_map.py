@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
-from vibroimpact.engine.parameters import Stop, rig_vector
+from vibroimpact.engine.parameters import Law, PowerLaw, Stop, rig_vector
 from vibroimpact.engine.section_map import placed
 
 CLOCK = (0.0, 1.0)
@@ -46,3 +46,17 @@ def test_the_nearest_state_that_can_be(right, left, given, mode, u, deformations
     assert found.u == u
     assert found.v == given[2]
     assert (found.right, found.left) == pytest.approx(deformations, abs=1e-15)
+
+
+def test_a_spring_that_yields_is_not_stretched_further() -> None:
+    rig = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(hysteretic=2.0, limit=0.2))
+    for given, z in ((0.1, 0.1), (0.3, 0.2), (-7.0, -0.2)):
+        assert placed(rig, FLIGHT, 0.5, 0.0, 0.0, 0.0, given, CLOCK).z == z
+
+
+def test_a_stop_without_memory_keeps_its_closing_speed_only_where_it_is_pressed() -> None:
+    rig = rig_vector(1.0, 1.0, 0.1, PowerLaw(20.0, 1.5, -0.5, 0.0, 1.0), None)
+    pressed = placed(rig, FLIGHT, 1.25, 0.0, 0.7, 0.0, 0.0, CLOCK)
+    assert (pressed.mode, pressed.right) == (RIGHT, 0.7)
+    free = placed(rig, RIGHT, 0.75, 0.0, 0.7, 0.0, 0.0, CLOCK)
+    assert (free.mode, free.right) == (FLIGHT, 0.0)
