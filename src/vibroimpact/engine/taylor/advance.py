@@ -52,6 +52,11 @@ DETACHED_LEFT, YIELDS, UNBENT, EASED = 16, 17, 18, 19
 """Events of a step besides those of a stretch."""
 
 
+_MOST = 200_000
+"""Steps to one event, far more than any needs whose rates are those of the rig. A stop that is
+met without speed may have a dissipation beyond all bounds: it is told as no finite motion."""
+
+
 class Found(NamedTuple):
     """The earliest event so far: what, where in the step (its length is 1), and at which level."""
 
@@ -318,7 +323,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         return rest(plan, motion, limit)
     t = 0.0
     here = motion
-    while True:
+    for _ in range(_MOST):
         frame, length = begun(plan, here, limit - t)
         found = search(plan, here, frame, length)
         if found.event != LIMIT:
@@ -332,3 +337,6 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         if not t + length < limit:
             return LIMIT, limit, here.v, here
         t += length
+    mode, fresh, _, _, right, left, z, age, clock = motion
+    lost = Motion(mode, fresh, math.nan, math.nan, right, left, z, age, clock)
+    return LIMIT, limit, math.nan, lost
