@@ -155,7 +155,7 @@ def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float]:
     A power of the velocity has a singularity where the mass turns. What the drag would do while it
     is left out is a share ε of the velocities that the forces make in the motion's own time.
     """
-    v, a = abs(motion.v), abs(without_friction(plan, motion))
+    v, a = abs(motion.v), abs(acceleration_of(plan, motion))
     unit = 1.0 / (stiff_rate(plan) + pace(plan) + 1e-300)
     force = max(a, plan[MOST]) + 1e-300
     drag = plan[par.DAMPING]
