@@ -44,8 +44,9 @@ from vibroimpact.engine.taylor.frame import (
     way_of,
     without_friction,
 )
+from vibroimpact.engine.taylor.laws import EVEN
 from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, X, Z
-from vibroimpact.engine.taylor.pieces import EVEN, PIECES, begun, motion_at, push_series, shifted
+from vibroimpact.engine.taylor.pieces import PIECES, begun, motion_at, push_series, shifted
 from vibroimpact.engine.taylor.step import headed
 
 DETACHED_LEFT, YIELDS, UNBENT, EASED = 16, 17, 18, 19

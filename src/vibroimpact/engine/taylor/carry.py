@@ -26,6 +26,7 @@ from vibroimpact.engine.taylor.frame import (
     stuck,
     without_friction,
 )
+from vibroimpact.engine.taylor.laws import laws_of
 from vibroimpact.engine.taylor.layout import (
     BY_SPEED,
     BY_V,
@@ -50,7 +51,7 @@ from vibroimpact.engine.taylor.layout import (
     X,
     Z,
 )
-from vibroimpact.engine.taylor.pieces import begun, coordinate, laws_of, motion_at
+from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at
 from vibroimpact.engine.taylor.step import Laws, convolved, pushed, raised_to
 
 

@@ -1,0 +1,141 @@
+"""Which forces act at a moment that are not linear, and for how long they are these.
+
+A power of a deformation or of a velocity has a singularity where it begins, which no series passes.
+Where such a force is nothing beside the others it is left out; beside that a step is short.
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import pace
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.layout import MOST
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion
+from vibroimpact.engine.taylor.frame import (
+    NO_PUSH,
+    Frame,
+    Push,
+    acceleration_of,
+    branch_of,
+    curved_stop,
+    push_of,
+    springs,
+    without_friction,
+)
+from vibroimpact.engine.taylor.plan import stiff_rate
+from vibroimpact.engine.taylor.step import Laws
+
+_NOTHING = 2.0**-60
+"""A share of the motion's energy or force that leaves no trace in it."""
+
+_ROUNDING = 2.0**-53
+"""Of a number, as a share of it."""
+
+EVEN = 1e-14
+"""1 + χ δ′ where a stop begins or ceases to push: its own rounding."""
+
+
+@kernel
+def unit_of(plan: Vector, motion: Motion, frame: Frame, laws: Laws, x: float) -> float:
+    """A time in which a motion changes (s)."""
+    k = springs(plan, motion) + (frame.stiffness - plan[par.STIFFNESS])
+    for push, deformation in ((laws.push, x), (laws.other, laws.apart - x)):
+        if push.stiffness != 0.0:
+            k += push.stiffness * push.exponent * deformation ** (push.exponent - 1.0)
+    return 1.0 / (math.sqrt(k) + frame.damping + pace(plan) + 1e-300)  # type: ignore[no-any-return]
+
+
+@kernel
+def shallow(
+    push: Push, deformation: float, closing: float, grain: float, longest: float
+) -> tuple[Push, float]:
+    """A stop that is pressed so little that nothing comes of it is left out, while it is.
+
+    The work that its force has done is then a share ε of the motion's, or the deformation is no
+    more than the rounding of a displacement, `grain`. The power of the deformation has a
+    singularity where it begins, which no series passes.
+    """
+    if push.stiffness == 0.0:
+        return push, longest
+    energy = 0.5 * closing * closing * (push.exponent + 1.0)
+    little = (_NOTHING * energy / push.stiffness) ** (1.0 / (push.exponent + 1.0))
+    if push.viscous > 0.0:
+        little = min(little, (_NOTHING * closing / push.viscous) ** 0.8)
+    little = max(little, grain)
+    if deformation > little:
+        # The series of its slope ends where it begins to be pressed.
+        return push, min(longest, 0.5 * deformation / abs(closing)) if closing else longest
+    if closing > 0.0:
+        longest = min(longest, (2.0 * little - deformation) / closing)
+    return NO_PUSH, longest
+
+
+@kernel
+def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float]:
+    """Below which velocity the drag is left out, and how long a step may be beside it (s).
+
+    A power of the velocity has a singularity where the mass turns. What the drag would do while it
+    is left out is a share ε of the velocities that the forces make in the motion's own time.
+    """
+    v, a = abs(motion.v), abs(acceleration_of(plan, motion))
+    unit = 1.0 / (stiff_rate(plan) + pace(plan) + 1e-300)
+    force = max(a, plan[MOST]) + 1e-300
+    drag = plan[par.DAMPING]
+    if drag == 0.0:
+        return 0.0, math.inf
+    time = (_NOTHING * force * unit / (2.0 * drag * force**exponent * math.sqrt(unit))) ** (
+        1.0 / (exponent + 0.5)
+    )
+    little = force * min(time, unit)
+    # The velocity grows with the acceleration or, where that vanishes, with its rate.
+    if v <= little:
+        return little, 2.0 * little / (a + math.sqrt(little * force / unit))
+    return little, 0.5 * v / (a + math.sqrt(v * force / unit))
+
+
+@kernel
+def laws_of(
+    plan: Vector, motion: Motion, frame: Frame, x: float, longest: float
+) -> tuple[Laws, float]:
+    """The forces of this moment that are not linear, and how long they are these at most."""
+    mode = motion.mode
+    v = frame.sign * motion.v
+    branch = branch_of(plan, motion, frame.sign)
+    push, other, apart = NO_PUSH, NO_PUSH, 0.0
+    if mode:
+        grain = 16.0 * _ROUNDING * (abs(x) + abs(frame.offset))
+        side = LEFT if mode == LEFT else RIGHT
+        memory = motion.left if mode == LEFT else motion.right
+        if curved_stop(plan, side):
+            push = push_of(plan, side, branch.way if v == 0.0 else v, memory)
+            push = pressing(push, v, frame.sign * without_friction(plan, motion))
+            push, longest = shallow(push, x, v, grain, longest)
+        if mode == BOTH and curved_stop(plan, LEFT):
+            apart = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
+            other = push_of(plan, LEFT, -(branch.way if v == 0.0 else v), motion.left)
+            other = pressing(other, -v, -frame.sign * without_friction(plan, motion))
+            other, longest = shallow(other, apart - x, -v, grain, longest)
+    drag = 0.0
+    exponent = plan[par.DRAG]
+    if exponent != 1.0:
+        drag = plan[par.DAMPING]
+        if exponent != 2.0:
+            little, most = slow(plan, motion, exponent)
+            longest = min(longest, most)
+            if abs(motion.v) <= little:
+                drag = 0.0
+    return Laws(branch, push, other, apart, drag), longest
+
+
+@kernel
+def pressing(push: Push, closing: float, gains: float) -> Push:
+    """The push of a stop, unless it would pull: 1 + χ δ′ below 0, or on the way there.
+
+    `gains` is δ″ where it does not push.
+    """
+    stays = 1.0 + push.dissipation * closing
+    if stays > EVEN or (stays > -EVEN and gains > 0.0):
+        return push
+    return NO_PUSH
