@@ -10,6 +10,7 @@ from mpmath import mp, mpf
 import vibroimpact as vi
 from reference import fifty_digits, law_states
 from reference import laws_mpmath as laws
+from reference import rig as rig_reference
 from reference.any_law import Step, follow
 from reference.jets import value
 from reference.law_cases import CASES, CYCLES
@@ -125,9 +126,9 @@ def test_order_and_digits_change_nothing(name: str) -> None:
 def test_a_linear_rig_moves_as_by_the_reference_of_linear_rigs() -> None:
     rig, shaken = CASES["linear, bumpers"]
     one = follow(rig, shaken, CYCLES)
-    right, left = (fifty_digits.Stop(s.stiffness, s.damping, s.gap) for s in rig.stops)
+    right, left = (rig_reference.Stop(s.stiffness, s.damping, s.gap) for s in rig.stops)
     k, c = rig.isolator.stiffness, rig.isolator.damping
-    known = fifty_digits.Rig(rig.mass, k, c, right, left)
+    known = rig_reference.Rig(rig.mass, k, c, right, left)
     rest = (0.0, 0.0, 0.0, 0.0)
     other = fifty_digits.integrate(
         known, shaken.amplitude, shaken.frequency, shaken.phase, rest, CYCLES

@@ -14,7 +14,6 @@ from collections import Counter
 import numpy as np
 
 import vibroimpact as vi
-from samples import sample
 
 CYCLES = 8
 LONGEST = 60.0
@@ -100,13 +99,6 @@ def survey(count: int, seed: int) -> tuple[Counter[str], list[str]]:
             if getattr(rig, name) is not None and (side * data[f"{name}_bumper"] < -1e-12).any():
                 wrong.append(about.format(f"the {name} stop was pulled"))
     return outcomes, wrong
-
-
-def test_random_rigs_have_sound_motions() -> None:
-    count = sample(3000, 150)
-    outcomes, wrong = survey(count, seed=1)
-    assert not wrong, "\n".join(wrong)
-    assert outcomes["done"] > 0.9 * count
 
 
 if __name__ == "__main__":
