@@ -1,6 +1,6 @@
 """Random rigs of all laws: no hang, no NaN, nothing created of a motion left to itself.
 
-A sample runs with the tests. More: `python tests/properties/test_fuzz_laws.py 20000`.
+A script, not yet a test: `python tests/properties/survey_laws.py 20000`.
 """
 
 from __future__ import annotations
