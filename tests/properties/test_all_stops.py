@@ -111,6 +111,8 @@ def test_the_dimensionless_motion_has_no_units(
     motion: Motion, mass: float, stiffness: float, amplitude: float
 ) -> None:
     data = tame(motion, CYCLES)
+    # Of an impact at the start, rounding decides whether the first sample lies behind it.
+    assume(not data.sizes["event"] or float(data["event_time"][0]) > 0.0)
     rig, shaken = motion.oscillator, motion.excitation
     plain = vi.to_dimensionless(rig, shaken.amplitude)
     other, acceleration = plain.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude)
