@@ -34,14 +34,16 @@ def isolator_numbers(isolator: AnyIsolator) -> tuple[float, float, Law]:
             law = Law(cubic=isolator.cubic, quintic=isolator.quintic, drag=drag)
             return isolator.stiffness, damping, law
         case BilinearIsolator():
-            spring = isolator.elastic_stiffness - isolator.post_yield_stiffness
-            law = Law(hysteretic=spring, limit=isolator.yield_displacement, drag=drag)
+            law = Law(
+                hysteretic=isolator.hysteretic_stiffness,
+                limit=isolator.yield_displacement,
+                drag=drag,
+            )
             return isolator.post_yield_stiffness, damping, law
         case BoucWenIsolator():
-            spring = isolator.elastic_stiffness - isolator.post_yield_stiffness
             scale = isolator.yield_displacement**-isolator.exponent
             law = Law(
-                hysteretic=spring,
+                hysteretic=isolator.hysteretic_stiffness,
                 turning=isolator.beta * scale,
                 knee=isolator.gamma * scale,
                 sharpness=isolator.exponent,

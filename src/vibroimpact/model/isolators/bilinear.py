@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Self
+from typing import ClassVar
 
-from pydantic import model_validator
-
-from vibroimpact.model.isolators.law import IsolatorLaw, check_yielding
-from vibroimpact.model.quantities import FORCE, STIFFNESS
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.isolators.law import YieldingLaw
+from vibroimpact.model.validation import constructor
 
 
-class BilinearIsolator(IsolatorLaw):
+class BilinearIsolator(YieldingLaw):
     """Two stiffnesses and a yield force, with kinematic hardening, and a dashpot.
 
     A spring k_p stands beside an elastic, perfectly plastic element of stiffness k_e - k_p that
@@ -41,10 +38,6 @@ class BilinearIsolator(IsolatorLaw):
 
     kind: ClassVar[str] = "bilinear"
 
-    elastic_stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
-    post_yield_stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
-    yield_force: Annotated[float, Accepts(FORCE, above=0.0)]
-
     @constructor
     def __init__(
         self,
@@ -62,33 +55,9 @@ class BilinearIsolator(IsolatorLaw):
             damping_exponent=damping_exponent,
         )
 
-    @model_validator(mode="after")
-    def _yields(self) -> Self:
-        check_yielding(self)
-        return self
-
-    @property
-    def yield_displacement(self) -> float:
-        """u_y = F_y/k_e in m."""
-        return self.yield_force / self.elastic_stiffness
-
-    @property
-    def initial_stiffness(self) -> float:
-        """k_e, N/m."""
-        return self.elastic_stiffness
-
-    def static_force(self, displacement: float) -> float:
-        """Force in N of a first loading to a displacement in m: k_p u + (k_e - k_p) z."""
+    def _loaded(self, displacement: float) -> float:
         limit = self.yield_displacement
-        z = max(-limit, min(limit, displacement))
-        plastic = self.elastic_stiffness - self.post_yield_stiffness
-        return self.post_yield_stiffness * displacement + plastic * z
-
-    def remembered(self, displacement: float) -> float:
-        """Its memory z (m) after a first loading to a displacement (m)."""
-        spring = self.elastic_stiffness - self.post_yield_stiffness
-        held = self.static_force(displacement) - self.post_yield_stiffness * displacement
-        return held / spring if spring else 0.0
+        return max(-limit, min(limit, displacement))
 
     @property
     def strongest(self) -> float:

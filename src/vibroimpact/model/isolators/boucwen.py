@@ -9,8 +9,8 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import BeforeValidator, model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.isolators.law import IsolatorLaw, check_yielding
-from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, STIFFNESS
+from vibroimpact.model.isolators.law import YieldingLaw
+from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.units import shown
 from vibroimpact.model.validation import Accepts, constructor
 
@@ -26,7 +26,7 @@ def _whole(value: Any) -> int:
     return int(number)
 
 
-class BoucWenIsolator(IsolatorLaw):
+class BoucWenIsolator(YieldingLaw):
     """The smooth hysteresis of Bouc and Wen, with a dashpot.
 
     The force is k_p u + (k_e - k_p) z with z' = v [1 - |z/u_y|ⁿ (γ + β sgn(v z))] and
@@ -63,9 +63,6 @@ class BoucWenIsolator(IsolatorLaw):
 
     kind: ClassVar[str] = "bouc-wen"
 
-    elastic_stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
-    post_yield_stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
-    yield_force: Annotated[float, Accepts(FORCE, above=0.0)]
     exponent: Annotated[int, BeforeValidator(_whole)] = 1
     beta: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0)] = 0.5
     gamma: Annotated[float, Accepts(DIMENSIONLESS)] = 0.5
@@ -94,8 +91,7 @@ class BoucWenIsolator(IsolatorLaw):
         )
 
     @model_validator(mode="after")
-    def _yields(self) -> Self:
-        check_yielding(self)
+    def _is_bounded(self) -> Self:
         if not self.beta + self.gamma > 0.0:
             raise InputError(
                 f"gamma: {self.gamma:g} and beta, {self.beta:g}, have a sum that is not greater "
@@ -109,34 +105,15 @@ class BoucWenIsolator(IsolatorLaw):
         return self
 
     @property
-    def yield_displacement(self) -> float:
-        """u_y = F_y/k_e in m."""
-        return self.yield_force / self.elastic_stiffness
-
-    @property
     def hysteretic_limit(self) -> float:
         """What |z| never exceeds, u_y/(β + γ)^(1/n), in m."""
         return self.yield_displacement * float((self.beta + self.gamma) ** (-1.0 / self.exponent))
 
-    @property
-    def initial_stiffness(self) -> float:
-        """k_e, N/m."""
-        return self.elastic_stiffness
-
-    def static_force(self, displacement: float) -> float:
-        """Force in N of a first loading to a displacement in m: k_p u + (k_e - k_p) z(u)."""
+    def _loaded(self, displacement: float) -> float:
         limit = self.hysteretic_limit
-        z = math.copysign(
+        return math.copysign(
             limit * _saturation(abs(displacement) / limit, self.exponent), displacement
         )
-        plastic = self.elastic_stiffness - self.post_yield_stiffness
-        return self.post_yield_stiffness * displacement + plastic * z
-
-    def remembered(self, displacement: float) -> float:
-        """Its memory z (m) after a first loading to a displacement (m)."""
-        spring = self.elastic_stiffness - self.post_yield_stiffness
-        held = self.static_force(displacement) - self.post_yield_stiffness * displacement
-        return held / spring if spring else 0.0
 
     @property
     def strongest(self) -> float:

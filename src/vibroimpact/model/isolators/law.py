@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, ClassVar, Protocol
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import model_validator
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.kinds import Named
@@ -77,40 +79,61 @@ class IsolatorLaw(Named):
         return math.copysign(self.damping * abs(velocity) ** self.damping_exponent, velocity)
 
 
-class Yielding(Protocol):
-    """A law with an elastic and a post-yield stiffness."""
+class YieldingLaw(IsolatorLaw):
+    """A spring k_p beside an element of stiffness k_e - k_p that yields.
 
-    @property
-    def elastic_stiffness(self) -> float:
-        """Before yielding, N/m."""
-
-    @property
-    def post_yield_stiffness(self) -> float:
-        """After it, N/m."""
-
-    @property
-    def yield_force(self) -> float:
-        """Where it yields, N."""
-
-
-def check_yielding(law: Yielding) -> None:
-    """Refuse a law that hardens where it yields, or yields nowhere.
-
-    Raises
-    ------
-    InputError
-        If the post-yield stiffness is above the elastic one, or the yield displacement is no
-        number.
+    Its force is k_p u + (k_e - k_p) z; how z moves is the law's own.
     """
-    if law.post_yield_stiffness > law.elastic_stiffness:
-        raise InputError(
-            f"post_yield_stiffness: {pretty(law.post_yield_stiffness, STIFFNESS)} is greater than "
-            f"elastic_stiffness, {pretty(law.elastic_stiffness, STIFFNESS)}; "
-            "at most that is accepted"
-        )
-    if not 0.0 < law.yield_force / law.elastic_stiffness < math.inf:
-        raise InputError(
-            f"yield_force: {pretty(law.yield_force, FORCE)} over elastic_stiffness, "
-            f"{pretty(law.elastic_stiffness, STIFFNESS)}, is a yield displacement outside the "
-            "range of floating-point numbers; moderate values are accepted"
-        )
+
+    elastic_stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+    post_yield_stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
+    yield_force: Annotated[float, Accepts(FORCE, above=0.0)]
+
+    @constructor
+    def __init__(self, /, **values: Any) -> None:
+        super().__init__(**values)
+
+    @model_validator(mode="after")
+    def _yields(self) -> Self:
+        """Refuse a law that hardens where it yields, or yields nowhere."""
+        if self.post_yield_stiffness > self.elastic_stiffness:
+            raise InputError(
+                f"post_yield_stiffness: {pretty(self.post_yield_stiffness, STIFFNESS)} is greater "
+                f"than elastic_stiffness, {pretty(self.elastic_stiffness, STIFFNESS)}; "
+                "at most that is accepted"
+            )
+        if not 0.0 < self.yield_displacement < math.inf:
+            raise InputError(
+                f"yield_force: {pretty(self.yield_force, FORCE)} over elastic_stiffness, "
+                f"{pretty(self.elastic_stiffness, STIFFNESS)}, is a yield displacement outside the "
+                "range of floating-point numbers; moderate values are accepted"
+            )
+        return self
+
+    @property
+    def yield_displacement(self) -> float:
+        """u_y = F_y/k_e in m."""
+        return self.yield_force / self.elastic_stiffness
+
+    @property
+    def hysteretic_stiffness(self) -> float:
+        """k_e - k_p, N/m: that of the element that yields."""
+        return self.elastic_stiffness - self.post_yield_stiffness
+
+    @property
+    def initial_stiffness(self) -> float:
+        """k_e, N/m."""
+        return self.elastic_stiffness
+
+    def static_force(self, displacement: float) -> float:
+        """Force in N of a first loading to a displacement in m: k_p u + (k_e - k_p) z."""
+        held = self.hysteretic_stiffness * self._loaded(displacement)
+        return self.post_yield_stiffness * displacement + held
+
+    def remembered(self, displacement: float) -> float:
+        """Its memory z (m) after a first loading to a displacement (m); 0 if nothing can yield."""
+        return self._loaded(displacement) if self.hysteretic_stiffness else 0.0
+
+    def _loaded(self, displacement: float) -> float:
+        """The z (m) of a first loading."""
+        raise NotImplementedError
