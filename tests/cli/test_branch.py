@@ -358,7 +358,7 @@ def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
 
 
 def test_help_names_every_parameter() -> None:
-    from vibroimpact.cli import branch
+    from vibroimpact.cli.branch import PARAMETERS as told
     from vibroimpact.model.parameters import PARAMETERS
 
-    assert ", ".join(name.replace("_", "-") for name in PARAMETERS) == branch.PARAMETERS
+    assert ", ".join(name.replace("_", "-") for name in PARAMETERS) == told
