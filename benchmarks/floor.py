@@ -20,7 +20,7 @@ from vibroimpact.engine.linear.evaluate import node, travel
 from vibroimpact.engine.linear.layout import NODES, PLAN, SIZE, TABLES, H
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Row
 from vibroimpact.engine.parameters import SIZE as RIG
 
 _Vector = NDArray[np.float64]
@@ -87,9 +87,9 @@ def _replay(
             table = TABLES + SIZE * mode
             sign = -1.0 if mode == LEFT else 1.0
             shift = 0.0 if mode == FLIGHT else gap
-            x, v, s, c = sign * u - shift, sign * v, sign * s, sign * c
-            x, v, s, c = node(plan, table, nodes[i], x, v, s, c)
-            x, v, s, c = travel(plan, table, rests[i], x, v, s, c)
+            row = Row(sign * u - shift, sign * v, sign * s, sign * c)
+            row = node(plan, table, nodes[i], row)
+            x, v, s, c = travel(plan, table, rests[i], row)
             u, v, s, c = sign * (x + shift), sign * v, sign * s, sign * c
     memory[0] += 0.0  # keeps it alive until here
     return u, v, s, c
