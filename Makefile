@@ -67,8 +67,9 @@ pins:
 	rm -rf $(VENV)-pins
 	$(PYTHON) -m venv $(VENV)-pins
 	PIP_CONSTRAINT= PIP_BUILD_CONSTRAINT= \
-	    $(VENV)-pins/bin/python -m pip install -q hatchling editables '.[test,lint,bench]'
-	$(VENV)-pins/bin/python -m pip freeze --exclude vibroimpact > $(VENV)-pins/constraints.txt
+	    $(VENV)-pins/bin/python -m pip install -q -U setuptools hatchling editables \
+	    '.[test,lint,bench]'
+	$(VENV)-pins/bin/python -m pip freeze --all --exclude pip --exclude vibroimpact > $(VENV)-pins/constraints.txt
 	@! grep -vE '^[A-Za-z0-9._-]+==[A-Za-z0-9.!+_-]+$$' $(VENV)-pins/constraints.txt || { \
 	    echo 'make: these are not plain name==version lines' >&2; exit 1; }
 	mv $(VENV)-pins/constraints.txt constraints.txt

@@ -232,7 +232,7 @@ class TestWhatShakes:
     @pytest.mark.parametrize(
         ("text", "csv", "message"),
         [
-            ('step = "1 ms"', "0.1\nnan\n0.2", r"acceleration\[1\]: nan is not finite"),
+            ('step = "1 ms"', "0.1\nnan\n0.2", r"line 2: nan is not finite"),
             ('step = "1 ms"', "0.1", r"acceleration: 1; at least 2 samples"),
             ("step = 0", "0.1\n0.2", r"excitation.step: 0 is not greater than 0"),
             ('step = "-1 ms"', "0.1\n0.2", r"excitation.step: '-1 ms' is not greater than 0"),

@@ -128,3 +128,44 @@ def test_what_cannot_be_differentiated_is_refused(values, line):
     with pytest.raises(vi.InputError, match=f"^{line}") as refused:
         vi.Record.from_displacement(values, 0.01)
     assert "\n" not in str(refused.value)
+
+
+def test_scaled_cut_and_levelled_say_so():
+    record = vi.Record([0.0, 1.0, -4.0, 2.0, 1.0], 0.5)
+    assert record.about.notes == ()
+    assert record.peak_time == 1.0
+    double = record.scaled(-2)
+    np.testing.assert_array_equal(double.acceleration, [0.0, -2.0, 8.0, -4.0, -2.0])
+    assert record.scaled(peak="0.5 g").peak == pytest.approx(4.903325)
+    part = double.cut("0.6 s", 1.5)
+    np.testing.assert_array_equal(part.acceleration, [-2.0, 8.0, -4.0])
+    assert part.about.notes == ("scaled by -2", "cut to 0.5 to 1.5 s")
+    np.testing.assert_array_equal(record.cut().acceleration, record.acceleration)
+    level = record.levelled()
+    np.testing.assert_allclose(level.acceleration, record.acceleration, atol=1e-15)
+    tilted = vi.Record(record.acceleration + 3.0 - 2.0 * record.time, 0.5).levelled("line")
+    np.testing.assert_allclose(
+        tilted.acceleration, record.levelled("line").acceleration, atol=1e-14
+    )
+    (note,) = tilted.about.notes
+    assert note == "less its line, 2.4 m/s² at the beginning and -0.4 m/s² at the end"
+    assert ("note", note) in tilted.rows()
+
+
+@pytest.mark.parametrize(
+    ("change", "line"),
+    [
+        (lambda r: r.scaled(0), "by: 0; a number other than 0"),
+        (lambda r: r.scaled(2, peak=1), "peak: 1 beside by = 2; one of them"),
+        (lambda r: r.scaled(peak="-1 g"), "peak: '-1 g' is not greater than 0"),
+        (lambda r: vi.Record([0, 0], 1).scaled(peak=1), "peak: 1, but the record is 0 throughout"),
+        (lambda r: r.cut(2, 1), "end: 1, with start 2; at least 2 samples"),
+        (lambda r: r.cut(0, 99), "end: 99 is greater than 2.25"),
+        (lambda r: r.cut(-1), "start: -1 is less than 0"),
+        (lambda r: r.levelled("parabola"), "baseline: 'parabola'; 'mean' or 'line' is accepted"),
+    ],
+)
+def test_changes_that_cannot_be_made(change, line):
+    with pytest.raises(vi.InputError) as refused:
+        change(vi.Record([0.0, 1.0, -4.0, 2.0, 1.0], 0.5))
+    assert str(refused.value).startswith(line)

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.records.columns import read_columns
 
 
 def written(tmp_path, text: str):
@@ -29,7 +28,7 @@ def written(tmp_path, text: str):
     ],
 )
 def test_all_say_the_same(tmp_path, text, step):
-    record = read_columns(written(tmp_path, text), step)
+    record = vi.Record.read(written(tmp_path, text), step=step)
     np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0])
     assert record.step == pytest.approx(0.1, rel=1e-12)
 
@@ -37,11 +36,11 @@ def test_all_say_the_same(tmp_path, text, step):
 def test_units(tmp_path):
     path = written(tmp_path, "0.1\n-0.2\n0.3\n")
     np.testing.assert_allclose(
-        read_columns(path, 0.1, "g").acceleration, [0.980665, -1.96133, 2.941995]
+        vi.Record.read(path, step=0.1, unit="g").acceleration, [0.980665, -1.96133, 2.941995]
     )
     time = np.arange(50) * 0.02
     rows = "\n".join(f"{t!r},{20 * math.sin(3 * t)!r}" for t in time.tolist())
-    moved = read_columns(written(tmp_path, rows), None, "mm")
+    moved = vi.Record.read(written(tmp_path, rows), unit="mm")
     expected = vi.Record.from_displacement(0.02 * np.sin(3 * time), 0.02)
     np.testing.assert_allclose(moved.acceleration, expected.acceleration, atol=1e-10)
 
@@ -49,7 +48,7 @@ def test_units(tmp_path):
 @pytest.mark.parametrize(
     ("text", "step", "unit", "line"),
     [
-        ("1\nnan\n2\n", 0.1, "m/s^2", r".*acceleration\[1\]: nan is not finite"),
+        ("1\nnan\n2\n", 0.1, "m/s^2", r"record: .*, line 2: nan is not finite"),
         ("1\n", 0.1, "m/s^2", r".*acceleration: 1; at least 2"),
         ("", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("words only\n", 0.1, "m/s^2", r"record: .* has no numbers"),
@@ -57,9 +56,11 @@ def test_units(tmp_path):
         ("0,1\n0.1,2\n", 0.1, "m/s^2", r"step: 0.1, but .* has times of its own"),
         ("1\n2\n", 0.0, "m/s^2", r"step: .*greater than 0"),
         ("1\n2\nend\n", 0.1, "m/s^2", r"record: .*, line 3: 'end' is no row of numbers"),
-        ("1,2,3\n4,5,6\n7,8,9\n", None, "m/s^2", r"record: .* has rows of \[3\] numbers"),
-        ("1,2\n3\n", None, "m/s^2", r"record: .* has rows of \[1, 2\] numbers"),
-        ("0,1\n0.1,2\n0.5,3\n", None, "m/s^2", r"record: .*, sample 1: .* not evenly spaced"),
+        ("1,2,3\n4,5,6\n7,8,9\n", None, "m/s^2", r"component: missing, and .* has 2; '1', '2', or"),
+        ("1,2\n3\n", None, "m/s^2", r"record: .*, line 2: a row of 1 numbers, where"),
+        ("1,2\n3,4\n5\n", None, "m/s^2", r"record: .*, line 3: a row of 1 numbers, where those"),
+        ("0,1\n0.1,2\n0.5,3\n", None, "m/s^2", r"record: .*, line 2: .* not evenly spaced"),
+        ("0,0.1,0.5\n1,2,3\n", None, "m/s^2", r"record: .*, sample 1: .* not evenly spaced"),
         ("0,1\n-0.1,2\n-0.2,3\n", None, "m/s^2", r"record: .*not evenly spaced"),
         ("0,1\n0,2\n0,3\n", None, "m/s^2", r"record: .*not evenly spaced"),
         ("1\n2\n", 0.1, "N", r"unit: .*"),
@@ -69,14 +70,33 @@ def test_units(tmp_path):
 )
 def test_refused_in_one_line(tmp_path, text, step, unit, line):
     with pytest.raises(vi.InputError, match=f"^{line}") as refused:
-        read_columns(written(tmp_path, text), step, unit)
+        vi.Record.read(written(tmp_path, text), step=step, unit=unit)
     assert "\n" not in str(refused.value)
 
 
 def test_what_is_no_text_file(tmp_path):
     with pytest.raises(vi.InputError, match=r"^record: .* cannot be read \(No such file"):
-        read_columns(tmp_path / "missing.csv", 0.1)
+        vi.Record.read(tmp_path / "missing.csv", step=0.1)
     path = tmp_path / "binary.dat"
     path.write_bytes(b"\xff\xfe\x00\x80")
     with pytest.raises(vi.InputError, match=r"^record: .* is not text"):
-        read_columns(path, 0.1)
+        vi.Record.read(path, step=0.1)
+
+
+def test_names_and_units_above_the_columns(tmp_path):
+    text = "made up\nTime [s],North (g),East (g)\n0,1,10\n0.1,2,20\n0.2,-3,-30\n"
+    path = written(tmp_path, text)
+    record = vi.Record.read(path, "east")
+    np.testing.assert_allclose(record.acceleration, [98.0665, 196.133, -294.1995])
+    assert (record.about.component, record.about.unit) == ("East", "g")
+    with pytest.raises(vi.InputError, match="has 2; 'North', 'East', or a number from 1 to 2"):
+        vi.Record.read(path)
+    assert vi.Record.read(path, 1, unit="m/s^2").peak == 3.0
+
+
+@pytest.mark.parametrize("line", ["# dt = 0.01", "dt: 10 ms", "Sampling interval=1e-2 s", "4 0.01"])
+def test_a_step_above_the_values(tmp_path, line):
+    record = vi.Record.read(written(tmp_path, f"made up\n{line}\n1\n2\n-3\n0\n"))
+    np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0, 0.0])
+    assert record.step == pytest.approx(0.01, rel=1e-14)
+    assert record.about.notes == ("unit m/s², for the file says none",)

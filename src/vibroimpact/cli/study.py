@@ -32,7 +32,6 @@ from vibroimpact.model import Model, Oscillator, Periodic, Record, Repeated, val
 from vibroimpact.model.quantities import ANGLE, DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
 from vibroimpact.model.rigs import as_shaking
 from vibroimpact.model.validation import Accepts
-from vibroimpact.records import read_columns
 
 _Frequency = Annotated[float | None, Accepts(FREQUENCY, above=0.0, optional=True)]
 
@@ -41,8 +40,8 @@ class ExcitationTable(Model):
     """``[excitation]``: what shakes the mass, at whatever frequency; or a record in a file.
 
     An amplitude is one of acceleration, displacement or force, by its unit. A record stands beside
-    the study file; its `step` (s) where the file has no times; its `unit`, m/s² unless said, may
-    be one of length.
+    the study file; its `component` where the file has several, its `step` (s) and its `unit` where
+    the file does not say them; a unit may be one of length.
     """
 
     amplitude: float | str | None = None
@@ -50,6 +49,7 @@ class ExcitationTable(Model):
     phases: list[Annotated[float, Accepts(ANGLE)]] | None = None
     phase: Annotated[float, Accepts(ANGLE)] = 0.0
     record: str | None = None
+    component: str | None = None
     step: Annotated[float | None, Accepts(TIME, above=0.0, optional=True)] = None
     unit: str | None = None
 
@@ -59,7 +59,8 @@ class ExcitationTable(Model):
         given = [name for name, value in ways.items() if value is not None]
         if len(given) > 1:
             raise InputError(f"{' and '.join(given)} are given; one of them is accepted")
-        for name, needs in (("phases", "amplitudes"), ("step", "record"), ("unit", "record")):
+        beside = dict.fromkeys(("component", "step", "unit"), "record")
+        for name, needs in (("phases", "amplitudes"), *beside.items()):
             if getattr(self, name) is not None and ways[needs] is None:
                 raise InputError(f"{name} is given without {needs}; it is accepted beside it")
         return self
@@ -73,7 +74,7 @@ class ExcitationTable(Model):
             If the record cannot be read, or a value cannot be used.
         """
         if self.record is not None:
-            return read_columns(folder / self.record, self.step, self.unit or "m/s^2")
+            return Record.read(folder / self.record, self.component, unit=self.unit, step=self.step)
         if self.amplitudes is not None:
             return Periodic(1.0, self.amplitudes, self.phases, self.phase)
         if self.amplitude is None:

@@ -2,18 +2,39 @@
 
 from __future__ import annotations
 
-from typing import Any
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME, Quantity
+from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, TIME, Quantity
 from vibroimpact.model.table import table
-from vibroimpact.model.units import pretty, shown, to_si
+from vibroimpact.model.units import one_of, pretty, shown, to_si
+from vibroimpact.records.read import read_channel
 
 _RESOLVED = 1.5
 """By how much the peak of a second derivative may grow when the samples left out are used."""
+
+
+_OFF = 0.05
+"""Share of the peak from which on a mean that is left in is told."""
+_DEGREES = {"mean": 0, "line": 1}
+
+
+class About(NamedTuple):
+    """Where a record comes from, and what was done to it."""
+
+    source: str = ""
+    """The file."""
+    format: str = ""
+    station: str = ""
+    component: str = ""
+    unit: str = ""
+    """Of the file's values."""
+    notes: tuple[str, ...] = ()
+    """What was taken for granted, and what was changed, in order."""
 
 
 class Record:
@@ -32,11 +53,101 @@ class Record:
         If a sample is no finite number, there are fewer than 2, or the step cannot be used.
     """
 
-    __slots__ = ("_acceleration", "_step")
+    __slots__ = ("_about", "_acceleration", "_step")
 
     def __init__(self, acceleration: ArrayLike, step: float | str) -> None:
         self._acceleration = _samples(acceleration, ACCELERATION, "acceleration")
         self._step = to_si(step, TIME, "step", above=0.0)
+        self._about = About()
+
+    @classmethod
+    def read(
+        cls,
+        path: Path | str,
+        component: str | int | None = None,
+        *,
+        unit: str | None = None,
+        step: float | str | None = None,
+        station: str | None = None,
+    ) -> Record:
+        """Read a record from a file, whose format is known by its content.
+
+        PEER AT2, COSMOS and CSMIP V1 and V2, USGS SMC, GeoNet V1A and V2A, K-NET and KiK-net,
+        ESM, columns of numbers; SAC and miniSEED where obspy is installed. A file may be packed by
+        gzip. Nothing is filtered, cut or shifted; `about` says what was taken for granted.
+
+        Parameters
+        ----------
+        path
+            The file.
+        component
+            Which of several: its name in the file, such as ``"90"``, ``"Up"`` or ``"HNE"``, or its
+            number from 1 on.
+        unit
+            Of the values, instead of the file's: of an acceleration, such as ``"g"``, or of a
+            displacement of the base, such as ``"mm"`` (`from_displacement`). m/s² where neither
+            says.
+        step
+            Time between samples (s, or text with a unit), instead of the file's.
+        station
+            Its name, instead of the file's.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read, in one line that names the file's; if it has several
+            components and none is chosen; or if its values make no record.
+        """
+        form, found, _ = read_channel(path, component)
+        notes = []
+        if step is not None:
+            if found.step is not None and form == "columns":
+                raise InputError(
+                    f"step: {step!r}, but {str(path)!r} has times of its own; one of the two is "
+                    "accepted"
+                )
+            spacing = to_si(step, TIME, "step", above=0.0)
+            if found.step not in (None, spacing):
+                notes.append(f"step {pretty(spacing, TIME)}, not the file's {found.step:g} s")
+        elif found.step is None:
+            none = "has no times" if form == "columns" else f"has none in {found.where}"
+            raise InputError(f"step: missing, and {str(path)!r} {none}; a time is accepted")
+        else:
+            spacing = found.step
+        taken = unit or found.unit
+        if taken is None:
+            if found.unclear:
+                raise InputError(
+                    f"unit: missing, and {str(path)!r} has {found.unclear}; the unit of an "
+                    'acceleration is accepted, such as "m/s^2", after which Record.scaled, or '
+                    "--scale, makes it so"
+                )
+            taken = "m/s^2"
+            notes.append("unit m/s², for the file says none")
+        elif unit is not None and found.unit not in (None, unit):
+            notes.append(f"unit {unit}, not the file's {found.unit}")
+        try:
+            factor, quantity = one_of(f"1 {taken}", [ACCELERATION, LENGTH], "unit")
+        except InputError as error:
+            if unit is not None:
+                raise
+            raise InputError(f"record: {str(path)!r}: {error}") from None
+        made = cls if quantity is ACCELERATION else cls.from_displacement
+        try:
+            record = made(found.values * factor, spacing)
+        except InputError as error:
+            raise InputError(f"record: {str(path)!r}: {error}") from None
+        if quantity is LENGTH:
+            notes.append("displacements, differentiated twice")
+        mean = float(record.acceleration.mean())
+        if abs(mean) > _OFF * record.peak:
+            share = 100.0 * abs(mean) / record.peak
+            told = f"mean {pretty(mean, ACCELERATION)} left in, {share:.3g} % of the peak"
+            notes.append(told)
+        record._about = About(
+            str(path), form, station or found.station, found.component, taken, tuple(notes)
+        )
+        return record
 
     @classmethod
     def from_displacement(cls, displacement: ArrayLike, step: float | str) -> Record:
@@ -94,6 +205,11 @@ class Record:
         return self._step
 
     @property
+    def about(self) -> About:
+        """Where it comes from: file, format, station, component, unit; and what was done to it."""
+        return self._about
+
+    @property
     def duration(self) -> float:
         """From the first to the last sample, s."""
         return (len(self._acceleration) - 1) * self._step
@@ -107,6 +223,89 @@ class Record:
     def peak(self) -> float:
         """The largest size of the acceleration, m/s²."""
         return float(np.abs(self._acceleration).max())
+
+    @property
+    def peak_time(self) -> float:
+        """When the acceleration is largest first, s."""
+        return float(np.abs(self._acceleration).argmax()) * self._step
+
+    def scaled(self, by: float | str = 1.0, *, peak: float | str | None = None) -> Record:
+        """Return the record times a number, or made so large that its peak is the given one.
+
+        Parameters
+        ----------
+        by
+            The number; not 0.
+        peak
+            The peak in m/s², or text such as ``"0.3 g"``, instead.
+
+        Raises
+        ------
+        InputError
+            If a value cannot be used, or the record is 0 throughout.
+        """
+        factor = to_si(by, DIMENSIONLESS, "by")
+        if peak is not None:
+            if factor != 1.0:
+                raise InputError(f"peak: {shown(peak)} beside by = {by}; one of them is accepted")
+            wanted = to_si(peak, ACCELERATION, "peak", above=0.0)
+            if self.peak == 0.0:
+                raise InputError(f"peak: {shown(peak)}, but the record is 0 throughout")
+            factor = wanted / self.peak
+        if factor == 0.0:
+            raise InputError(f"by: {by}; a number other than 0 is accepted")
+        return self._changed(self._acceleration * factor, f"scaled by {factor:.6g}")
+
+    def cut(self, start: float | str = 0.0, end: float | str | None = None) -> Record:
+        """Return the part between two times, from sample to sample; it begins at time 0 again.
+
+        Parameters
+        ----------
+        start, end
+            In s, or text with a unit; the nearest samples are taken. None for the end.
+
+        Raises
+        ------
+        InputError
+            If the times are not in the record, or fewer than 2 samples are left.
+        """
+        last = len(self._acceleration) - 1
+        whole = (last + 0.5) * self._step
+        begins = to_si(start, TIME, "start", minimum=0.0, maximum=whole)
+        ends = self.duration if end is None else to_si(end, TIME, "end", above=0.0, maximum=whole)
+        first, behind = round(begins / self._step), min(round(ends / self._step), last) + 1
+        if behind - first < 2:
+            raise InputError(
+                f"end: {ends:g}, with start {begins:g}; at least 2 samples, {self._step:g} s "
+                "apart, are accepted"
+            )
+        told = f"cut to {first * self._step:g} to {(behind - 1) * self._step:g} s"
+        return self._changed(self._acceleration[first:behind], told)
+
+    def levelled(self, baseline: Literal["mean", "line"] = "mean") -> Record:
+        """Return the record less its mean, or less the straight line that fits it best.
+
+        Raises
+        ------
+        InputError
+            If the baseline is another.
+        """
+        degree = _DEGREES.get(baseline)
+        if degree is None:
+            raise InputError(f"baseline: {baseline!r}; 'mean' or 'line' is accepted")
+        time = np.linspace(-1.0, 1.0, len(self._acceleration))
+        fitted = np.polynomial.polynomial.polyfit(time, self._acceleration, degree)
+        line = np.polynomial.polynomial.polyval(time, fitted)
+        told = f"less its {baseline}, {line[0]:.6g} m/s²"
+        if degree:
+            told += f" at the beginning and {line[-1]:.6g} m/s² at the end"
+        return self._changed(self._acceleration - line, told)
+
+    def _changed(self, values: NDArray[np.float64], note: str) -> Record:
+        """With other samples, which is noted."""
+        made = Record(values, self._step)
+        made._about = self._about._replace(notes=(*self._about.notes, note))
+        return made
 
     def at(self, time: ArrayLike) -> NDArray[np.float64]:
         """Base acceleration (m/s²) at any times (s); zero before and behind the record."""
@@ -135,11 +334,18 @@ class Record:
         return table("Record", self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
-        """What it is, in words."""
+        """What it is, in words; where it comes from, if it was read."""
+        about = self._about
         return [
+            *(
+                (name, text)
+                for name in ("source", "format", "station", "component", "unit")
+                if (text := getattr(about, name))
+            ),
             ("samples", str(len(self._acceleration))),
             ("step", pretty(self._step, TIME)),
             ("peak", pretty(self.peak, ACCELERATION)),
+            *(("note", note) for note in about.notes),
         ]
 
 

@@ -1,5 +1,1 @@
-"""Measured records in files."""
-
-from vibroimpact.records.columns import read_columns
-
-__all__ = ["read_columns"]
+"""Measured records in files, a format a file; plain numbers and the units that files state."""

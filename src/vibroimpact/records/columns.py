@@ -1,118 +1,141 @@
-"""Records as plain numbers: one column, or times and values, in columns or in two rows."""
+"""Records as plain numbers: values alone, or times and values, in columns or in two rows.
+
+Apart by commas, semicolons or blanks. Lines before the first number, and what follows a ``#``, are
+left out; the last line of words before the numbers names the columns, with units in brackets if
+there are some, and a line there may say ``dt = 0.01``. Two numbers above a single column are its
+length and its step.
+"""
 
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME
-from vibroimpact.model.record import Record
-from vibroimpact.model.units import one_of, to_si
+from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.file import File
 
 _EVEN = 0.01
 """By how much of a step a time may be off: files round theirs."""
+_STEP = re.compile(
+    r"\b(?:dt|step|time step|sampling interval)\s*[=:]\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*"
+    r"(s|sec|seconds|ms)?\s*$",
+    re.IGNORECASE,
+)
+_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]+?)\s*[\])]")
+_Array = NDArray[np.float64]
 
 
-def read_columns(path: Path | str, step: float | str | None = None, unit: str = "m/s^2") -> Record:
-    """Read a record from text: values, or times and values, apart by commas, semicolons or blanks.
-
-    Lines before the first number, and what follows a ``#``, are left out.
-
-    Parameters
-    ----------
-    path
-        The file.
-    step
-        Time between samples (s, or text with a unit), where the file has no times.
-    unit
-        Of the values: of an acceleration, such as ``"g"``, or of a displacement of the base, such
-        as ``"mm"``, which is differentiated (`Record.from_displacement`).
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or its values make no record.
-    """
-    rows = _numbers(Path(path))
-    table = _table(rows, path)
-    factor, quantity = one_of(f"1 {unit}", [ACCELERATION, LENGTH], "unit")
-    values = table[:, -1] * factor
-    if table.shape[1] == 2:
-        if step is not None:
-            raise InputError(
-                f"step: {step!r}, but {str(path)!r} has times of its own; one of the two is "
-                "accepted"
+def read(file: File) -> list[Channel]:
+    """The columns of a file, that of the time left out."""
+    if not file.lines:
+        raise InputError(f"record: {file.path!r} is not text; columns of numbers are accepted")
+    rows, lines, words = _numbers(file)
+    if not rows:
+        raise InputError(f"record: {file.path!r} has no numbers; columns of them are accepted")
+    step = _stated(words)
+    if len(rows) > 2 and len(rows[0]) == 2 and len(rows[1]) == 1:
+        count, step = rows[0]
+        if count != len(rows) - 1:
+            raise file.refused(
+                lines[0], f"{count:g} values are announced, and {len(rows) - 1} follow"
             )
-        spacing = _spacing(table[:, 0], path)
-    elif step is None:
-        raise InputError(f"step: missing, and {str(path)!r} has no times; a time is accepted")
-    else:
-        spacing = to_si(step, TIME, "step", above=0.0)
-    made = Record if quantity is ACCELERATION else Record.from_displacement
-    try:
-        return made(values, spacing)
-    except InputError as error:
-        raise InputError(f"record: {str(path)!r}: {error}") from None
+        rows, lines = rows[1:], lines[1:]
+    table = _table(file, rows, lines)
+    for i, j in np.argwhere(~np.isfinite(table))[:1]:
+        at = lines[i] if len(lines) == len(table) else lines[0]
+        raise file.refused(at, f"{table[i, j]} is not finite; finite samples are accepted")
+    if table.shape[1] == 1:
+        return [Channel(table[:, 0], step, _unit(_names(words, 1)[-1]))]
+    names = _names(words, table.shape[1])
+    spacing = _spacing(file, table[:, 0], lines)
+    return [
+        Channel(
+            table[:, column],
+            spacing,
+            _unit(names[column]),
+            component=_BRACKETS.sub("", names[column]).strip() if table.shape[1] > 2 else "",
+        )
+        for column in range(1, table.shape[1])
+    ]
 
 
-def _numbers(path: Path) -> list[list[float]]:
-    """The numbers of each line, from the first line on that has some."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise InputError(
-            f"record: {str(path)!r} cannot be read ({error.strerror or error}); the path of a "
-            "text file is accepted"
-        ) from None
-    except UnicodeDecodeError:
-        told = f"record: {str(path)!r} is not text; columns of numbers are accepted"
-        raise InputError(told) from None
+def _numbers(file: File) -> tuple[list[list[float]], list[int], list[str]]:
+    """The numbers of each line, from the first that has some; their lines; the words above."""
     rows: list[list[float]] = []
-    for number, line in enumerate(text.splitlines(), start=1):
-        parts = re.split(r"[,;\s]+", line.split("#")[0].strip())
-        if parts in ([""], []):
+    lines: list[int] = []
+    words: list[str] = []
+    for at, whole in enumerate(file.lines):
+        line = whole.split("#")[0].strip()
+        parts = [part for part in re.split(r"[,;\s]+", line) if part]
+        if not parts:
+            if not rows:
+                words.append(whole.strip("# \t"))
             continue
         try:
-            rows.append([float(part) for part in parts if part])
+            rows.append([float(part) for part in parts])
         except ValueError:
             if rows:
-                raise InputError(
-                    f"record: {str(path)!r}, line {number}: {line.strip()[:40]!r} is no row of "
-                    "numbers; numbers are accepted from the first row of them on"
-                ) from None
-    return rows
+                told = f"{whole.strip()[:40]!r} is no row of numbers; numbers are accepted from "
+                raise file.refused(at, f"{told}the first row of them on") from None
+            words.append(line)
+            continue
+        if ";" in line and "," in line:
+            told = "commas beside semicolons; decimal points are accepted"
+            raise file.refused(at, told)
+        lines.append(at)
+    return rows, lines, words
 
 
-def _table(rows: list[list[float]], path: Path | str) -> NDArray[np.float64]:
-    """One or two columns."""
-    widths = {len(row) for row in rows}
-    if len(rows) == 2 and len(widths) == 1 and widths.pop() > 2:
-        return np.array(rows).T
-    widths = {len(row) for row in rows}
-    if not rows or len(widths) > 1 or max(widths) > 2:
-        told = "no numbers" if not rows else f"rows of {sorted(widths)} numbers"
-        raise InputError(
-            f"record: {str(path)!r} has {told}; one column of values, or times and values, are "
-            "accepted"
-        )
-    return np.array(rows)
+def _stated(words: list[str]) -> float | None:
+    """A step that stands above the numbers, in s."""
+    for line in words:
+        if found := _STEP.search(line):
+            return float(found[1]) * (1e-3 if (found[2] or "").lower() == "ms" else 1.0)
+    return None
 
 
-def _spacing(times: NDArray[np.float64], path: Path | str) -> float:
+def _names(words: list[str], columns: int) -> list[str]:
+    """The names of the columns, empty where no line has as many."""
+    for line in reversed(words):
+        names = [name.strip() for name in re.split(r"[,;\t]", line)]
+        if len(names) == columns and any(names):
+            return names
+    return [""] + [str(column) for column in range(1, columns)]
+
+
+def _unit(name: str) -> str | None:
+    """What stands in brackets."""
+    found = _BRACKETS.search(name)
+    return found[1] if found else None
+
+
+def _table(file: File, rows: list[list[float]], lines: list[int]) -> _Array:
+    """Rows of one width; two long rows are columns."""
+    widths = [len(row) for row in rows]
+    for at, width in zip(lines, widths, strict=True):
+        if width != widths[0]:
+            raise file.refused(at, f"a row of {width} numbers, where those above have {widths[0]}")
+    table = np.array(rows)
+    return table.T if len(rows) == 2 and widths[0] > 2 else table
+
+
+def _spacing(file: File, times: _Array, lines: list[int]) -> float:
     """The time between samples, which must be the same everywhere."""
     if len(times) < 2:
-        raise InputError(f"record: {str(path)!r} has one sample; at least 2 are accepted")
+        raise InputError(f"record: {file.path!r} has one sample; at least 2 are accepted")
     step = float((times[-1] - times[0]) / (len(times) - 1))
-    even = times[0] + step * np.arange(len(times))
-    off = np.abs(times - even)
+    off = np.abs(times - (times[0] + step * np.arange(len(times))))
     if not step > 0.0 or off.max() > _EVEN * step:
         worst = int(off.argmax()) if step > 0.0 else 0
+        where = f"line {lines[worst] + 1}" if len(lines) == len(times) else f"sample {worst}"
         raise InputError(
-            f"record: {str(path)!r}, sample {worst}: its time {times[worst]:g} s is not evenly "
+            f"record: {file.path!r}, {where}: its time {times[worst]:g} s is not evenly "
             f"spaced (steps of {step:g} s on average); equal steps are accepted"
         )
     return step
+
+
+FORMAT = Format("columns", lambda file: True, read)

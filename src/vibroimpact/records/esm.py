@@ -1,0 +1,60 @@
+"""ESM's and ITACA's ASCII files (DYNA 1): lines of ``KEY: value``, then a value a line."""
+
+from __future__ import annotations
+
+import re
+
+from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.file import File
+
+_ENTRY = re.compile(r"([A-Z][A-Z0-9_/^]*):\s*(.*?)\s*$")
+
+
+def recognises(file: File) -> bool:
+    """Whether the header begins with the event's name and has the step's key."""
+    lines = file.lines[:80]
+    return bool(lines) and lines[0].startswith("EVENT_NAME:") and any("NDATA:" in x for x in lines)
+
+
+def read(file: File) -> list[Channel]:
+    """The one component of a file."""
+    entries: dict[str, str] = {}
+    where: dict[str, int] = {}
+    at = 0
+    while at < len(file.lines) and (entry := _ENTRY.match(file.lines[at])):
+        entries[entry[1]], where[entry[1]] = entry[2], at
+        at += 1
+
+    def number(name: str) -> float:
+        try:
+            return float(entries.get(name) or "nan")
+        except ValueError:
+            told = f"{name}: {entries[name]!r} is no number; a number is accepted"
+            raise file.refused(where[name], told) from None
+
+    found = number("NDATA")
+    if not found >= 1.0:
+        told = f"NDATA: {entries['NDATA']!r}; a number of values of at least 2 is accepted"
+        raise file.refused(where["NDATA"], told)
+    count = int(found)
+    values, behind = file.numbers(at, count)
+    for further in range(behind, len(file.lines)):
+        if _ENTRY.match(file.lines[further]):
+            raise file.refused(further, "a second header; one record a file is accepted")
+    file.behind(behind, count)
+    step = number("SAMPLING_INTERVAL_S")
+    names = [entries.get("NETWORK", ""), entries.get("STATION_CODE", "")]
+    return [
+        Channel(
+            values,
+            step if step > 0.0 else None,
+            entries.get("UNITS") or None,
+            ".".join(name for name in names if name),
+            entries.get("STREAM", ""),
+            (),
+            f"line {where.get('SAMPLING_INTERVAL_S', at - 1) + 1}",
+        )
+    ]
+
+
+FORMAT = Format("ESM", recognises, read)

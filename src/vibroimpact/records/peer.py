@@ -1,0 +1,84 @@
+"""PEER's AT2 files: four lines of header, then values in lines of any length.
+
+The fourth line says how many values there are and the step, in one of three ways::
+
+    NPTS=   7999, DT=   .0050 SEC,
+    NPTS=  15306, DT=    0.05 SEC
+    4096    0.0100    NPTS, DT
+
+The third says the unit, the second event, date, station and component, with commas between.
+"""
+
+from __future__ import annotations
+
+import re
+
+from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.file import File
+
+_NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?)"
+_COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
+_STEP = re.compile(rf"\bDT\s*=\s*{_NUMBER}", re.IGNORECASE)
+_BEFORE = re.compile(rf"^\s*(\d+)\s+{_NUMBER}\s+NPTS\s*,\s*DT", re.IGNORECASE)
+_NAMED = re.compile(r"\bNPTS\b", re.IGNORECASE)
+_UNIT = re.compile(r"UNITS?\s+OF\s+(\S+)", re.IGNORECASE)
+_SEARCHED = 12
+
+
+def _announced(file: File, first: int = 0, last: int = _SEARCHED) -> int | None:
+    """The line with the count and the step."""
+    for at, line in enumerate(file.lines[first:last], start=first):
+        if _NAMED.search(line):
+            return at
+    return None
+
+
+def recognises(file: File) -> bool:
+    """Whether one of the first lines names NPTS."""
+    return _announced(file) is not None
+
+
+def read(file: File) -> list[Channel]:
+    """The one component of a file."""
+    at = _announced(file)
+    assert at is not None
+    line = file.lines[at]
+    step: float | None
+    if before := _BEFORE.match(line):
+        count, step = int(before[1]), _float(before[2])
+    else:
+        found, stepped = _COUNT.search(line), _STEP.search(line)
+        if found is None:
+            raise file.refused(at, f"{line.strip()!r} has no number of values; NPTS= is accepted")
+        count, step = int(found[1]), _float(stepped[1]) if stepped else None
+    if count < 1:
+        raise file.refused(at, "0 values; at least 2 are accepted")
+    values, behind = file.numbers(at + 1, count)
+    again = _announced(file, behind, len(file.lines))
+    if again is not None:
+        raise file.refused(again, "a second header; one record a file is accepted")
+    file.behind(behind, count)
+    unit = None
+    for above in file.lines[:at]:
+        if stated := _UNIT.search(above):
+            unit = stated[1].lower().rstrip(".,;").replace("/sec/sec", "/s^2")
+    names = [part.strip() for part in file.lines[at - 2].split(",")] if at >= 2 else []
+    component = names[-1] if len(names) > 2 else ""
+    return [
+        Channel(
+            values,
+            step or None,
+            unit,
+            names[-2] if len(names) > 2 else "",
+            component,
+            (component.split()[0],) if component else (),
+            f"line {at + 1}",
+        )
+    ]
+
+
+def _float(text: str) -> float:
+    return float(text.upper().replace("D", "E"))
+
+
+FORMAT = Format("PEER AT2", recognises, read)

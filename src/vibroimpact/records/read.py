@@ -1,0 +1,70 @@
+"""Which format a file has, by its content; and one of its components."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+from vibroimpact.errors import InputError
+from vibroimpact.records import columns, cosmos, csmip, esm, geonet, knet, peer, seismic, smc
+from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.file import File
+
+FORMATS: tuple[Format, ...] = (
+    seismic.MINISEED,
+    seismic.SAC,
+    geonet.FORMAT,
+    cosmos.FORMAT,
+    csmip.FORMAT,
+    smc.FORMAT,
+    knet.FORMAT,
+    esm.FORMAT,
+    peer.FORMAT,
+    columns.FORMAT,
+)
+"""In the order in which a file is tried; plain columns are what is left."""
+
+
+class Found(NamedTuple):
+    """A component of a file."""
+
+    format: str
+    channel: Channel
+    others: tuple[str, ...]
+    """The components of the file, this one included."""
+
+
+def read_channel(path: Path | str, component: str | int | None = None) -> Found:
+    """Read one component of a file.
+
+    Parameters
+    ----------
+    path
+        The file, packed by gzip or not.
+    component
+        Its name in the file, such as ``"90"``, ``"Up"`` or ``"HNE"``, or its number from 1 on. None
+        where the file has one.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or has several components and none of them is chosen.
+    """
+    file = File(path)
+    form = next(form for form in FORMATS if form.recognises(file))
+    channels = form.read(file)
+    names = tuple(channel.component for channel in channels)
+    if component is None and len(channels) == 1:
+        return Found(form.name, channels[0], names)
+    listed = ", ".join(f"{name!r}" for name in names)
+    numbered = f"{listed}, or a number from 1 to {len(names)}, is accepted"
+    if component is None:
+        raise InputError(f"component: missing, and {file.path!r} has {len(channels)}; {numbered}")
+    wanted = str(component).strip()
+    chosen = [channel for channel in channels if channel.called(wanted)]
+    if not chosen and wanted.isdecimal() and 1 <= int(wanted) <= len(channels):
+        chosen = [channels[int(wanted) - 1]]
+    if len(chosen) != 1:
+        how = "is none" if not chosen else f"are {len(chosen)}"
+        raise InputError(f"component: {component!r} {how} of {file.path!r}; {numbered}")
+    return Found(form.name, chosen[0], names)
