@@ -358,7 +358,7 @@ def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
 
 
 def test_help_names_every_parameter() -> None:
-    from vibroimpact.cli.branch import PARAMETERS as told
+    from vibroimpact.cli.branch import PARAMETERS as TOLD
     from vibroimpact.model.parameters import PARAMETERS
 
-    assert ", ".join(name.replace("_", "-") for name in PARAMETERS) == told
+    assert ", ".join(name.replace("_", "-") for name in PARAMETERS) == TOLD

@@ -8,15 +8,19 @@ series elsewhere. Each is a folder whose modules have these kernels:
     stiff_rate(plan)                        what makes a velocity of a displacement (1/s)
 
     begin(plan, motion, length), more(plan, cursor), following(plan, cursor)
-    expanded(plan, cursor, series), expanded_force(…), accelerated(…)
+    expanded(plan, cursor, series), expanded_force(…), accelerated(…), moment(…)
+    smooth(plan, motion, limit)             one analytic piece of a motion, stops left out
     look(plan, cursor, before, tau, …)      the motion at a time of a stretch, for samples
     coordinate(plan, motion)                the mode's own
-    displacement(plan, mode, x), acceleration(plan, motion), acceleration_in(…)
+    displacement(plan, mode, x), acceleration(plan, motion)
 
     acceleration_of(plan, motion)           ü from all forces
     isolator_force(plan, u, v, z)           what the isolator pulls back with, per unit mass
     springs(plan, motion)                   its tangent stiffness, per unit mass
     face(plan, motion, side)                how far a stop is deformed (m)
+    stop_push(plan, motion, side)           what a pressed stop pushes with
+    stop_power(…), isolator_power(…)        what they lose, per unit mass
+    rest_level(plan, motion, side)          what presses a resting mass on its rigid stop
 
     carry(plan, stretch, q, rows)           disturbances through a stretch, and what is lost
     start_growth(…), grow(plan, notes, …)   two of them, for the exponents
@@ -71,14 +75,19 @@ following = _by_flow("following")
 expanded = _by_flow("expanded")
 expanded_force = _by_flow("expanded_force")
 accelerated = _by_flow("accelerated")
+moment = _by_flow("moment")
+smooth = _by_flow("smooth")
 look = _by_flow("look")
 displacement = _by_flow("displacement")
 acceleration = _by_flow("acceleration")
-acceleration_in = _by_flow("acceleration_in")
 acceleration_of = _by_flow("acceleration_of")
 isolator_force = _by_flow("isolator_force")
 springs = _by_flow("springs")
 face = _by_flow("face")
+stop_push = _by_flow("stop_push")
+stop_power = _by_flow("stop_power")
+isolator_power = _by_flow("isolator_power")
+rest_level = _by_flow("rest_level")
 coordinate = _by_flow("coordinate")
 carry = _by_flow("carry")
 grow = _by_flow("grow")

@@ -31,6 +31,7 @@ from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
 from vibroimpact.engine.motion import Motion
+from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
 from vibroimpact.engine.taylor import frame
 from vibroimpact.engine.taylor import growth as taylor_growth
@@ -103,7 +104,7 @@ _CURVED: dict[float, type] = {
 }
 
 answer(False, tables, linear_advance, forces, pieces, linear_carry, linear_growth)
-answer(True, taylor_plan, frame, taylor_pieces, taylor_carry, taylor_growth)
+answer(True, taylor_plan, frame, taylor_pieces, taylor_advance, taylor_carry, taylor_growth)
 
 
 def _flow(rig: Vector) -> type:

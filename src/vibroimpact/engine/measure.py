@@ -1,7 +1,7 @@
-"""One phase measured: extremes, force, impulse and work, exact to rounding.
+"""One phase measured: extremes, force, impulse, work and losses, exact to rounding.
 
-On a table's interval the motion is a series of 12 terms; Gauss–Legendre quadrature with 12
-points integrates a product of two such series without error.
+On a piece the motion is a series of 12 terms; Gauss–Legendre quadrature with 12 points integrates a
+product of two such series without error, and a law's force of one to rounding.
 """
 
 from __future__ import annotations
@@ -12,108 +12,135 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.dispatch import build
+from vibroimpact.engine.dispatch import (
+    accelerated,
+    acceleration,
+    begin,
+    build,
+    coordinate,
+    expanded,
+    expanded_force,
+    following,
+    isolator_power,
+    moment,
+    more,
+    rest_level,
+    smooth,
+    stop_power,
+    stop_push,
+)
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.forcing.dispatch import pull_series
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner
-from vibroimpact.engine.linear.layout import RATE, RESTING, SIZE, TABLES, H
-from vibroimpact.engine.linear.pieces import (
-    accelerated,
-    expanded,
-    expanded_force,
-    following,
-    more,
-    window,
-)
+from vibroimpact.engine.linear.evaluate import horner
+from vibroimpact.engine.linear.layout import RATE, H
+from vibroimpact.engine.linear.stops import rigid
+from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT, Row
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, STATE, Motion, unpacked
 from vibroimpact.engine.observers.extremes import series_extremes
 
 _X, _W = np.polynomial.legendre.leggauss(12)
-_ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
-_WEIGHTS = tuple(float(w) for w in 0.5 * _W)
+ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
+WEIGHTS = tuple(float(w) for w in 0.5 * _W)
 
-# Columns of a phase to be measured: mode, x, x′, the forcing's clock, the length (s). In contact
-# x is the bumper's deformation and x′ its rate, both towards the bumper; the clock is not mirrored.
-P_MODE, P_X, P_V, P_S, P_C, P_LENGTH = range(6)
-PHASE = 6
+# Columns of a phase to be measured: the state at its beginning, the forcing's clock, the length (s)
+# and the side (RIGHT, LEFT or 0) whose stop is asked about.
+P_S, P_C, P_LENGTH, P_SIDE = range(STATE, STATE + 4)
+PHASE = STATE + 4
 
-# Columns of what is found; forces and energies per unit mass. A left contact's are mirrored
-# back: all but x, force and impulse are as seen in the direction of u.
-X_LEAST, X_MOST, A_LEAST, A_MOST, A_TIME, FORCE, IMPULSE, SQUARES, WORK = range(9)
-MEASURES = 9
-
-
-@kernel
-def rest_level(plan: Vector, mode: int) -> float:
-    """What presses a resting mass on its rigid stop but for the base: the force per unit mass."""
-    side = LEFT if mode in (LEFT, SEEN_LEFT) else RIGHT
-    at = par.BUMPER + par.WIDTH * (side - 1)
-    load = plan[par.LOAD] if side == RIGHT else -plan[par.LOAD]
-    level: float = load - plan[par.STIFFNESS] * plan[at + par.GAP]
-    if mode in (BOTH, SEEN_LEFT):
-        other = par.BUMPER + par.WIDTH * (2 - side)
-        level -= plan[other + par.BUMPER_STIFFNESS] * (plan[at + par.GAP] + plan[other + par.GAP])
-    return level
+# Columns of what is found; forces and energies per unit mass. x is the displacement, or the
+# deformation of the stop that is asked about, towards it; the acceleration is that in the direction
+# of u. What is lost is that of the isolator and of either stop.
+X_LEAST, X_MOST, A_LEAST, A_MOST, A_TIME, FORCE, IMPULSE, WORK = range(8)
+LOST, LOST_RIGHT, LOST_LEFT = range(8, 11)
+MEASURES = 11
 
 
 @kernel
-def measure_phase(plan: Vector, mode: int, row: Row, length: float, out: Vector) -> None:
-    """Measure one phase from its start, which is mirrored for a left contact."""
+def measure_stretch(
+    plan: Vector, before: Motion, length: float, begun: float, side: int, out: Vector
+) -> None:
+    """Add a stretch of a phase that begins `begun` seconds behind the phase's beginning."""
     series, shaking = workspace(), workspace()
-    x_least, x_most = row.x, row.x
-    a = absolute_acceleration(plan, mode, row)
-    a_least, a_most, a_time = a, a, 0.0
-    force = 0.0
-    impulse = 0.0
-    squares = 0.0
-    work = 0.0
-    level = rest_level(plan, mode)
-    cursor = window(plan, TABLES + SIZE * mode, length, 0.0, 0.0, row)
+    mode = before.mode
+    sign = -1.0 if mode == LEFT else 1.0
+    held = side != 0 and resting(plan, mode) and rigid(plan, side)
+    facing = sign if side == RIGHT else -sign
+    level = rest_level(plan, before, side) if held else 0.0
+    cursor = begin(plan, before, length)
     while more(plan, cursor):
         h = plan[cursor.table + H]
         rate = plan[cursor.table + RATE]
-        high, ms, mc = expanded(plan, cursor, series)
+        high, s, c = expanded(plan, cursor, series)
         width = high + 0.5
-        pull_series(plan, cursor.table, ms, mc, shaking)
-        for n in range(len(_WEIGHTS)):
-            y = width * _ABSCISSAE[n] - 0.5
-            _, slope = horner(series, y)
+        pull_series(plan, cursor.table, s, c, shaking)
+        for n in range(len(WEIGHTS)):
+            y = width * ABSCISSAE[n] - 0.5
+            share = WEIGHTS[n] * width * h
+            x, slope = horner(series, y)
             v = slope * rate
             drive, _ = horner(shaking, y)
-            squares += _WEIGHTS[n] * width * h * v * v
-            work += _WEIGHTS[n] * width * h * v * drive * rate * rate
-        x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
-        unit = accelerated(plan, cursor, ms, mc, series)
-        was_least, was_most = a_least / unit, a_most / unit
+            drive *= rate * rate
+            here = moment(plan, cursor, before, x, sign * v, y)
+            out[WORK] += share * v * drive
+            out[LOST] += share * isolator_power(plan, here)
+            if held:
+                out[IMPULSE] += share * max(level - facing * drive, 0.0)
+            elif side:
+                out[IMPULSE] += share * stop_push(plan, here, side)
+            if mode & RIGHT:
+                out[LOST_RIGHT] += share * stop_power(plan, here, RIGHT)
+            if mode & LEFT:
+                out[LOST_LEFT] += share * stop_power(plan, here, LEFT)
+        x_least, x_most, _, _ = series_extremes(series, -0.5, high, out[X_LEAST], out[X_MOST])
+        out[X_LEAST], out[X_MOST] = x_least, x_most
+        unit = accelerated(plan, cursor, s, c, series)
+        was_least, was_most = out[A_LEAST] / unit, out[A_MOST] / unit
         least, most, at_least, at_most = series_extremes(series, -0.5, high, was_least, was_most)
-        a_least, a_most = least * unit, most * unit
+        out[A_LEAST], out[A_MOST] = least * unit, most * unit
+        since = begun + cursor.t + (cursor.i + 0.5) * h
         if least < was_least and -least > most:
-            a_time = cursor.t + (cursor.i + 0.5 + at_least) * h
+            out[A_TIME] = since + at_least * h
         if most > was_most and most >= -least:
-            a_time = cursor.t + (cursor.i + 0.5 + at_most) * h
-        if plan[cursor.table + RESTING] != 0.0:
-            for n in range(len(_WEIGHTS)):
-                drive, _ = horner(shaking, width * _ABSCISSAE[n] - 0.5)
-                push = level - drive * rate * rate
-                impulse += _WEIGHTS[n] * width * h * push
-            least, _, _, _ = series_extremes(shaking, -0.5, high, math.inf, -math.inf)
-            force = max(force, level - least * rate * rate)
-        elif mode != FLIGHT:
-            expanded_force(plan, cursor, series)
-            for n in range(len(_WEIGHTS)):
-                value, _ = horner(series, width * _ABSCISSAE[n] - 0.5)
-                impulse += _WEIGHTS[n] * width * h * value
-            _, force, _, _ = series_extremes(series, -0.5, high, 0.0, force)
+            out[A_TIME] = since + at_most * h
+        if held:
+            least, most, _, _ = series_extremes(shaking, -0.5, high, math.inf, -math.inf)
+            pulled = least if facing > 0.0 else -most
+            out[FORCE] = max(out[FORCE], level - pulled * rate * rate)
+        elif side:
+            expanded_force(plan, cursor, mode, side, series)
+            _, force, _, _ = series_extremes(series, -0.5, high, 0.0, out[FORCE])
+            out[FORCE] = force
         cursor = following(plan, cursor)
-    if mode in (LEFT, SEEN_LEFT):
-        a_least, a_most = -a_most, -a_least
-    out[X_LEAST], out[X_MOST] = x_least, x_most
-    out[A_LEAST], out[A_MOST], out[A_TIME] = a_least, a_most, a_time
-    out[FORCE], out[IMPULSE], out[SQUARES] = force, impulse, squares
-    out[WORK] = work  # ∫ v A_t dt keeps its sign where both are mirrored
+
+
+@kernel
+def measure_phase(plan: Vector, before: Motion, length: float, side: int, out: Vector) -> None:
+    """Measure one phase from its beginning, as the stop on a side sees it."""
+    mode = before.mode
+    x = coordinate(plan, before)
+    a = acceleration(plan, before)
+    a = -a if mode == LEFT else a
+    for i in range(MEASURES):
+        out[i] = 0.0
+    out[X_LEAST], out[X_MOST] = x, x
+    out[A_LEAST], out[A_MOST] = a, a
+    t = 0.0
+    here = before
+    while t < length:
+        step, behind = smooth(plan, here, length - t)
+        measure_stretch(plan, here, step, t, side, out)
+        here = behind
+        t += step
+    least, most = out[A_LEAST], out[A_MOST]
+    if mode == LEFT:
+        out[A_LEAST], out[A_MOST] = -most, -least
+    if mode == BOTH and side == LEFT:
+        apart = plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP]
+        x_least, x_most = out[X_LEAST], out[X_MOST]
+        out[X_LEAST], out[X_MOST] = -x_most - apart, -x_least - apart
 
 
 @entry("void(f8[::1], f8, f8, f8[:, ::1], f8[:, ::1])")
@@ -135,7 +162,5 @@ def measure_phases(
     build(plan, amplitude, 2.0 * math.pi * frequency)
     for i in range(len(phases)):
         phase = phases[i]
-        mode = int(phase[P_MODE])
-        sign = -1.0 if mode in (LEFT, SEEN_LEFT) else 1.0
-        row = Row(phase[P_X], phase[P_V], sign * phase[P_S], sign * phase[P_C])
-        measure_phase(plan, mode, row, phase[P_LENGTH], out[i])
+        before = unpacked(phase, (phase[P_S], phase[P_C]))
+        measure_phase(plan, before, phase[P_LENGTH], int(phase[P_SIDE]), out[i])

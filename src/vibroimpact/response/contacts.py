@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import measure
 from vibroimpact.model import Record, Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.response.measuring import measured
 from vibroimpact.response.phases import (
     SIDES,
     Phases,
@@ -18,7 +19,6 @@ from vibroimpact.response.phases import (
     any_recorded,
     cut,
     impact_loss,
-    measured,
     relaxation_loss,
     touches,
 )
@@ -199,7 +199,7 @@ def _lasting(
         mine = owner == n
         at = int(np.argmax(peaks[mine]))
         peak_time[n] = every.length[run[:at]].sum() + found[mine, measure.A_TIME][at]
-    damping = origin.of_side(np.full(count, side), "damping")
+    lost = measure.LOST_RIGHT if side == 1 else measure.LOST_LEFT
     return _Contacts(
         first,
         np.full(count, side),
@@ -211,7 +211,7 @@ def _lasting(
         most(found[:, measure.FORCE]),
         total(found[:, measure.IMPULSE]),
         most(found[:, measure.X_MOST]),
-        damping * total(found[:, measure.SQUARES]),
+        origin.oscillator.mass * total(found[:, lost]),
         _relaxing(every, origin, side, runs),
         peak,
         peak_time,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
 from vibroimpact.model.dimensionless import largest_free_flight
-from vibroimpact.response.own_flight import largest_flight
+from vibroimpact.response.own_flight import largest_flight, resonance
 
 _RESONANT = 1e-14
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
@@ -93,8 +93,20 @@ def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[floa
     return 2.0 * peak * size / omega0**2, 2.0 * peak * size * share
 
 
-def resonance_ratio(damping_ratio: float, shaken: Harmonic) -> float:
+def resonance_ratio(oscillator: Oscillator, shaken: Harmonic) -> float:
     """Where free flight's displacement is largest, over the natural frequency.
+
+    Of an isolator that is not linear, in a backward sweep of its own free flight; 1 if none
+    settles.
+    """
+    if oscillator.isolator.linear:
+        return peak_ratio(oscillator.damping_ratio, shaken)
+    found = resonance(oscillator, shaken) / oscillator.natural_frequency
+    return found if math.isfinite(found) else 1.0
+
+
+def peak_ratio(damping_ratio: float, shaken: Harmonic) -> float:
+    """Where a linear free flight's displacement is largest, over the natural frequency.
 
     At √(1 − 2ξ²), or at 1/√(1 − 2ξ²) where the displacement of the base is given. With ξ of 1/√2
     or more there is no peak, and it is 0 or infinite: the end towards which the curve rises.

@@ -76,12 +76,22 @@ def largest_flight(oscillator: Oscillator, shaken: Repeated) -> tuple[float, flo
 
     Both are NaN where no free flight settles, or none moves.
     """
+    swing, acceleration, _ = _peaks(oscillator, shaken)
+    return swing, acceleration
+
+
+def resonance(oscillator: Oscillator, shaken: Repeated) -> float:
+    """Frequency (Hz) at which the displacement of that free flight is largest; or NaN."""
+    return _peaks(oscillator, shaken)[2]
+
+
+def _peaks(oscillator: Oscillator, shaken: Repeated) -> tuple[float, float, float]:
     key = shaken.replace(frequency=oscillator.natural_frequency, phase=0.0)
     return _largest(oscillator.without_bumpers(), key)
 
 
 @lru_cache(maxsize=256)
-def _largest(free: Oscillator, shaken: Repeated) -> tuple[float, float]:
+def _largest(free: Oscillator, shaken: Repeated) -> tuple[float, float, float]:
     unit = free.natural_frequency
 
     def swept(low: float, high: float, count: int) -> tuple[_Array, _Array]:
@@ -92,12 +102,13 @@ def _largest(free: Oscillator, shaken: Repeated) -> tuple[float, float]:
     while True:
         grid, curves = swept(_LEAST * unit, high * unit, round((high - _LEAST) / _STEP) + 1)
         if np.all(np.isnan(curves)):
-            return math.nan, math.nan
+            return math.nan, math.nan, math.nan
         rising = int(np.nanargmax(curves[0])) > len(grid) - 4
         if not rising or high >= _WIDEST:
             break
         high *= 2.0
     largest = []
+    places = []
     for which in range(2):
         curve, about = curves[which], grid
         for _ in range(2):
@@ -108,6 +119,9 @@ def _largest(free: Oscillator, shaken: Repeated) -> tuple[float, float]:
             if np.all(np.isnan(found[which])):
                 break
             curve = found[which]
+        places.append(float(about[np.nanargmax(curve)]))
         largest.append(float(max(np.nanmax(curve), np.nanmax(curves[which]))))
     swing, acceleration = largest
-    return (swing, acceleration) if swing > 0.0 else (math.nan, math.nan)
+    if not swing > 0.0:
+        return math.nan, math.nan, math.nan
+    return swing, acceleration, places[0]

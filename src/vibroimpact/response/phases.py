@@ -10,12 +10,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import measure
-from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT
+from vibroimpact.engine.motion import LEFT, RELEASED, RIGHT
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator, Record, Repeated, RigidStop, State, validate
-from vibroimpact.response.start import engine_rig
+from vibroimpact.response.start import as_state
 from vibroimpact.response.variables import excitation_from
 
 _Shaking = TypeVar("_Shaking", bound=Repeated | Record, covariant=True)
@@ -24,7 +23,8 @@ _Array = NDArray[np.float64]
 
 SIDES = (1, -1)
 
-_COMPONENTS = ("displacement", "velocity", "right_bumper", "left_bumper")
+_COMPONENTS = ("displacement", "velocity", "right_bumper", "left_bumper", "isolator_memory")
+MEMORY = 4
 
 
 class Recorded(NamedTuple, Generic[_Shaking]):
@@ -83,9 +83,13 @@ class Phases(NamedTuple):
     length: _Array
     """s."""
     first: _Array
-    """State at the beginning: u, u̇, u_R, u_L, shape (phase, 4)."""
+    """State at the beginning: u, u̇, u_R, u_L, z, shape (phase, 5)."""
     last: _Array
-    """State at the end, shape (phase, 4); an impact there is still to come."""
+    """State at the end, shape (phase, 5); an impact there is still to come."""
+    fresh: NDArray[np.int64]
+    """What has happened at its beginning, as the engine says it (`motion.Motion`)."""
+    met: _Array
+    """Speeds at which the right and left stop that is touched was met, shape (phase, 2)."""
 
     def take(self, chosen: NDArray[np.int64]) -> Phases:
         """The chosen phases."""
@@ -152,12 +156,7 @@ def _lines(motion: xr.Dataset, step: float) -> NDArray[np.int64]:
 
 def beginning(motion: xr.Dataset) -> State:
     """The state at the beginning of a record, with the forcing's phase."""
-    values = {name: float(motion[name].values[0]) for name in _COMPONENTS}
-    return State(
-        **values,
-        contact=int(motion["contact"].values[0]),
-        phase=json.loads(motion.attrs["parameters"])["phase"],
-    )
+    return as_state(motion["initial_state"])
 
 
 def phases(motion: xr.Dataset) -> Phases:
@@ -181,17 +180,32 @@ def cut(motion: xr.Dataset, origin: Recorded[Repeated | Record]) -> Phases:
         at = motion["event_cycle"].values + motion["event_cycle_time"].values / shaken.period
         kept = at <= origin.cycles * (1.0 + 1e-12)
     motion = motion.isel(event=kept)
-    at_events = np.stack([motion[f"event_{name}"].values for name in _COMPONENTS], axis=-1)
+    at_events = _states(motion, "event_")
     kinds, sides = motion["event_contact"].values, motion["event_side"].values
     struck = np.where(kinds == IMPACT, sides, 0)
     behind = at_events.copy()
-    for side, stop in zip(SIDES, (origin.oscillator.right, origin.oscillator.left), strict=True):
+    stops = origin.oscillator.right, origin.oscillator.left
+    for side, stop in zip(SIDES, stops, strict=True):
         if isinstance(stop, RigidStop):
             behind[struck == side, 1] *= -stop.restitution
             behind[(kinds == CONTACT_BEGINS) & (sides == side), 1] = 0.0
     right, left = (_touched(side, kinds, sides, int(motion["contact"].values[0])) for side in SIDES)
     contact = np.where(right & left, 2, right.astype(np.int64) - left)
-    events = _Events(at_events, behind, np.append(0, struck).astype(np.int64), contact)
+    begun = np.append(0, np.where(kinds == CONTACT_BEGINS, sides, 0))
+    met = np.column_stack(
+        [_met(motion, origin.oscillator, side, begun, at_events[:, 1]) for side in SIDES]
+    )
+    walls = [side for side, stop in zip(SIDES, stops, strict=True) if isinstance(stop, RigidStop)]
+    released = (kinds == DETACHMENT) & np.isin(sides, walls)
+    fresh = np.where(sides == 1, RIGHT, LEFT) | np.where(released, RELEASED, 0)
+    events = _Events(
+        at_events,
+        behind,
+        np.append(0, struck).astype(np.int64),
+        contact,
+        np.append(0, fresh).astype(np.int64),
+        met,
+    )
     if isinstance(shaken, Record):
         return _along_lines(motion, shaken, events)
     return _along_cycles(motion, shaken, origin.cycles, events)
@@ -206,12 +220,44 @@ class _Events(NamedTuple):
     """Of what begins with each of them, and first of what begins with none."""
     contact: NDArray[np.int64]
     """The same."""
+    fresh: NDArray[np.int64]
+    """The same."""
+    met: _Array
+    """The same."""
+
+
+def _states(motion: xr.Dataset, of: str) -> _Array:
+    """The states at the samples, or at the events, a row each."""
+    still = np.zeros(motion.sizes["event" if of else "time"])
+    return np.stack(
+        [motion[of + name].values if of + name in motion else still for name in _COMPONENTS],
+        axis=-1,
+    )
+
+
+def _met(
+    motion: xr.Dataset,
+    oscillator: Oscillator,
+    side: int,
+    begun: NDArray[np.int64],
+    velocity: _Array,
+) -> _Array:
+    """The speed at which a stop without memory was met last, before the first event and behind."""
+    stop, name = (
+        (oscillator.right, "right_bumper") if side == 1 else (oscillator.left, "left_bumper")
+    )
+    if stop is None or isinstance(stop, Bumper | RigidStop):
+        return np.zeros(len(begun))
+    speeds = np.append(abs(float(motion["initial_state"].sel(component=name))), np.abs(velocity))
+    known = (begun == side) | (np.arange(len(begun)) == 0)
+    last = np.maximum.accumulate(np.where(known, np.arange(len(begun)), 0))
+    return np.asarray(speeds[last])
 
 
 def _along_cycles(motion: xr.Dataset, shaken: Repeated, cycles: float, events: _Events) -> Phases:
     """The phases from event to event."""
     period = shaken.period
-    ends = [np.array([motion[name].values[i] for name in _COMPONENTS]) for i in (0, -1)]
+    ends = list(_states(motion, "")[[0, -1]])
     if len(events.before) and not motion["event_cycle"][0] and not motion["event_cycle_time"][0]:
         ends[0] = events.before[0]  # the first sample lies behind an event at once
     # Differences within cycles keep digits that absolute times lose.
@@ -228,6 +274,8 @@ def _along_cycles(motion: xr.Dataset, shaken: Repeated, cycles: float, events: _
         np.maximum(np.diff(cycle) * period + np.diff(within), 0.0),
         np.vstack([ends[0], events.behind]),
         np.vstack([events.before, ends[1]]),
+        events.fresh,
+        events.met,
     )
 
 
@@ -241,7 +289,7 @@ def _along_lines(motion: xr.Dataset, record: Record, events: _Events) -> Phases:
     pull, slope = (
         np.where(np.arange(len(time)) < len(record.time) - 1, x, 0.0) for x in (pull, slope)
     )
-    states = np.stack([motion[name].values[nodes] for name in _COMPONENTS], axis=-1)
+    states = _states(motion, "")[nodes]
     count = len(events.before)
     moments = np.concatenate([time[:-1], motion["event_time"].values, time[-1:]])
     order = np.argsort(moments, kind="stable")
@@ -262,6 +310,8 @@ def _along_lines(motion: xr.Dataset, record: Record, events: _Events) -> Phases:
         np.diff(begin),
         behind[:-1],
         before[1:],
+        np.where(event >= 0, events.fresh[passed], 0)[:-1],
+        events.met[passed][:-1],
     )
 
 
@@ -276,47 +326,6 @@ def _touched(
     events = change[change != 0]
     first = events[0] < 0 if len(events) else sampled in (side, 2)
     return np.append(0, np.cumsum(change)) + first > 0
-
-
-def view(parts: Phases) -> NDArray[np.int64]:
-    """The side from which each phase is measured by itself: of both that of the right stop."""
-    return np.where(parts.contact == 2, 1, parts.contact)
-
-
-def measured(origin: Recorded[Any], parts: Phases, side: NDArray[np.int64] | None = None) -> _Array:
-    """Measure phases: rows of `engine.measure`, per unit mass, as the stop on a side sees them."""
-    origin.oscillator.check_linear("phases measured one by one")
-    side = view(parts) if side is None else side
-    both = parts.contact == 2
-    mode = np.select(
-        [both & (side == 1), both, side == 1, side == -1], [BOTH, SEEN_LEFT, RIGHT, LEFT], FLIGHT
-    )
-    x = np.where(side == 0, parts.first[:, 0], np.where(side == 1, parts.first[:, 2], 0.0))
-    x = np.where(side == -1, -parts.first[:, 3], x)
-    v = np.where(side == -1, -1.0, 1.0) * parts.first[:, 1]
-    table = np.column_stack([mode, x, v, parts.clock, parts.length])
-    found = np.zeros((len(side), measure.MEASURES))
-    shaken = origin.excitation
-    if isinstance(shaken, Record):
-        steepest = float(np.abs(np.diff(shaken.acceleration)).max()) / shaken.step
-        size, frequency = shaken.peak, steepest / shaken.peak / math.tau if shaken.peak else 0.0
-    else:
-        size, frequency = shaken.amplitude, shaken.frequency
-    measure.measure_phases(
-        engine_rig(origin.oscillator, shaken),
-        size,
-        frequency,
-        np.ascontiguousarray(table, dtype=np.float64),
-        found,
-    )
-    # A bumper that is pressed while the mass rests on the other stop is held as it is.
-    for at, stop in zip(SIDES, (origin.oscillator.right, origin.oscillator.left), strict=True):
-        if isinstance(stop, Bumper):
-            held = (side == at) & both & origin.resting(parts.contact)
-            force = stop.stiffness * np.abs(x[held]) / origin.oscillator.mass
-            found[held, measure.FORCE] = force
-            found[held, measure.IMPULSE] = force * parts.length[held]
-    return found
 
 
 def relaxation_loss(origin: Recorded[Any], parts: Phases) -> _Array:
@@ -339,10 +348,3 @@ def impact_loss(origin: Recorded[Any], parts: Phases) -> _Array:
     """Energy (J) lost in the impact with which each phase begins; elsewhere nothing is."""
     arrival = np.append(parts.first[0, 1], parts.last[:-1, 1])
     return 0.5 * origin.oscillator.mass * (arrival**2 - parts.first[:, 1] ** 2)
-
-
-def settling(origin: Recorded[Any], parts: Phases) -> NDArray[np.bool_]:
-    """Whether a phase is the end of a chatter, whose last impacts are not told one by one."""
-    rests = np.append(origin.resting(parts.contact)[1:], False)
-    last: NDArray[np.bool_] = rests & (parts.struck != 0) & (parts.last[:, 1] == 0.0)
-    return last

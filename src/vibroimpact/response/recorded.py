@@ -34,6 +34,7 @@ def through(
     check_samples(len(lines), samples, "samples")
     state = equilibrium(oscillator) if start is None else as_state(start)
     vector = engine_state(oscillator, state)
+    first = components(vector, 0.0)
     rig = engine_rig(oscillator, record)
     ends = record.duration + tail
     count = int(np.ceil(ends / record.step * samples - 1e-6)) + 1 if samples else 0
@@ -65,13 +66,16 @@ def through(
         told = f"simulate stopped {finished * record.step:g} s into the record: {status.advice}"
         warnings.warn(told, RuntimeWarning, stacklevel=4)
         out, time = out[:, : finished * samples], time[: finished * samples]
-    variables: dict[str, Any] = {"final_state": ("component", components(vector, 0.0))}
+    variables: dict[str, Any] = {
+        "initial_state": ("component", first),
+        "final_state": ("component", components(vector, 0.0)),
+    }
     coordinates: dict[str, Any] = {"component": COMPONENTS}
     if samples:
         coordinates["time"] = time
-        variables |= sampled(out)
+        variables |= sampled(out, oscillator.isolator)
         variables["base_acceleration"] = ("time", record.at(time))
-        events = listed(np.concatenate(found), record.step)
+        events = listed(np.concatenate(found), record.step, oscillator.isolator)
         # A record has steps, not cycles.
         variables |= {name: one for name, one in events.items() if "cycle" not in name}
     data = xr.Dataset(variables, coordinates)

@@ -98,6 +98,7 @@ def simulate(
     state = equilibrium(oscillator) if start is None else as_state(start)
     phase = excitation.phase if state.phase is None else state.phase
     vector = engine_state(oscillator, state)
+    first = components(vector, phase)
 
     count = math.ceil(length * samples - 1e-9) + 1 if samples else 0
     out = np.empty((record.SAMPLE, count))
@@ -133,7 +134,8 @@ def simulate(
         out = out[:, : finished * samples]
         length = float(finished)
     variables: dict[str, Any] = {
-        "final_state": ("component", components(vector, phase + 2.0 * math.pi * (length % 1.0)))
+        "initial_state": ("component", first),
+        "final_state": ("component", components(vector, phase + 2.0 * math.pi * (length % 1.0))),
     }
     coordinates: dict[str, Any] = {"component": COMPONENTS}
     if samples:
@@ -141,10 +143,10 @@ def simulate(
         cycle = _cycles(out.shape[1], samples, length if complete else None)
         coordinates["time"] = cycle / excitation.frequency
         coordinates["cycle"] = ("time", cycle)
-        variables |= sampled(out)
+        variables |= sampled(out, oscillator.isolator)
         name, values = _shaking(excitation, phase, cycle, samples)
         variables[name] = ("time", values)
-        variables |= listed(np.concatenate(found), 1.0 / excitation.frequency)
+        variables |= listed(np.concatenate(found), 1.0 / excitation.frequency, oscillator.isolator)
     data = xr.Dataset(variables, coordinates)
     data.attrs["status"] = status.advice
     return describe(

@@ -9,15 +9,14 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import measure
+from vibroimpact.response.measuring import measured, view
 from vibroimpact.response.phases import (
     Phases,
     Recorded,
     any_recorded,
     cut,
     impact_loss,
-    measured,
     relaxation_loss,
-    view,
 )
 from vibroimpact.response.variables import describe, motion_parameters
 
@@ -80,11 +79,11 @@ def energies(
     origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]
 ) -> tuple[float, float, float]:
     """Energy (J) supplied, and lost in the isolator and in the stops, over the whole motion."""
-    rig = origin.oscillator
-    squares = rows[:, measure.SQUARES]
+    mass = origin.oscillator.mass
+    stops = rows[:, [measure.LOST_RIGHT, measure.LOST_LEFT]].sum()
     lost = relaxation_loss(origin, every).sum() + impact_loss(origin, every).sum()
     return (
-        -rig.mass * float(rows[:, measure.WORK].sum()),
-        rig.isolator.damping * float(squares.sum()),
-        float(origin.of_side(every.contact, "damping") @ squares + lost),
+        -mass * float(rows[:, measure.WORK].sum()),
+        mass * float(rows[:, measure.LOST].sum()),
+        mass * float(stops) + float(lost),
     )

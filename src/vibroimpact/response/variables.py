@@ -97,6 +97,11 @@ VARIABLES: dict[str, Variable] = {
     "right_clearance": Variable("m", "clearance between mass and right bumper"),
     "left_clearance": Variable("m", "clearance between mass and left bumper"),
     "contact": Variable("1", "stop touched: -1 left, 0 none, 1 right, 2 both"),
+    "initial_state": Variable("1", "state at the beginning", "components as those of the end"),
+    "isolator_memory": Variable(
+        "m", "what the isolator remembers", "the z of its law, see State.isolator"
+    ),
+    "event_isolator_memory": Variable("m", "what the isolator remembers at the event"),
     "final_state": Variable("1", "state at the end", "components in m, m/s, m, m, rad and 1"),
     "event_time": Variable("s", "time of the event"),
     "event_cycle": Variable("1", "forcing cycle of the event, counted from 0"),

@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.observers import record
+from vibroimpact.model.isolators import AnyIsolator
 
 EVENTS_AT_ONCE = 20_000
 """Room for events between two calls of the engine."""
 
 
-def sampled(out: NDArray[np.float64]) -> dict[str, Any]:
-    """The samples."""
+def sampled(out: NDArray[np.float64], isolator: AnyIsolator) -> dict[str, Any]:
+    """The samples; what the isolator remembers, if it does."""
     rows = {
         "displacement": record.DISPLACEMENT,
         "velocity": record.VELOCITY,
@@ -23,12 +24,13 @@ def sampled(out: NDArray[np.float64]) -> dict[str, Any]:
         "left_bumper": record.LEFT_FACE,
         "right_clearance": record.RIGHT_CLEARANCE,
         "left_clearance": record.LEFT_CLEARANCE,
+        **({"isolator_memory": record.MEMORY} if isolator.remembers else {}),
     }
     samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
     return {**samples, "contact": ("time", out[record.CONTACT].astype(np.int64))}
 
 
-def listed(events: NDArray[np.float64], period: float) -> dict[str, Any]:
+def listed(events: NDArray[np.float64], period: float, isolator: AnyIsolator) -> dict[str, Any]:
     """The contacts and detachments, in cycles or steps of this length (s)."""
     integers = {
         "event_cycle": record.E_CYCLE,
@@ -43,6 +45,7 @@ def listed(events: NDArray[np.float64], period: float) -> dict[str, Any]:
         "event_left_bumper": record.E_LEFT,
         "event_acceleration_before": record.E_BEFORE,
         "event_acceleration_behind": record.E_BEHIND,
+        **({"event_isolator_memory": record.E_MEMORY} if isolator.remembers else {}),
     }
     time = events[:, record.E_CYCLE] * period + events[:, record.E_TIME]
     return {

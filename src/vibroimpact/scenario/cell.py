@@ -95,7 +95,7 @@ def classified(
 def _way(rig: Shaken, max_cycles: int | None) -> tuple[float, int]:
     """Up to which frequency (over the natural one), and how long at most, a rig is swept."""
     high = highest(*rig)
-    return high, cycles(rig.oscillator, high, MAX_CYCLES) if max_cycles is None else max_cycles
+    return high, cycles(*rig, high, MAX_CYCLES) if max_cycles is None else max_cycles
 
 
 def _seen(

@@ -121,7 +121,7 @@ def classify(
     _, peak = one_sine(oscillator, amplitude, "amplitude")
     held = default_frequencies(oscillator, peak) if frequencies is None else frequencies
     if max_cycles is None:
-        max_cycles = cycles(oscillator, highest(oscillator, peak), MAX_CYCLES)
+        max_cycles = cycles(oscillator, peak, highest(oscillator, peak), MAX_CYCLES)
     data = sweep(oscillator, peak, held, max_cycles=max_cycles, threads=threads, progress=progress)
     if data.sizes["frequency"] < LEAST:
         raise InputError(

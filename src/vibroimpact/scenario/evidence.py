@@ -22,7 +22,7 @@ from vibroimpact.response.free_flight import reference_excursions, resonance_rat
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs, each_swept
-from vibroimpact.scenario.axes import Shaken, room
+from vibroimpact.scenario.axes import Shaken, at_rest, room
 from vibroimpact.scenario.onset import foot_in_contact, onset, within
 
 UNEVEN = 1e-6
@@ -225,7 +225,7 @@ def _one(
 ) -> Evidence:
     oscillator = rig.oscillator
     frequency = both.frequency
-    rest = oscillator.force / oscillator.isolator.initial_stiffness
+    rest = at_rest(oscillator)
     reached = {"right": most - rest, "left": rest - least}
     gaps = room(oscillator)
     touched = np.flatnonzero(both.touching.any(axis=0))
@@ -288,18 +288,16 @@ def _one(
 
 
 def _resonance_within(rig: Shaken, both: Swept) -> bool:
-    rig.oscillator.check_linear("free flight in closed form", stops=False)
-    at = (
-        resonance_ratio(rig.oscillator.damping_ratio, rig.shaken) * rig.oscillator.natural_frequency
-    )
+    at = resonance_ratio(*rig) * rig.oscillator.natural_frequency
     low, high = both.frequency[[0, -1]]
     return bool((at == 0.0 or low <= at) and (math.isinf(at) or at <= high))
 
 
 def _largest(rig: Shaken, free: Array) -> float:
     """Largest amplitude of free flight (m); without damping that at the frequencies swept."""
-    damped = rig.oscillator.damping_ratio > 0.0
-    return 0.5 * reference_excursions(*rig)[0] if damped else float(free.max())
+    isolator = rig.oscillator.isolator
+    damped = not isolator.linear or isolator.damping > 0.0
+    return 0.5 * reference_excursions(*rig)[0] if damped else float(np.nanmax(free))
 
 
 def _irregular(

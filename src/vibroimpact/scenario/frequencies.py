@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.model import Bumper, Harmonic, Oscillator
-from vibroimpact.response.free_flight import resonance_ratio
+from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, Stop
+from vibroimpact.response.free_flight import peak_ratio, reference_excursions, resonance_ratio
 from vibroimpact.scenario.axes import room
 
 LOW = 0.4
@@ -47,20 +48,19 @@ def highest(oscillator: Oscillator, shaken: Harmonic) -> float:
       faster it moves, and sets no bound.
     - Stiffness. Nothing is stiffer than isolator and bumper in contact all the time, whose
       resonance lies at f0 √(1 + λ); flights lower it, and so does damping, or raises it where
-      the displacement of the base is given. With a rigid stop it is `MOST_HIGH`.
+      the displacement of the base is given. With a rigid stop it is `MOST_HIGH`. Of other laws
+      the stiffness counts that they have where the largest free flight would reach.
     """
-    free = max(1.0, resonance_ratio(oscillator.damping_ratio, shaken))
+    free = max(1.0, resonance_ratio(oscillator, shaken))
     least = ROUND * math.ceil(min(LEAST_HIGH * free, MOST_HIGH) / ROUND)
     found = oscillator.stops
     if not found:
         return least
-    bumpers = [b for b in found if isinstance(b, Bumper)]
-    stiff = MOST_HIGH
-    if len(bumpers) == len(found):
-        stiff = max(_in_contact(oscillator, bumper, shaken) for bumper in bumpers)
+    stiff = max(_in_contact(oscillator, side, shaken) for side in room(oscillator))
     gaps = list(room(oscillator).values())
     apart = sum(gaps) if len(gaps) == 2 and gaps[0] == gaps[1] else min(gaps)
-    travel = apart * oscillator.isolator.damping
+    viscous = oscillator.isolator.damping_exponent == 1.0
+    travel = apart * oscillator.isolator.damping if viscous else 0.0
     energy = math.inf
     if travel > 0.0 and shaken.of != "displacement":
         supplied = oscillator.mass * float(shaken.acceleration(oscillator.mass, 0.0))
@@ -69,25 +69,51 @@ def highest(oscillator: Oscillator, shaken: Harmonic) -> float:
     return max(least, ROUND * math.ceil(bound / ROUND))
 
 
-def _in_contact(oscillator: Oscillator, bumper: Bumper, shaken: Harmonic) -> float:
-    """Resonance over the natural frequency of a mass in contact with a bumper all the time."""
-    stiffer = math.sqrt(1.0 + bumper.stiffness / oscillator.isolator.initial_stiffness)
+def _in_contact(oscillator: Oscillator, side: str, shaken: Harmonic) -> float:
+    """Resonance over the natural frequency of a mass in contact with a stop all the time."""
+    stop: Stop = getattr(oscillator, side)
+    if isinstance(stop, RigidStop):
+        return MOST_HIGH
+    spring = oscillator.isolator.initial_stiffness
+    if isinstance(stop, Bumper) and oscillator.isolator.linear:
+        stiffer = math.sqrt(1.0 + stop.stiffness / spring)
+    else:
+        swing = 0.5 * reference_excursions(oscillator, shaken)[0]
+        depth = max(swing - room(oscillator)[side], 0.0)
+        pressed = _tangent(stop.static_force, depth)
+        held = max(_tangent(oscillator.isolator.static_force, swing), spring)
+        stiffer = min(math.sqrt((held + pressed) / spring), MOST_HIGH)
     if shaken.of != "displacement":
         return stiffer
     natural = stiffer * oscillator.angular_frequency
-    damping = oscillator.isolator.damping + bumper.damping
-    higher = stiffer * resonance_ratio(damping / (2.0 * oscillator.mass * natural), shaken)
+    damping = oscillator.isolator.damping + getattr(stop, "damping", 0.0)
+    higher = stiffer * peak_ratio(damping / (2.0 * oscillator.mass * natural), shaken)
     return min(higher, max(stiffer, MOST_HIGH))
 
 
-def cycles(oscillator: Oscillator, high: float, least: int) -> int:
+def _tangent(force: Callable[[float], float], at: float) -> float:
+    """The slope of a force that rises ever more steeply, or ever less, at a displacement (N/m)."""
+    if not 0.0 < at < math.inf:
+        return 0.0
+    return max((force(at) - force(0.999 * at)) / (0.001 * at), 0.0)
+
+
+def cycles(oscillator: Oscillator, shaken: Harmonic, high: float, least: int) -> int:
     """Forcing cycles after which a free transient has decayed enough for a hold to go on waiting.
 
     At f = `high` f0 it decays by exp(-2πξ/high) a cycle; `CLOSE` is reached after
-    ln(1/CLOSE) high/(2πξ) of them, and twice as many are given.
+    ln(1/CLOSE) high/(2πξ) of them, and twice as many are given. Of an isolator that is not linear,
+    ξ = A/(2 u ω²) is that of the linear one whose free flight is as large at its resonance.
     """
-    ratio = oscillator.damping_ratio
-    wanted = 2.0 * math.log(1.0 / CLOSE) * high / (2.0 * math.pi * ratio) if ratio else math.inf
+    if oscillator.isolator.linear:
+        ratio = oscillator.damping_ratio
+    else:
+        swing = 0.5 * reference_excursions(oscillator, shaken)[0]
+        omega = resonance_ratio(oscillator, shaken) * oscillator.angular_frequency
+        ratio = float(shaken.acceleration(oscillator.mass, omega)) / (2.0 * swing * omega**2)
+    wanted = (
+        2.0 * math.log(1.0 / CLOSE) * high / (2.0 * math.pi * ratio) if ratio > 0.0 else math.inf
+    )
     return int(min(max(wanted, least), MOST_CYCLES))
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
+from vibroimpact.errors import InputError
 from vibroimpact.response.resonance import Hysteresis
 from vibroimpact.response.swept import Flags, Swept
-from vibroimpact.scenario.axes import Shaken, room
+from vibroimpact.scenario.axes import Shaken, at_rest, room
 
 
 def onset(
@@ -56,10 +59,15 @@ def foot_in_contact(both: Swept, k: int, i: int, prominence: float) -> bool:
 def _pressed_at_rest(rig: Shaken) -> bool:
     """Whether the mass presses a bumper at any low frequency.
 
-    Its amplitude there is A/ω0², or 0 where the displacement of the base is given.
+    The isolator is then loaded with M A, or not at all where the displacement of the base is given.
     """
     oscillator, shaken = rig
-    swing = float(shaken.acceleration(oscillator.mass, 0.0)) / oscillator.angular_frequency**2
+    try:
+        swing = at_rest(
+            oscillator, oscillator.mass * float(shaken.acceleration(oscillator.mass, 0.0))
+        )
+    except InputError:  # more than a softening one bears
+        swing = math.inf
     return any(swing >= gap for gap in room(oscillator).values())
 
 

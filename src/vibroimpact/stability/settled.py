@@ -108,6 +108,7 @@ def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:
                 layout.V,
                 layout.RIGHT_BUMPER,
                 layout.LEFT_BUMPER,
+                layout.ISOLATOR,
             ]
         ].max()
         / size

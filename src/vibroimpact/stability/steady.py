@@ -17,7 +17,8 @@ from vibroimpact.model import Oscillator, Repeated, State, equilibrium
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.contacts import contact_log
-from vibroimpact.response.phases import Recorded, cut, measured
+from vibroimpact.response.measuring import measured
+from vibroimpact.response.phases import Recorded, cut
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, state_from
 from vibroimpact.response.totals import energies, extremes

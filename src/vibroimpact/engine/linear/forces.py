@@ -42,3 +42,34 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
 def face(plan: Vector, motion: Motion, side: int) -> float:
     """How far the stop on a side is deformed (m)."""
     return motion.right if side == RIGHT else motion.left
+
+
+@kernel
+def stop_push(plan: Vector, motion: Motion, side: int) -> float:
+    """What a pressed bumper pushes with, away from it."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    closing = motion.v if side == RIGHT else -motion.v
+    push: float = plan[at + par.BUMPER_STIFFNESS] * face(plan, motion, side)
+    return push + plan[at + par.BUMPER_DAMPING] * closing
+
+
+@kernel
+def stop_power(plan: Vector, motion: Motion, side: int) -> float:
+    """What a pressed bumper loses, per unit mass and time."""
+    damping: float = plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_DAMPING]
+    return damping * motion.v * motion.v
+
+
+@kernel
+def isolator_power(plan: Vector, motion: Motion) -> float:
+    """What the isolator loses, per unit mass and time."""
+    damping: float = plan[par.DAMPING]
+    return damping * motion.v * motion.v
+
+
+@kernel
+def rest_level(plan: Vector, motion: Motion, side: int) -> float:
+    """What presses a resting mass on the rigid stop of a side, but for what shakes it."""
+    s, c = motion.clock
+    push: float = acceleration_of(plan, motion) + value(plan, s, c)
+    return push if side == RIGHT else -push

@@ -39,7 +39,7 @@ from vibroimpact.engine.linear.layout import (
     H,
 )
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Row, coordinates
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, Row, coordinates
 
 
 class Cursor(NamedTuple):
@@ -124,9 +124,45 @@ def expanded_at_node(plan: Vector, cursor: Cursor, j: int, series: Vector) -> No
 
 
 @kernel
-def expanded_force(plan: Vector, cursor: Cursor, series: Vector) -> None:
-    """Write the series of the contact force per unit mass."""
-    expand(plan, cursor.table + TAYLOR_F, middle(plan, cursor), series)
+def expanded_force(plan: Vector, cursor: Cursor, mode: int, side: int, series: Vector) -> None:
+    """Write the series of what the pressed stop on a side pushes with, per unit mass."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    row = middle(plan, cursor)
+    if plan[cursor.table + RESTING] == 0.0 and not (mode == BOTH and side == LEFT):
+        expand(plan, cursor.table + TAYLOR_F, row, series)
+        return
+    # Seen from the right, or held where it is.
+    sign = -1.0 if mode == BOTH and side == LEFT else 1.0
+    expand(plan, cursor.table + TAYLOR, row, series)
+    k, c = plan[at + par.BUMPER_STIFFNESS], plan[at + par.BUMPER_DAMPING]
+    c *= plan[cursor.table + RATE]
+    for n in range(ORDER):
+        behind = series[n + 1] * (n + 1) if n + 1 < ORDER else 0.0
+        series[n] = sign * (k * series[n] + c * behind)
+    if sign < 0.0:
+        left = par.BUMPER + par.WIDTH
+        series[0] -= k * (plan[par.BUMPER + par.GAP] + plan[left + par.GAP])
+
+
+@kernel
+def moment(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, y: float) -> Motion:
+    """The motion at y of a piece, whose coordinate is x and whose velocity is v; not its clock."""
+    mode = before.mode
+    u = displacement(plan, mode, x)
+    right, left = before.right, before.left
+    if mode & RIGHT:
+        right = x
+        if mode & LEFT:
+            left = -x - (plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
+    elif mode == LEFT:
+        left = x
+    return Motion(mode, 0, u, v, right, left, before.z, before.age, before.clock)
+
+
+@kernel
+def smooth(plan: Vector, motion: Motion, limit: float) -> tuple[float, Motion]:
+    """How long a motion follows one piece of its laws, stops left out, and what is behind it."""
+    return limit, motion
 
 
 @kernel
@@ -186,17 +222,10 @@ def acceleration(plan: Vector, motion: Motion) -> float:
     return sign * absolute_acceleration(plan, motion.mode, row)
 
 
-@kernel
-def acceleration_in(plan: Vector, mode: int, motion: Motion, v: float) -> float:
-    """Absolute acceleration that it would have in another mode, with another velocity."""
-    _, fresh, u, _, right, left, z, age, clock = motion
-    return acceleration(plan, Motion(mode, fresh, u, v, right, left, z, age, clock))
-
-
 @inlined
 def look(
     plan: Vector, cursor: Cursor, before: Motion, tau: float, about: int, series: Vector
-) -> tuple[Cursor, int, float, float, float]:
+) -> tuple[Cursor, int, float, float, float, float]:
     """The motion so many seconds behind a stretch's start, not before where the cursor is.
 
     Parameters
@@ -208,8 +237,9 @@ def look(
 
     Returns
     -------
-    cursor, about, x, v, a
-        The mode's own coordinate and its rate, and the absolute acceleration as they are seen.
+    cursor, about, x, v, a, z
+        The mode's own coordinate and its rate, and the absolute acceleration as they are seen; what
+        the isolator remembers.
     """
     y = (tau - cursor.t) * plan[cursor.table + RATE]
     while y >= NODES:
@@ -225,8 +255,8 @@ def look(
     s, c = 0.0, 0.0
     if plan[cursor.table + RESTING] != 0.0:
         s, c = turned(plan, before.clock[0], before.clock[1], tau)
-        return cursor, j, x, v, sign * (plan[par.BASE] * value(plan, s, c))
+        return cursor, j, x, v, sign * (plan[par.BASE] * value(plan, s, c)), before.z
     if plan[par.BASE] == 0.0:  # else the clock is not asked for
         s, c = turned(plan, before.clock[0], before.clock[1], tau)
     a = absolute_acceleration(plan, before.mode, Row(x, v, sign * s, sign * c))
-    return cursor, j, x, v, a
+    return cursor, j, x, v, a, before.z

@@ -8,7 +8,6 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import (
     acceleration,
-    acceleration_in,
     begin,
     displacement,
     face,
@@ -22,8 +21,8 @@ from vibroimpact.engine.observe import observer
 
 # Rows of the samples: a row a variable, so that each is one piece of memory.
 DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE = range(5)
-RIGHT_CLEARANCE, LEFT_CLEARANCE, CONTACT = range(5, 8)
-SAMPLE = 8
+RIGHT_CLEARANCE, LEFT_CLEARANCE, CONTACT, MEMORY = range(5, 9)
+SAMPLE = 9
 
 TOUCHING = (0.0, 1.0, -1.0, 2.0)
 """The row CONTACT by mode: none, right, left, both."""
@@ -33,7 +32,8 @@ DETACHMENT, CONTACT_BEGINS, IMPACT = 0.0, 1.0, 2.0
 
 # Columns of an event: the state there, and the absolute acceleration just before and behind.
 E_CYCLE, E_TIME, E_KIND, E_SIDE, E_U, E_V, E_RIGHT, E_LEFT, E_BEFORE, E_BEHIND = range(10)
-EVENT = 10
+E_MEMORY = 10
+EVENT = 11
 
 
 class Record(NamedTuple):
@@ -74,6 +74,7 @@ def write_sample(
     acceleration: float,
     right: float,
     left: float,
+    z: float,
     out: Vector,
     k: int,
 ) -> None:
@@ -85,6 +86,7 @@ def write_sample(
     out[RIGHT_CLEARANCE, k] = seen(plan, RIGHT, mode, right, u) + 0.0
     out[LEFT_CLEARANCE, k] = seen(plan, LEFT, mode, left, -u) + 0.0
     out[CONTACT, k] = contact
+    out[MEMORY, k] = z + 0.0
 
 
 @kernel
@@ -93,7 +95,7 @@ def write(plan: Vector, motion: Motion, out: Vector, k: int) -> None:
     mode, u, v = motion.mode, motion.u, motion.v
     right, left = face(plan, motion, RIGHT), face(plan, motion, LEFT)
     a = acceleration(plan, motion)
-    write_sample(plan, mode, TOUCHING[mode], u, v, a, right, left, out, k)
+    write_sample(plan, mode, TOUCHING[mode], u, v, a, right, left, motion.z, out, k)
 
 
 @kernel
@@ -115,7 +117,7 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
     about = -1  # the node that the series is about
     while i < n and i * step < t + reach:
         tau = max(i * step - t, 0.0)
-        cursor, about, x, v, a = look(plan, cursor, before, tau, about, series)
+        cursor, about, x, v, a, z = look(plan, cursor, before, tau, about, series)
         a *= sign
         right = x if mode & RIGHT else relaxed(before.right, rate_r, tau)
         left = x if mode == LEFT else relaxed(before.left, rate_l, tau)
@@ -123,7 +125,7 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
             left = -x - (gap_r + gap_l)
         u = displacement(plan, mode, x)
         k = notes.begin + i
-        write_sample(plan, mode, contact, u, sign * v, a, right, left, notes.samples, k)
+        write_sample(plan, mode, contact, u, sign * v, a, right, left, z, notes.samples, k)
         i += 1
     return i
 
@@ -145,7 +147,10 @@ def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
         row[E_SIDE] = 1.0 if side == RIGHT else -1.0
         row[E_U], row[E_V] = after.u, arrival
         row[E_RIGHT], row[E_LEFT] = face(plan, after, RIGHT), -face(plan, after, LEFT)
-        row[E_BEFORE] = acceleration_in(plan, before.mode, after, arrival)
+        _, fresh, u, _, right, left, z, age, clock = after
+        arrived = Motion(before.mode, fresh, u, arrival, right, left, z, age, clock)
+        row[E_BEFORE] = acceleration(plan, arrived)
         row[E_BEHIND] = acceleration(plan, after)
+        row[E_MEMORY] = after.z
         written += 1
     return Record(samples, first, spacing, n, i, events, written, last, number)

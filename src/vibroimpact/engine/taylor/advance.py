@@ -46,7 +46,15 @@ from vibroimpact.engine.taylor.frame import (
 )
 from vibroimpact.engine.taylor.laws import EVEN
 from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, X, Z
-from vibroimpact.engine.taylor.pieces import PIECES, begun, motion_at, push_series, shifted
+from vibroimpact.engine.taylor.pieces import (
+    PIECES,
+    begun,
+    facing_of,
+    motion_at,
+    push_series,
+    shifted,
+    velocity_series,
+)
 from vibroimpact.engine.taylor.step import headed
 
 DETACHED_LEFT, YIELDS, UNBENT, EASED = 16, 17, 18, 19
@@ -59,11 +67,10 @@ met without speed may have a dissipation beyond all bounds: it is told as no fin
 
 
 class Found(NamedTuple):
-    """The earliest event so far: what, where in the step (its length is 1), and at which level."""
+    """The earliest event so far: what, and where in the step (its length is 1)."""
 
     event: int
     y: float
-    level: float
 
 
 @kernel
@@ -123,14 +130,14 @@ def watch(
         if start - reach > 0.0:
             return found
     y = first_in_step(plan, series, clearance, launched, released, found.y)
-    return Found(event, y, clearance.offset) if y < found.y else found
+    return Found(event, y) if y < found.y else found
 
 
 @kernel
 def search(plan: Vector, motion: Motion, frame: Frame, length: float) -> Found:
     """The earliest event of the step in hand."""
     mode, fresh, _, _, right, left, _, _, _ = motion
-    found = Found(LIMIT, NONE, 0.0)
+    found = Found(LIMIT, NONE)
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
     reach = spread(plan, X)
     for side in range(1, 3):
@@ -175,7 +182,7 @@ def lets_go(plan: Vector, found: Found, side: int, fresh: bool) -> Found:
 @kernel
 def depth_series(plan: Vector, mode: int, side: int) -> None:
     """Write the deformation of a pressed stop over the step to ASKED."""
-    facing = -1.0 if mode == BOTH and side == LEFT else 1.0
+    facing = facing_of(mode, side)
     for n in range(DEGREE + 1):
         plan[ASKED + n] = facing * plan[X + n]
     if facing < 0.0:
@@ -186,14 +193,11 @@ def depth_series(plan: Vector, mode: int, side: int) -> None:
 @kernel
 def eases(plan: Vector, found: Found, mode: int, side: int, speed: float) -> Found:
     """Take the moment into account at which 1 + χ δ′ changes sign: a stop does not pull."""
-    facing = -1.0 if mode == BOTH and side == LEFT else 1.0
+    facing = facing_of(mode, side)
     chi = push_of(plan, side, 0.0, speed).dissipation
     if chi == 0.0:
         return found
-    rate = chi * facing * (plan[HEADER + RATE] / PIECES)
-    for n in range(DEGREE):
-        plan[ASKED + n] = rate * ((n + 1) * plan[X + n + 1])
-    plan[ASKED + DEGREE] = 0.0
+    velocity_series(plan, chi * facing * (plan[HEADER + RATE] / PIECES))
     plan[ASKED] += 1.0
     bend = 1.0 if plan[ASKED] > EVEN or (plan[ASKED] > -EVEN and plan[ASKED + 1] > 0.0) else -1.0
     if abs(plan[ASKED]) <= EVEN:
@@ -216,9 +220,7 @@ def turns(plan: Vector, found: Found, motion: Motion, frame: Frame) -> Found:
         return found
     way = way_of(plan, motion)
     ways = frame.sign * way
-    for n in range(DEGREE):
-        plan[ASKED + n] = (n + 1) * plan[X + n + 1]
-    plan[ASKED + DEGREE] = 0.0
+    velocity_series(plan, 1.0)
     if motion.v == 0.0:
         plan[ASKED] = 0.0
         if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT):
@@ -274,11 +276,10 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
 
 
 @kernel
-def happened(plan: Vector, motion: Motion, found: Found, here: Motion, t: float) -> Ended:
+def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
     """The motion just behind the event, exactly there."""
     mode, _, u, v, right, left, z, _, clock = here
     gap_r, gap_l, _, _ = bumpers(plan)
-    event = found.event
     if event in (RIGHT, LEFT):
         if not mode:  # else the pressed bumper's deformation is the primary quantity
             u = gap_r + right if event == RIGHT else -(gap_l + left)
@@ -330,7 +331,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         if found.event != LIMIT:
             here = motion_at(plan, here, frame, found.y)
             t += found.y * length
-            event, t, arrival, after = happened(plan, motion, found, here, t)
+            event, t, arrival, after = happened(plan, found.event, here, t)
             if event in (RIGHT, LEFT) and rigid(plan, event):
                 return impact(plan, event, t, arrival, after, limit)
             return event, t, arrival, after
@@ -341,3 +342,12 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     mode, fresh, _, _, right, left, z, age, clock = motion
     lost = Motion(mode, fresh, math.nan, math.nan, right, left, z, age, clock)
     return LIMIT, limit, math.nan, lost
+
+
+@kernel
+def smooth(plan: Vector, motion: Motion, limit: float) -> tuple[float, Motion]:
+    """How long a motion follows one piece of its laws, stops left out, and what is behind it."""
+    event, t, _, after = advance_taylor(plan, motion, limit)
+    if event == TURNED and t < limit:
+        return t, after
+    return limit, motion

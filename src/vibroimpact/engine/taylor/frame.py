@@ -214,3 +214,57 @@ def face(plan: Vector, motion: Motion, side: int) -> float:
         return 0.0
     gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
     return max((motion.u if side == RIGHT else -motion.u) - gap, 0.0)  # type: ignore[no-any-return]
+
+
+@kernel
+def stop_push(plan: Vector, motion: Motion, side: int) -> float:
+    """What a pressed stop pushes with, away from it, per unit mass (m/s²)."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    closing = motion.v if side == RIGHT else -motion.v
+    memory = motion.right if side == RIGHT else motion.left
+    if curved_stop(plan, side):
+        return pushing(  # type: ignore[no-any-return]
+            push_of(plan, side, closing, memory), face(plan, motion, side), closing
+        )
+    push: float = plan[at + par.BUMPER_STIFFNESS] * memory + plan[at + par.BUMPER_DAMPING] * closing
+    return push
+
+
+@kernel
+def stop_power(plan: Vector, motion: Motion, side: int) -> float:
+    """What a pressed stop loses, per unit mass and time: what it takes and does not keep."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    closing = motion.v if side == RIGHT else -motion.v
+    if not curved_stop(plan, side):
+        return plan[at + par.BUMPER_DAMPING] * closing * closing  # type: ignore[no-any-return]
+    spring = plan[at + par.BUMPER_STIFFNESS] * face(plan, motion, side) ** plan[at + par.EXPONENT]
+    lost: float = (stop_push(plan, motion, side) - spring) * closing
+    return lost
+
+
+@kernel
+def isolator_power(plan: Vector, motion: Motion) -> float:
+    """What the isolator loses, per unit mass and time.
+
+    Drag, friction, and of the spring that yields in series what it does not keep.
+    """
+    v = motion.v
+    if v == 0.0:
+        return 0.0
+    power = plan[par.DAMPING] * abs(v) ** (plan[par.DRAG] + 1.0) + plan[par.FRICTION] * abs(v)
+    if plan[par.HYSTERETIC] != 0.0:
+        branch = branch_of(plan, motion, 1.0)
+        kept = (branch.slope - branch.bend * motion.z ** int(plan[par.SHARPNESS])) / plan[par.SLOPE]
+        power += plan[par.HYSTERETIC] * motion.z * v * (1.0 - kept)
+    return power  # type: ignore[no-any-return]
+
+
+@kernel
+def rest_level(plan: Vector, motion: Motion, side: int) -> float:
+    """What presses a resting mass on the rigid stop of a side, but for what shakes it.
+
+    Friction holds first.
+    """
+    s, c = motion.clock
+    push: float = without_friction(plan, motion) + value(plan, s, c)
+    return (push if side == RIGHT else -push) - plan[par.FRICTION]

@@ -6,13 +6,13 @@ here is that of the piece in hand. The series of the step in hand follow.
 
 from __future__ import annotations
 
-from vibroimpact.engine.linear.layout import SIZE, TABLES
+from vibroimpact.engine.linear.layout import PLAN, SIZE, TABLES
 
 DEGREE = 22
 """Highest power of a step's series. With it a step goes 0.16 of the way to the nearest
 singularity; fewer terms cost more steps, more terms more a step."""
 
-ROOM = 2 * (DEGREE + 2)
+ROOM = DEGREE + 2
 """Numbers kept for one series."""
 
 HEADER = TABLES
@@ -32,8 +32,7 @@ SPEED = BENT + ROOM  # |x′|
 DRAG = SPEED + ROOM  # |x′|^α
 PRESSED = DRAG + ROOM  # of the other stop that is pressed, its deformation
 PUSH = PRESSED + ROOM  # powers of δ, four of the stop that the coordinate is of, four of the other
-POWERS = PUSH + 8 * ROOM  # z², z³, …
-ASKED = POWERS + 8 * ROOM  # what is asked of the motion: its acceleration, a force, a velocity
+ASKED = PUSH + 8 * ROOM  # what is asked of the motion: its acceleration, a force, a velocity
 BY_X = ASKED + ROOM  # slopes of the forces: by displacement, by velocity, by the closing speeds
 BY_V = BY_X + ROOM
 BY_SPEED = BY_V + ROOM
@@ -42,6 +41,7 @@ BY_Z_OF_Z = BY_Z + ROOM
 D_X = BY_Z_OF_Z + ROOM  # a disturbance
 D_V = D_X + ROOM
 D_Z = D_V + ROOM
+POWERS = D_Z + ROOM  # z², z³, … for which a plan has room to the end
 
-SHARPEST = 8
+SHARPEST = (PLAN - POWERS) // ROOM
 """The highest power of z that there is room for."""

@@ -21,13 +21,23 @@ from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
 from vibroimpact.engine.taylor.frame import (
     Frame,
     acceleration_of,
+    curved_stop,
     frame_of,
     stuck,
     way_of,
 )
 from vibroimpact.engine.taylor.laws import laws_of, unit_of
-from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, SHAKEN, X, Z
-from vibroimpact.engine.taylor.step import at, headed, stay, step
+from vibroimpact.engine.taylor.layout import (
+    ASKED,
+    DEGREE,
+    HEADER,
+    PRESSED,
+    PUSH,
+    SHAKEN,
+    X,
+    Z,
+)
+from vibroimpact.engine.taylor.step import at, headed, pressed, stay, step
 
 PIECES = 2
 """In a step."""
@@ -203,9 +213,23 @@ def expanded(plan: Vector, cursor: Cursor, series: Vector) -> tuple[float, float
 
 
 @kernel
+def facing_of(mode: int, side: int) -> float:
+    """−1 where a stop's deformation falls with the mode's own coordinate: the left one of both."""
+    return -1.0 if mode == BOTH and side == LEFT else 1.0
+
+
+@kernel
+def velocity_series(plan: Vector, scale: float) -> None:
+    """Write the series of x′, times a number and per step, to ASKED."""
+    for n in range(DEGREE):
+        plan[ASKED + n] = scale * ((n + 1) * plan[X + n + 1])
+    plan[ASKED + DEGREE] = 0.0
+
+
+@kernel
 def push_series(plan: Vector, mode: int, side: int) -> None:
     """Write the force per unit mass of the pressed bumper on a side, over the step, to ASKED."""
-    facing = -1.0 if mode == BOTH and side == LEFT else 1.0
+    facing = facing_of(mode, side)
     at = par.BUMPER + par.WIDTH * (side - 1)
     stiffness = plan[at + par.BUMPER_STIFFNESS]
     damping = plan[at + par.BUMPER_DAMPING] * (plan[HEADER + RATE] / PIECES)
@@ -218,11 +242,43 @@ def push_series(plan: Vector, mode: int, side: int) -> None:
 
 
 @kernel
-def expanded_force(plan: Vector, cursor: Cursor, series: Vector) -> None:
-    """Write the series of the contact force per unit mass."""
-    mode = cursor.start.mode
-    push_series(plan, mode, LEFT if mode == LEFT else RIGHT)
+def power_series(plan: Vector, cursor: Cursor, side: int) -> None:
+    """As `push_series`, of a stop that follows a power: nothing where its push is left out."""
+    start = cursor.start
+    facing = facing_of(start.mode, side)
+    frame = frame_of(plan, start.mode)
+    laws, _ = laws_of(plan, start, frame, coordinate(plan, start), cursor.step)
+    push = laws.push if facing > 0.0 else laws.other
+    for n in range(DEGREE + 1):
+        plan[ASKED + n] = 0.0
+        plan[PRESSED + n] = facing * plan[X + n]
+    if push.stiffness == 0.0:
+        return
+    if facing < 0.0:
+        plan[PRESSED] += laws.apart
+    h = cursor.step
+    for n in range(DEGREE):
+        plan[ASKED + n] = pressed(plan, push, facing, PRESSED, PUSH, h, n) / (h * h)
+
+
+@kernel
+def expanded_force(plan: Vector, cursor: Cursor, mode: int, side: int, series: Vector) -> None:
+    """Write the series of what the pressed stop on a side pushes with, per unit mass."""
+    if curved_stop(plan, side):
+        power_series(plan, cursor, side)
+    else:
+        push_series(plan, mode, side)
     shifted(plan, ASKED, 2 * cursor.i + 1, series)
+
+
+@kernel
+def moment(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, y: float) -> Motion:
+    """The motion at y of a piece, whose coordinate is x and whose velocity is v; not its clock."""
+    mode, _, _, _, right, left, z, age, clock = before
+    if plan[par.HYSTERETIC] != 0.0:
+        z, _ = at(plan, Z, (cursor.i + 0.5 + y) / PIECES)
+        z = -z if mode == LEFT else z
+    return placed(plan, Motion(mode, 0, 0.0, v, right, left, z, age, clock), x)
 
 
 @kernel
@@ -257,22 +313,16 @@ def acceleration(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
-def acceleration_in(plan: Vector, mode: int, motion: Motion, v: float) -> float:
-    """Absolute acceleration that it would have in another mode, with another velocity."""
-    _, fresh, u, _, right, left, z, age, clock = motion
-    return acceleration(plan, Motion(mode, fresh, u, v, right, left, z, age, clock))
-
-
-@kernel
 def look(
     plan: Vector, cursor: Cursor, before: Motion, tau: float, about: int, series: Vector
-) -> tuple[Cursor, int, float, float, float]:
+) -> tuple[Cursor, int, float, float, float, float]:
     """The motion so many seconds behind a stretch's start, not before where the cursor is.
 
     Returns
     -------
-    cursor, about, x, v, a
-        The mode's own coordinate and its rate, and the absolute acceleration as they are seen.
+    cursor, about, x, v, a, z
+        The mode's own coordinate and its rate, and the absolute acceleration as they are seen; what
+        the isolator remembers.
     """
     while tau >= cursor.t + cursor.step and cursor.t + cursor.step < cursor.length:
         cursor = following_window(plan, cursor)
@@ -280,4 +330,4 @@ def look(
     y = (tau - cursor.t) * (plan[HEADER + RATE] / PIECES)
     here = motion_at(plan, cursor.start, frame, y)
     a = frame.sign * acceleration(plan, here)
-    return cursor, about, coordinate(plan, here), frame.sign * here.v, a
+    return cursor, about, coordinate(plan, here), frame.sign * here.v, a, here.z

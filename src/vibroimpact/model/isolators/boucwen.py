@@ -18,6 +18,9 @@ _SETTLED = 40.0
 """The n (x - 1) from which on y is 1 to the last digit, for 1 - yⁿ < exp(-n (x - 1))."""
 
 
+_DIGITS = 290.0
+
+
 def _whole(value: Any) -> int:
     """Read an exponent; 2.0 is 2."""
     number = float(value) if isinstance(value, Integral | float) else math.nan
@@ -102,7 +105,18 @@ class BoucWenIsolator(YieldingLaw):
                 f"gamma: {self.gamma:g} and beta, {self.beta:g}, bound the hysteretic "
                 "displacement outside the range of floating-point numbers; a larger sum is accepted"
             )
+        # The engine writes u_y^-n as a number.
+        if not -_DIGITS < self.exponent * math.log10(self.yield_displacement) < _DIGITS:
+            raise InputError(
+                f"exponent: {self.exponent} takes the yield displacement, "
+                f"{self.yield_displacement:g} m, to a power outside the range of floating-point "
+                f"numbers; at most {self._sharpest} is accepted there"
+            )
         return self
+
+    @property
+    def _sharpest(self) -> int:
+        return int(_DIGITS / abs(math.log10(self.yield_displacement)))
 
     @property
     def hysteretic_limit(self) -> float:

@@ -124,6 +124,11 @@ class ExponentialIsolator(IsolatorLaw):
             self.hysteretic_force * faded, displacement
         )
 
+    @property
+    def remembers(self) -> bool:
+        """Whether it has a hysteretic part."""
+        return self.reversal_stiffness > self.final_stiffness
+
     def remembered(self, displacement: float) -> float:
         """Its memory z (m) after a first loading to a displacement (m)."""
         spring = self.reversal_stiffness - self.final_stiffness

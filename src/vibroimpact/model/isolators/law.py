@@ -55,6 +55,11 @@ class IsolatorLaw(Named):
         """Force (N) after a first, slow displacement (m) from rest: an odd function."""
         raise NotImplementedError
 
+    @property
+    def remembers(self) -> bool:
+        """Whether its force depends on more than displacement and velocity: on a memory z."""
+        return False
+
     def remembered(self, displacement: float) -> float:
         """Its memory z (m, see `State.isolator`) after a first loading to a displacement (m)."""
         return 0.0
@@ -129,6 +134,11 @@ class YieldingLaw(IsolatorLaw):
         """Force in N of a first loading to a displacement in m: k_p u + (k_e - k_p) z."""
         held = self.hysteretic_stiffness * self._loaded(displacement)
         return self.post_yield_stiffness * displacement + held
+
+    @property
+    def remembers(self) -> bool:
+        """Whether anything of it yields."""
+        return self.hysteretic_stiffness > 0.0
 
     def remembered(self, displacement: float) -> float:
         """Its memory z (m) after a first loading to a displacement (m); 0 if nothing can yield."""
