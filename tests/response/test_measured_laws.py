@@ -18,7 +18,7 @@ ISOLATORS: dict[str, vi.Isolator] = {
     "bilinear": vi.BilinearIsolator(200.0, 40.0, 3.0, 0.3),
     "polynomial": vi.PolynomialIsolator(60.0, 0.8, 900.0, 4e4),
     "bouc-wen": vi.BoucWenIsolator(200.0, 40.0, 3.0, 0.3, exponent=3),
-    "exponential": vi.ExponentialIsolator(300.0, 50.0, 60.0, 0.3, hardening_force=0.2, hardening=9),
+    "exponential": vi.ExponentialIsolator(300.0, 50.0, 60.0, 0.3, 9.0, 0.2),
 }
 STOPS: dict[str, tuple[object, object]] = {
     "bumpers": (vi.Bumper(900.0, 3.0, 0.05), vi.Bumper(600.0, 2.0, 0.04)),
@@ -49,7 +49,7 @@ def stored(oscillator: vi.Oscillator, data: xr.Dataset, at: int) -> float:
             held += isolator.post_yield_stiffness * u**2 / 2
             held += isolator.hysteretic_stiffness * z**2 / 2
         case vi.ExponentialIsolator():
-            held += quad(isolator.elastic_force, 0.0, u, epsabs=1e-14)[0]
+            held += quad(isolator.elastic_force, 0.0, u, epsabs=1e-14, epsrel=1e-13)[0]
             held += (isolator.reversal_stiffness - isolator.final_stiffness) * z**2
         case _:
             held += isolator.stiffness * u**2 / 2
@@ -94,7 +94,11 @@ def test_the_extremes_are_those_of_many_samples(isolator: str, stops: str) -> No
     oscillator = rig(isolator, stops)
     data = followed(oscillator, SHAKEN, 4000)
     exact = vi.totals(data)
-    for one, near in (("displacement", 1e-6), ("acceleration", 1e-4)):
+    # A sample may miss the impact on a wall by a step's way.
+    for one, near in (
+        ("displacement", 2e-4 if stops == "jankowski" else 1e-6),
+        ("acceleration", 1e-4),
+    ):
         values = [data[one].values]
         if one == "acceleration":
             values += [data[f"event_acceleration_{side}"].values for side in ("before", "behind")]
@@ -114,8 +118,9 @@ def test_contacts_are_those_of_many_samples(isolator: str, stops: str) -> None:
     t, u, v = (data[name].values for name in ("time", "displacement", "velocity"))
     assert log.sizes["contact_number"] > 3
     for i in range(log.sizes["contact_number"]):
-        side, begin, end = (int(log["contact_side"][i]),) + tuple(
-            float(log[f"contact_{name}"][i]) for name in ("start", "end")
+        side, begin, end = (
+            int(log["contact_side"][i]),
+            *tuple(float(log[f"contact_{name}"][i]) for name in ("start", "end")),
         )
         stop = oscillator.right if side == 1 else oscillator.left
         if isinstance(stop, vi.RigidStop):

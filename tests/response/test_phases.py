@@ -7,7 +7,8 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.engine import measure
-from vibroimpact.response.phases import beginning, measured, phases, recorded
+from vibroimpact.response.measuring import measured
+from vibroimpact.response.phases import beginning, phases, recorded
 
 CASE = vi.laboratory.case("B2-G1-A3")
 

@@ -20,6 +20,7 @@ series elsewhere. Each is a folder whose modules have these kernels:
     face(plan, motion, side)                how far a stop is deformed (m)
     stop_push(plan, motion, side)           what a pressed stop pushes with
     stop_power(…), isolator_power(…)        what they lose, per unit mass
+    unkept(plan, before, after, side)       what a stop loses that has ceased to push
     rest_level(plan, motion, side)          what presses a resting mass on its rigid stop
 
     carry(plan, stretch, q, rows)           disturbances through a stretch, and what is lost
@@ -87,6 +88,7 @@ face = _by_flow("face")
 stop_push = _by_flow("stop_push")
 stop_power = _by_flow("stop_power")
 isolator_power = _by_flow("isolator_power")
+unkept = _by_flow("unkept")
 rest_level = _by_flow("rest_level")
 coordinate = _by_flow("coordinate")
 carry = _by_flow("carry")

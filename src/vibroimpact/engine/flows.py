@@ -35,6 +35,7 @@ from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
 from vibroimpact.engine.taylor import frame
 from vibroimpact.engine.taylor import growth as taylor_growth
+from vibroimpact.engine.taylor import laws as taylor_laws
 from vibroimpact.engine.taylor import pieces as taylor_pieces
 from vibroimpact.engine.taylor import plan as taylor_plan
 from vibroimpact.engine.taylor.advance import advance_taylor
@@ -104,7 +105,16 @@ _CURVED: dict[float, type] = {
 }
 
 answer(False, tables, linear_advance, forces, pieces, linear_carry, linear_growth)
-answer(True, taylor_plan, frame, taylor_pieces, taylor_advance, taylor_carry, taylor_growth)
+answer(
+    True,
+    taylor_plan,
+    frame,
+    taylor_laws,
+    taylor_pieces,
+    taylor_advance,
+    taylor_carry,
+    taylor_growth,
+)
 
 
 def _flow(rig: Vector) -> type:

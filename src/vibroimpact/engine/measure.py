@@ -28,6 +28,7 @@ from vibroimpact.engine.dispatch import (
     smooth,
     stop_power,
     stop_push,
+    unkept,
 )
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
@@ -132,6 +133,8 @@ def measure_phase(plan: Vector, before: Motion, length: float, side: int, out: V
     while t < length:
         step, behind = smooth(plan, here, length - t)
         measure_stretch(plan, here, step, t, side, out)
+        out[LOST_RIGHT] += unkept(plan, here, behind, RIGHT)
+        out[LOST_LEFT] += unkept(plan, here, behind, LEFT)
         here = behind
         t += step
     least, most = out[A_LEAST], out[A_MOST]

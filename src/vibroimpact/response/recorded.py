@@ -66,13 +66,11 @@ def through(
         told = f"simulate stopped {finished * record.step:g} s into the record: {status.advice}"
         warnings.warn(told, RuntimeWarning, stacklevel=4)
         out, time = out[:, : finished * samples], time[: finished * samples]
-    variables: dict[str, Any] = {
-        "initial_state": ("component", first),
-        "final_state": ("component", components(vector, 0.0)),
-    }
+    variables: dict[str, Any] = {"final_state": ("component", components(vector, 0.0))}
     coordinates: dict[str, Any] = {"component": COMPONENTS}
     if samples:
         coordinates["time"] = time
+        variables["initial_state"] = ("component", first)
         variables |= sampled(out, oscillator.isolator)
         variables["base_acceleration"] = ("time", record.at(time))
         events = listed(np.concatenate(found), record.step, oscillator.isolator)

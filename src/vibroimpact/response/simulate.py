@@ -134,7 +134,6 @@ def simulate(
         out = out[:, : finished * samples]
         length = float(finished)
     variables: dict[str, Any] = {
-        "initial_state": ("component", first),
         "final_state": ("component", components(vector, phase + 2.0 * math.pi * (length % 1.0))),
     }
     coordinates: dict[str, Any] = {"component": COMPONENTS}
@@ -143,6 +142,7 @@ def simulate(
         cycle = _cycles(out.shape[1], samples, length if complete else None)
         coordinates["time"] = cycle / excitation.frequency
         coordinates["cycle"] = ("time", cycle)
+        variables["initial_state"] = ("component", first)
         variables |= sampled(out, oscillator.isolator)
         name, values = _shaking(excitation, phase, cycle, samples)
         variables[name] = ("time", values)

@@ -50,7 +50,8 @@ def stop_push(plan: Vector, motion: Motion, side: int) -> float:
     at = par.BUMPER + par.WIDTH * (side - 1)
     closing = motion.v if side == RIGHT else -motion.v
     push: float = plan[at + par.BUMPER_STIFFNESS] * face(plan, motion, side)
-    return push + plan[at + par.BUMPER_DAMPING] * closing
+    push += plan[at + par.BUMPER_DAMPING] * closing
+    return push
 
 
 @kernel
@@ -58,6 +59,12 @@ def stop_power(plan: Vector, motion: Motion, side: int) -> float:
     """What a pressed bumper loses, per unit mass and time."""
     damping: float = plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_DAMPING]
     return damping * motion.v * motion.v
+
+
+@kernel
+def unkept(plan: Vector, before: Motion, after: Motion, side: int) -> float:
+    """What a stop loses besides: no bumper has anything that its dashpot does not take."""
+    return 0.0
 
 
 @kernel

@@ -161,7 +161,7 @@ def moment(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, y: 
 
 @kernel
 def smooth(plan: Vector, motion: Motion, limit: float) -> tuple[float, Motion]:
-    """How long a motion follows one piece of its laws, stops left out, and what is behind it."""
+    """How long a motion follows one piece of its laws: between linear laws, to the end."""
     return limit, motion
 
 

@@ -348,6 +348,4 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
 def smooth(plan: Vector, motion: Motion, limit: float) -> tuple[float, Motion]:
     """How long a motion follows one piece of its laws, stops left out, and what is behind it."""
     event, t, _, after = advance_taylor(plan, motion, limit)
-    if event == TURNED and t < limit:
-        return t, after
-    return limit, motion
+    return (t if event == TURNED else limit), after

@@ -223,22 +223,24 @@ def stop_push(plan: Vector, motion: Motion, side: int) -> float:
     closing = motion.v if side == RIGHT else -motion.v
     memory = motion.right if side == RIGHT else motion.left
     if curved_stop(plan, side):
-        return pushing(  # type: ignore[no-any-return]
-            push_of(plan, side, closing, memory), face(plan, motion, side), closing
-        )
+        law = push_of(plan, side, closing, memory)
+        return pushing(law, face(plan, motion, side), closing)
     push: float = plan[at + par.BUMPER_STIFFNESS] * memory + plan[at + par.BUMPER_DAMPING] * closing
     return push
 
 
 @kernel
 def stop_power(plan: Vector, motion: Motion, side: int) -> float:
-    """What a pressed stop loses, per unit mass and time: what it takes and does not keep."""
+    """What a stop that pushes loses, per unit mass and time: what it takes and does not keep."""
     at = par.BUMPER + par.WIDTH * (side - 1)
     closing = motion.v if side == RIGHT else -motion.v
     if not curved_stop(plan, side):
         return plan[at + par.BUMPER_DAMPING] * closing * closing  # type: ignore[no-any-return]
+    push = stop_push(plan, motion, side)
+    if push == 0.0:
+        return 0.0
     spring = plan[at + par.BUMPER_STIFFNESS] * face(plan, motion, side) ** plan[at + par.EXPONENT]
-    lost: float = (stop_push(plan, motion, side) - spring) * closing
+    lost: float = (push - spring) * closing
     return lost
 
 
@@ -267,4 +269,5 @@ def rest_level(plan: Vector, motion: Motion, side: int) -> float:
     """
     s, c = motion.clock
     push: float = without_friction(plan, motion) + value(plan, s, c)
-    return (push if side == RIGHT else -push) - plan[par.FRICTION]
+    push = push if side == RIGHT else -push
+    return push - plan[par.FRICTION]

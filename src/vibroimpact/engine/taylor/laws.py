@@ -20,6 +20,7 @@ from vibroimpact.engine.taylor.frame import (
     acceleration_of,
     branch_of,
     curved_stop,
+    face,
     push_of,
     springs,
     without_friction,
@@ -127,6 +128,22 @@ def laws_of(
             if abs(motion.v) <= little:
                 drag = 0.0
     return Laws(branch, push, other, apart, drag), longest
+
+
+@kernel
+def unkept(plan: Vector, before: Motion, after: Motion, side: int) -> float:
+    """What a stop loses between two moments that would pull and does not push: of its spring's."""
+    if not (before.mode & side and curved_stop(plan, side)):
+        return 0.0
+    sign = 1.0 if side == RIGHT else -1.0
+    memory = before.right if side == RIGHT else before.left
+    closing = sign * before.v
+    push = push_of(plan, side, closing, memory)
+    if pressing(push, closing, sign * without_friction(plan, before)).stiffness != 0.0:
+        return 0.0
+    power = push.exponent + 1.0
+    begun, ended = face(plan, before, side), face(plan, after, side)
+    return push.stiffness / power * (begun**power - ended**power)  # type: ignore[no-any-return]
 
 
 @kernel
