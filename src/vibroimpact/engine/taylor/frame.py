@@ -269,5 +269,5 @@ def rest_level(plan: Vector, motion: Motion, side: int) -> float:
     """
     s, c = motion.clock
     push: float = without_friction(plan, motion) + value(plan, s, c)
-    push = push if side == RIGHT else -push
-    return push - plan[par.FRICTION]
+    pressed: float = (push if side == RIGHT else -push) - plan[par.FRICTION]
+    return pressed
