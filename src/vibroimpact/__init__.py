@@ -50,6 +50,7 @@ _HOME = {
     "orbit": "stability.orbit",
     "progress_bar": "response.progress",
     "resonance_diagram": "stability.diagram",
+    "response_spectrum": "response.response_spectrum",
     "save": "response.files",
     "scenario_map": "scenario.map",
     "simulate": "response.simulate",
@@ -97,6 +98,7 @@ __all__ = [
     "orbit",
     "progress_bar",
     "resonance_diagram",
+    "response_spectrum",
     "save",
     "scenario_map",
     "simulate",
@@ -137,6 +139,7 @@ if TYPE_CHECKING:
     from vibroimpact.response.contacts import contacts
     from vibroimpact.response.files import load, save
     from vibroimpact.response.progress import progress_bar
+    from vibroimpact.response.response_spectrum import response_spectrum
     from vibroimpact.response.section import impact_section, stroboscopic_section
     from vibroimpact.response.simulate import simulate
     from vibroimpact.response.spectrum import spectrum

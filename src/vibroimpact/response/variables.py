@@ -226,6 +226,20 @@ VARIABLES: dict[str, Variable] = {
     "total_supplied": Variable("J", "work on the mass of what shakes it, over the motion"),
     "total_isolator": Variable("J", "energy lost in the isolator over the motion"),
     "total_bumpers": Variable("J", "energy lost in the stops over the motion"),
+    # response spectra
+    "natural_period": Variable("s", "natural period", "0: the mass moves with the base"),
+    "orientation": Variable(
+        "1",
+        "direction of the response",
+        "of two components, and the median and the largest over 180 directions a degree apart",
+    ),
+    "spectral_displacement": Variable("m", "largest relative displacement, from rest"),
+    "spectral_velocity": Variable("m s-1", "largest relative velocity, from rest"),
+    "spectral_acceleration": Variable("m s-2", "largest absolute acceleration, from rest"),
+    "pseudo_velocity": Variable("m s-1", "pseudo-velocity", "angular frequency times displacement"),
+    "pseudo_acceleration": Variable(
+        "m s-2", "pseudo-acceleration", "angular frequency squared times displacement"
+    ),
     # maps
     "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
     "confidence": Variable(

@@ -1,0 +1,33 @@
+"""Entries that no rig goes into: the same compiler and cache, without a flow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from vibroimpact.engine.entry import Entry
+
+
+class Alone(NamedTuple):
+    """What stands in the place of the room for a rig's plan."""
+
+    nothing: float = 0.0
+
+
+class Single(Entry):
+    """A compiled function of numbers and arrays; it gets an `Alone` as its first argument."""
+
+    def __call__(self, *args: Any) -> Any:
+        """Run, compiling or loading first if this is the first call of the process."""
+        if Alone not in self._compiled:
+            self.prepare()
+        return self._compiled[Alone](Alone(), *args)
+
+    def prepare(self, *rigs: Any) -> None:
+        """Compile, or load from the cache."""
+        self._prepare(Alone())
+
+
+def single(signature: str) -> Callable[[Callable[..., Any]], Single]:
+    """Mark a function that Python calls; the signature is that of what follows the first."""
+    return lambda function: Single(function, signature)

@@ -1,0 +1,204 @@
+"""Response spectra of records: the largest response of linear oscillators, and its directions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from vibroimpact.engine import spectra
+from vibroimpact.errors import InputError
+from vibroimpact.model import Record
+from vibroimpact.model.units import shown
+from vibroimpact.response.threads import Progress, available, run
+from vibroimpact.response.variables import describe
+
+DIRECTIONS = 180
+"""Of a pair of components: every degree of half a turn."""
+
+_LEAST, _MOST = 1e-9, 1e9
+"""Natural periods in s, beyond what anyone means and within what numbers hold."""
+
+_Array = NDArray[np.float64]
+
+
+def response_spectrum(
+    record: Record | Sequence[Record],
+    periods: ArrayLike,
+    damping: ArrayLike = 0.05,
+    *,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Return the response spectra of a record, or of two perpendicular components of one.
+
+    The largest sizes of the relative displacement u, of its velocity and of the absolute
+    acceleration ü + A_t of oscillators ü + 2ζω u̇ + ω² u = −A_t from rest. They are exact for the
+    record, straight between its samples and 0 behind them: what is largest between samples, or in
+    the free vibration behind the record, counts (docs/theory.md, section 17).
+
+    Parameters
+    ----------
+    record
+        A `Record`, or two of the same step and length.
+    periods
+        Natural periods in s, 0 or more; one or several. At 0 the mass moves with the base.
+    damping
+        Damping ratios ζ, from 0 to less than 1; one or several.
+    progress
+        Called with how many oscillators are done and how many there are.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims ``damping_ratio`` and ``natural_period`` (s), those of a single number left out:
+        ``spectral_displacement`` (m), ``spectral_velocity`` (m/s), ``spectral_acceleration``
+        (m/s²), ``pseudo_velocity`` ω max|u| and ``pseudo_acceleration`` ω² max|u|. Of two
+        components a dim ``orientation`` before them: ``"first"``, ``"second"``, and the median
+        and the largest of the maxima in 180 directions, a degree apart: ``"RotD50"`` and
+        ``"RotD100"``.
+
+    Raises
+    ------
+    InputError
+        If it is no record, or components differ in step or length; if a period or a damping ratio
+        cannot be used.
+    """
+    components = _components(record)
+    period = _numbers(periods, "periods", _LEAST, _MOST, "periods of 0, or from 1e-9 to 1e9 s,")
+    ratio = _numbers(damping, "damping", 0.0, 1.0, "damping ratios from 0 to less than 1")
+    moving = period.ravel() > 0.0
+    omega = math.tau / np.tile(period.ravel()[moving], ratio.size)
+    zeta = np.repeat(ratio.ravel(), int(moving.sum()))
+    values = np.zeros((len(_turned(components)), 3, ratio.size, period.size))
+    found = _found(components, omega, zeta, progress)
+    values[..., moving] = found.reshape(*found.shape[:2], ratio.size, -1)
+    peaks = np.array([one.peak for one in _turned(components)])
+    values[:, spectra.ACCELERATION][..., ~moving] = peaks[:, np.newaxis, np.newaxis]
+    if len(components) == 2:
+        values = np.stack(
+            [values[0], values[DIRECTIONS // 2], np.median(values, axis=0), values.max(axis=0)]
+        )
+    shape = (len(values), 3, *ratio.shape, *period.shape)
+    return _dataset(components, period, ratio, values.reshape(shape))
+
+
+def _turned(components: Sequence[Record]) -> list[Record]:
+    """The record in each direction: in its own, or in 180 of two components."""
+    if len(components) == 1:
+        return list(components)
+    first, second = (one.acceleration for one in components)
+    angles = np.arange(DIRECTIONS) * (math.pi / DIRECTIONS)
+    step = components[0].step
+    return [Record(math.cos(at) * first + math.sin(at) * second, step) for at in angles]
+
+
+def _found(
+    components: Sequence[Record], omega: _Array, zeta: _Array, progress: Progress | None
+) -> _Array:
+    """The largest |u|, |u̇|/ω and |ü + A_t|/ω² (m): direction, quantity, oscillator."""
+    records = _turned(components)
+    out = np.empty((len(records), omega.size, spectra.FOUND))
+    # Periods are dealt out in turn: short ones take longer.
+    parts = max(1, available() // len(records))
+    tasks = [(n, slice(part, None, parts)) for n in range(len(records)) for part in range(parts)]
+    counter = np.zeros((len(tasks), 2), dtype=np.int64)
+    spectra.respond.prepare()
+
+    def task(number: int) -> None:
+        n, some = tasks[number]
+        mine = np.empty((omega[some].size, spectra.FOUND))
+        one = records[n]
+        spectra.respond(
+            one.acceleration,
+            one.step,
+            np.ascontiguousarray(omega[some]),
+            np.ascontiguousarray(zeta[some]),
+            counter[number],
+            mine,
+        )
+        out[n, some] = mine
+
+    run(task, counter, len(records) * omega.size, None, progress)
+    return np.moveaxis(out, 2, 1)
+
+
+def _dataset(
+    components: Sequence[Record], period: _Array, ratio: _Array, values: _Array
+) -> xr.Dataset:
+    """With names and units; `values` in m, but for the acceleration at the period 0."""
+    dims = ["orientation"] if len(components) == 2 else []
+    dims += ["damping_ratio"] * ratio.ndim + ["natural_period"] * period.ndim
+    if len(components) == 1:
+        values = values[0]
+        u, v, q = (values[what] for what in range(spectra.FOUND))
+    else:
+        u, v, q = (values[:, what] for what in range(spectra.FOUND))
+    still = period == 0.0
+    omega = np.where(still, 0.0, math.tau / np.where(still, 1.0, period))
+    data = xr.Dataset(
+        {
+            "spectral_displacement": (dims, u),
+            "spectral_velocity": (dims, omega * v),
+            "spectral_acceleration": (dims, np.where(still, q, omega**2 * q)),
+            "pseudo_velocity": (dims, omega * u),
+            "pseudo_acceleration": (dims, np.where(still, q, omega**2 * u)),
+        },
+        {
+            "natural_period": (["natural_period"] * period.ndim, period),
+            "damping_ratio": (["damping_ratio"] * ratio.ndim, ratio),
+        },
+    )
+    if len(components) == 2:
+        data.coords["orientation"] = ["first", "second", "RotD50", "RotD100"]
+    parameters: dict[str, Any] = {
+        "record": [
+            {
+                "samples": len(one.acceleration),
+                "step": one.step,
+                "peak": one.peak,
+                **{k: v for k, v in one.about._asdict().items() if v},
+            }
+            for one in components
+        ]
+    }
+    return describe(data, "vibroimpact.response_spectrum", parameters)
+
+
+def _components(record: Any) -> tuple[Record, ...]:
+    """One record, or two that belong together."""
+    given = (record,) if isinstance(record, Record) else tuple(np.ravel(record))
+    if not 1 <= len(given) <= 2 or not all(isinstance(one, Record) for one in given):
+        raise InputError(
+            f"record: {shown(record)}; a Record, or two perpendicular components, are accepted"
+        )
+    first, last = given[0], given[-1]
+    for what, one, other in (
+        ("steps", first.step, last.step),
+        ("samples", len(first.acceleration), len(last.acceleration)),
+    ):
+        if one != other:
+            raise InputError(
+                f"record: components with {what} {one:g} and {other:g}; the same of both are "
+                "accepted (Record.cut makes them as long)"
+            )
+    return given
+
+
+def _numbers(
+    values: ArrayLike, field: str, least: float, below: float, accepted: str
+) -> _Array:
+    """One number or a list of them, 0 or from the least on."""
+    try:
+        found = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"{field}: {shown(values)}; {accepted} are accepted") from None
+    if found.ndim > 1 or found.size == 0:
+        raise InputError(f"{field}: shape {found.shape}; {accepted} are accepted")
+    for one in found.ravel():
+        if not (one == 0.0 or least <= one < below):
+            raise InputError(f"{field}: {one:g}; {accepted} are accepted")
+    return found
