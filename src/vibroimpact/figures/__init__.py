@@ -5,6 +5,7 @@ without given axes a figure is made of its own, which the returned axes carry as
 A notebook shows what is returned; `save_figure` writes it to a file.
 """
 
+from vibroimpact.figures.accelerogram import accelerogram
 from vibroimpact.figures.branches import bifurcation_diagram
 from vibroimpact.figures.cases import scenario_cases
 from vibroimpact.figures.clearance import clearances
@@ -20,11 +21,13 @@ from vibroimpact.figures.page import motion_page
 from vibroimpact.figures.portrait import phase_portrait
 from vibroimpact.figures.record import record_history
 from vibroimpact.figures.resonance import resonance_curves
+from vibroimpact.figures.response_spectra import response_spectra
 from vibroimpact.figures.scenarios import Mark, scenario_map
 from vibroimpact.figures.style import save_figure
 
 __all__ = [
     "Mark",
+    "accelerogram",
     "bifurcation_curves",
     "bifurcation_diagram",
     "clearances",
@@ -38,6 +41,7 @@ __all__ = [
     "record_history",
     "resonance_curves",
     "resonance_family",
+    "response_spectra",
     "save_figure",
     "scenario_cases",
     "scenario_map",

@@ -14,6 +14,7 @@ from vibroimpact.engine import spectra
 from vibroimpact.errors import InputError
 from vibroimpact.model import Record
 from vibroimpact.model.units import shown
+from vibroimpact.response.accelerogram import record_parameters
 from vibroimpact.response.threads import Progress, available, run
 from vibroimpact.response.variables import describe
 
@@ -154,17 +155,7 @@ def _dataset(
     )
     if len(components) == 2:
         data.coords["orientation"] = ["first", "second", "RotD50", "RotD100"]
-    parameters: dict[str, Any] = {
-        "record": [
-            {
-                "samples": len(one.acceleration),
-                "step": one.step,
-                "peak": one.peak,
-                **{k: v for k, v in one.about._asdict().items() if v},
-            }
-            for one in components
-        ]
-    }
+    parameters = {"record": [record_parameters(one) for one in components]}
     return describe(data, "vibroimpact.response_spectrum", parameters)
 
 
@@ -188,9 +179,7 @@ def _components(record: Any) -> tuple[Record, ...]:
     return given
 
 
-def _numbers(
-    values: ArrayLike, field: str, least: float, below: float, accepted: str
-) -> _Array:
+def _numbers(values: ArrayLike, field: str, least: float, below: float, accepted: str) -> _Array:
     """One number or a list of them, 0 or from the least on."""
     try:
         found = np.asarray(values, dtype=np.float64)

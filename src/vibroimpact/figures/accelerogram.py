@@ -1,0 +1,81 @@
+"""A record against time, with its peak, and its response spectrum below it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.response_spectra import response_spectra
+from vibroimpact.figures.style import EDGE
+from vibroimpact.model import Record
+
+
+def accelerogram(
+    record: Record,
+    spectrum: xr.Dataset | None = None,
+    axes: Any = None,
+    *,
+    title: str | None = None,
+) -> Panels:
+    """Draw a record with its peak, and below it its response spectrum.
+
+    Parameters
+    ----------
+    record
+        The record.
+    spectrum
+        Dataset of `response_spectrum` of it. None leaves that panel out.
+    axes
+        As many Axes as there are panels. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Returns
+    -------
+    tuple of Axes
+        ``axes[0].figure`` is the figure.
+
+    Raises
+    ------
+    InputError
+        If it is no record, or there is another number of axes.
+    """
+    if not isinstance(record, Record):
+        raise InputError(f"record: {type(record).__name__}; a Record is accepted")
+    count = 1 if spectrum is None else 2
+    if axes is None:
+        made = new_axes(count, 1, (7.2, 2.8 * count + 0.4))
+        given = Panels(made[:, 0])
+        if title:
+            made[0, 0].figure.suptitle(title)
+    else:
+        given = Panels(np.ravel(axes))
+    if len(given) != count:
+        raise InputError(f"axes: {len(given)} given; {count} are accepted")
+    ax = given[0]
+    ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
+    ax.plot(record.time, record.acceleration, color="black", linewidth=0.7, zorder=3)
+    at = int(np.abs(record.acceleration).argmax())
+    peak = float(record.acceleration[at])
+    ax.plot([record.time[at]], [peak], "o", color="#c8102e", markersize=4, zorder=4)
+    late = record.time[at] > 0.7 * record.duration
+    ax.annotate(
+        f"{peak:.4g} m/s² at {record.time[at]:.5g} s",
+        (record.time[at], peak),
+        (-8 if late else 8, 0),
+        textcoords="offset points",
+        ha="right" if late else "left",
+        va="center",
+        fontsize="small",
+    )
+    ax.set_xlim(0.0, record.duration)
+    ax.margins(y=0.1)
+    ax.set_xlabel("time (s)")
+    ax.set_ylabel("base acceleration\n$A_t$ (m/s²)")
+    if spectrum is not None:
+        response_spectra(spectrum, given[1])
+    return given
