@@ -18,6 +18,7 @@ from vibroimpact.cli.curve import curve
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
 from vibroimpact.cli.paper import paper
+from vibroimpact.cli.record import record
 from vibroimpact.cli.refusal import in_words
 from vibroimpact.cli.simulate import simulate
 from vibroimpact.cli.sweep import sweep
@@ -39,6 +40,7 @@ For example:
     vibroimpact motion B2-G1-A3 --frequency 2.6Hz
     vibroimpact branch B2-G1-A3
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
+    vibroimpact record quake.AT2
     vibroimpact classify B2-G1-A3
     vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
     vibroimpact paper
@@ -101,7 +103,7 @@ def _app() -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
-    for command in (sweep, motion, branch, curve, simulate, classify):
+    for command in (sweep, motion, branch, curve, simulate, record, classify):
         app.command(command)
     app.command(scenario_map, name="map")
     app.command(paper)

@@ -58,7 +58,7 @@ def rig_text(subject: Subject) -> RenderableType:
     isolator = oscillator.isolator
     scaled, sprung = _dimensionless(subject), isolator.initial_stiffness > 0.0
     damped = sprung and isolator.damping_exponent == 1.0
-    table = _plain_table()
+    table = plain_table()
     table.add_row(
         "mass",
         pretty(oscillator.mass, MASS),
@@ -202,7 +202,7 @@ def motion_text(facts: dict[str, Any]) -> RenderableType:
     """Return what `motion_facts` found as lines."""
     state, contacts = facts["final_state"], facts["contacts"]
     touching = {1: "right stop", -1: "left stop", 0: "none", 2: "both stops"}[int(state["contact"])]
-    table = _plain_table()
+    table = plain_table()
     rows = [
         ("displacement", pretty(state["displacement"], LENGTH)),
         ("velocity", pretty(state["velocity"], VELOCITY)),
@@ -325,7 +325,8 @@ def _span(low: float, high: float) -> str:
     return f"{plain(low)}" if low == high else f"{plain(low)} to {plain(high)}"
 
 
-def _plain_table() -> Table:
+def plain_table() -> Table:
+    """Return an empty table of names, values and remarks, without lines."""
     table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
     for style in ("bold", "", "dim"):
         table.add_column(style=style)

@@ -64,7 +64,7 @@ def accelerogram(
     ax.plot([record.time[at]], [peak], "o", color="#c8102e", markersize=4, zorder=4)
     late = record.time[at] > 0.7 * record.duration
     ax.annotate(
-        f"{peak:.4g} m/s² at {record.time[at]:.5g} s",
+        f"{peak:.4g} m/s² at {record.time[at]:.5g} s".replace("-", "−"),
         (record.time[at], peak),
         (-8 if late else 8, 0),
         textcoords="offset points",

@@ -229,12 +229,12 @@ class Record:
         """When the acceleration is largest first, s."""
         return float(np.abs(self._acceleration).argmax()) * self._step
 
-    def scaled(self, by: float | str = 1.0, *, peak: float | str | None = None) -> Record:
+    def scaled(self, scale: float | str = 1.0, *, peak: float | str | None = None) -> Record:
         """Return the record times a number, or made so large that its peak is the given one.
 
         Parameters
         ----------
-        by
+        scale
             The number; not 0.
         peak
             The peak in m/s², or text such as ``"0.3 g"``, instead.
@@ -244,16 +244,18 @@ class Record:
         InputError
             If a value cannot be used, or the record is 0 throughout.
         """
-        factor = to_si(by, DIMENSIONLESS, "by")
+        factor = to_si(scale, DIMENSIONLESS, "scale")
         if peak is not None:
             if factor != 1.0:
-                raise InputError(f"peak: {shown(peak)} beside by = {by}; one of them is accepted")
+                raise InputError(
+                    f"peak: {shown(peak)} beside scale = {scale}; one of them is accepted"
+                )
             wanted = to_si(peak, ACCELERATION, "peak", above=0.0)
             if self.peak == 0.0:
                 raise InputError(f"peak: {shown(peak)}, but the record is 0 throughout")
             factor = wanted / self.peak
         if factor == 0.0:
-            raise InputError(f"by: {by}; a number other than 0 is accepted")
+            raise InputError(f"scale: {scale}; a number other than 0 is accepted")
         return self._changed(self._acceleration * factor, f"scaled by {factor:.6g}")
 
     def cut(self, start: float | str = 0.0, end: float | str | None = None) -> Record:
@@ -345,7 +347,7 @@ class Record:
             ("samples", str(len(self._acceleration))),
             ("step", pretty(self._step, TIME)),
             ("peak", pretty(self.peak, ACCELERATION)),
-            *(("note", note) for note in about.notes),
+            *([("notes", "; ".join(about.notes))] if about.notes else []),
         ]
 
 

@@ -1,0 +1,65 @@
+"""Records and response spectra, drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.figures import accelerogram, response_spectra, save_figure
+
+RECORD = vi.Record(np.sin(np.arange(60) / 5.0) * np.hanning(60) - 0.01, 0.1)
+PERIODS = [0.0, 0.1, 0.5, 1.0, 2.0]
+
+
+def test_the_record_with_its_peak_above_its_spectrum(tmp_path):
+    spectrum = vi.response_spectrum(RECORD, PERIODS, [0.0, 0.05])
+    axes = accelerogram(RECORD, spectrum, title="made up")
+    assert len(axes) == 2
+    line, marked = axes[0].lines[1:3]
+    np.testing.assert_array_equal(line.get_ydata(), RECORD.acceleration)
+    assert marked.get_xdata() == [RECORD.peak_time]
+    assert abs(marked.get_ydata()[0]) == RECORD.peak
+    assert f"at {RECORD.peak_time:g} s" in axes[0].texts[0].get_text()
+    assert "m/s²" in axes[0].get_ylabel()
+    assert axes[1].get_xlabel() == "natural period (s)"
+    for i, curve in enumerate(axes[1].lines):
+        np.testing.assert_array_equal(curve.get_xdata(), PERIODS[1:])
+        expected = spectrum["pseudo_acceleration"].isel(damping_ratio=i).values[1:]
+        np.testing.assert_array_equal(curve.get_ydata(), expected)
+    words = [text.get_text() for text in axes[1].get_legend().get_texts()]
+    assert words == ["$\\zeta$ = 0", "$\\zeta$ = 0.05"]
+    assert len({curve.get_linestyle() for curve in axes[1].lines}) == 2
+    assert save_figure(axes, tmp_path / "record.png").is_file()
+    (alone,) = accelerogram(RECORD)
+    assert len(alone.lines) == 3
+
+
+def test_two_components_and_one_damping():
+    spectrum = vi.response_spectrum([RECORD, RECORD.scaled(2)], PERIODS, 0.05)
+    ax = response_spectra(spectrum, quantity="spectral_displacement")
+    assert "mm" in ax.get_ylabel()
+    assert [line.get_label().split(",")[0] for line in ax.lines] == [
+        "first",
+        "second",
+        "RotD50",
+        "RotD100",
+    ]
+    expected = 1e3 * spectrum["spectral_displacement"].sel(orientation="RotD100").values[1:]
+    np.testing.assert_array_equal(ax.lines[3].get_ydata(), expected)
+
+
+def test_what_is_refused():
+    spectrum = vi.response_spectrum(RECORD, PERIODS)
+    with pytest.raises(vi.InputError, match="^record: ndarray; a Record is accepted"):
+        accelerogram(RECORD.acceleration)
+    with pytest.raises(vi.InputError, match="^axes: 1 given; 2 are accepted"):
+        accelerogram(RECORD, spectrum, [response_spectra(spectrum)])
+    for other in (vi.response_spectrum(RECORD, 1.0), spectrum["pseudo_velocity"], None):
+        with pytest.raises(vi.InputError, match="^spectrum: this is no response spectrum"):
+            response_spectra(other)
+    with pytest.raises(vi.InputError, match="^quantity: 'x'; one of spectral_displacement, "):
+        response_spectra(spectrum, quantity="x")
+    many = vi.response_spectrum(RECORD, PERIODS, np.linspace(0.0, 0.5, 26))
+    with pytest.raises(vi.InputError, match="^spectrum: 26 curves; at most 25"):
+        response_spectra(many)
