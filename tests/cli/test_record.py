@@ -73,9 +73,7 @@ def test_one_of_several_components(run, tmp_path):
     (tmp_path / "quake.V2").write_text("\n".join([*csmip(1, "90 DEG"), *csmip(2, "UP")]) + "\n")
     code, _, errors = run("quake.V2")
     assert code == 2
-    assert errors.startswith(
-        "vibroimpact: error: --component: missing, and 'quake.V2' has 2; "
-    ) or (errors.startswith("vibroimpact: error: component: missing, and 'quake.V2' has 2; "))
+    assert errors.startswith("vibroimpact: error: component: missing, and 'quake.V2' has 2; ")
     assert run("quake.V2", "--component", "up", "--periods", "5")[0] == 0
     assert (tmp_path / "out/quake.V2-up-record.nc").is_file()
 

@@ -51,15 +51,15 @@ def test_two_components_and_one_damping():
 
 def test_what_is_refused():
     spectrum = vi.response_spectrum(RECORD, PERIODS)
-    with pytest.raises(vi.InputError, match="^record: ndarray; a Record is accepted"):
+    with pytest.raises(vi.InputError, match=r"^record: ndarray; a Record is accepted"):
         accelerogram(RECORD.acceleration)
-    with pytest.raises(vi.InputError, match="^axes: 1 given; 2 are accepted"):
+    with pytest.raises(vi.InputError, match=r"^axes: 1 given; 2 are accepted"):
         accelerogram(RECORD, spectrum, [response_spectra(spectrum)])
     for other in (vi.response_spectrum(RECORD, 1.0), spectrum["pseudo_velocity"], None):
-        with pytest.raises(vi.InputError, match="^spectrum: this is no response spectrum"):
+        with pytest.raises(vi.InputError, match=r"^spectrum: this is no response spectrum"):
             response_spectra(other)
-    with pytest.raises(vi.InputError, match="^quantity: 'x'; one of spectral_displacement, "):
+    with pytest.raises(vi.InputError, match=r"^quantity: 'x'; one of spectral_displacement, "):
         response_spectra(spectrum, quantity="x")
     many = vi.response_spectrum(RECORD, PERIODS, np.linspace(0.0, 0.5, 26))
-    with pytest.raises(vi.InputError, match="^spectrum: 26 curves; at most 25"):
+    with pytest.raises(vi.InputError, match=r"^spectrum: 26 curves; at most 25"):
         response_spectra(many)
