@@ -14,6 +14,7 @@ from benchmarks.records import records
 from benchmarks.report import Table, show, write
 from benchmarks.scenarios import scenarios
 from benchmarks.size import size
+from benchmarks.spectra import spectra
 from benchmarks.startup import compiling, startup
 from benchmarks.trajectory import many, peers, short_runs, trajectory
 
@@ -44,7 +45,7 @@ def main() -> None:
     with console.status("trajectories ..."):
         add(*trajectory(others, compiled.text()))
         add(short_runs(others), many())
-        add(laws(), sampling(), records())
+        add(laws(), sampling(), records(), spectra())
     with console.status("the campaign ..."):
         add(campaign())
     with console.status("motions ..."):

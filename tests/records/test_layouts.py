@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import random
 import sys
 from collections.abc import Callable
 
@@ -11,6 +12,7 @@ import pytest
 
 import vibroimpact as vi
 from records.layouts import VALUES, cosmos, csmip, esm, geonet, knet, peer, smc
+from samples import sample
 from vibroimpact.model import GRAVITY
 
 G, CM, MM = GRAVITY, 0.01, 0.001
@@ -223,6 +225,47 @@ def test_what_the_file_says_can_be_overridden(written):
         vi.Record.read(written(cosmos(unit="cm/sec(05)")))
     with pytest.raises(vi.InputError, match=r"^unit: missing, and .* has counts; "):
         vi.Record.read(written(cosmos(unit="counts(50)")))
+
+
+LAYOUTS = {f.__name__: f for f in (peer, smc, cosmos, csmip, geonet, knet, esm)}
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_whatever_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
+    """Cut off, a sign changed, signs left out or put in, a line left out or twice."""
+    rng = random.Random(name)
+    path = tmp_path / "record.dat"
+    told: list[str] = []
+    for _ in range(sample(3000, 300)):
+        lines = LAYOUTS[name]()
+        text = "\n".join(lines)
+        at, length = rng.randrange(len(text)), rng.randint(1, 30)
+        signs = "".join(rng.choice(" 0-9.,;aEN\n:|/()=\0") for _ in range(length))
+        line = rng.randrange(len(lines))
+        text = rng.choice(
+            [
+                text[:at],
+                text[:at] + signs[0] + text[at + 1 :],
+                text[:at] + text[at + length :],
+                text[:at] + signs + text[at:],
+                "\n".join(lines[:line] + lines[line + 1 :]),
+                "\n".join(lines[: line + 1] + lines[rng.randrange(len(lines)) :]),
+            ]
+        )
+        path.write_text(text, encoding="utf-8")
+        try:
+            record = vi.Record.read(path)
+        except vi.InputError as error:
+            told.append(str(error))
+        else:
+            assert np.isfinite(record.acceleration).all()
+    assert len(told) > 100
+    assert not any("\n" in line for line in told)
+
+
+def test_a_text_that_begins_with_blanks_is_no_miniseed(written):
+    words = ["      Record of nothing", "dt = 0.1", *map(str, VALUES)]
+    assert vi.Record.read(written(words)).about.format == "columns"
 
 
 def test_without_obspy_it_is_named(tmp_path, monkeypatch):

@@ -20,7 +20,7 @@ from vibroimpact.records.file import File
 _EVEN = 0.01
 """By how much of a step a time may be off: files round theirs."""
 _STEP = re.compile(
-    r"\b(?:dt|step|time step|sampling interval)\s*[=:]\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*"
+    r"\b(?:dt|step|time step|sampling interval)\s*[=:]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*"
     r"(s|sec|seconds|ms)?\s*$",
     re.IGNORECASE,
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 from vibroimpact.records.channel import Channel, Format
@@ -33,9 +34,9 @@ def read(file: File) -> list[Channel]:
             raise file.refused(where[name], told) from None
 
     found = number("NDATA")
-    if not found >= 1.0:
-        told = f"NDATA: {entries['NDATA']!r}; a number of values of at least 2 is accepted"
-        raise file.refused(where["NDATA"], told)
+    if not 1.0 <= found < math.inf:
+        told = f"NDATA: {entries.get('NDATA')!r}; a number of values of at least 2 is accepted"
+        raise file.refused(where.get("NDATA", at - 1), told)
     count = int(found)
     values, behind = file.numbers(at, count)
     for further in range(behind, len(file.lines)):

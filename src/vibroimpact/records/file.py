@@ -115,7 +115,7 @@ class File:
 
     def _cut(self, at: int, width: int | None) -> list[str]:
         line = self.lines[at].rstrip()
-        if width is None:
+        if not width:
             return line.split()
         return [line[i : i + width].strip() for i in range(0, len(line), width)]
 

@@ -12,7 +12,7 @@ from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.file import File
 
 _HEADER = 17
-_SCALE = re.compile(r"([\d.]+)\(gal\)/([\d.]+)")
+_SCALE = re.compile(r"(\d+\.?\d*)\(gal\)/(\d*[1-9]\d*\.?\d*)")
 _KIK = {"1": "N-S", "2": "E-W", "3": "U-D", "4": "N-S", "5": "E-W", "6": "U-D"}
 """Directions of KiK-net: the first three in the borehole, the others at the surface."""
 
@@ -44,8 +44,8 @@ def _entry(file: File, name: str, pattern: str) -> tuple[int, re.Match[str]]:
 
 def read(file: File) -> list[Channel]:
     """The one component of a file."""
-    _, rate = _entry(file, "Sampling Freq(Hz)", r"([\d.]+)")
-    _, lasts = _entry(file, "Duration Time(s)", r"([\d.]+)")
+    _, rate = _entry(file, "Sampling Freq(Hz)", r"(\d+\.?\d*)")
+    _, lasts = _entry(file, "Duration Time(s)", r"(\d+\.?\d*)")
     _, scale = _entry(file, "Scale Factor", _SCALE.pattern)
     _, direction = _entry(file, "Dir.", r"(\S+)")
     _, station = _entry(file, "Station Code", r"(\S+)")

@@ -33,7 +33,9 @@ def is_miniseed(file: File) -> bool:
     """Whether it begins with the header of a record of data."""
     head = file.data[:8]
     numbered = head[:6].replace(b" ", b"0").isdigit() and head[6:7] in (b"D", b"R", b"Q", b"M")
-    return len(file.data) >= 64 and (numbered or head[:3] == b"MS\x03")
+    # Six blanks and an R begin many a text, which has no zeros.
+    binary = len(file.data) >= 48 and b"\0" in file.data[:64]
+    return binary and (numbered or head[:3] == b"MS\x03")
 
 
 def _read(file: File, kind: str) -> list[Channel]:
@@ -51,11 +53,13 @@ def _read(file: File, kind: str) -> list[Channel]:
             # What is left out of a miniSEED file is only warned of.
             warnings.simplefilter("error" if kind == "MSEED" else "ignore")
             stream: Any = obspy.read(io.BytesIO(file.data), format=kind)
-        stream.merge()
+            stream.merge()
+            return [_channel(file, trace) for trace in stream]
+    except InputError:
+        raise
     except Exception as error:  # obspy raises whatever it meets in a damaged file
         why = " ".join(str(error).split())
         raise InputError(f"record: {file.path!r} is a damaged {kind} file ({why})") from None
-    return [_channel(file, trace) for trace in stream]
 
 
 def _channel(file: File, trace: Any) -> Channel:
