@@ -221,7 +221,7 @@ class TestParameters:
     @pytest.mark.parametrize("parameters", ["fitted", "", None, "TABLE"])
     def test_an_unknown_set_is_refused(self, parameters):
         with pytest.raises(
-            InputError, match=r"^parameters: .* 'table' or 'identified' is accepted"
+            InputError, match=r"^parameters: .* 'table', 'identified' or 'refined' is accepted"
         ):
             laboratory.case("B2-G1-A3", parameters)
 

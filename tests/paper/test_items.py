@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from samples import sample
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.paper import fig15, study, table1
-from vibroimpact.paper.fig07 import CODE
+from vibroimpact.paper.curves import S3 as CODE
 from vibroimpact.paper.items import ITEMS
 from vibroimpact.paper.study import GAPS, PublishedStudy
 
@@ -46,14 +46,18 @@ def test_keys_are_unique_and_in_order():
     assert len(set(keys)) == len(keys)
     figures = [key for key in keys if key.startswith("fig")]
     assert figures == sorted(figures)
+    assert keys[-7:] == [
+        "refined-isolators",
+        *(f"refined-fig{k:02}" for k in (3, 5, 6, 11, 13, 14)),
+    ]
     assert {f"fig{k:02}" for k in (*range(3, 14), *range(15, 21))} <= set(figures)
     assert "table1" in keys
 
 
 def test_captions_stand_alone():
     for item in ITEMS:
-        assert item.title.startswith(("Fig. ", "Table ")), item.key
-        assert 100 < len(item.caption) < 800, item.key
+        assert item.title.startswith(("Fig. ", "Table ", "Refined model: ")), item.key
+        assert 100 < len(item.caption) < 800 or item.key.startswith("refined-"), item.key
         assert (item.draw is None) != (item.table is None), item.key
 
 

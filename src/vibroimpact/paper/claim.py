@@ -26,6 +26,8 @@ class Kind(StrEnum):
     """The rules and thresholds that name scenarios were chosen to agree with such statements."""
     INPUTS = "inputs"
     """Whether the parameters that the paper gives agree with each other."""
+    REFINED = "with the refined isolator"
+    """Judged again with an isolator that softens by itself."""
     CONSTRUCTION = "by construction"
     """The model's equations leave no other outcome: a test of the program."""
 

@@ -73,11 +73,23 @@ class PublishedStudy:
     ----------
     threads
         How many sweeps run at once; None for one a processor.
+    parameters
+        Of the cases, unless one is asked for with its own.
     """
 
-    def __init__(self, threads: int | None = None) -> None:
+    def __init__(
+        self, threads: int | None = None, parameters: laboratory.Parameters = "table"
+    ) -> None:
         self._threads = threads
+        self._parameters = parameters
         self._made: dict[Any, Any] = {}
+
+    def _case(self, code: str, parameters: laboratory.Parameters | None = None) -> laboratory.Case:
+        return laboratory.case(code, parameters or self._parameters)
+
+    def refined(self) -> PublishedStudy:
+        """The same study of the rig whose isolator softens by itself."""
+        return self._once("refined", lambda: PublishedStudy(self._threads, "refined"))
 
     def _once(self, key: Any, make: Callable[[], _T]) -> _T:
         if key not in self._made:
@@ -89,7 +101,7 @@ class PublishedStudy:
         """Resonance curves of the 48 tests, 0.5 to 5 Hz; dim ``rig`` of case codes."""
         return self._once(
             "campaign",
-            lambda: sweeps(laboratory.campaign(), grid(), threads=self._threads),
+            lambda: sweeps(laboratory.campaign(self._parameters), grid(), threads=self._threads),
         )
 
     def family(self, codes: tuple[str, ...], low: float = LOW, high: float = HIGH) -> xr.Dataset:
@@ -97,7 +109,7 @@ class PublishedStudy:
         return self._once(
             ("family", codes, low, high),
             lambda: sweeps(
-                [laboratory.case(code) for code in codes], grid(low, high), threads=self._threads
+                [self._case(code) for code in codes], grid(low, high), threads=self._threads
             ),
         )
 
@@ -112,20 +124,20 @@ class PublishedStudy:
     def curves(
         self,
         code: str,
-        parameters: laboratory.Parameters = "table",
+        parameters: laboratory.Parameters | None = None,
         low: float = LOW,
         high: float = HIGH,
     ) -> xr.Dataset:
         """Resonance curves of one case."""
-        case = laboratory.case(code, parameters)
+        case = self._case(code, parameters)
         return self._once(
             ("curves", code, parameters, low, high),
             lambda: sweeps([case], grid(low, high), threads=self._threads).isel(rig=0),
         )
 
-    def tested(self, code: str, parameters: laboratory.Parameters = "table") -> xr.Dataset:
+    def tested(self, code: str, parameters: laboratory.Parameters | None = None) -> xr.Dataset:
         """Resonance curves of one case by the frequencies that its test held, 0.1 Hz apart."""
-        case = laboratory.case(code, parameters)
+        case = self._case(code, parameters)
         return self._once(
             ("tested", code, parameters),
             lambda: sweeps([case], case.frequencies, threads=self._threads).isel(rig=0),
@@ -142,11 +154,11 @@ class PublishedStudy:
         code: str,
         frequency: float,
         direction: Literal["forward", "backward"],
-        parameters: laboratory.Parameters = "table",
+        parameters: laboratory.Parameters | None = None,
         samples: int = 256,
     ) -> xr.Dataset:
         """The steady motion at which a sweep in that direction arrives (`vibroimpact.steady`)."""
-        case = laboratory.case(code, parameters)
+        case = self._case(code, parameters)
         excitation = Harmonic(case.amplitude, frequency)
 
         def make() -> xr.Dataset:
@@ -157,7 +169,7 @@ class PublishedStudy:
 
     def motions(self, code: str, frequency: float) -> list[xr.Dataset]:
         """All steady motions found at a frequency (`vibroimpact.coexisting`)."""
-        case = laboratory.case(code)
+        case = self._case(code)
         return self._once(
             ("motions", code, frequency),
             lambda: coexisting(case.oscillator, Harmonic(case.amplitude, frequency)),
@@ -168,10 +180,10 @@ class PublishedStudy:
         code: str,
         low: float = LOW,
         high: float = HIGH,
-        parameters: laboratory.Parameters = "table",
+        parameters: laboratory.Parameters | None = None,
     ) -> Classification:
         """The scenario of a case over the range of the tests, with its evidence."""
-        case = laboratory.case(code, parameters)
+        case = self._case(code, parameters)
         return self._once(
             ("classification", code, low, high, parameters),
             lambda: classify(
@@ -180,7 +192,7 @@ class PublishedStudy:
         )
 
     def regular_places(
-        self, code: str, parameters: laboratory.Parameters = "table"
+        self, code: str, parameters: laboratory.Parameters | None = None
     ) -> tuple[float, float, float]:
         """Three frequencies of an S3 rig in Hz (the paper's Figs. 7, 8, 11 and 12).
 
@@ -227,7 +239,7 @@ class PublishedStudy:
         self, code: str, frequency: float, direction: Literal["forward", "backward"]
     ) -> xr.Dataset:
         """The steady motion from the mirror image of where `motion` ends."""
-        case = laboratory.case(code)
+        case = self._case(code)
         excitation = Harmonic(case.amplitude, frequency)
 
         def make() -> xr.Dataset:
@@ -247,7 +259,7 @@ class PublishedStudy:
 
     def antisymmetric_branch(self, code: str, low: float, high: float) -> xr.Dataset:
         """The branch, stable or not, of the motion that settles from rest at `high`."""
-        case = laboratory.case(code)
+        case = self._case(code)
         return self._once(
             ("antisymmetric branch", code, low, high),
             lambda: branch(case.oscillator, Harmonic(case.amplitude, high), low=low, high=high),
@@ -257,7 +269,7 @@ class PublishedStudy:
         self, code: str, frequency: float, low: float, high: float
     ) -> xr.Dataset:
         """The orbit of `antisymmetric_branch` at one frequency between its ends."""
-        case = laboratory.case(code)
+        case = self._case(code)
 
         def make() -> xr.Dataset:
             along = self.antisymmetric_branch(code, low, high)
@@ -288,7 +300,7 @@ class PublishedStudy:
 
         Both at the same multiples of their natural frequency.
         """
-        case = laboratory.case(code)
+        case = self._case(code)
         group = to_dimensionless(case.oscillator, case.amplitude)
         other = group.to_physical(mass=3.0, stiffness=700.0, amplitude=2.0)
         ratios = np.arange(40, 401, 2) / 100.0

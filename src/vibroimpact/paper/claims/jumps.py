@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from vibroimpact.paper.claim import Finding
 from vibroimpact.paper.claims.reading import (
     ALONG_ACCELERATION,
@@ -37,70 +39,23 @@ def _backward(study: PublishedStudy, sequences: Sequences) -> Finding:
     return Finding(backward_less(forward, backward), backward.told(".2f", " Hz"))
 
 
-@claim(
-    "downward-jump-with-gap",
-    "4.2, Fig. 5",
-    "The smaller the gap, the higher the frequency of the downward jump.",
-    _FORWARD.format("falling gaps"),
+_MOVES = tuple(
+    claim(
+        f"{name}-jump-with-{parameter}",
+        "4.2, Fig. 5",
+        f"{words}, the higher the frequency of the {name} jump{less}.",
+        quantity.format(along),
+    )(partial(judged, sequences=sequences))
+    for parameter, words, along, sequences in (
+        ("gap", "The smaller the gap", "falling gaps", ALONG_GAP),
+        ("acceleration", "The larger the acceleration", "rising accelerations", ALONG_ACCELERATION),
+        ("bumper", "The stiffer the bumper", "stiffer bumpers", ALONG_BUMPER),
+    )
+    for name, less, quantity, judged in (
+        ("downward", "", _FORWARD, _forward),
+        ("upward", ", which moves less", _BACKWARD, _backward),
+    )
 )
-def down_gap(study: PublishedStudy) -> Finding:
-    """Twelve pairs of bumper and acceleration."""
-    return _forward(study, ALONG_GAP)
-
-
-@claim(
-    "upward-jump-with-gap",
-    "4.2, Fig. 5",
-    "The smaller the gap, the higher the frequency of the upward jump, which moves less.",
-    _BACKWARD,
-)
-def up_gap(study: PublishedStudy) -> Finding:
-    """Twelve pairs of bumper and acceleration."""
-    return _backward(study, ALONG_GAP)
-
-
-@claim(
-    "downward-jump-with-acceleration",
-    "4.2, Fig. 5",
-    "The larger the acceleration, the higher the frequency of the downward jump.",
-    _FORWARD.format("rising accelerations"),
-)
-def down_acceleration(study: PublishedStudy) -> Finding:
-    """Sixteen pairs of bumper and gap."""
-    return _forward(study, ALONG_ACCELERATION)
-
-
-@claim(
-    "upward-jump-with-acceleration",
-    "4.2, Fig. 5",
-    "The larger the acceleration, the higher the frequency of the upward jump, which moves less.",
-    _BACKWARD,
-)
-def up_acceleration(study: PublishedStudy) -> Finding:
-    """Sixteen pairs of bumper and gap."""
-    return _backward(study, ALONG_ACCELERATION)
-
-
-@claim(
-    "downward-jump-with-bumper",
-    "4.2, Fig. 5",
-    "The stiffer the bumper, the higher the frequency of the downward jump.",
-    _FORWARD.format("stiffer bumpers"),
-)
-def down_bumper(study: PublishedStudy) -> Finding:
-    """Twelve pairs of gap and acceleration."""
-    return _forward(study, ALONG_BUMPER)
-
-
-@claim(
-    "upward-jump-with-bumper",
-    "4.2, Fig. 5",
-    "The stiffer the bumper, the higher the frequency of the upward jump, which moves less.",
-    _BACKWARD,
-)
-def up_bumper(study: PublishedStudy) -> Finding:
-    """In the model it lies where free flight reaches the gap, whatever the bumper."""
-    return _backward(study, ALONG_BUMPER)
 
 
 def _rises(study: PublishedStudy) -> dict[str, tuple[float, float]]:
@@ -154,13 +109,4 @@ def fades(study: PublishedStudy) -> Finding:
     )
 
 
-CLAIMS = (
-    down_gap,
-    up_gap,
-    down_acceleration,
-    up_acceleration,
-    down_bumper,
-    up_bumper,
-    less_evident,
-    fades,
-)
+CLAIMS = (*_MOVES, less_evident, fades)

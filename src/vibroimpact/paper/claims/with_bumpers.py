@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from itertools import pairwise
 
 from vibroimpact.paper.claim import Finding, Kind
@@ -12,6 +13,7 @@ from vibroimpact.paper.claims.reading import (
     BUMPERS,
     CODES,
     FALLING_GAPS,
+    SYMBOLS,
     TEST_STEP,
     AbsentError,
     apart,
@@ -33,6 +35,10 @@ from vibroimpact.response.peaks import Curve
 from vibroimpact.response.resonance import APART
 
 _EXAMPLE = "B4-G4-A3"
+_CURVES: tuple[tuple[str, str, Curve], ...] = (
+    ("acceleration", "Fig. 5", "eta_a"),
+    ("displacement", "Fig. 6", "eta_d"),
+)
 _CROSS = 0.05
 """Largest spread of four curves that are said to cross, over their mean."""
 
@@ -79,26 +85,16 @@ def _forward_higher(study: PublishedStudy, curve: Curve) -> Finding:
     )
 
 
-@claim(
-    "forward-higher-acceleration",
-    "4.2, Fig. 5",
-    "In η_a the resonance of the forward sweep is higher than that of the backward sweep.",
-    "Heights of the primary resonance in both directions; higher in all 48 tests.",
+_HIGHER = tuple(
+    claim(
+        f"forward-higher-{name}",
+        f"4.2, {figure}",
+        f"In {SYMBOLS[curve]} the resonance of the forward sweep is higher than that of the "
+        "backward sweep.",
+        "Heights of the primary resonance in both directions; higher in all 48 tests.",
+    )(partial(_forward_higher, curve=curve))
+    for name, figure, curve in _CURVES
 )
-def forward_higher_acceleration(study: PublishedStudy) -> Finding:
-    """Equal where the hysteresis begins beyond the peak."""
-    return _forward_higher(study, "eta_a")
-
-
-@claim(
-    "forward-higher-displacement",
-    "4.2, Fig. 6",
-    "In η_d the resonance of the forward sweep is higher than that of the backward sweep.",
-    "Heights of the primary resonance in both directions; higher in all 48 tests.",
-)
-def forward_higher_displacement(study: PublishedStudy) -> Finding:
-    """Equal where the hysteresis begins beyond the peak."""
-    return _forward_higher(study, "eta_d")
 
 
 @claim(
@@ -241,10 +237,10 @@ CLAIMS = (
     three_motions,
     coincide,
     acceleration,
-    forward_higher_acceleration,
+    _HIGHER[0],
     fixed_point,
     displacement,
-    forward_higher_displacement,
+    _HIGHER[1],
     overlap,
     onset,
     larger,

@@ -1,4 +1,4 @@
-"""Fig. 19: B3-A3 with gaps from zero to free flight."""
+"""Figs. 19 and 20: B3-A3 with gaps from zero to free flight, G3-A1 with bumpers soft to stiff."""
 
 from __future__ import annotations
 
@@ -12,18 +12,20 @@ from vibroimpact.figures.family import Quantity
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model import laboratory
 from vibroimpact.paper.item import Item
-from vibroimpact.paper.study import GAPS, PublishedStudy
+from vibroimpact.paper.study import GAPS, STIFFNESSES, PublishedStudy
 
 LOW, HIGH = 0.3, 8.0
 NEAR = (0.3, 2.0)
 """Range that is magnified: there lie the secondary resonances (Hz)."""
 NOT_NEAR = ("2mm", "5mm")
 """Gaps left out of it: most of their motions there do not settle, and would hide the others."""
+SHOWN = (0.8, 1.8)
+"""Range of Fig. 20 in Hz; outside it all curves are those of free flight."""
 
 
-def draw(study: PublishedStudy) -> Figure:
+def _by_gap(study: PublishedStudy) -> Figure:
     """η_a above η_d, a curve for each gap; the whole range, and its lower part magnified."""
-    names = {f"B3-{gap}-A3": _name(gap) for gap in GAPS}
+    names = {f"B3-{gap}-A3": _named(gap, laboratory.GAPS, 1e3, "mm") for gap in GAPS}
     scenarios = {code: study.classification(code, LOW, HIGH).scenario for code in names}
     data = study.by_gap()
     kept = [code for code in names if code.split("-")[1] not in NOT_NEAR]
@@ -76,25 +78,52 @@ def family_of(
     return figure
 
 
-def _name(gap: str) -> str:
-    if gap == "Ginf":
+def _by_stiffness(study: PublishedStudy) -> Figure:
+    """η_a above η_d, a curve for each stiffness."""
+    names = {
+        f"{stiffness}-G3-A1": _named(stiffness, laboratory.BUMPERS, 1e-3, "kN/m")
+        for stiffness in STIFFNESSES
+    }
+    names["B1-Ginf-A1"] = "no bumpers"
+    data = study.by_stiffness().sel(frequency=slice(*SHOWN))
+    scenarios = {code: study.classification(code).scenario for code in names}
+    return family_of(data, names, scenarios, "bumper stiffness, scenario")
+
+
+def _named(part: str, known: Mapping[str, float], scale: float, unit: str) -> str:
+    if part == "Ginf":
         return "no bumpers"
-    if gap in laboratory.GAPS:
-        return f"{1e3 * laboratory.GAPS[gap]:g} mm ({gap})"
-    return gap.replace("mm", " mm")
+    if part in known:
+        return f"{scale * known[part]:g} {unit} ({part})"
+    return part.replace(unit, f" {unit}")
 
 
-ITEM = Item(
-    key="fig19",
-    title="Fig. 19: B3-A3 with different total gaps",
-    caption=(
-        "From the widest gap to none: free flight, then a primary resonance that bends further "
-        "and further to the right (S2), secondary resonances below it (S3), left hysteresis and "
-        "motions that are not regular (S4), and at last, without a gap, one smooth resonance "
-        "(S5). Solid lines are forward sweeps, dashed ones backward sweeps, arrows their jumps; "
-        "colours and the legend tell the scenario that the program names. Where the curves of the "
-        "smallest gaps are ragged, below about 2 Hz, many motions do not settle; the magnified "
-        "panels leave out the two smallest gaps above zero for that."
+ITEMS = (
+    Item(
+        key="fig19",
+        title="Fig. 19: B3-A3 with different total gaps",
+        caption=(
+            "From the widest gap to none: free flight, then a primary resonance that bends further "
+            "and further to the right (S2), secondary resonances below it (S3), left hysteresis "
+            "and motions that are not regular (S4), and at last, without a gap, one smooth "
+            "resonance (S5). Solid lines are forward sweeps, dashed ones backward sweeps, arrows "
+            "their jumps; colours and the legend tell the scenario that the program names. Where "
+            "the curves of the smallest gaps are ragged, below about 2 Hz, many motions do not "
+            "settle; the magnified panels leave out the two smallest gaps above zero for that."
+        ),
+        draw=_by_gap,
     ),
-    draw=draw,
+    Item(
+        key="fig20",
+        title="Fig. 20: G3-A1 with different bumper stiffnesses",
+        caption=(
+            "Total gap 25 mm at 0.03 g, with bumpers from a third of the isolator's stiffness to "
+            "three hundred times as stiff. With the softest ones the peak only leans to the right, "
+            "without jump or hysteresis (S6); from B1 on it ends in a jump (S2). No secondary "
+            "resonance develops at low frequencies, however stiff the bumper; the stiffest one "
+            "makes the motion irregular just where contact begins. Solid lines are forward sweeps, "
+            "dashed ones backward sweeps; outside the range shown all is free flight."
+        ),
+        draw=_by_stiffness,
+    ),
 )

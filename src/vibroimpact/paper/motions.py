@@ -1,0 +1,157 @@
+"""Figs. 8, 12, 16 and 18: motions at the frequencies marked in the curves before them."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from vibroimpact.figures import (
+    clearances,
+    motion_page,
+    phase_portrait,
+    spectrum_lines,
+    time_history,
+)
+from vibroimpact.paper import fig15
+from vibroimpact.paper.curves import S3, S5, S5_RANGE
+from vibroimpact.paper.item import Item
+from vibroimpact.paper.study import PublishedStudy
+from vibroimpact.response.spectrum import spectrum
+
+PLACES = (
+    "$f_{I}$, secondary resonance",
+    "$f_{II}$, valley",
+    "$f_{III}$, before the downward jump",
+)
+
+
+def _regular(study: PublishedStudy) -> Figure:
+    """Portrait, spectrum and histories; a column for each frequency."""
+    columns = {
+        f"{place}: {frequency:.2f} Hz": {
+            f"{direction} sweep": study.motion(S3, frequency, direction, samples=1024)
+            for direction in ("forward", "backward")
+        }
+        for place, frequency in zip(PLACES, study.regular_places(S3), strict=True)
+    }
+    return motion_page(columns)[0, 0].get_figure(root=True)  # type: ignore[no-any-return]
+
+
+def _fitted(study: PublishedStudy) -> Figure:
+    """The three frequencies side by side."""
+    figure = Figure(figsize=(12.6, 4.6), layout="constrained")
+    axes = figure.subplots(1, len(PLACES))
+    places = study.regular_places(S3, "identified")
+    for ax, place, frequency in zip(axes, PLACES, places, strict=True):
+        phase_portrait(
+            {
+                f"{direction} sweep": study.motion(
+                    S3, frequency, direction, "identified", samples=1024
+                )
+                for direction in ("forward", "backward")
+            },
+            ax,
+        )
+        handles = ax.get_legend().legend_handles
+        ax.get_legend().remove()
+        ax.set_title(f"{place}: {frequency:.2f} Hz", fontsize="medium")
+    for ax in axes[1:]:
+        ax.set_ylabel("")
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, frameon=False)
+    return figure
+
+
+def _irregular(study: PublishedStudy) -> Figure:
+    """Left hysteresis on the left, the motion that does not repeat itself on the right."""
+    left, wild = study.other_places(fig15.CODE, fig15.LOW)
+    columns = {
+        f"$f_{{I}}$, left hysteresis: {left:.2f} Hz": {
+            f"{direction} sweep": study.motion(fig15.CODE, left, direction)
+            for direction in ("forward", "backward")
+        },
+        f"$f_{{II}}$, non-regular: {wild:.2f} Hz": {
+            "one of the pair": study.motion(fig15.CODE, wild, "forward"),
+            "its mirror image": study.mirror_image(fig15.CODE, wild, "forward"),
+            "antisymmetric, unstable": study.antisymmetric_orbit(fig15.CODE, wild, *fig15.BRANCH),
+        },
+    }
+    return motion_page(columns)[0, 0].get_figure(root=True)  # type: ignore[no-any-return]
+
+
+def _attached(study: PublishedStudy) -> Figure:
+    """Portrait and spectrum above; histories on the left, clearances on the right."""
+    curve = study.curves(S5, None, *S5_RANGE)["eta_d"].sel(direction="forward")
+    frequency = float(curve["frequency"][int(curve.values.argmax())])
+    motion = study.motion(S5, frequency, "forward", samples=8192)
+    figure = Figure(figsize=(12.0, 12.0), layout="constrained")
+    grid = figure.add_gridspec(4, 2, height_ratios=[1.5, 1.0, 1.0, 1.0])
+    phase_portrait(motion, figure.add_subplot(grid[0, 0]))
+    spectrum_lines(spectrum(motion), figure.add_subplot(grid[0, 1]))
+    first = figure.add_subplot(grid[1, 0])
+    histories = [first, *(figure.add_subplot(grid[i, 0], sharex=first) for i in (2, 3))]
+    time_history(motion, histories, cycles=2.0)
+    for ax in histories[:-1]:
+        ax.tick_params(labelbottom=False)
+    clearances(motion, [figure.add_subplot(grid[1, 1]), figure.add_subplot(grid[2:, 1])])
+    figure.suptitle(f"resonance, {frequency:.2f} Hz")
+    return figure
+
+
+ITEMS = (
+    Item(
+        key="fig08",
+        title="Fig. 8: motions of scenario S3, B2-G1-A3",
+        caption=(
+            "From above: phase portrait, spectrum of absolute acceleration, and two forcing cycles "
+            "of displacement, acceleration and velocity at the three frequencies marked in Fig. 7, "
+            "computed with the Simplified Nonlinear Model where the paper shows measurements. At "
+            "the secondary resonance and in the valley both sweeps reach the same motion, with one "
+            "impact on each bumper per cycle and many harmonics. Just before the downward jump a "
+            "large motion with impacts coexists with a small one in free flight (bands are "
+            "contacts, the forward sweep's in the upper half). The computed motions are their own "
+            "mirror images; the measured ones are lopsided, as the rig's gaps were not quite equal."
+        ),
+        draw=_regular,
+    ),
+    Item(
+        key="fig12",
+        title="Fig. 12: phase portraits of the fitted model, B2-G1-A3",
+        caption=(
+            "Relative velocity against relative displacement at the three frequencies marked in "
+            "Fig. 11, with the parameters fitted to this test; diamonds mark one phase of the "
+            "forcing, dashed lines the gaps. At the secondary resonance the orbit has small inner "
+            "loops, which the paper sees in its computed cycle, too. The paper compares with "
+            "measured orbits; they are not published as numbers and are missing here."
+        ),
+        draw=_fitted,
+    ),
+    Item(
+        key="fig16",
+        title="Fig. 16: motions of scenario S4, B3 with a total gap of 10 mm at A3",
+        caption=(
+            "Portraits, spectra and two forcing cycles at the frequencies marked in Fig. 15. Left: "
+            "inside a left hysteresis two periodic motions coexist; that of the forward sweep is "
+            "smaller and hits each bumper twice a cycle, that of the backward sweep once. Right: a "
+            "pair of motions, mirror images of each other and displaced to one side each, and "
+            "between them a smaller antisymmetric orbit, which is unstable. The paper calls the "
+            "pair quasi-periodic; computed, it is chaotic: disturbances grow exponentially, and "
+            "its spectrum is continuous between the lines. Contacts are bands, in two tiers on the "
+            "left (forward above) and in three on the right (one of the pair, its mirror image, "
+            "the antisymmetric orbit). The pair shares one spectrum: what is seen is the mirror "
+            "image's, drawn over the other."
+        ),
+        draw=_irregular,
+    ),
+    Item(
+        key="fig18",
+        title="Fig. 18: motion of scenario S5 at resonance, B3 without a gap at A3",
+        caption=(
+            "Portrait, spectrum, time histories and clearances (the distances from the mass to "
+            "each bumper) at the resonance of Fig. 17. The motion is nearly a sine, and the mass "
+            "seems to be pressed by one bumper or the other all the time. Magnified (lower right), "
+            "there are two very short flights a cycle, in which both clearances are open: the "
+            "bumper that the mass leaves has still a little to recover, the one that it meets has "
+            "long done so."
+        ),
+        draw=_attached,
+    ),
+)
