@@ -14,7 +14,9 @@ from vibroimpact.model import laboratory
 from vibroimpact.paper import refined
 from vibroimpact.paper.claims import CLAIMS, LINEAR
 from vibroimpact.paper.study import PublishedStudy
+from vibroimpact.response.free_flight import reference_excursions
 from vibroimpact.response.own_flight import largest_flight, resonance
+from vibroimpact.response.resonance import features
 
 FULL_ONLY = pytest.mark.skipif(not samples.full, reason="sweeps the campaign again; --full")
 
@@ -56,8 +58,6 @@ def misses(isolator) -> np.ndarray:
         wanted = laboratory.case(f"B1-Ginf-{name}").oscillator
         place = wanted.natural_frequency * math.sqrt(1.0 - 2.0 * laboratory.DAMPING_RATIO**2)
         found.append(resonance(rig, shaken) / place - 1.0)
-        from vibroimpact.response.free_flight import reference_excursions
-
         pairs = zip(largest_flight(rig, shaken), reference_excursions(wanted, shaken), strict=True)
         found += [one / other - 1.0 for one, other in pairs]
     return np.array(found)
@@ -106,7 +106,7 @@ def test_the_upward_jump_moves_up():
         places = []
         for parameters in ("table", "refined"):
             case = laboratory.case(code, parameters)
-            data = vi.sweep(case.oscillator, case.amplitude, grid, direction="backward")
-            (up,) = [j for j in vi.features(data).jumps if j.upward]
+            data = vi.sweep(case.oscillator, case.amplitude, grid, "backward")
+            (up,) = [j for j in features(data).jumps if j.upward]
             places.append(up.frequency)
         assert places[1] > places[0] + 0.1
