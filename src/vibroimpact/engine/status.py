@@ -14,6 +14,7 @@ class Status(IntEnum):
     TOO_MUCH_WORK = 3
     NOT_FINITE = 4
     STOPPED = 5
+    REVERSED = 6
 
     @property
     def advice(self) -> str:
@@ -37,4 +38,8 @@ _ADVICE = {
     ),
     Status.NOT_FINITE: "the motion left the range of numbers; check the orders of magnitude",
     Status.STOPPED: "stopped on request",
+    Status.REVERSED: (
+        "the motion went beyond where the softening isolator still pushes back, and its law is "
+        "hardly meant there; lower the amplitude, or give the isolator a term that hardens"
+    ),
 }

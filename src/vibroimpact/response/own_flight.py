@@ -115,10 +115,10 @@ def _largest(free: Oscillator, shaken: Repeated) -> tuple[float, float, float]:
             k = int(np.nanargmax(curve))
             low, top = about[max(k - 1, 0)], about[min(k + 1, len(about) - 1)]
             # From above, so that the sweep comes to where it was on the same side of a fold.
-            about, found = swept(low, top + 10.0 * (top - low) / _FINER, 2 * _FINER + 11)
+            finer, found = swept(low, top + 10.0 * (top - low) / _FINER, 2 * _FINER + 11)
             if np.all(np.isnan(found[which])):
                 break
-            curve = found[which]
+            about, curve = finer, found[which]
         places.append(float(about[np.nanargmax(curve)]))
         largest.append(float(max(np.nanmax(curve), np.nanmax(curves[which]))))
     swing, acceleration = largest

@@ -12,6 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch
+from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -21,6 +22,7 @@ from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.recorded import through
+from vibroimpact.response.reversal import farthest, judged
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.variables import (
     COMPONENTS,
@@ -125,11 +127,13 @@ def simulate(
         if samples:
             found.append(buffer[:events].copy())
     status = Status(outcome)
+    swing = farthest(np.append(out[record.DISPLACEMENT], vector[U]))
+    told = Status(int(judged(oscillator, outcome, swing)))
     if status is not Status.DONE:
         # The cycle that was given up is left out; its events until then are kept.
         finished = max(at - 1, 0)
         warnings.warn(
-            f"simulate stopped in cycle {finished}: {status.advice}", RuntimeWarning, stacklevel=3
+            f"simulate stopped in cycle {finished}: {told.advice}", RuntimeWarning, stacklevel=3
         )
         out = out[:, : finished * samples]
         length = float(finished)
@@ -148,7 +152,9 @@ def simulate(
         variables[name] = ("time", values)
         variables |= listed(np.concatenate(found), 1.0 / excitation.frequency, oscillator.isolator)
     data = xr.Dataset(variables, coordinates)
-    data.attrs["status"] = status.advice
+    if status is Status.DONE and told is not status:
+        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=3)
+    data.attrs["status"] = told.advice
     return describe(
         data,
         "vibroimpact.simulate",

@@ -35,6 +35,7 @@ from vibroimpact.response.free_flight import (
     reference_excursions,
 )
 from vibroimpact.response.own_flight import swept_flight
+from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.threads import Progress, run
 from vibroimpact.response.variables import (
@@ -230,6 +231,10 @@ def sweeps(
         *(rig for rig, _, _ in prepared)
     )  # once, before the threads would queue for it
     run(one, counter, len(grid) * len(counter), threads, progress)
+    for r, (oscillator, _, _) in enumerate(pairs):
+        swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
+        ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
+        results[r][..., hold.OUTCOME] = ended
     data = _dataset(results, states, free, largest, angle)
     data = data.assign_coords(
         rig=names, direction=list(directions), frequency=grid, component=COMPONENTS

@@ -14,6 +14,7 @@ from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.counts import share
 from vibroimpact.response.follow import moved_on
 from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
 from vibroimpact.stability.fixed_points import Orbit, vector_of
 
@@ -78,11 +79,11 @@ def approach(
         reached := np.zeros((1, layout.STATE)),
         np.zeros(2, dtype=np.int64),
     )
-    outcome = Status(int(result[0, hold.OUTCOME]))
+    outcome = Status(int(judged(oscillator, result[0, hold.OUTCOME], np.nan)))
     return Settled(
         oscillator,
         excitation,
-        reached[0],
+        reached[0] if np.isfinite(reached[0]).all() else start,
         int(result[0, hold.PERIOD]),
         int(result[0, hold.CYCLES]),
         outcome,

@@ -132,7 +132,7 @@ def describe_motion(
         kind = kind._replace(evidence=kind.evidence + slowly)
     stable = {"chaotic": 0, "periodic": _stable(kind)}.get(kind.motion, -1)
     data = _record(found, found.state, samples, kind.period or window, max_events)
-    if data.attrs["status"] != Status.DONE.advice:
+    if data.attrs["status"] not in (Status.DONE.advice, Status.REVERSED.advice):
         return _given_up(found._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)
     frequency = found.excitation.frequency
     distance = _mirror_distance(found, found.state, kind.period, max_events)
