@@ -206,7 +206,7 @@ class TestBroken:
             return rig.replace(right=bumper, left=bumper)
 
         self.mutate(monkeypatch, soft)
-        turned = self.turned(found, CLAIMS)
+        turned = self.turned(found, LINEAR)
         assert len(turned) >= 30
         assert {"tests-by-scenario", "s4-left-hystereses", "s3-two-motions"} <= turned
         assert not turned & NEEDS_DATA

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from scipy.integrate import quad
 
 import vibroimpact as vi
+from reference.stored_energy import stored
 
 ISOLATORS: dict[str, vi.Isolator] = {
     "linear": vi.Isolator(60.0, 0.8),
@@ -33,36 +33,6 @@ SHAKEN = vi.Harmonic(4.0, 1.1, 0.3)
 def rig(isolator: str, stops: str) -> vi.Oscillator:
     right, left = STOPS[stops]
     return vi.Oscillator(2.0, ISOLATORS[isolator], right, left, force=0.3)
-
-
-def stored(oscillator: vi.Oscillator, data: xr.Dataset, at: int) -> float:
-    """Energy (J) relative to the base, the constant force's included."""
-    isolator = oscillator.isolator
-    u, v = (float(data[name][at]) for name in ("displacement", "velocity"))
-    z = float(data["isolator_memory"][at]) if "isolator_memory" in data else 0.0
-    held = 0.5 * oscillator.mass * v**2 - oscillator.force * u
-    match isolator:
-        case vi.PolynomialIsolator():
-            held += isolator.stiffness * u**2 / 2 + isolator.cubic * u**4 / 4
-            held += isolator.quintic * u**6 / 6
-        case vi.BilinearIsolator() | vi.BoucWenIsolator():
-            held += isolator.post_yield_stiffness * u**2 / 2
-            held += isolator.hysteretic_stiffness * z**2 / 2
-        case vi.ExponentialIsolator():
-            held += quad(isolator.elastic_force, 0.0, u, epsabs=1e-14, epsrel=1e-13)[0]
-            held += (isolator.reversal_stiffness - isolator.final_stiffness) * z**2
-        case _:
-            held += isolator.stiffness * u**2 / 2
-    for stop, side in ((oscillator.right, 1), (oscillator.left, -1)):
-        depth = side * u - stop.gap
-        touched = int(data["contact"][at]) in (side, 2)
-        if isinstance(stop, vi.Bumper):
-            x = float(data["right_bumper" if side == 1 else "left_bumper"][at])
-            held += stop.stiffness * x**2 / 2
-        elif touched and not isinstance(stop, vi.RigidStop):
-            power = getattr(stop, "exponent", 1.5)
-            held += stop.stiffness * depth ** (power + 1) / (power + 1)
-    return held
 
 
 def followed(oscillator: vi.Oscillator, shaken: object, samples: int | None = None) -> xr.Dataset:

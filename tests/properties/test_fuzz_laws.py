@@ -1,0 +1,81 @@
+"""Random rigs of all laws: no hang, no NaN, and nothing passive creates energy.
+
+`python tests/properties/test_fuzz_laws.py 20000 1` looks at as many, from a seed.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import sys
+import warnings
+from collections import Counter
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from properties.random_laws import random_rig
+from reference.stored_energy import stored
+from samples import sample
+
+CYCLES = 8
+LONGEST = 400.0
+"""s; a rig takes milliseconds, the first of its kind a compiler. One that hangs ends the process."""
+EXACT = 1e-9
+"""Of the energy that goes through a rig; what is left of it in the balance."""
+
+
+def survey(count: int, seed: int) -> tuple[Counter[str], list[str]]:
+    """Outcomes and faults."""
+    rng = np.random.default_rng(seed)
+    outcomes: Counter[str] = Counter()
+    wrong = []
+    for i in range(count):
+        rig, shaken = random_rig(rng)
+        faulthandler.dump_traceback_later(LONGEST, exit=True)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)
+            data = vi.simulate(rig, shaken, CYCLES, samples=8, max_events=3000)
+        faulthandler.cancel_dump_traceback_later()
+        status = data.attrs["status"].split(":")[0]
+        outcomes[status] += 1
+        found = faults(rig, data, status)
+        wrong += [f"rig {i} of seed {seed}: {one}; {rig!r}, {shaken!r}" for one in found]
+    return outcomes, wrong
+
+
+def faults(rig: vi.Oscillator, data, status: str) -> list[str]:
+    """What is wrong with a motion."""
+    wrong = [status] if "range of numbers" in status else []
+    names = ("displacement", "velocity", "acceleration", "final_state")
+    wrong += [f"{name} is not finite" for name in names if not np.isfinite(data[name]).all()]
+    for name, side in (("right", 1.0), ("left", -1.0)):
+        if getattr(rig, name) is not None and (side * data[f"{name}_bumper"] < -1e-12).any():
+            wrong.append(f"the {name} stop was pulled")
+    if wrong or status != "done":
+        return wrong
+    found = vi.totals(data)
+    supplied, isolator, bumpers = (
+        float(found[f"total_{one}"]) for one in ("supplied", "isolator", "bumpers")
+    )
+    change = stored(rig, data, -1) - stored(rig, data, 0)
+    through = abs(supplied) + abs(isolator) + abs(bumpers) + abs(change)
+    for name, lost in (("isolator", isolator), ("stops", bumpers)):
+        if lost < -1e-12 * through:
+            wrong.append(f"the {name} created {-lost:g} J")
+    if abs(supplied - isolator - bumpers - change) > EXACT * through:
+        wrong.append(f"{supplied - isolator - bumpers - change:g} of {through:g} J are missing")
+    return wrong
+
+
+@pytest.mark.parametrize("seed", range(sample(20, 1)))
+def test_random_rigs_of_all_laws(seed: int) -> None:
+    outcomes, wrong = survey(sample(1000, 150), seed)
+    assert not wrong, "\n".join(wrong)
+    assert outcomes["done"] > 0.9 * sum(outcomes.values())
+
+
+if __name__ == "__main__":
+    totals, bad = survey(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 1)
+    print(dict(totals))
+    print("\n".join(bad) or "no faults")
