@@ -1,6 +1,6 @@
 """Random rigs of all laws: no hang, no NaN, and nothing passive creates energy.
 
-`python tests/properties/test_fuzz_laws.py 20000 1` looks at as many, from a seed.
+`python tests/properties/fuzz_laws.py 20000 1` looks at as many, from a seed.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from samples import sample
 
 CYCLES = 8
 LONGEST = 400.0
-"""s; a rig takes milliseconds, the first of its kind a compiler. One that hangs ends the process."""
+"""s; a rig takes milliseconds. One that hangs ends the process, with its place."""
 EXACT = 1e-9
 """Of the energy that goes through a rig; what is left of it in the balance."""
 
