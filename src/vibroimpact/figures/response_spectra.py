@@ -92,5 +92,5 @@ def response_spectra(
     ax.set_xlabel("natural period (s)")
     ax.set_ylabel(label)
     ax.grid(True, which="major", linewidth=0.4, color="0.85")
-    ax.legend(ncols=min(len(every), 4 if len(every) % 4 == 0 else 5), **LEGEND)
+    ax.legend(ncols=2 if "orientation" in others else min(len(every), 5), **LEGEND)
     return ax

@@ -20,8 +20,8 @@ from vibroimpact.records.file import File
 _EVEN = 0.01
 """By how much of a step a time may be off: files round theirs."""
 _STEP = re.compile(
-    r"\b(?:dt|step|time step|sampling interval)\s*[=:]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*"
-    r"(s|sec|seconds|ms)?\s*$",
+    r"\b(?:dt|step|time step|sampling interval)\s*[=:]\s*"
+    r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(s|sec|seconds|ms)?\s*$",
     re.IGNORECASE,
 )
 _BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]+?)\s*[\])]")
