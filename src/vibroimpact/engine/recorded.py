@@ -74,6 +74,7 @@ def follow(
         return first, 0, TOO_MUCH_WORK
     motion = unpacked(state, (lines[first, BEGINS], lines[first, SLOPE]))
     step = interval / samples if samples else 0.0
+    listed = samples or len(events) > max_events + 1
     number = first
     count = 0
     outcome = 0
@@ -84,10 +85,11 @@ def follow(
         before = at_section(aged(motion, 0.0), clock)
         if samples:
             write(plan, before, out, number * samples)
-        if samples == 0 and len(events) == max_events + 1:
+        n = int(math.ceil(length / step - 1e-9)) if samples else 0  # noqa: RUF046
+        here = 0
+        if n <= 1:  # nothing to be seen on the line unless something happens there
             here, motion, _ = cycle(plan, before, clock, length, max_events, UNOBSERVED)
-        else:
-            n = int(math.ceil(length / step - 1e-9)) if samples else 0  # noqa: RUF046
+        if n > 1 or (here and listed):
             last = count + max_events
             notes = Record(out, number * samples, step, n, 1, events, count, last, number)
             here, motion, notes = cycle(plan, before, clock, length, max_events, notes)

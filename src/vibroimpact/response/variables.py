@@ -306,7 +306,7 @@ def describe(
         attributes = {"units": variable.units, "long_name": variable.long_name}
         if variable.comment:
             attributes["comment"] = variable.comment
-        dataset[name].attrs.update(attributes)
+        dataset.variables[name].attrs.update(attributes)  # as of dataset[name], sooner
     if "amplitude" in dataset.variables and parameters and "of" in parameters:
         varied = parameter("amplitude", of=parameters["of"])
         dataset["amplitude"].attrs.update(units=varied.units, long_name=varied.long_name)
