@@ -48,7 +48,7 @@ def test_summary_figure_and_data(run, tmp_path, quake):
 
 def test_changes_in_their_order_and_json(run, quake):
     code, told, _ = run(
-        *(quake, "--unit", "m/s^2", "--step", "20ms", "--station", "elsewhere"),
+        *(quake, "--unit", "m/s^2", "--step", "20ms", "--station", "elsewhere", "--label", "Z"),
         *("--start", "20ms", "--end", "0.1 s", "--baseline", "mean", "--peak", "0.2 g"),
         *("--periods", "20", "--json", "--name", "made", "--figure", "svg"),
     )
@@ -56,7 +56,7 @@ def test_changes_in_their_order_and_json(run, quake):
     facts = json.loads(told)
     assert facts["samples"] == 5
     assert facts["peak"] == pytest.approx(1.96133)
-    assert facts["station"] == "elsewhere"
+    assert (facts["station"], facts["component"]) == ("elsewhere", "Z")
     assert [note.split(" ")[0] for note in facts["notes"]] == [
         "step",
         "unit",

@@ -212,9 +212,10 @@ def test_no_step_is_told_with_the_line_where_it_should_stand(written, name):
 
 def test_what_the_file_says_can_be_overridden(written):
     path = written(peer())
-    record = vi.Record.read(path, unit="m/s^2", step="20 ms", station="elsewhere")
+    record = vi.Record.read(path, unit="m/s^2", step="20 ms", station="elsewhere", label="up")
     np.testing.assert_array_equal(record.acceleration, VALUES)
     assert (record.step, record.about.station, record.about.unit) == (0.02, "elsewhere", "m/s^2")
+    assert record.about.component == "up"
     assert record.about.notes == (
         "step 20 ms, not the file's 0.01 s",
         "unit m/s^2, not the file's g",

@@ -43,6 +43,7 @@ def record(
         str | None, _TEXT, Parameter(group=_READING, help="Time between samples, such as 10ms.")
     ] = None,
     station: Annotated[str | None, Parameter(group=_READING, help="Name of the station.")] = None,
+    label: Annotated[str | None, Parameter(group=_READING, help="Name of the component.")] = None,
     start: Annotated[
         str | None, _TEXT, Parameter(group=_CHANGES, help="Where it is cut off before, as 5s.")
     ] = None,
@@ -97,7 +98,7 @@ def record(
         raise InputError(f"--longest: {longest}; a period longer than {shortest} is accepted")
     if periods < 2:
         raise InputError(f"--periods: {periods}; a whole number of at least 2 is accepted")
-    found = Record.read(file, component, unit=unit, step=step, station=station)
+    found = Record.read(file, component, unit=unit, step=step, station=station, label=label)
     if start is not None or end is not None:
         found = found.cut(start or 0.0, end)
     if baseline is not None:

@@ -69,6 +69,7 @@ class Record:
         unit: str | None = None,
         step: float | str | None = None,
         station: str | None = None,
+        label: str | None = None,
     ) -> Record:
         """Read a record from a file, whose format is known by its content.
 
@@ -89,8 +90,8 @@ class Record:
             says.
         step
             Time between samples (s, or text with a unit), instead of the file's.
-        station
-            Its name, instead of the file's.
+        station, label
+            Names of the station and of the component, instead of the file's.
 
         Raises
         ------
@@ -144,9 +145,8 @@ class Record:
             share = 100.0 * abs(mean) / record.peak
             told = f"mean {pretty(mean, ACCELERATION)} left in, {share:.3g} % of the peak"
             notes.append(told)
-        record._about = About(
-            str(path), form, station or found.station, found.component, taken, tuple(notes)
-        )
+        names = station or found.station, label or found.component
+        record._about = About(str(path), form, *names, taken, tuple(notes))
         return record
 
     @classmethod
