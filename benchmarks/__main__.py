@@ -14,6 +14,7 @@ from benchmarks.records import records
 from benchmarks.report import Table, show, write
 from benchmarks.scenarios import scenarios
 from benchmarks.size import size
+from benchmarks.smooth import smooth
 from benchmarks.spectra import spectra
 from benchmarks.startup import compiling, startup
 from benchmarks.trajectory import many, peers, short_runs, trajectory
@@ -46,6 +47,7 @@ def main() -> None:
         add(*trajectory(others, compiled.text()))
         add(short_runs(others), many())
         add(laws(), sampling(), records(), spectra())
+        add(*smooth())
     with console.status("the campaign ..."):
         add(campaign())
     with console.status("motions ..."):

@@ -49,13 +49,13 @@ def peers() -> Peers:
     solvers: dict[str, Peer] = {}
     missing: list[str] = []
     for name, module in ((GENERAL, "heyoka_general"), (SPECIALISED, "heyoka_peer")):
-        peer = _optional(module, missing)
+        peer = optional(module, missing)
         if peer is not None:
             begin = time.perf_counter()
             built = peer.build()
             ready = f"{1e3 * (time.perf_counter() - begin):.0f} ms"
             solvers[name] = Peer(_bound(peer.run, built), ready)
-    scipy = _optional("scipy_peer", missing)
+    scipy = optional("scipy_peer", missing)
     if scipy is not None:
         solvers[SCIPY] = Peer(scipy.run, "none")
     return Peers(solvers, list(dict.fromkeys(missing)))
@@ -193,7 +193,7 @@ def short_runs(others: Peers) -> Table:
 
 def many() -> Table | None:
     """Time as many trajectories as heyoka's batch mode takes at once, from several starts."""
-    batch = _optional("heyoka_batch", [])
+    batch = optional("heyoka_batch", [])
     if batch is None:
         return None
     built = batch.build()
@@ -236,7 +236,7 @@ def _bound(run: Callable[..., Any], *first: Any) -> Callable[..., Any]:
     return lambda *rest: run(*first, *rest)
 
 
-def _optional(module: str, missing: list[str]) -> ModuleType | None:
+def optional(module: str, missing: list[str]) -> ModuleType | None:
     """Import a peer, unless the package that it needs is not installed."""
     try:
         return import_module(f"benchmarks.peers.{module}")
