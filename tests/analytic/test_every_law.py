@@ -39,19 +39,6 @@ def error(name: str) -> float:
     return worst
 
 
-LATE = pytest.mark.xfail(
-    strict=True,
-    reason="5 cycles end 1.5e-8 of the motion's size away, 1 and 20 cycles meet: under several "
-    "harmonics a slide out of rest begins at another instant",
-)
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=LATE) if name == "friction, several harmonics" else name
-        for name in CASES
-    ],
-)
+@pytest.mark.parametrize("name", CASES)
 def test_stored_motions_are_met(name: str) -> None:
     assert error(name) <= TOLERANCE

@@ -10,7 +10,17 @@ import pytest
 import vibroimpact as vi
 from engine.forcing.plans import begun
 from vibroimpact.engine.forcing import several
-from vibroimpact.engine.linear.layout import MOST, PLAN, STEEPEST, TABLES
+from vibroimpact.engine.linear.layout import (
+    MOST,
+    PLAN,
+    RATE,
+    SCALED_W,
+    STEEPEST,
+    TABLES,
+    WAVE_C,
+    WAVE_S,
+    H,
+)
 from vibroimpact.engine.parameters import Drive
 
 SHAPE = vi.Periodic(1.0, [0.6, 0.0, 0.9, 0.3], [0.2, 0.0, -1.0, 2.5])
@@ -60,3 +70,23 @@ def test_powers_of_a_phasor() -> None:
     for n in range(2, 9):
         sn, cn = several.raised(s, c, sn, cn)
         assert (sn, cn) == pytest.approx((math.sin(0.3 * n), math.cos(0.3 * n)), abs=1e-14)
+
+
+def test_lets_go_where_it_first_exceeds_a_level() -> None:
+    """However near the end of a window that is."""
+    plan = begun(several, Drive(weights=WEIGHTS), 2.0, OMEGA)
+    h = 0.25 / several.pace(plan)
+    for n in (1, 2, 3, 4):
+        wave, there = several.wave(plan, n, False), TABLES + several.plane(plan, n)
+        size = wave.amplitude * h * h
+        plan[there + H], plan[there + RATE], plan[there + SCALED_W] = h, 1.0 / h, wave.rate * h
+        plan[there + WAVE_S], plan[there + WAVE_C] = size * wave.sine, size * wave.cosine
+    for angle in np.linspace(0.0, 6.0, 25):
+        s, c = math.sin(angle), math.cos(angle)
+        for wait in np.linspace(0.001, 3.0 * h, 40):
+            clocks = [several.turned(plan, s, c, t) for t in np.linspace(0.0, wait, 200)]
+            shaking = [several.value(plan, *clock) for clock in clocks]
+            if max(shaking[:-1]) >= shaking[-1]:
+                continue
+            t, _, _ = several.let_go(plan, 1.0, shaking[-1], s, c, 1.0)
+            assert t == pytest.approx(wait, abs=1e-12)

@@ -131,8 +131,10 @@ def let_go(
     while t < limit:
         ms, mc = turned(plan, s, c, t + 0.5 * h)
         pull_series(plan, TABLES, ms, mc, series)
+        for i in range(ORDER):  # `first_root` bounds the series itself: a factor would be lost
+            series[i] *= rate * rate
         high = min(0.5, (limit - t) * rate - 0.5)
-        clearance = Clearance(level, -sign * rate * rate, 0.0, 0.0, False)
+        clearance = Clearance(level, -sign, 0.0, 0.0, False)
         y = first_root(series, clearance, -0.5, high)
         if y != NONE:
             t += (y + 0.5) * h

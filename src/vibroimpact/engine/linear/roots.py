@@ -46,7 +46,7 @@ def jet(series: Vector, y: float) -> tuple[float, float, float]:
 
 
 class Clearance(NamedTuple):
-    """f but for its series; `double` says that it leaves a double root."""
+    """f but for its series; `sign` is 1 or −1, `double` says that it leaves a double root."""
 
     offset: float
     sign: float
