@@ -130,13 +130,20 @@ def _flow(rig: Vector) -> type:
     return AnyStops if rigid or overlapping else Apart
 
 
+def _room(size: int) -> Vector:
+    """Memory that begins a cache line: vectors of eight numbers within it then cross none."""
+    memory = np.empty(size + 8)
+    start = -(memory.ctypes.data // 8) % 8
+    return memory[start : start + size]
+
+
 def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
     flow = _flow(rig)
     if rig[par.FORCING] != par.SEVERAL:
-        return flow(np.empty(PLAN))
+        return flow(_room(PLAN))
     weights = rig[par.WEIGHTS :]
-    memory = np.empty(several.room(len(weights) // 2))
+    memory = _room(several.room(len(weights) // 2))
     memory[several.WEIGHTS : several.WEIGHTS + len(weights)] = weights
     return flow(memory)
 

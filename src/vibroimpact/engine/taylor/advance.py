@@ -46,6 +46,15 @@ from vibroimpact.engine.taylor.frame import (
 )
 from vibroimpact.engine.taylor.laws import EVEN
 from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, X, Z
+from vibroimpact.engine.taylor.leaps import (
+    DETACHED_LEFT,
+    EASED,
+    NO_LEAP,
+    UNBENT,
+    YIELDS,
+    leap_on,
+    leaps,
+)
 from vibroimpact.engine.taylor.pieces import (
     PIECES,
     begun,
@@ -55,11 +64,8 @@ from vibroimpact.engine.taylor.pieces import (
     shifted,
     velocity_series,
 )
+from vibroimpact.engine.taylor.press import press_on, presses
 from vibroimpact.engine.taylor.step import headed
-
-DETACHED_LEFT, YIELDS, UNBENT, EASED = 16, 17, 18, 19
-"""Events of a step besides those of a stretch."""
-
 
 _MOST = 200_000
 """Steps to one event, far more than any needs whose rates are those of the rig. A stop that is
@@ -325,7 +331,25 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         return rest(plan, motion, limit)
     t = 0.0
     here = motion
+    hint = math.inf
     for _ in range(_MOST):
+        pressing = presses(plan, here)
+        if pressing or leaps(plan, here):
+            if pressing:
+                leap = press_on(plan, here, limit - t, hint)
+            else:
+                leap = leap_on(plan, here, limit - t, hint)
+            if leap.event != NO_LEAP:
+                here, hint = leap.motion, leap.next
+                if leap.event != LIMIT:
+                    event, t, arrival, after = happened(plan, leap.event, here, t + leap.t)
+                    if event in (RIGHT, LEFT) and rigid(plan, event):
+                        return impact(plan, event, t, arrival, after, limit)
+                    return event, t, arrival, after
+                if not t + leap.t < limit:
+                    return LIMIT, limit, here.v, here
+                t += leap.t
+                continue
         frame, length = begun(plan, here, limit - t)
         found = search(plan, here, frame, length)
         if found.event != LIMIT:

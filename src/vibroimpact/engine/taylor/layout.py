@@ -41,7 +41,17 @@ BY_Z_OF_Z = BY_Z + ROOM
 D_X = BY_Z_OF_Z + ROOM  # a disturbance
 D_V = D_X + ROOM
 D_Z = D_V + ROOM
-POWERS = D_Z + ROOM  # z², z³, … for which a plan has room to the end
+# Of a leap, sixteen numbers each, from a cache line's beginning on: the displacement first.
+NODES = (D_Z + ROOM + 7) // 8 * 8
+NODES_V = NODES + 16
+NODES_Z = NODES + 32
+NODES_A = NODES + 48  # acceleration
+NODES_R = NODES + 64  # z′
+NODES_SHAKEN = NODES + 80
+NODES_T = NODES + 96  # time, where it is not the variable
+NODES_P = NODES + 112  # in between
+SPECTRA = NODES + 128  # the first five and the time in Legendre's polynomials
+POWERS = SPECTRA + 96  # z², z³, … for which a plan has room to the end
 
 SHARPEST = (PLAN - POWERS) // ROOM
 """The highest power of z that there is room for."""
