@@ -191,6 +191,7 @@ def pressed_on(
     steady: float,
     clock: Clock,
     begin: tuple[float, float, float],
+    a: float,
     h: float,
     unit: float,
 ) -> float:
@@ -198,8 +199,6 @@ def pressed_on(
     w, v, z = begin
     hysteretic = forces.hysteretic != 0.0
     size = max(abs(w), abs(v) * unit, 1e-300)
-    a = steady - frame.sign * value(plan, clock[0], clock[1]) - pulled(forces, w * w, v, z)
-    a -= push.stiffness * w ** (2.0 * push.exponent) * (1.0 + push.dissipation * v)
     bent = bent_by(forces, z)
     _guess(plan, (h, w, v, a))
     _guess_v(plan, (h, w, v, a))
@@ -307,9 +306,11 @@ def press_on(plan: Vector, motion: Motion, limit: float, hint: float) -> Leap:
     w = math.sqrt(x)
     steady = frame.load - branch.way * plan[par.FRICTION]
     begin = (w, v, z)
+    a = steady - sign * value(plan, clock[0], clock[1]) - pulled(forces, x, v, z)
+    a -= push.stiffness * x**push.exponent * (1.0 + push.dissipation * v)
     excess = 2.0
     for _ in range(5):
-        excess = pressed_on(plan, frame, forces, push, steady, clock, begin, h, unit)
+        excess = pressed_on(plan, frame, forces, push, steady, clock, begin, a, h, unit)
         if excess <= 1.0:
             break
         h *= shorter(excess)
@@ -318,9 +319,8 @@ def press_on(plan: Vector, motion: Motion, limit: float, hint: float) -> Leap:
     w1, v1, z1 = landed(plan, forces, w, v, z, h)
     hysteretic = forces.hysteretic != 0.0
     bent = bends(plan, h, hysteretic)
-    rate = 2.0 * w * (plan[NODES_SHAKEN] - pulled(forces, x, v, z))  # of v, nearly
     event, y = let_out(
-        plan, motion, push, branch.way, rate, h, bent, (w, v, z), (w1, v1, z1), forces
+        plan, motion, push, branch.way, 2.0 * w * a, h, bent, (w, v, z), (w1, v1, z1), forces
     )
     if event == NO_LEAP:
         return nothing
