@@ -113,7 +113,15 @@ def pull(
 @inlined
 def own(forces: Forces) -> tuple[float, float, float, float, float, float, float]:
     """The numbers of the forces, as the formulae take them."""
-    return forces[:7]
+    return (
+        forces.offset,
+        forces.stiffness,
+        forces.damping,
+        forces.cubic,
+        forces.quintic,
+        forces.hysteretic,
+        forces.drag,
+    )
 
 
 _one_pull = inlined(pull)
