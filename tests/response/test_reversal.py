@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.engine.status import Status
-from vibroimpact.response.reversal import farthest, judged
+from vibroimpact.response.reversal import ended, judged
 
 SOFT = vi.PolynomialIsolator(1.0, 0.3, -1.0)  # it pushes back up to 1 m
 WELLS = vi.PolynomialIsolator(1.0, 0.3, -1.0, 0.2)  # and again from 1.9 m on
@@ -59,5 +59,5 @@ def test_nothing_known_is_no_reversal() -> None:
     outcomes = [Status.DONE, Status.DONE, Status.TOO_MANY_EVENTS, Status.NOT_SETTLED]
     codes = judged(rig, outcomes, [np.nan, 0.9, 5.0, 5.0])
     assert codes.tolist() == [0, 0, Status.TOO_MANY_EVENTS, Status.REVERSED]
-    assert np.isnan(farthest([]))
-    assert farthest([np.nan, -2.0, 1.0]) == 2.0
+    assert ended(rig, Status.DONE, [], np.nan) is Status.DONE
+    assert ended(rig, Status.DONE, [np.nan, -2.0, 1.0], 0.5) is Status.REVERSED

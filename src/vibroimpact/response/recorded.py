@@ -15,7 +15,7 @@ from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Record, State, equilibrium
 from vibroimpact.model.counts import check_samples
-from vibroimpact.response.reversal import farthest, judged
+from vibroimpact.response.reversal import ended
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.response.written import EVENTS_AT_ONCE, listed, sampled
@@ -61,14 +61,13 @@ def through(
         )
         found.append(buffer[:events].copy())
     status = Status(outcome)
-    swing = farthest(np.append(out[observed.DISPLACEMENT], vector[U]))
-    ended = Status(int(judged(oscillator, outcome, swing)))
+    told = ended(oscillator, status, out[observed.DISPLACEMENT], vector[U])
     time = np.minimum(np.arange(count) * (record.step / max(samples, 1)), ends)
     if status is not Status.DONE:
         # The step that was given up is left out; its events until then are kept.
         finished = max(at - 1, 0)
-        told = f"simulate stopped {finished * record.step:g} s into the record: {ended.advice}"
-        warnings.warn(told, RuntimeWarning, stacklevel=4)
+        stopped = f"simulate stopped {finished * record.step:g} s into the record: {told.advice}"
+        warnings.warn(stopped, RuntimeWarning, stacklevel=4)
         out, time = out[:, : finished * samples], time[: finished * samples]
     variables: dict[str, Any] = {"final_state": ("component", components(vector, 0.0))}
     coordinates: dict[str, Any] = {"component": COMPONENTS}
@@ -81,9 +80,9 @@ def through(
         # A record has steps, not cycles.
         variables |= {name: one for name, one in events.items() if "cycle" not in name}
     data = xr.Dataset(variables, coordinates)
-    if status is Status.DONE and ended is not status:
-        warnings.warn(f"simulate: {ended.advice}", RuntimeWarning, stacklevel=4)
-    data.attrs["status"] = ended.advice
+    if status is Status.DONE and told is not status:
+        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=4)
+    data.attrs["status"] = told.advice
     parameters = {
         "oscillator": oscillator_parameters(oscillator),
         "record": {"samples": len(record.acceleration), "step": record.step, "peak": record.peak},

@@ -32,8 +32,10 @@ def judged(oscillator: Oscillator, outcome: ArrayLike, farthest: ArrayLike) -> N
     return np.where(ended | (codes == Status.NOT_FINITE), int(Status.REVERSED), codes)
 
 
-def farthest(values: ArrayLike) -> float:
-    """The largest of some displacements without its sign; NaN if there is none."""
-    sizes = np.abs(np.asarray(values))
-    known = sizes[np.isfinite(sizes)]
-    return float(known.max()) if known.size else float("nan")
+def ended(oscillator: Oscillator, status: Status, *displacements: ArrayLike) -> Status:
+    """How a motion ended that was seen at these displacements (m)."""
+    if oscillator.isolator.restoring_reach == np.inf:
+        return status
+    known = np.abs(np.concatenate([np.ravel(one) for one in displacements]))
+    known = known[np.isfinite(known)]
+    return Status(int(judged(oscillator, status, known.max() if known.size else np.nan)))

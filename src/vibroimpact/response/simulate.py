@@ -22,7 +22,7 @@ from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.recorded import through
-from vibroimpact.response.reversal import farthest, judged
+from vibroimpact.response.reversal import ended
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.variables import (
     COMPONENTS,
@@ -127,8 +127,7 @@ def simulate(
         if samples:
             found.append(buffer[:events].copy())
     status = Status(outcome)
-    swing = farthest(np.append(out[record.DISPLACEMENT], vector[U]))
-    told = Status(int(judged(oscillator, outcome, swing)))
+    told = ended(oscillator, status, out[record.DISPLACEMENT], vector[U])
     if status is not Status.DONE:
         # The cycle that was given up is left out; its events until then are kept.
         finished = max(at - 1, 0)
