@@ -1,7 +1,8 @@
 """How a kernel finds what depends on the flow: by the type of its plan.
 
 Two flows answer the same questions: tables of closed-form motion where all laws are linear, Taylor
-series elsewhere. Each is a folder whose modules have these kernels:
+series elsewhere. A third, for isolators that yield or slide, has tables of its own and leaves all
+that is not said there to the Taylor flow. Each is a folder whose modules have these kernels:
 
     build(plan, amplitude, omega)           make the plan for one forcing
     too_much_work(plan, period)             whether one cycle takes too long
@@ -35,34 +36,34 @@ from typing import Any
 
 from numba.extending import overload
 
-from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import OPTIONS
+from vibroimpact.engine.parameters import LINEAR, laws
 
-_MODULES: dict[bool, tuple[ModuleType, ...]] = {}
-
-
-def answer(curved: bool, *modules: ModuleType) -> None:
-    """Say which modules answer for a flow."""
-    _MODULES[curved] = modules
+_MODULES: dict[int, tuple[ModuleType, ...]] = {}
 
 
-def _found(curved: bool, name: str) -> Any:
-    for module in _MODULES[curved]:
+def answer(laws: int, *modules: ModuleType) -> None:
+    """Say which modules answer for a flow, the first of them that can."""
+    _MODULES[laws] = modules
+
+
+def _found(laws: int, name: str) -> Any:
+    for module in _MODULES[laws]:
         one = vars(module).get(name)
         if one is not None and one.__module__ == module.__name__:  # not what it imports
             return one
-    raise AttributeError(f"the {'Taylor' if curved else 'linear'} flow has no {name}")
+    raise AttributeError(f"the flow of {('linear', 'curved', 'yielding')[laws]} laws has no {name}")
 
 
 def _by_flow(name: str) -> Callable[..., Any]:
     def plain(plan: Any, *args: Any) -> Any:
-        return _found(plan[par.CURVED] != 0.0, name)(plan, *args)
+        return _found(laws(plan), name)(plan, *args)
 
     plain.__name__ = name
 
     @overload(plain, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]
     def _chosen(plan: Any, *args: Any) -> Any:
-        return _found(getattr(plan, "curved", False), name).py_func
+        return _found(getattr(plan, "laws", LINEAR), name).py_func
 
     return plain
 

@@ -39,6 +39,9 @@ from vibroimpact.engine.taylor import laws as taylor_laws
 from vibroimpact.engine.taylor import pieces as taylor_pieces
 from vibroimpact.engine.taylor import plan as taylor_plan
 from vibroimpact.engine.taylor.advance import advance_taylor
+from vibroimpact.engine.yielding import plan as yielding_plan
+from vibroimpact.engine.yielding.advance import advance_yielding
+from vibroimpact.engine.yielding.layout import PLAN as YIELDING_PLAN
 
 
 class Apart(NamedTuple):
@@ -83,6 +86,24 @@ class CurvedRecorded(NamedTuple):
     memory: Vector
 
 
+class Yielding(NamedTuple):
+    """An isolator that yields or slides between linear stops, shaken by one sine."""
+
+    memory: Vector
+
+
+class YieldingSeveral(NamedTuple):
+    """The same, shaken by several harmonics."""
+
+    memory: Vector
+
+
+class YieldingRecorded(NamedTuple):
+    """The same, shaken by a record."""
+
+    memory: Vector
+
+
 _ADVANCE: dict[type, Callable[..., Any]] = {
     Apart: advance_apart,
     AnyStops: advance_any,
@@ -91,22 +112,32 @@ _ADVANCE: dict[type, Callable[..., Any]] = {
     Curved: advance_taylor,
     CurvedSeveral: advance_taylor,
     CurvedRecorded: advance_taylor,
+    Yielding: advance_yielding,
+    YieldingSeveral: advance_yielding,
+    YieldingRecorded: advance_yielding,
 }
 _FORCING: dict[type, float] = {
     Several: par.SEVERAL,
     Recorded: par.RAMP,
     CurvedSeveral: par.SEVERAL,
     CurvedRecorded: par.RAMP,
+    YieldingSeveral: par.SEVERAL,
+    YieldingRecorded: par.RAMP,
 }
 _CURVED: dict[float, type] = {
     par.HARMONIC: Curved,
     par.SEVERAL: CurvedSeveral,
     par.RAMP: CurvedRecorded,
 }
+_YIELDING: dict[float, type] = {
+    par.HARMONIC: Yielding,
+    par.SEVERAL: YieldingSeveral,
+    par.RAMP: YieldingRecorded,
+}
+_LAWS = {flow: par.BENT for flow in _CURVED.values()}
+_LAWS |= {flow: par.YIELDING for flow in _YIELDING.values()}
 
-answer(False, tables, linear_advance, forces, pieces, linear_carry, linear_growth)
-answer(
-    True,
+_TAYLOR = (
     taylor_plan,
     frame,
     taylor_laws,
@@ -115,11 +146,15 @@ answer(
     taylor_carry,
     taylor_growth,
 )
+answer(par.LINEAR, tables, linear_advance, forces, pieces, linear_carry, linear_growth)
+answer(par.BENT, *_TAYLOR)
+answer(par.YIELDING, yielding_plan, *_TAYLOR)
 
 
 def _flow(rig: Vector) -> type:
-    if rig[par.CURVED]:
-        return _CURVED[rig[par.FORCING]]
+    laws = par.laws(rig)
+    if laws != par.LINEAR:
+        return (_CURVED if laws == par.BENT else _YIELDING)[rig[par.FORCING]]
     if rig[par.FORCING] == par.SEVERAL:
         return Several
     if rig[par.FORCING] == par.RAMP:
@@ -141,7 +176,7 @@ def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
     flow = _flow(rig)
     if rig[par.FORCING] != par.SEVERAL:
-        return flow(_room(PLAN))
+        return flow(_room(PLAN if flow not in _YIELDING.values() else YIELDING_PLAN))
     weights = rig[par.WEIGHTS :]
     memory = _room(several.room(len(weights) // 2))
     memory[several.WEIGHTS : several.WEIGHTS + len(weights)] = weights
@@ -151,7 +186,7 @@ def flow_of(rig: Vector) -> Any:
 def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
-    return bool(same and _flow(rig) in (AnyStops, _flow(other)))
+    return bool(same and _flow(rig) in (AnyStops, *_CURVED.values(), _flow(other)))
 
 
 class PlanType(types.CPointer):
@@ -160,7 +195,7 @@ class PlanType(types.CPointer):
     def __init__(self, flow: type) -> None:
         self.flow = flow
         self.forcing = _FORCING.get(flow, par.HARMONIC)
-        self.curved = flow in _CURVED.values()
+        self.laws = _LAWS.get(flow, par.LINEAR)
         super().__init__(types.float64)  # type: ignore[no-untyped-call]
         self.name = f"Plan({flow.__name__})"
 
@@ -212,7 +247,7 @@ def advance(plan: Vector, motion: Motion, limit: float) -> Ended:
         What ended the stretch (see `motion`), its length (s), the velocity just before the event,
         and the motion just behind it.
     """
-    chosen: Any = advance_taylor if plan[par.CURVED] else advance_any
+    chosen: Any = (advance_any, advance_taylor, advance_yielding)[par.laws(plan)]
     return chosen(plan, motion, limit)  # type: ignore[no-any-return]
 
 

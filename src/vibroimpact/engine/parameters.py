@@ -196,3 +196,23 @@ def rig_vector(
 def free_rig() -> NDArray[np.float64]:
     """A rig without stops, of unit mass and stiffness."""
     return rig_vector(1.0, 1.0, 0.0, None, None)
+
+
+LINEAR, BENT, YIELDING = range(3)
+"""What the laws of a rig are: all linear; curved; linear but where an isolator yields or slides."""
+
+
+def laws(rig: NDArray[np.float64]) -> int:
+    """Tell the laws of a rig by its vector; where stops overlap, all that is not linear is curved."""
+    if not rig[CURVED]:
+        return LINEAR
+    sides = (BUMPER, BUMPER + WIDTH)
+    if any(rig[at + KIND] in (POWER_LAW, JANKOWSKI) for at in sides):
+        return BENT
+    if rig[BUMPER + GAP] + rig[BUMPER + WIDTH + GAP] < 0.0 or rig[DRAG] != 1.0:
+        return BENT
+    if rig[CUBIC] or rig[QUINTIC] or rig[SINH]:
+        return BENT
+    yields = rig[HYSTERETIC] != 0.0 and rig[YIELD] < np.inf
+    slides = rig[FRICTION] != 0.0
+    return YIELDING if (yields and not slides) or (slides and not rig[HYSTERETIC]) else BENT

@@ -21,7 +21,6 @@ from vibroimpact.engine.linear.layout import (
     MOST,
     OMEGA,
     ORDER,
-    PLAN,
     RATE,
     SCALED_C,
     SCALED_D,
@@ -36,6 +35,7 @@ from vibroimpact.engine.linear.layout import (
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
+from vibroimpact.engine.yielding.layout import PLAN
 
 spun = harmonic.spun
 turn = harmonic.turn

@@ -117,7 +117,7 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
 
 
 @kernel
-def _step(plan: Vector, rate: float) -> float:
+def spacing(plan: Vector, rate: float) -> float:
     """A table's step where the motion goes at this rate; a record's samples are nodes."""
     interval: float = plan[par.INTERVAL]
     rate = max(rate, pace(plan))
@@ -154,7 +154,7 @@ def _table(
     parts = count(plan)
     for late in range(2):
         at = table + late * LATE_TABLES
-        h = _step(plan, slow if late else fast)
+        h = spacing(plan, slow if late else fast)
         plan[at + VALID_FROM] = 0.0
         if late:
             # Worth a table of its own only where steps become much longer.

@@ -230,7 +230,7 @@ def turns(plan: Vector, found: Found, motion: Motion, frame: Frame) -> Found:
     velocity_series(plan, 1.0)
     if motion.v == 0.0:
         plan[ASKED] = 0.0
-        if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT):
+        if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED):
             plan[ASKED + 1] = 0.0
     clearance = Clearance(0.0, ways, 0.0, 0.0, False)
     found = watch(plan, found, TURNED, ASKED, spread(plan, ASKED), clearance, False, False)
@@ -321,15 +321,21 @@ def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
 
 
 @kernel
+def still(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """At rest on a rigid stop, or held by friction, until something lets go of the mass."""
+    headed(plan, 0.25 / max(pace(plan), 1e-300))  # by which several harmonics find their way
+    if stuck(plan, motion):
+        return held(plan, motion, limit)
+    return rest(plan, motion, limit)
+
+
+@kernel
 def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next event, or for the time `limit` if that comes first."""
     if motion.fresh & SETTLING:
         return settle(plan, motion, limit)
     if resting(plan, motion.mode) or stuck(plan, motion):
-        headed(plan, 0.25 / max(pace(plan), 1e-300))  # by which several harmonics find their way
-        if stuck(plan, motion):
-            return held(plan, motion, limit)
-        return rest(plan, motion, limit)
+        return still(plan, motion, limit)
     t = 0.0
     here = motion
     hint = math.inf

@@ -13,7 +13,15 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SLIPS_LEFT, SLIPS_RIGHT, Motion
+from vibroimpact.engine.motion import (
+    BOTH,
+    LEFT,
+    RELEASED,
+    RIGHT,
+    SLIPS_LEFT,
+    SLIPS_RIGHT,
+    Motion,
+)
 
 
 class Frame(NamedTuple):
@@ -176,6 +184,8 @@ def way_of(plan: Vector, motion: Motion) -> float:
     """The sign of u̇, now or at once: where it is zero, that of ü, and then that of −A_t′."""
     if motion.v != 0.0:
         return math.copysign(1.0, motion.v)
+    if motion.fresh & RELEASED:  # ü is zero but for rounding
+        return -1.0 if motion.fresh & RIGHT else 1.0
     if motion.fresh & SLIPS_RIGHT:
         return 1.0
     if motion.fresh & SLIPS_LEFT:

@@ -52,6 +52,7 @@ NODES_T = NODES + 96  # time, where it is not the variable
 NODES_P = NODES + 112  # in between
 SPECTRA = NODES + 128  # the first five and the time in Legendre's polynomials
 POWERS = SPECTRA + 96  # z², z³, … for which a plan has room to the end
+END = POWERS + ROOM  # of all but these powers
 
 SHARPEST = (PLAN - POWERS) // ROOM
 """The highest power of z that there is room for."""

@@ -1,0 +1,188 @@
+"""From node to node of a table until a leg ends.
+
+While the mass moves one way its displacement is monotone: a stop or a yield lies between two nodes
+if and only if it lies between the displacements there. Only the velocity, which must not vanish
+between, and the force of a bumper that may part need a bound on what they bend over an interval
+(docs/theory.md, section 16).
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.forcing.dispatch import product, pull
+from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
+from vibroimpact.engine.linear.evaluate import node, relaxed, travel
+from vibroimpact.engine.linear.layout import (
+    NODE,
+    NODES,
+    RATE,
+    ROW_V,
+    SCALED_C,
+    SCALED_D,
+    SCALED_K,
+    WIDTH,
+    H,
+)
+from vibroimpact.engine.linear.roots import NONE
+from vibroimpact.engine.linear.walk import ended, next_window
+from vibroimpact.engine.motion import Row
+from vibroimpact.engine.yielding.careful import careful
+from vibroimpact.engine.yielding.layout import BEND_0, PUSH_0, PUSH_E, ROOT, TURN_0, TURN_E
+from vibroimpact.engine.yielding.leg import (
+    BEGUN,
+    FROM_BEHIND,
+    LIMIT,
+    PARTS,
+    PLAIN,
+    STOPS,
+    TURNS,
+    YIELDS,
+    Leg,
+)
+
+_WEAK_PULL = 0.45  # theory, section 3.3
+
+
+@inlined
+def gained(plan: Vector, table: int, row: Row) -> float:
+    """x″ h² of a state."""
+    x, v, s, c = row
+    total: float = (
+        (plan[table + SCALED_D] - pull(plan, table, s, c)) - plan[table + SCALED_K] * x
+    ) - plan[table + SCALED_C] * (v * plan[table + H])
+    return total
+
+
+@kernel
+def go(
+    plan: Vector, table: int, leg: Leg, row: Row, start: int, limit: float
+) -> tuple[int, float, Row]:
+    """Follow a leg to its end or for the time `limit`.
+
+    Returns
+    -------
+    end, t, row
+        What ended it (see `leg`), the elapsed time (s), and the state there.
+    """
+    way, stop, yields, memory, rate, behind, behind_memory, behind_rate, push_x, push_v, push_0 = leg
+    h, per_second = plan[table + H], plan[table + RATE]
+    top = min(stop, yields)
+    t = 0.0
+    while True:
+        x, v, _, _ = row
+        xs, vs = way * x, way * v
+        if xs >= yields:
+            return YIELDS, t, row
+        if xs >= stop and v != 0.0 and xs >= stop + relaxed(memory, rate, t):
+            return STOPS, t, row
+        gain = gained(plan, table, row)
+        size = plan[table + ROOT] * abs(v) + abs(gain) * (per_second * per_second)
+        bend = plan[table + TURN_E] * size + plan[table + TURN_0]  # of the velocity, per step²
+        floor = 0.125 * bend
+        force, least, bend_force = 1.0, 0.0, 0.0
+        pressed = push_x != 0.0
+        if pressed:
+            force = push_x * xs + push_v * vs + push_0
+            bend_force = plan[table + PUSH_E] * size + plan[table + PUSH_0]
+            least = 0.125 * bend_force
+        # From rest on, v ≥ x″ t − bend t²/2.
+        clear = 2.0 * way * gain * per_second / bend
+        bottom, clear_behind = -math.inf, 0.0
+        if behind_memory > 0.0 and xs < behind:
+            bottom = behind
+            if start & FROM_BEHIND:
+                second = (size + plan[table + BEND_0]) * (h * h)
+                fading = behind_rate * h
+                q = second / (fading * fading * behind_memory)
+                if q <= _WEAK_PULL:
+                    clear_behind = 2.0 * fading * behind_memory * (1.0 - q) / second
+        span = (limit - t) * per_second
+        earlier_x = before_x = xs
+        earlier_v = before_v = vs
+        earlier_force = before_force = force
+        j = 0
+        done = 0  # examined up to this node
+        while True:
+            flagged = (
+                xs >= top
+                or (vs <= floor and j + 1.0 > clear)
+                or force <= least
+                or (xs < bottom and j + 1.0 > clear_behind)
+            )
+            if not flagged or done == j:
+                # The next node; next to one that is flagged an end cannot be excluded.
+                if j >= span or j == NODES:
+                    break
+                at = table + NODE + j * WIDTH
+                earlier_x, before_x, xs = before_x, xs, way * product(plan, at, row)
+                earlier_v, before_v, vs = before_v, vs, way * product(plan, at + ROW_V, row)
+                if pressed:
+                    earlier_force, before_force = before_force, force
+                    force = push_x * xs + push_v * vs + push_0
+                j += 1
+                if not flagged:
+                    done = j - 1
+                    continue
+            i = j - 1
+            done = j
+            near = node(plan, table, i, row)
+            found, y, end = LIMIT, NONE, near
+            cleared = False
+            if before_x >= bottom or j <= clear_behind:
+                # The usual case: one end, clean.
+                moves = (vs > floor and before_v > floor) or j <= clear
+                presses = force > least and before_force > least
+                inside = xs < top
+                weight_x, weight_v, level, most = way, 0.0, top, 0.0
+                earlier, before, now = earlier_x, before_x, xs
+                if moves and presses and before_x < top:
+                    cleared = inside
+                    if yields <= stop:
+                        found = YIELDS
+                    elif stop + relaxed(memory, rate, t + i * h) == stop:
+                        found = STOPS
+                elif presses and vs < 0.0 and before_v > 0.0:
+                    found, weight_x, weight_v, level, most = TURNS, 0.0, -way * per_second, 0.0, bend
+                    earlier, before, now = -earlier_v, -before_v, -vs
+                elif inside and moves and force < 0.0 and before_force > 0.0:
+                    found, level, most = PARTS, push_0, bend_force
+                    weight_x, weight_v = -way * push_x, -way * push_v * per_second
+                    earlier = push_0 - earlier_force
+                    before, now = push_0 - before_force, push_0 - force
+                elif inside and vs > 0.0 and force > 0.0:
+                    # Still falling at the node, it has been no lower before.
+                    slope = way * gained(plan, table, node(plan, table, j, row))
+                    cleared = moves or -2.0 * slope * per_second >= bend
+                    if cleared and not presses:
+                        slope = push_x * (vs * h) + push_v * slope * per_second
+                        cleared = -2.0 * slope >= bend_force
+                if found != LIMIT and not cleared:
+                    guess = crossing_guess(earlier, before, now, level, j)
+                    y, end = quick_root(plan, table, weight_x, weight_v, level, guess, most, near)
+                    if found == TURNS and way * end.x >= top:
+                        y = NONE
+                    elif y != NONE and i + y > span:
+                        break
+            if y == NONE and not cleared:
+                left = relaxed(memory, rate, t + i * h)
+                left_behind = relaxed(behind_memory, behind_rate, t + i * h)
+                low, high = 0.0, min(1.0, span - i)
+                found = LIMIT
+                if i == 0 and start & BEGUN:
+                    low = min(0.5, high)
+                    found, y = careful(plan, table, leg, near, start, left, left_behind, 0.0, low)
+                    left = relaxed(left, rate, low * h)
+                    left_behind = relaxed(left_behind, behind_rate, low * h)
+                if found == LIMIT and low < high:
+                    found, y = careful(plan, table, leg, near, PLAIN, left, left_behind, low, high)
+                if found != LIMIT:
+                    end = travel(plan, table, y, near)
+            if y != NONE:
+                return found, t + (i + y) * h, end
+        if span <= NODES:
+            return LIMIT, limit, ended(plan, table, row, span)
+        row = next_window(plan, table, row)
+        start = PLAIN
+        t += NODES * h
