@@ -21,6 +21,7 @@ RIGS = {
     "Apart": free_rig(),
     "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None),
     "Curved": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0)),
+    "Yielding": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(friction=1.0)),
 }
 """A rig for each flow of one sine; the flows of other forcings are compiled by their tests."""
 

@@ -24,19 +24,22 @@ def test_the_questions() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_both_answer_alike(name: str) -> None:
-    linear, taylor = (dispatch._found(curved, name) for curved in (False, True))
+    linear, taylor = (dispatch._found(laws, name) for laws in (par.LINEAR, par.BENT))
     assert ".linear." in linear.__module__
     assert ".taylor." in taylor.__module__
+    # What yields has tables of its own, and is asked as what is curved for all else.
+    yielding = dispatch._found(par.YIELDING, name)
+    assert yielding is taylor or (".yielding." in yielding.__module__ and name == "build")
     assert len(inspect.signature(linear.py_func).parameters) == len(
         inspect.signature(taylor.py_func).parameters
     )
 
 
 def test_what_is_not_there_is_said() -> None:
-    with pytest.raises(AttributeError, match="the Taylor flow has no nonsense"):
-        dispatch._found(True, "nonsense")
-    with pytest.raises(AttributeError, match="the linear flow has no nonsense"):
-        dispatch._found(False, "nonsense")
+    with pytest.raises(AttributeError, match="the flow of curved laws has no nonsense"):
+        dispatch._found(par.BENT, "nonsense")
+    with pytest.raises(AttributeError, match="the flow of linear laws has no nonsense"):
+        dispatch._found(par.LINEAR, "nonsense")
 
 
 def test_without_a_compiler_the_rig_decides() -> None:
@@ -45,4 +48,6 @@ def test_without_a_compiler_the_rig_decides() -> None:
     assert dispatch.stiff_rate(curved) == 3.0
     linear = free_rig()
     assert linear[par.CURVED] == 0.0
-    assert dispatch._found(False, "stiff_rate").__module__.startswith("vibroimpact.engine.linear")
+    assert dispatch._found(par.LINEAR, "stiff_rate").__module__.startswith(
+        "vibroimpact.engine.linear"
+    )

@@ -8,9 +8,17 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine.entry import Entry
-from vibroimpact.engine.flows import AnyStops, Apart, flow_of, planned
+from vibroimpact.engine.flows import (
+    AnyStops,
+    Apart,
+    Curved,
+    Yielding,
+    carries,
+    flow_of,
+    planned,
+)
 from vibroimpact.engine.linear.layout import PLAN
-from vibroimpact.engine.parameters import SIZE, Stop, free_rig, rig_vector
+from vibroimpact.engine.parameters import SIZE, Law, PowerLaw, Stop, free_rig, rig_vector
 
 BUMPER, WALL = (20.0, 0.4, 1.0), (0.5, 1.0)
 
@@ -38,6 +46,33 @@ def test_the_flow_follows_from_the_stops(right: Stop | None, left: Stop | None, 
         given = flow_of(rig(*sides))
         assert type(given) is flow
         assert given.memory.shape == (PLAN,)
+
+
+POWER = PowerLaw(20.0, 1.5, 0.0, 0.0, 1.0)
+YIELDS = Law(hysteretic=1.5, limit=0.3)
+
+
+@pytest.mark.parametrize(
+    ("law", "right", "left", "flow"),
+    [
+        (Law(friction=0.1), BUMPER, WALL, Yielding),
+        (YIELDS, None, BUMPER, Yielding),
+        (YIELDS._replace(drag=2.0), None, BUMPER, Curved),
+        (YIELDS, BUMPER, (20.0, 0.4, -1.5), Curved),  # overlapping
+        (YIELDS, BUMPER, POWER, Curved),
+        (YIELDS._replace(friction=0.1), None, None, Curved),
+        (YIELDS._replace(limit=math.inf, knee=1.0), None, None, Curved),  # of Bouc and Wen
+        (Law(cubic=1.0), None, None, Curved),
+    ],
+)
+def test_the_flow_follows_from_the_isolator(
+    law: Law, right: Stop | None, left: Stop | None, flow: type
+) -> None:
+    one = rig_vector(1.0, 1.0, 0.1, right, left, law=law)
+    assert type(flow_of(one)) is flow
+    curved = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0))
+    assert carries(curved, one)
+    assert carries(one, curved) == (flow is Curved)
 
 
 def _gap(given, vector):

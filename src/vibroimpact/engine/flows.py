@@ -134,8 +134,8 @@ _YIELDING: dict[float, type] = {
     par.SEVERAL: YieldingSeveral,
     par.RAMP: YieldingRecorded,
 }
-_LAWS = {flow: par.BENT for flow in _CURVED.values()}
-_LAWS |= {flow: par.YIELDING for flow in _YIELDING.values()}
+_LAWS = dict.fromkeys(_CURVED.values(), par.BENT)
+_LAWS |= dict.fromkeys(_YIELDING.values(), par.YIELDING)
 
 _TAYLOR = (
     taylor_plan,

@@ -203,7 +203,7 @@ LINEAR, BENT, YIELDING = range(3)
 
 
 def laws(rig: NDArray[np.float64]) -> int:
-    """Tell the laws of a rig by its vector; where stops overlap, all that is not linear is curved."""
+    """Tell the laws of a rig by its vector; where stops overlap, what yields is said to be bent."""
     if not rig[CURVED]:
         return LINEAR
     sides = (BUMPER, BUMPER + WIDTH)

@@ -12,7 +12,6 @@ from engine.forcing.plans import begun
 from vibroimpact.engine.forcing import several
 from vibroimpact.engine.linear.layout import (
     MOST,
-    PLAN,
     RATE,
     SCALED_W,
     STEEPEST,
@@ -22,6 +21,7 @@ from vibroimpact.engine.linear.layout import (
     H,
 )
 from vibroimpact.engine.parameters import Drive
+from vibroimpact.engine.yielding.layout import PLAN
 
 SHAPE = vi.Periodic(1.0, [0.6, 0.0, 0.9, 0.3], [0.2, 0.0, -1.0, 2.5])
 OMEGA = 2.0 * math.pi * 0.5

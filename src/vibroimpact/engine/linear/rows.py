@@ -111,7 +111,7 @@ def late_series(
 
 
 @kernel
-def _at(series: Vector, y: float, h: float, wave: Wave, plan: Vector, at: int) -> None:
+def expanded_at(series: Vector, y: float, h: float, wave: Wave, plan: Vector, at: int) -> None:
     """Rows at y steps from a series."""
     for column in range(COLUMNS):
         x = 0.0
@@ -129,7 +129,7 @@ def _at(series: Vector, y: float, h: float, wave: Wave, plan: Vector, at: int) -
 
 
 @kernel
-def _compose(plan: Vector, first: int, then: int, out: int, closes: float) -> None:
+def compose(plan: Vector, first: int, then: int, out: int, closes: float) -> None:
     """Rows of one stretch of time followed by another."""
     cosine, sine = plan[first + COSINE], plan[first + SINE]
     for i in range(2):
@@ -150,7 +150,7 @@ def _compose(plan: Vector, first: int, then: int, out: int, closes: float) -> No
 
 
 @kernel
-def _oscillate(plan: Vector, at: int, t: float, c: float, k: float) -> None:
+def oscillate(plan: Vector, at: int, t: float, c: float, k: float) -> None:
     """The free oscillation in the rows of the time t, in closed form."""
     x_of_x, x_of_v, v_of_x, v_of_v, out, swing, pull = oscillation(t, c, k)
     plan[at], plan[at + 1] = x_of_x, x_of_v
@@ -174,23 +174,23 @@ def fill(
     """Lay out nodes, fine points and long series of one table."""
     h = plan[table + H]
     oscillates = plan[table + LATE] == 0.0 and k > 0.25 * c * c
-    _at(series, 0.0, h, wave, plan, table + FINE_NODE)
+    expanded_at(series, 0.0, h, wave, plan, table + FINE_NODE)
     for n in range(1, FINE):
         at = table + FINE_NODE + n * WIDTH
         if n == 1:
-            _at(series, 1.0 / FINE, h, wave, plan, at)
+            expanded_at(series, 1.0 / FINE, h, wave, plan, at)
         else:
-            _compose(plan, table + FINE_NODE + WIDTH, at - WIDTH, at, wave.closes)
+            compose(plan, table + FINE_NODE + WIDTH, at - WIDTH, at, wave.closes)
         if oscillates:
-            _oscillate(plan, at, n * h / FINE, c, k)
+            oscillate(plan, at, n * h / FINE, c, k)
     for n in range(NODES):
         at = table + NODE + n * WIDTH
         if n == 0:
-            _at(series, 1.0, h, wave, plan, at)
+            expanded_at(series, 1.0, h, wave, plan, at)
         else:
-            _compose(plan, table + NODE, at - WIDTH, at, wave.closes)
+            compose(plan, table + NODE, at - WIDTH, at, wave.closes)
         if oscillates:
-            _oscillate(plan, at, (n + 1) * h, c, k)
+            oscillate(plan, at, (n + 1) * h, c, k)
     for column in range(5):
         for n in range(ORDER):
             plan[table + TAYLOR + column * ORDER + n] = series[n * COLUMNS + column]

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import (
     BOTH,
     LEFT,
@@ -22,6 +23,9 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     Motion,
 )
+
+_ROUNDING = 1e-15
+"""Of forces that balance, as a share of what shakes the mass."""
 
 
 class Frame(NamedTuple):
@@ -191,7 +195,7 @@ def way_of(plan: Vector, motion: Motion) -> float:
     if motion.fresh & SLIPS_LEFT:
         return -1.0
     a = without_friction(plan, motion)
-    if a == 0.0:
+    if abs(a) <= _ROUNDING * (plan[MOST] + abs(plan[par.LOAD])):
         s, c = motion.clock
         a = value(plan, s, c) - value(plan, s + 1e-8 * c, c - 1e-8 * s)
     return math.copysign(1.0, a)

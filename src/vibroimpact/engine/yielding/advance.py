@@ -129,7 +129,7 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     else:
         u = x
     event = NOTHING
-    if end == STOPS or end == BEHIND:
+    if end in (STOPS, BEHIND):
         event = ahead if end == STOPS else BOTH - ahead
         u = gap_r + right if event == RIGHT else -(gap_l + left)
     if elastic:

@@ -57,8 +57,8 @@ def careful(
     low, high = low - middle, high - middle
     if start & BEGUN and row.v == 0.0:
         x[1] = 0.0
-    if start & SOFTLY:
-        x[2] = 0.0
+        if start & SOFTLY or way * x[2] < 0.0:  # by rounding, for it goes that way
+            x[2] = 0.0
     for n in range(ORDER - 1):
         asked[n] = (n + 1) * x[n + 1]
     asked[ORDER - 1] = 0.0

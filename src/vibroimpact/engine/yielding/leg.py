@@ -10,7 +10,8 @@ bumper that is left, or the one behind, whose face comes after the mass."""
 
 PLAIN, BEGUN, FROM_AHEAD, FROM_BEHIND, SOFTLY, LANDED = 0, 1, 2, 4, 8, 16
 """What is known of its beginning, a bit each: that it is one; that the mass has just left the stop
-ahead or the one behind; that it has no acceleration yet; that it has just met the bumper pressed."""
+ahead, or the one behind; that it has no acceleration yet; that it has just met the pressed bumper.
+"""
 
 
 class Leg(NamedTuple):

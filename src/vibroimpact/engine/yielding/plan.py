@@ -6,23 +6,39 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import begin, count, plane, wave
+from vibroimpact.engine.forcing.wave import Wave
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import (
+    COLUMNS,
+    COSINE,
+    FINE,
+    FINE_NODE,
     LATE,
+    NODE,
     NODES,
+    ORDER,
     RATE,
     SCALED_A,
     SCALED_C,
     SCALED_D,
     SCALED_K,
     SCALED_W,
+    SINE,
     SIZE,
     STEEPEST,
+    TAYLOR,
     WAVE_C,
     WAVE_S,
+    WIDTH,
     H,
 )
-from vibroimpact.engine.linear.rows import coefficients, fill, power_series
+from vibroimpact.engine.linear.rows import (
+    coefficients,
+    compose,
+    expanded_at,
+    oscillate,
+    power_series,
+)
 from vibroimpact.engine.linear.tables import spacing
 from vibroimpact.engine.motion import LEFT
 from vibroimpact.engine.yielding.layout import (
@@ -126,4 +142,35 @@ def _table(
         plan[there + WAVE_S] = plan[there + SCALED_A] * part.sine
         plan[there + WAVE_C] = plan[there + SCALED_A] * part.cosine
         power_series(h, c, k, d, part, series)
-        fill(plan, there, series, part, 0.0, 0.0, False, c, k)
+        _lay(plan, there, series, part, c, k)
+
+
+@kernel
+def _lay(plan: Vector, table: int, series: Vector, wave: Wave, c: float, k: float) -> None:
+    """Write nodes, fine points and long series of one table.
+
+    Each row is made of two half as far, and turns the clock without making it grow: a leg is
+    shorter than a flight, and roundings that always went the same way would add up over many.
+    """
+    h = plan[table + H]
+    for fine in range(2):
+        origin = table + (FINE_NODE if fine else NODE - WIDTH)
+        step = h / FINE if fine else h
+        if fine:
+            expanded_at(series, 0.0, h, wave, plan, origin)
+        for n in range(1, FINE if fine else NODES + 1):
+            at = origin + n * WIDTH
+            if n == 1:
+                expanded_at(series, 1.0 / FINE if fine else 1.0, h, wave, plan, at)
+            else:
+                half = origin + n // 2 * WIDTH
+                compose(plan, half, half + n % 2 * WIDTH, at, wave.closes)
+            if wave.closes != 0.0:
+                cosine, sine = plan[at + COSINE], plan[at + SINE]
+                shrunk = 1.5 - 0.5 * (cosine * cosine + sine * sine)
+                plan[at + COSINE], plan[at + SINE] = shrunk * cosine, shrunk * sine
+            if k > 0.25 * c * c:
+                oscillate(plan, at, n * step, c, k)
+    for column in range(COLUMNS):
+        for n in range(ORDER):
+            plan[table + TAYLOR + column * ORDER + n] = series[n * COLUMNS + column]

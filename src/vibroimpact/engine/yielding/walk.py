@@ -66,7 +66,9 @@ def go(
     end, t, row
         What ended it (see `leg`), the elapsed time (s), and the state there.
     """
-    way, stop, yields, memory, rate, behind, behind_memory, behind_rate, push_x, push_v, push_0 = leg
+    way, stop, yields, memory, rate, behind, behind_memory, behind_rate, push_x, push_v, push_0 = (
+        leg
+    )
     h, per_second = plan[table + H], plan[table + RATE]
     top = min(stop, yields)
     t = 0.0
@@ -144,7 +146,13 @@ def go(
                     elif stop + relaxed(memory, rate, t + i * h) == stop:
                         found = STOPS
                 elif presses and vs < 0.0 and before_v > 0.0:
-                    found, weight_x, weight_v, level, most = TURNS, 0.0, -way * per_second, 0.0, bend
+                    found, weight_x, weight_v, level, most = (
+                        TURNS,
+                        0.0,
+                        -way * per_second,
+                        0.0,
+                        bend,
+                    )
                     earlier, before, now = -earlier_v, -before_v, -vs
                 elif inside and moves and force < 0.0 and before_force > 0.0:
                     found, level, most = PARTS, push_0, bend_force
