@@ -6,7 +6,7 @@ from rich.console import Console
 
 from benchmarks.branches import branches
 from benchmarks.campaign import campaign
-from benchmarks.laws import laws, sampling
+from benchmarks.laws import laws, sampling, yielding
 from benchmarks.machine import load, machine
 from benchmarks.memory import memory
 from benchmarks.motions import motions
@@ -46,7 +46,7 @@ def main() -> None:
     with console.status("trajectories ..."):
         add(*trajectory(others, compiled.text()))
         add(short_runs(others), many())
-        add(laws(), sampling(), records(), spectra())
+        add(laws(), yielding(), sampling(), records(), spectra())
         add(*smooth())
     with console.status("the campaign ..."):
         add(campaign())

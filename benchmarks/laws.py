@@ -1,4 +1,4 @@
-"""What samples cost, and what other stops cost: beside the plain trajectory of problem P."""
+"""What samples, other stops and other isolators cost: beside the plain trajectory of problem P."""
 
 import time
 
@@ -6,6 +6,7 @@ from benchmarks import ours
 from benchmarks.peers.problem import P
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import Spread, interleave
+from vibroimpact.engine.parameters import Law
 
 _PERIODS, _SAMPLES = 1_000, 256
 _ROUNDS = 21
@@ -19,6 +20,41 @@ _STOPS = {
         -0.005,
     ),
 }
+
+_TIMES = 2.0
+_ISOLATORS = {
+    "friction of a sixth of the shaking": (Law(friction=0.1), 1.0),
+    "bilinear: half its stiffness yields at 0.2": (Law(hysteretic=1.0, limit=0.2), 1.0),
+}
+
+
+def yielding() -> Table:
+    """Time the engine on problem P with isolators that yield or slide, a period and event."""
+    rigs = {_PLAIN: ours.vector()}
+    rigs |= {name: ours.yielding(*law) for name, law in _ISOLATORS.items()}
+    calls = {name: ours.engine(_PERIODS, rig=rig) for name, rig in rigs.items()}
+    seconds = interleave(calls, _ROUNDS, clock=time.thread_time)
+    counts = {name: ours.ends(_PERIODS, rig) / _PERIODS for name, rig in rigs.items()}
+    table = Table(
+        f"Isolators that yield or slide, {_PERIODS:,} forcing periods, the engine alone",
+        ("Isolator", "µs a period", "Events a period", "Times P's, an event", "Target", "Met"),
+    )
+    for name, values in seconds.items():
+        share = counts[_PLAIN] / counts[name]
+        spread = Spread.of([share * a / b for a, b in zip(values, seconds[_PLAIN], strict=True)])
+        held = ("", "") if name == _PLAIN else (f"within {_TIMES:g}", met(spread.median < _TIMES))
+        table.add(
+            name,
+            Spread.of(values).text(1e6 / _PERIODS),
+            f"{counts[name]:.2f}",
+            spread.text(),
+            *held,
+        )
+    table.notes.append(
+        "Bumpers, dashpot, spring and forcing are those of P. Events are all that ends a stretch: "
+        "contacts, detachments, turns, yields."
+    )
+    return table
 
 
 def sampling() -> Table:

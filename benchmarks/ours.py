@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -9,8 +10,14 @@ import vibroimpact as vi
 from benchmarks.peers.problem import P, Problem
 from vibroimpact.engine import batch
 from vibroimpact.engine import motion as layout
+from vibroimpact.engine.dispatch import build
+from vibroimpact.engine.entry import entry
+from vibroimpact.engine.flows import planned
+from vibroimpact.engine.jit import Vector
+from vibroimpact.engine.loop import cycle
+from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers import record
-from vibroimpact.engine.parameters import Stop, rig_vector
+from vibroimpact.engine.parameters import Law, Stop, rig_vector
 from vibroimpact.engine.status import Status
 
 # a cos(Ωt) on the right-hand side is a base acceleration A sin(ωt + φ) with A = a, φ = −π/2.
@@ -37,6 +44,12 @@ def oscillator(problem: Problem = P) -> vi.Oscillator:
     """Return the rig as users write it, of mass 1 kg and stiffness 1 N/m."""
     bumper = vi.Bumper(problem.bumper_stiffness, problem.bumper_damping, problem.gap)
     return vi.Oscillator(1.0, vi.Isolator(1.0, 2.0 * problem.damping_ratio), bumper, bumper)
+
+
+def yielding(law: Law, stiffness: float = 1.0, problem: Problem = P) -> np.ndarray:
+    """Return the same mass, dashpot and bumpers with an isolator that yields or slides."""
+    bumper = (problem.bumper_stiffness, problem.bumper_damping, problem.gap)
+    return rig_vector(1.0, stiffness, 2.0 * problem.damping_ratio, bumper, bumper, law=law)
 
 
 def engine(
@@ -85,6 +98,34 @@ def events(periods: int, rig: np.ndarray, problem: Problem = P) -> int:
         rig, *shaking, state, 0.0, float(periods), 0, _MAX_EVENTS, out, room
     )
     return int(count)
+
+
+@entry("i8(f8[::1], f8, f8, f8, i8, f8[::1])")
+def _counted(
+    given: Any,
+    rig: Vector,
+    amplitude: float,
+    frequency: float,
+    phase: float,
+    periods: int,
+    state: Vector,
+) -> int:
+    plan = planned(given, rig)
+    build(plan, amplitude, math.tau * frequency)
+    clock = (math.sin(phase), math.cos(phase))
+    motion = layout.unpacked(state, clock)
+    total = 0
+    for _ in range(periods):
+        count, motion, _ = cycle(plan, motion, clock, 1.0 / frequency, _MAX_EVENTS, UNOBSERVED)
+        total += count
+    return total
+
+
+def ends(periods: int, rig: np.ndarray, problem: Problem = P) -> int:
+    """Count what ends a stretch in so many forcing periods from rest: turns and yields as well."""
+    state = np.zeros(layout.STATE)
+    shaking = (problem.amplitude, frequency(problem), PHASE)
+    return int(_counted(rig, *shaking, periods, state))
 
 
 def simulate(

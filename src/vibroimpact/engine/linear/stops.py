@@ -36,6 +36,10 @@ _CHATTERED = 1e-6
 force that presses the mass could change: the end of the geometric series is then right to 1e-12
 of that time, and the rest that follows does not depend on it."""
 
+_GRAIN = 2.0**-49
+"""Returns no higher than this share of the displacement are lost in its rounding where each is cut
+in two at its top: they would go on for ever."""
+
 
 @kernel
 def rigid(plan: Vector, side: int) -> bool:
@@ -71,7 +75,8 @@ def impact(
             rate += math.sqrt(plan[stop + par.BUMPER_STIFFNESS]) + plan[stop + par.BUMPER_DAMPING]
             change += plan[stop + par.BUMPER_STIFFNESS] * abs(v)
             change += plan[stop + par.BUMPER_DAMPING] * push
-    if rest * rate > _CHATTERED or rest * change > _CHATTERED * push:
+    lost = plan[par.CURVED] != 0.0 and v * v < 2.0 * push * _GRAIN * abs(u)
+    if (rest * rate > _CHATTERED or rest * change > _CHATTERED * push) and not lost:
         return event, t, arrival, bounced
     last = Motion(bounced.mode, side | SETTLING, u, v, right, left, z, 0.0, clock)
     if t < limit:

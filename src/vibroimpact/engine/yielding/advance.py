@@ -63,10 +63,10 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     sign = -1.0 if mode == LEFT else 1.0
     side = LEFT if mode == LEFT else RIGHT
     at = par.BUMPER + par.WIDTH * (side - 1)
-    x, offset = u, 0.0
+    x = u
     stiffness, damping = 0.0, 0.0
     if mode:
-        x, offset = (left, gap_l) if mode == LEFT else (right, gap_r)
+        x = left if mode == LEFT else right
         stiffness, damping = plan[at + par.BUMPER_STIFFNESS], plan[at + par.BUMPER_DAMPING]
     hysteretic = plan[par.HYSTERETIC]
     branch = MOVES_RIGHT if way > 0.0 else MOVES_LEFT
@@ -77,7 +77,10 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     if elastic:
         branch = ELASTIC
         about = sign * hysteretic * slack / (plan[par.STIFFNESS] + hysteretic + stiffness)
-        yields = (plan[par.YIELD] + way * slack) - ways * (offset + about)
+    # Where it is, and from there how far to go: what is touched is touched without a rounding.
+    here = ways * (x - about)
+    if elastic:
+        yields = here + (plan[par.YIELD] - way * z)
     stop, behind = math.inf, -math.inf
     memory, rate, behind_memory, behind_rate = 0.0, 0.0, 0.0, 0.0
     push_x, push_v, push_0 = 0.0, 0.0, 0.0
@@ -87,11 +90,11 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     ahead = RIGHT if way > 0.0 else LEFT
     if not mode:
         if way > 0.0:
-            stop, memory, rate = gap_r - about, right, rate_r
-            behind, behind_memory, behind_rate = -gap_l - about, left, rate_l
+            stop, memory, rate = here + (gap_r - u), right, rate_r
+            behind, behind_memory, behind_rate = here - (gap_l + u), left, rate_l
         else:
-            stop, memory, rate = gap_l + about, left, rate_l
-            behind, behind_memory, behind_rate = -gap_r + about, right, rate_r
+            stop, memory, rate = here + (gap_l + u), left, rate_l
+            behind, behind_memory, behind_rate = here - (gap_r - u), right, rate_r
         if fresh & BOTH:
             start |= FROM_AHEAD if fresh & BOTH == ahead else FROM_BEHIND
     elif ways < 0.0:

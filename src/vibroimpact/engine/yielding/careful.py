@@ -73,14 +73,14 @@ def careful(
         y = first_root(asked, Clearance(0.0, 1.0, 0.0, 0.0, False), low, high)
         if y < first:
             found, first = PARTS, y
-    if yields < math.inf:
-        y = first_root(x, Clearance(yields, -way, 0.0, 0.0, False), low, high)
-        if y < first:
-            found, first = YIELDS, y
     if stop < math.inf and not start & FROM_AHEAD:
         y = first_root(x, Clearance(stop, -way, memory, rate * h, False), low, high)
         if y < first:
             found, first = STOPS, y
+    if yields < math.inf:
+        y = first_root(x, Clearance(yields, -way, 0.0, 0.0, False), low, high)
+        if y < first:
+            found, first = YIELDS, y
     if behind_memory > 0.0 and not start & FROM_BEHIND:
         clearance = Clearance(-behind, way, behind_memory, behind_rate * h, False)
         y = first_root(x, clearance, low, high)

@@ -75,10 +75,10 @@ def go(
     while True:
         x, v, _, _ = row
         xs, vs = way * x, way * v
-        if xs >= yields:
-            return YIELDS, t, row
         if xs >= stop and v != 0.0 and xs >= stop + relaxed(memory, rate, t):
             return STOPS, t, row
+        if xs >= yields and not yields == stop:
+            return YIELDS, t, row
         gain = gained(plan, table, row)
         size = plan[table + ROOT] * abs(v) + abs(gain) * (per_second * per_second)
         bend = plan[table + TURN_E] * size + plan[table + TURN_0]  # of the velocity, per step²
@@ -141,7 +141,7 @@ def go(
                 earlier, before, now = earlier_x, before_x, xs
                 if moves and presses and before_x < top:
                     cleared = inside
-                    if yields <= stop:
+                    if yields < stop:
                         found = YIELDS
                     elif stop + relaxed(memory, rate, t + i * h) == stop:
                         found = STOPS
