@@ -76,7 +76,7 @@ def test_processes_share_the_cache_safely(tmp_path: Path) -> None:
 
 def test_each_entry_is_loaded_for_each_flow() -> None:
     """A process that finds the engine compiled compiles nothing."""
-    assert len(_ADVANCE) == 7
+    assert len(_ADVANCE) == 10
     assert {flow.__name__ for flow in _ADVANCE if flow not in _FORCING} == set(RIGS)
     assert len(entries()) >= 9
     for flow in RIGS:
