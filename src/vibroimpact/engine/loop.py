@@ -6,7 +6,7 @@ from typing import Any
 
 from vibroimpact.engine.flows import advance
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import LIMIT, Clock, Motion, Stretch, at_section
+from vibroimpact.engine.motion import GIVEN_UP, LIMIT, Clock, Motion, Stretch, at_section
 from vibroimpact.engine.observe import observe
 
 
@@ -35,6 +35,9 @@ def cycle(
     while True:
         before = motion
         event, step, arrival, motion = advance(plan, before, length - t)
+        if event == GIVEN_UP:
+            events = max_events + 1
+            break
         stretch = Stretch(before, t, event, step, arrival, motion)
         notes = observe(plan, notes, stretch)
         if event == LIMIT:

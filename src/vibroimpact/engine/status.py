@@ -30,7 +30,8 @@ _ADVICE = {
     ),
     Status.TOO_MANY_EVENTS: (
         "more contacts and detachments in one forcing cycle than `max_events`: the mass "
-        "chatters on a bumper; raise `max_events`, or give the bumper more damping"
+        "chatters on a bumper; raise `max_events`, or give the bumper more damping (or no "
+        "restitution, if it is met all but without speed, where that asks for endless damping)"
     ),
     Status.TOO_MUCH_WORK: (
         "the fastest rate of the rig is too many times the forcing frequency to follow one "

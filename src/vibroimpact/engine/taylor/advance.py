@@ -27,6 +27,7 @@ from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import (
     BOTH,
     DETACHED,
+    GIVEN_UP,
     LEFT,
     LIMIT,
     RELEASED,
@@ -68,9 +69,9 @@ from vibroimpact.engine.taylor.pieces import (
 from vibroimpact.engine.taylor.press import press_on, presses
 from vibroimpact.engine.taylor.step import headed
 
-_MOST = 200_000
+_MOST = 50_000
 """Steps to one event, far more than any needs whose rates are those of the rig. A stop that is
-met without speed may have a dissipation beyond all bounds: it is told as no finite motion."""
+met all but without speed may have a dissipation beyond all bounds, and is given up."""
 
 
 class Found(NamedTuple):
@@ -370,9 +371,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         if not t + length < limit:
             return LIMIT, limit, here.v, here
         t += length
-    mode, fresh, _, _, right, left, z, age, clock = motion
-    lost = Motion(mode, fresh, math.nan, math.nan, right, left, z, age, clock)
-    return LIMIT, limit, math.nan, lost
+    return GIVEN_UP, t, here.v, here
 
 
 @kernel

@@ -77,7 +77,7 @@ def go(
         xs, vs = way * x, way * v
         if xs >= stop and v != 0.0 and xs >= stop + relaxed(memory, rate, t):
             return STOPS, t, row
-        if xs >= yields and not yields == stop:
+        if xs >= yields and yields != stop:
             return YIELDS, t, row
         gain = gained(plan, table, row)
         size = plan[table + ROOT] * abs(v) + abs(gain) * (per_second * per_second)
