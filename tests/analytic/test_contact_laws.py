@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
 
@@ -101,3 +102,22 @@ def test_a_stop_does_not_pull() -> None:
     let_go = (right > 1e-6) & (v < -1.0 / 3.0)
     assert let_go.sum() > 5
     np.testing.assert_allclose(a[let_go], 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("exponent", [1.5, 2.0, 2.5, 2.9])
+def test_a_mass_that_is_pushed_from_rest_where_it_touches(exponent: float) -> None:
+    """Without speed it is the push that presses the stop, against DOP853 in small steps."""
+    stop = vi.PowerBumper(7000.0, 0.0, exponent, dissipation=0.06)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), stop)
+    shaken = vi.Harmonic(0.1, 0.06, -1.2)
+
+    def slope(t: float, state: np.ndarray) -> list[float]:
+        u, v = state
+        push = max(7000.0 * max(u, 0.0) ** exponent * (1.0 + 0.06 * v), 0.0)
+        return [v, -u - push - 0.1 * math.sin(shaken.angular_frequency * t - 1.2)]
+
+    exact = solve_ivp(
+        slope, (0.0, 1.0), [0.0, 0.0], method="DOP853", rtol=1e-12, atol=1e-14, max_step=1e-3
+    ).y[:, -1]
+    found = vi.simulate(rig, shaken, 0.06, samples=0)["final_state"].values[:2]
+    np.testing.assert_allclose(found, exact, atol=1e-9)

@@ -11,7 +11,7 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.layout import MOST
+from vibroimpact.engine.linear.layout import MOST, STEEPEST
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion
 from vibroimpact.engine.taylor.frame import (
     NO_PUSH,
@@ -50,13 +50,20 @@ def unit_of(plan: Vector, motion: Motion, frame: Frame, laws: Laws, x: float) ->
 
 @kernel
 def shallow(
-    push: Push, deformation: float, closing: float, grain: float, longest: float
+    push: Push,
+    deformation: float,
+    closing: float,
+    gains: float,
+    jerk: float,
+    grain: float,
+    longest: float,
 ) -> tuple[Push, float]:
     """A stop that is pressed so little that nothing comes of it is left out, while it is.
 
     The work that its force has done is then a share ε of the motion's, or the deformation is no
     more than the rounding of a displacement, `grain`. The power of the deformation has a
-    singularity where it begins, which no series passes.
+    singularity where it begins, which no series passes. From rest it is δ″, `gains`, or the change
+    of what shakes the mass, `jerk`, that ends this, not the speed.
     """
     if push.stiffness == 0.0:
         return push, longest
@@ -68,8 +75,12 @@ def shallow(
     if deformation > little:
         # The series of its slope ends where it begins to be pressed.
         return push, min(longest, 0.5 * deformation / abs(closing)) if closing else longest
-    if closing > 0.0:
-        longest = min(longest, (2.0 * little - deformation) / closing)
+    way = 2.0 * little - deformation
+    soon = max(closing, 0.0) + math.sqrt(max(closing, 0.0) ** 2 + 2.0 * max(gains, 0.0) * way)
+    if soon > 0.0:
+        longest = min(longest, 2.0 * way / soon)
+    if jerk > 0.0:
+        longest = min(longest, (6.0 * way / jerk) ** (1.0 / 3.0))
     return NO_PUSH, longest
 
 
@@ -111,13 +122,15 @@ def laws_of(
         memory = motion.left if mode == LEFT else motion.right
         if curved_stop(plan, side):
             push = push_of(plan, side, branch.way if v == 0.0 else v, memory)
-            push = pressing(push, v, frame.sign * without_friction(plan, motion))
-            push, longest = shallow(push, x, v, grain, longest)
+            gains = frame.sign * without_friction(plan, motion)
+            push = pressing(push, v, gains)
+            push, longest = shallow(push, x, v, gains, plan[STEEPEST], grain, longest)
         if mode == BOTH and curved_stop(plan, LEFT):
             apart = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
             other = push_of(plan, LEFT, -(branch.way if v == 0.0 else v), motion.left)
-            other = pressing(other, -v, -frame.sign * without_friction(plan, motion))
-            other, longest = shallow(other, apart - x, -v, grain, longest)
+            gains = -frame.sign * without_friction(plan, motion)
+            other = pressing(other, -v, gains)
+            other, longest = shallow(other, apart - x, -v, gains, plan[STEEPEST], grain, longest)
     drag = 0.0
     exponent = plan[par.DRAG]
     if exponent != 1.0:
