@@ -60,8 +60,14 @@ def engine(
     It is the call that `vi.simulate(..., samples=0)` makes, and returns x and x′ at the end.
     Another rig may take the place of the problem's.
     """
-    hertz = frequency(problem)
     rig = vector(problem) if rig is None else rig
+    return trajectory(rig, problem.amplitude, frequency(problem), PHASE, periods)
+
+
+def trajectory(
+    rig: np.ndarray, amplitude: float, hertz: float, phase: float, periods: int
+) -> Callable[[], tuple[float, float]]:
+    """Return a call of the engine for any rig's vector, from rest."""
     state = np.zeros(layout.STATE)
     out = np.empty((record.SAMPLE, 0))
     events = np.empty((_MAX_EVENTS + 1, record.EVENT))
@@ -70,9 +76,9 @@ def engine(
         state[:] = 0.0
         _, _, outcome = batch.trajectory(
             rig,
-            problem.amplitude,
+            amplitude,
             hertz,
-            PHASE,
+            phase,
             state,
             0.0,
             float(periods),

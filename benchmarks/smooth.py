@@ -5,22 +5,16 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 import vibroimpact as vi
+from benchmarks import ours
 from benchmarks.peers.smooth_problems import BOUC_WEN, DUFFING, HUNT_CROSSLEY, SMOOTH, Smooth
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import Spread, interleave, ratio
 from benchmarks.trajectory import optional
-from vibroimpact.engine import batch
-from vibroimpact.engine import motion as layout
-from vibroimpact.engine.observers import record
-from vibroimpact.engine.status import Status
 from vibroimpact.response.start import engine_rig
 
 PERIODS, SCIPY_PERIODS = 200, 50
 _ROUNDS, _SCIPY_ROUNDS = 41, 3
-_MAX_EVENTS = 100
 _LEAST, _LEAST_OF_SCIPY = 3.0, 300.0
 _TOLERANCE = {DUFFING.name: 1e-9, HUNT_CROSSLEY.name: 1e-14, BOUC_WEN.name: 1e-9}
 _SCIPY_TOLERANCE = {DUFFING.name: 1e-11, HUNT_CROSSLEY.name: 1e-12, BOUC_WEN.name: 1e-11}
@@ -46,29 +40,7 @@ def engine(problem: Smooth, periods: int) -> Callable[[], tuple[float, float]]:
     """Return a call of the engine from rest over a number of forcing periods."""
     hertz, phase = problem.frequency / math.tau, -0.5 * math.pi
     vector = engine_rig(rig(problem), vi.Harmonic(problem.amplitude, hertz, phase))
-    state = np.zeros(layout.STATE)
-    out, events = np.empty((record.SAMPLE, 0)), np.empty((_MAX_EVENTS + 1, record.EVENT))
-
-    def call() -> tuple[float, float]:
-        state[:] = 0.0
-        _, _, outcome = batch.trajectory(
-            vector,
-            problem.amplitude,
-            hertz,
-            phase,
-            state,
-            0.0,
-            float(periods),
-            0,
-            _MAX_EVENTS,
-            out,
-            events,
-        )
-        if outcome:
-            raise RuntimeError(Status(outcome).advice)
-        return float(state[layout.U]), float(state[layout.V])
-
-    return call
+    return ours.trajectory(vector, problem.amplitude, hertz, phase, periods)
 
 
 def smooth() -> list[Table]:

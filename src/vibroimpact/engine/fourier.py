@@ -19,7 +19,7 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
-from vibroimpact.engine.linear.layout import RATE, H
+from vibroimpact.engine.linear.layout import ORDER, RATE, H
 from vibroimpact.engine.measure import ABSCISSAE, P_C, P_LENGTH, P_S, WEIGHTS
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import LEFT, Motion, unpacked
@@ -46,7 +46,8 @@ def _stretch(
         h = plan[cursor.table + H]
         rate = plan[cursor.table + RATE]
         high, s, c = expanded(plan, cursor, series)
-        _, _, _ = expanded(plan, cursor, forces)
+        for n in range(ORDER):
+            forces[n] = series[n]
         unit = accelerated(plan, cursor, s, c, forces)
         parts = 1 + int(fastest * h / _TURN)
         width = (high + 0.5) / parts

@@ -6,7 +6,7 @@ here is that of the piece in hand. The series of the step in hand follow.
 
 from __future__ import annotations
 
-from vibroimpact.engine.linear.layout import PLAN, SIZE, TABLES
+from vibroimpact.engine.linear.layout import SIZE, TABLES
 
 DEGREE = 22
 """Highest power of a step's series. With it a step goes 0.16 of the way to the nearest
@@ -53,6 +53,3 @@ NODES_P = NODES + 112  # in between
 SPECTRA = NODES + 128  # the first five and the time in Legendre's polynomials
 POWERS = SPECTRA + 96  # z², z³, … for which a plan has room to the end
 END = POWERS + ROOM  # of all but these powers
-
-SHARPEST = (PLAN - POWERS) // ROOM
-"""The highest power of z that there is room for."""
