@@ -196,3 +196,47 @@ def test_a_law_is_told_with_all_its_numbers():
     assert _law(HERTZ) == (
         "power, stiffness 2000 MN/m^1.5, gap 7.5 mm, exponent 1.5, dissipation 0.4 s/m"
     )
+
+
+def test_a_period_and_a_damping_ratio_stand_for_stiffness_and_damping():
+    made = changed(CASE, RigOptions(mass="5000t", isolator_period="2.5s", damping_ratio="15 %"))
+    assert made.isolator == vi.Isolator.from_period("5000 t", 2.5, 0.15)
+    # A period alone keeps the damping ratio, whatever becomes of the mass.
+    kept = changed(CASE, RigOptions(mass="5000t", isolator_period="2.5s"))
+    assert kept.damping_ratio == pytest.approx(CASE.damping_ratio, rel=1e-14)
+    assert 1.0 / kept.natural_frequency == pytest.approx(2.5, rel=1e-14)
+    # Beside the other two, each sets its own.
+    assert changed(CASE, RigOptions(isolator_period="2s", damping="5")).isolator.damping == 5.0
+    stiff = changed(CASE, RigOptions(stiffness="20kN/m", damping_ratio="0.1"))
+    assert (stiff.isolator.stiffness, round(stiff.damping_ratio, 14)) == (20e3, 0.1)
+    damped = changed(CASE, RigOptions(damping_ratio="0.1"))
+    assert damped.isolator.stiffness == CASE.isolator.stiffness
+
+
+def test_a_weight_stands_for_a_mass():
+    assert changed(CASE, RigOptions(weight="9806.65 N")).mass == 1000.0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"isolator_period": "2s", "stiffness": "1"}, "--isolator-period: given with --stiffness"),
+        ({"damping_ratio": "0.1", "damping": "1"}, "--damping-ratio: given with --damping; one"),
+        ({"weight": "1 N", "mass": "1"}, "--weight: given with --mass; one of the two is accepted"),
+        ({"isolator_period": "2 Hz"}, "--isolator-period: '2 Hz' is a frequency; a time"),
+        ({"damping_ratio": "-1"}, "--damping-ratio: '-1' is less than 0"),
+        ({"weight": "5 t"}, "--weight: '5 t' is a mass; a force greater than 0"),
+        ({"mass": "5000g"}, "--mass: '5000g' has a g, which is gravity here; write gram, kg or t"),
+        ({"mass": "50MN"}, "--mass: '50MN' is a force, the weight of 5098.58 t; a mass"),
+    ],
+)
+def test_two_ways_at_once_are_refused(options, message):
+    with pytest.raises(vi.InputError) as caught:
+        changed(CASE, RigOptions(**options))
+    assert str(caught.value).startswith(message)
+
+
+def test_a_yielding_isolator_has_no_one_period():
+    yielding = CASE.replace(isolator=vi.BilinearIsolator(2e5, 1e5, 100, 0))
+    with pytest.raises(vi.InputError, match="--isolator-period: given, but the isolator is Bilin"):
+        changed(yielding, RigOptions(isolator_period="2s"))

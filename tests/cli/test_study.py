@@ -42,6 +42,18 @@ def test_own_oscillator(write):
     assert what[:2] == ("wall", "wall")
 
 
+def test_an_own_oscillator_by_period_and_damping_ratio(write):
+    text = """
+    [oscillator]
+    weight = "49.03325 MN"
+    isolator = { period = "2.5 s", damping_ratio = 0.15 }
+    [excitation]
+    amplitude = "0.1 g"
+    """
+    found = subject(str(write(text)), RigOptions()).oscillator
+    assert found == vi.Oscillator(5e6, vi.Isolator.from_period(5e6, 2.5, 0.15))
+
+
 def test_a_rigid_stop_is_named_by_its_kind(write):
     wall = 'left = { kind = "rigid", restitution = 0.8, gap = "-2 mm" }\n'
     path = write(RIG + wall + "[excitation]\namplitude = 1\n")
@@ -136,6 +148,15 @@ def test_a_study_needs_no_ending(write):
             r"oscillator.left.kind: 'hertz' is unknown; 'kelvin-voigt', 'rigid', 'power' or "
             r"'jankowski' is accepted",
         ),
+        (
+            RIG.replace('stiffness = "26.8 kN/m"', 'period = "2 s"'),
+            r"oscillator.isolator.damping_ratio: missing beside period; a dimensionless",
+        ),
+        (
+            RIG.replace("damping =", 'period = "2 s", damping_ratio = 0.1, damping =', 1),
+            r"oscillator.isolator.(stiffness|damping): given beside period; one of the two is",
+        ),
+        (RIG.replace("550 kg", "550 g"), r"oscillator.mass: '550 g' has a g, which is gravity"),
         (RIG.replace("550", "-550"), r"oscillator.mass: '-550 kg' is not greater than 0"),
         (RIG.replace("900", "nan"), r"oscillator.right.damping: nan is not finite"),
         (RIG + '[sweep]\nfrom = "0 Hz"', r"sweep.from: '0 Hz' is not greater than 0"),

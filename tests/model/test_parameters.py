@@ -52,6 +52,8 @@ def test_what_is_written_is_read(name):
     back = one.write(rig, shaken, here)
     for found, value in zip(numbers(*back), numbers(start, SHAKEN), strict=True):
         assert found == pytest.approx(value, rel=1e-12)
+    if not one.straight:
+        return
     # A straight line, which is what branches are followed along.
     third = one.write(start, SHAKEN, 2.0 * here)
     for a, b, c in zip(numbers(start, SHAKEN), numbers(rig, shaken), numbers(*third), strict=True):
@@ -125,7 +127,7 @@ def test_help_names_them_all(capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "4000")
     assert main(["branch", "--help"]) == 0
     told = capsys.readouterr().out
-    assert ", ".join(name.replace("_", "-") for name in PARAMETERS) in told
+    assert ", ".join(name.replace("_", "-") for name, p in PARAMETERS.items() if p.straight) in told
 
 
 @pytest.mark.parametrize("name", ["relaxation_time", "damping_ratio", "right_stiffness"])

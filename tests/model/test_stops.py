@@ -52,20 +52,20 @@ def test_a_power_bumper_of_every_way():
 @pytest.mark.parametrize(
     ("kind", "changes", "message"),
     [
-        ("power", {"restitution": 0.5}, ": dissipation: 0.4 s/m, and a restitution of 0.5 as well"),
+        ("power", {"restitution": 0.5}, "dissipation: 0.4 s/m, and a restitution of 0.5 as well"),
         (
             "power",
             {"dissipation": None, "restitution": 0.5, "relation": "hertz"},
-            ": relation: 'hertz' is unknown; 'exact', 'hunt-crossley', 'lankarani-nikravesh', "
+            "relation: 'hertz' is unknown; 'exact', 'hunt-crossley', 'lankarani-nikravesh', "
             "'flores' or 'gonthier' is accepted",
         ),
-        ("power", {"relation": "flores"}, ": relation: 'flores' is given without a restitution"),
+        ("power", {"relation": "flores"}, "relation: 'flores' is given without a restitution"),
         ("power", {"dissipation": None, "restitution": 1.1}, "restitution: 1.1 is greater than 1"),
         ("power", {"dissipation": None, "restitution": -0.1}, "restitution: -0.1 is less than 0"),
         (
             "power",
             {"dissipation": None, "restitution": 0},
-            ": restitution: 0 needs a dissipation without bound by the relation 'exact'; a resti",
+            "restitution: 0 needs a dissipation without bound by the relation 'exact'; a resti",
         ),
         ("power", {"dissipation": -1}, "dissipation: -1 is less than 0; a dissipation factor"),
         ("power", {"exponent": 0.5}, "exponent: 0.5 is less than 1"),

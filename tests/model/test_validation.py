@@ -136,12 +136,12 @@ def test_nested_tables_become_objects():
         ),
         (
             table(color="red"),
-            "rig.color: unknown key; mass, isolator, right, left and force are accepted",
+            "rig.color: unknown key; mass, isolator, right, left, force and weight are accepted",
         ),
         (
             table(isolator={"stifness": 1, "damping": 1}),
-            "rig.isolator.stifness: unknown key; stiffness, damping and damping_exponent are "
-            "accepted, perhaps stiffness is meant (1 more to correct)",
+            "rig.isolator.stifness: unknown key; stiffness, damping, damping_exponent, period and "
+            "damping_ratio are accepted, perhaps stiffness is meant (1 more to correct)",
         ),
         (
             table(right="510 kN/m"),
@@ -175,7 +175,7 @@ def test_all_unknown_keys_are_named_at_once():
         validate(Oscillator, data, where="rig")
     told = str(caught.value)
     assert "rig.color: unknown key; " in told
-    assert "rig.isolator.stifness: unknown key; stiffness, damping and damping_exponent " in told
+    assert "rig.isolator.stifness: unknown key; stiffness, damping, damping_exponent, " in told
     assert told.endswith("(1 more to correct)")
     assert "\n" not in told
 

@@ -27,7 +27,7 @@ PARAMETERS = (
     "final-stiffness, decay, hardening, hardening-force, stiffness-ratio, gap-ratio, "
     "relaxation-time, damping-ratio"
 )
-"""Those of the registry, written out: help loads nothing that computes."""
+"""Those of the registry that can be followed, written out: help loads nothing that computes."""
 
 _WITH_UNITS = Parameter(group=_BRANCH, allow_leading_hyphen=True)
 
@@ -184,9 +184,9 @@ def option_range(
         If there is no such parameter, an end is missing or cannot be used, or none lies between.
     """
     from vibroimpact.model import to_si
-    from vibroimpact.model.parameters import parameter
+    from vibroimpact.model.parameters import followed
 
-    varied = parameter(name, field, of)
+    varied = followed(name, field, of)
     if rig is not None:
         varied = varied.of(rig)
     given: list[str | float | None] = [low, high]

@@ -12,11 +12,15 @@ from vibroimpact.cli.options import RigOptions
 from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.excitation import QUANTITIES, sized
-from vibroimpact.model.quantities import MASS
+from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.units import pretty, to_si
 
 _LONGEST = 120
 """Characters of a file name, before what a command adds; disks take 255."""
+
+
+_OTHERS = {"mass": MASS, "weight": FORCE}
+"""Options that no parameter of the registry is."""
 
 
 class Change(NamedTuple):
@@ -74,7 +78,7 @@ def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
         varied = PARAMETERS.get(option)
         if varied is not None and rig is not None:
             varied = varied.of(rig)
-        quantity = MASS if varied is None else varied.quantity
+        quantity = _OTHERS[option] if varied is None else varied.quantity
         text = pretty(to_si(value, quantity, option), quantity)
     return Change(f"{flag.replace('-', ' ')} {text}", f"{flag}-{slug(text.replace(' ', ''))}")
 

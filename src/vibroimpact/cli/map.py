@@ -46,7 +46,7 @@ def scenario_map(
             help=(
                 "Parameter and range, NAME LOW:HIGH[:log][:NODES], 21 nodes if none are given. "
                 "Physical: gap, amplitude, bumper-stiffness, proportional-stiffness (at a fixed "
-                "C/K); dimensionless: stiffness-ratio, "
+                "C/K), isolator-period; dimensionless: stiffness-ratio, "
                 "gap-ratio, relaxation-time, damping-ratio, restitution. "
                 "stiffness-ratio 0.5:100:log."
             ),

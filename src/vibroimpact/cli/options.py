@@ -75,12 +75,30 @@ class RigOptions:
             )
         ),
     ] = None
-    mass: Annotated[str | None, _RIG, Parameter(help="Mass, such as 550kg.")] = None
+    mass: Annotated[str | None, _RIG, Parameter(help="Mass, such as 550kg or 5000t.")] = None
+    weight: Annotated[
+        str | None, _RIG, Parameter(help="Weight instead of the mass, such as 50MN.")
+    ] = None
     stiffness: Annotated[
         str | None, _RIG, Parameter(help="Stiffness of the isolator, such as 26.8kN/m.")
     ] = None
     damping: Annotated[
         str | None, _RIG, Parameter(help="Damping of the isolator, such as '1.1 kN s/m'.")
+    ] = None
+    isolator_period: Annotated[
+        str | None,
+        _RIG,
+        Parameter(
+            help=(
+                "Natural period on the isolator instead of its stiffness, such as 2.5s; the "
+                "damping ratio stays as it was."
+            )
+        ),
+    ] = None
+    damping_ratio: Annotated[
+        str | None,
+        _RIG,
+        Parameter(help="Damping ratio of the isolator instead of its damping, such as 0.15."),
     ] = None
     bumper_stiffness: Annotated[
         str | None, _RIG, Parameter(help="Stiffness of both bumpers, such as 510kN/m.")

@@ -12,6 +12,8 @@ from vibroimpact.cli.output import warn
 from vibroimpact.cli.study import Study, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
+    GRAVITY,
+    AnyIsolator,
     Bumper,
     Harmonic,
     Model,
@@ -23,10 +25,11 @@ from vibroimpact.model import (
     laboratory,
 )
 from vibroimpact.model.excitation import sized
+from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.laboratory import Case, Parameters
-from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, LENGTH, PERIOD
 from vibroimpact.model.rigs import as_shaking
-from vibroimpact.model.units import pretty
+from vibroimpact.model.units import pretty, to_si
 from vibroimpact.response.free_flight import reference_excursions
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
@@ -232,20 +235,10 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
     InputError
         If a value cannot be used, or a new bumper is not fully described.
     """
-    isolator = {}
-    for field in ("stiffness", "damping"):
-        if getattr(options, field) is None:
-            continue
-        if field not in type(oscillator.isolator).model_fields:
-            raise InputError(
-                f"{_flag(field)}: given, but the isolator is {oscillator.isolator}; "
-                f"it needs an isolator with a {field}"
-            )
-        isolator[field] = _value(oscillator.isolator, field, field, options)
-    changes: dict[str, Any] = {"isolator": oscillator.isolator.replace(**isolator)}
-    if options.mass is not None:
-        changes["mass"] = _value(oscillator, "mass", "mass", options)
-
+    changes: dict[str, Any] = {
+        "mass": _mass(oscillator, options),
+        "isolator": _isolator(oscillator, options),
+    }
     removed = {"right": options.no_right, "left": options.no_left}
     shared = [field for field, option in _SHARED.items() if getattr(options, option) is not None]
     # Both sides' options change what is there; they make bumpers only where there are none.
@@ -290,6 +283,52 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
             bumper = _new_bumper(side, values)
         changes[side] = bumper
     return oscillator.replace(**changes)
+
+
+def _mass(oscillator: Oscillator, options: RigOptions) -> float:
+    """The mass (kg), by itself or by its weight."""
+    _one_of_two("weight", "mass", options)
+    if options.weight is not None:
+        return to_si(options.weight, FORCE, "--weight", above=0.0) / GRAVITY
+    return oscillator.mass if options.mass is None else _value(oscillator, "mass", "mass", options)
+
+
+def _isolator(oscillator: Oscillator, options: RigOptions) -> AnyIsolator:
+    """The isolator; by its period it keeps the damping ratio that it has unless options say it."""
+    _one_of_two("isolator_period", "stiffness", options)
+    _one_of_two("damping_ratio", "damping", options)
+    isolator = oscillator.isolator
+    values: dict[str, float] = {}
+    for field in ("stiffness", "damping"):
+        option = "isolator_period" if field == "stiffness" and options.isolator_period else field
+        if getattr(options, option) is None:
+            continue
+        if field not in type(isolator).model_fields:
+            raise InputError(
+                f"{_flag(option)}: given, but the isolator is {isolator}; "
+                f"it needs an isolator with a {field}"
+            )
+        if option == field:
+            values[field] = _value(isolator, field, field, options)
+    mass = _mass(oscillator, options)
+    if options.isolator_period is not None:
+        period = to_si(options.isolator_period, PERIOD, "--isolator-period", above=0.0)
+        kept = options.damping is options.damping_ratio is None
+        ratio = oscillator.damping_ratio if kept else 0.0
+        values = {**spring_and_dashpot(mass, period, ratio), **values}
+    if values:
+        isolator = isolator.replace(**values)
+    if options.damping_ratio is not None:
+        ratio = to_si(options.damping_ratio, DIMENSIONLESS, "--damping-ratio", minimum=0.0)
+        critical = oscillator.replace(mass=mass, isolator=isolator).critical_damping
+        isolator = isolator.replace(damping=ratio * critical)
+    return isolator
+
+
+def _one_of_two(one: str, other: str, options: RigOptions) -> None:
+    """Refuse what says the same in two ways."""
+    if getattr(options, one) is not None and getattr(options, other) is not None:
+        raise InputError(f"{_flag(one)}: given with {_flag(other)}; one of the two is accepted")
 
 
 def _has(stop: Stop | None, field: str) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from vibroimpact.errors import InputError
 from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.excitation import Harmonic, Repeated
+from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.stops import Bumper, Stop
@@ -199,11 +200,25 @@ def relaxation_time() -> tuple[Read, Write]:
     return read, write
 
 
+def isolator_period() -> tuple[Read, Write]:
+    """T = 2π √(M/K) at fixed mass and damping ratio."""
+
+    def read(rig: Oscillator, shaken: Repeated) -> float:
+        number(rig.isolator, "stiffness", "isolator has")
+        return 1.0 / rig.natural_frequency
+
+    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
+        made = spring_and_dashpot(rig.mass, value, rig.damping_ratio)
+        return rig.replace(isolator=rig.isolator.replace(**made)), shaken
+
+    return read, write
+
+
 def damping_ratio() -> tuple[Read, Write]:
     """ξ = C/(2√(K M)) at fixed stiffness and mass."""
 
     def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        damping = 2.0 * value * math.sqrt(rig.isolator.initial_stiffness * rig.mass)
+        damping = value * rig.critical_damping
         return rig.replace(isolator=rig.isolator.replace(damping=damping)), shaken
 
     return lambda rig, shaken: rig.damping_ratio, write

@@ -11,13 +11,14 @@ import math
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import model_validator
+from pydantic import ValidationInfo, field_validator, model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.isolators import ISOLATORS, AnyIsolator
-from vibroimpact.model.quantities import FORCE, LENGTH, MASS
+from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
+from vibroimpact.model.isolators.design import designed
+from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
 from vibroimpact.model.stops import STOPS, RigidStop, Stop
-from vibroimpact.model.units import pretty
+from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 
@@ -27,11 +28,13 @@ class Oscillator(Model):
     Parameters
     ----------
     mass
-        M in kg, greater than 0; or text such as ``"550 kg"``.
+        M in kg, greater than 0; or text such as ``"550 kg"``. A table may have the ``weight``
+        M g instead, in N or text such as ``"50 MN"``.
     isolator
         Its `Isolator`, `FrictionIsolator`, `BilinearIsolator`, `PolynomialIsolator`,
         `BoucWenIsolator` or `ExponentialIsolator`; or a mapping with the fields of one (with its
-        ``kind`` if it is not linear).
+        ``kind`` if it is not linear), or with the arguments of its `from_period` or
+        `from_strength` for this mass.
     right
         What is met at positive displacement: a `Bumper`, a `RigidStop`, a `PowerBumper`, a
         `JankowskiBumper`, a mapping with the fields of one (with its ``kind`` if it is no
@@ -67,6 +70,30 @@ class Oscillator(Model):
         force: float | str = 0.0,
     ) -> None:
         super().__init__(mass=mass, isolator=isolator, right=right, left=left, force=force)
+
+    @classmethod
+    def table_keys(cls) -> list[str]:
+        """What a table of it may hold."""
+        return [*super().table_keys(), "weight"]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _weighed(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping) or "weight" not in data:
+            return data
+        if "mass" in data:
+            raise InputError("weight: given beside mass; one of the two is accepted")
+        rest = {name: value for name, value in data.items() if name != "weight"}
+        return {"mass": to_si(data["weight"], FORCE, "weight", above=0.0) / GRAVITY, **rest}
+
+    @field_validator("isolator", mode="before")
+    @classmethod
+    def _for_this_mass(cls, value: Any, info: ValidationInfo) -> Any:
+        law = ISOLATORS.classes.get(ISOLATORS.kind_of(value))
+        if not isinstance(value, Mapping) or law is None:
+            return value
+        assert issubclass(law, IsolatorLaw)
+        return designed(value, law, info.data.get("mass"))
 
     @model_validator(mode="after")
     def _frequency_exists(self) -> Self:
@@ -149,14 +176,24 @@ class Oscillator(Model):
         InputError
             If the isolator has no stiffness, or a damping exponent other than 1.
         """
+        return self.isolator.damping / self.critical_damping
+
+    @property
+    def critical_damping(self) -> float:
+        """Damping at which the damping ratio is 1, 2√(K M), in N s/m.
+
+        Raises
+        ------
+        InputError
+            As `damping_ratio`.
+        """
         self._springs("damping ratio")
         if self.isolator.damping_exponent != 1.0:
             raise InputError(
                 f"isolator.damping_exponent: {self.isolator.damping_exponent:g}, so that there is "
                 "no damping ratio, for it depends on the velocity; 1 is accepted"
             )
-        stiffness = self.isolator.initial_stiffness
-        return self.isolator.damping / (2.0 * math.sqrt(stiffness * self.mass))
+        return 2.0 * math.sqrt(self.isolator.initial_stiffness * self.mass)
 
     def _springs(self, what: str) -> None:
         if self.isolator.initial_stiffness == 0.0:

@@ -25,6 +25,7 @@ from vibroimpact.model.quantities import (
     FREQUENCY,
     LENGTH,
     MASS,
+    PERIOD,
     STIFFNESS,
     Quantity,
     power_stiffness,
@@ -40,6 +41,7 @@ _UNITS = {
     DIMENSIONLESS: "1",
     FORCE: "N",
     MASS: "kg",
+    PERIOD: "s",
     DISSIPATION: "s m-1",
     DECAY: "m-1",
     power_stiffness(3.0): "N m-3",
@@ -70,6 +72,8 @@ class Parameter(NamedTuple):
     """What it may not fall below and not exceed; None for no bound."""
     measured: Callable[[Oscillator], Quantity] | None = None
     """What it is in a rig, where its unit depends on an exponent of the rig."""
+    straight: bool = True
+    """Whether it moves the rig's numbers along a straight line, as what is followed must."""
 
     @property
     def units(self) -> str:
@@ -107,6 +111,23 @@ def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> P
     if key == "amplitude" and of != "acceleration":
         return PARAMETERS[key]._replace(quantity=QUANTITIES[of], long_name=_PEAKS[of])
     return PARAMETERS[key]
+
+
+def followed(name: str, field: str = "parameter", of: Of = "acceleration") -> Parameter:
+    """As `parameter`, of one along which branches are followed.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name, or none can be followed along it.
+    """
+    found = parameter(name, field, of)
+    if not found.straight:
+        raise InputError(
+            f"{field}: {name!r} is not followed, for the stiffness goes with its inverse square; "
+            "'stiffness' is accepted, and in sweeps and maps the period as well"
+        )
+    return found
 
 
 def bounds(varied: Parameter, low: float | str, high: float | str) -> tuple[float, float]:
@@ -240,6 +261,15 @@ PARAMETERS: dict[str, Parameter] = {
         _of_isolator("hardening", DECAY, least=None),
         _of_isolator("hardening_force", FORCE),
         Parameter(
+            "isolator_period",
+            PERIOD,
+            "natural period on the isolator",
+            *access.isolator_period(),
+            False,
+            "2π √(M/K), its damping ratio as it was",
+            straight=False,
+        ),
+        Parameter(
             "stiffness_ratio",
             DIMENSIONLESS,
             "stiffness ratio of the bumpers",
@@ -273,4 +303,5 @@ PARAMETERS: dict[str, Parameter] = {
     )
 }
 """By name. `bumper_stiffness` keeps the bumpers' damping C_j, `proportional_stiffness` and
-`stiffness_ratio` keep their C_j/K_j, the other ratios keep what else they are made of."""
+`stiffness_ratio` keep their C_j/K_j, `isolator_period` keeps the damping ratio, and the ratios keep
+what else they are made of."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 GRAVITY = 9.80665
@@ -58,7 +58,7 @@ MASS = Quantity(
     "kg",
     "550 kg",
     550,
-    ((1e4, 1e3, "t"), (0.1, 1.0, "kg"), (0.0, 1e-3, "g")),
+    ((1e4, 1e3, "t"), (0.0, 1.0, "kg")),
 )
 STIFFNESS = Quantity(
     "stiffness",
@@ -100,6 +100,7 @@ TIME = Quantity(
     0.02,
     ((0.1, 1.0, "s"), (0.0, 1e-3, "ms")),
 )
+PERIOD = replace(TIME, example="2.5 s", number=2.5)
 VELOCITY = Quantity(
     "velocity",
     (("meter", 1), ("second", -1)),

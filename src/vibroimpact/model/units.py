@@ -22,7 +22,10 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import quantities
 from vibroimpact.model.quantities import (
     ACCELERATION,
+    FORCE,
     FREQUENCY,
+    GRAVITY,
+    MASS,
     Quantity,
 )
 
@@ -78,7 +81,7 @@ def to_si(
     Two readings differ from a plain dimensional conversion:
 
     - Where an acceleration is expected, ``g`` is gravity (9.80665 m/s²) and ``mg`` a
-      thousandth of it; elsewhere ``g`` is the gram.
+      thousandth of it. Where a mass is expected neither is taken: ``gram`` is.
     - Where a frequency is expected, an angle over a time is counted in turns:
       ``"6.2832 rad/s"``, ``"60 rpm"`` and ``"360 deg/s"`` are 1 Hz. ``"1/s"`` is Hz.
 
@@ -282,6 +285,8 @@ def _from_text(text: str, quantity: Quantity) -> float:
             lambda m: ("milli" if m[1] else "") + "standard_gravity",
             rest,
         )
+    if quantity is MASS and _GRAVITY_SYMBOL.search(rest):
+        raise _RefusalError("has a g, which is gravity here; write gram, kg or t")
     registry = _registry()
     try:
         unit = registry.parse_units(rest)
@@ -312,6 +317,9 @@ def _from_pint(measured: Any, quantity: Quantity) -> float:
         turn = _TWO_PI if isinstance(magnitude, Decimal) else math.tau
         return float(magnitude / turn)
     if dimension != tuple((name, round(power, 5)) for name, power in quantity.base):
+        if quantity is MASS and dimension == FORCE.base and magnitude > 0:
+            weighing = pretty(float(magnitude) / GRAVITY, MASS)
+            raise _RefusalError(f"is a force, the weight of {weighing}")
         raise _RefusalError(f"is {_NAMES.get(dimension, 'not ' + quantity.phrase)}")
     return float(magnitude)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import difflib
 import inspect
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
@@ -27,6 +28,7 @@ from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.table import table
 from vibroimpact.model.units import accepted, pretty, read, shown
 
+_FIELD = re.compile(r"[a-z_]+(\.[a-z_]+)*: ")
 _Init = TypeVar("_Init", bound=Callable[..., None])
 _ModelType = TypeVar("_ModelType", bound="Model")
 
@@ -124,7 +126,7 @@ class _Listed(ModelMetaclass):
             unknown = [name for name in values if name not in model.model_fields]
             if not unknown:
                 raise
-            told = "; ".join(f"{name}: {_unknown_key(model, name)}" for name in unknown)
+            told = "; ".join(f"{name}: {_unknown_key(in_order(model), name)}" for name in unknown)
             raise InputError(told) from None
 
     def __dir__(cls) -> list[str]:  # noqa: N805
@@ -234,6 +236,11 @@ class Model(BaseModel, metaclass=_Listed):
     def _repr_html_(self) -> str:
         return table(type(self).__name__, self.rows())
 
+    @classmethod
+    def table_keys(cls) -> list[str]:
+        """What a table of it may hold."""
+        return in_order(cls)
+
     def accepts(self, name: str) -> Accepts | None:
         """What a field takes beside the other values, if it takes a quantity."""
         metadata = type(self).model_fields[name].metadata
@@ -315,10 +322,12 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     path = _path(where, steps)
     if kind == "value_error":
         problem = str(mistake["ctx"]["error"])
+        if path and _FIELD.match(problem):  # of a field inside, which belongs to the path
+            return f"{path}.{problem}"
     elif kind == "missing":
         problem = _missing(holder, str(location[-1]))
     elif kind == "extra_forbidden":
-        problem = _unknown_key(holder, str(location[-1]))
+        problem = _unknown_key(_keys(holder), str(location[-1]))
     elif kind == "union_tag_invalid":
         choice = _choice(holder, str(location[-1]))
         assert choice is not None
@@ -372,8 +381,16 @@ def _along(
     return steps, model
 
 
+def _keys(model: type[BaseModel]) -> list[str]:
+    return model.table_keys() if issubclass(model, Model) else in_order(model)
+
+
 def _fields(model: type[BaseModel]) -> str:
-    *names, last = in_order(model)
+    return _listed(in_order(model))
+
+
+def _listed(keys: list[str]) -> str:
+    *names, last = keys
     return f"{', '.join(names)} and {last}" if names else last
 
 
@@ -385,7 +402,7 @@ def _missing(model: type[BaseModel], name: str) -> str:
     return f"missing; {_fields(model)} are accepted"
 
 
-def _unknown_key(model: type[BaseModel], name: str) -> str:
-    close = difflib.get_close_matches(name, model.model_fields, n=1, cutoff=0.7)
+def _unknown_key(keys: list[str], name: str) -> str:
+    close = difflib.get_close_matches(name, keys, n=1, cutoff=0.7)
     hint = f", perhaps {close[0]} is meant" if close else ""
-    return f"unknown key; {_fields(model)} are accepted{hint}"
+    return f"unknown key; {_listed(keys)} are accepted{hint}"

@@ -37,6 +37,7 @@ NAMES = (
     "gap_ratio",
     "relaxation_time",
     "damping_ratio",
+    "isolator_period",
 )
 """Parameters over which a map can be drawn; lengths and stiffnesses are those of each side."""
 
@@ -193,6 +194,11 @@ def room(oscillator: Oscillator) -> dict[str, float]:
     return {side: stop.gap + shift for side, (stop, shift) in sides.items() if stop is not None}
 
 
+def _turn(name: str) -> int:
+    """When a parameter is set: before others, among them, or last."""
+    return int(name in ("relaxation_time", "gap_ratio")) - int(name == "isolator_period")
+
+
 def _peak(oscillator: Oscillator, shaken: Harmonic) -> float:
     return peak_displacement(oscillator, scale_of(oscillator, shaken))
 
@@ -216,8 +222,9 @@ class Base(NamedTuple):
         """
         self._check(values)
         made = Shaken(*self)
-        # The gap ratio scales by what else is set, and the relaxation time sets the damping last.
-        for name in sorted(values, key=("relaxation_time", "gap_ratio").__contains__):
+        # Ratios are over the stiffness that the period sets; the gap ratio scales by what else is
+        # set, and the relaxation time sets the damping last.
+        for name in sorted(values, key=_turn):
             oscillator, shaken = PARAMETERS[name].write(*made, values[name])
             assert isinstance(shaken, Harmonic)
             made = Shaken(oscillator, shaken)

@@ -17,7 +17,7 @@ from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.access import Setting
-from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.parameters import Parameter, followed
 from vibroimpact.response.start import engine_rig
 
 _Array = NDArray[np.float64]
@@ -80,7 +80,7 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    varied = parameter(name, of=excitation.of).of(oscillator)
+    varied = followed(name, of=excitation.of).of(oscillator)
     value = varied.read(oscillator, excitation)
     step = varied.beside(value) - value
     here = system_vector(oscillator, excitation)

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self
 
-from vibroimpact.model.isolators.law import IsolatorLaw
-from vibroimpact.model.quantities import (
-    DIMENSIONLESS,
-    FORCE,
-    GRAVITY,
-    LENGTH,
-    MASS,
-    STIFFNESS,
-)
-from vibroimpact.model.units import to_si
+from vibroimpact.errors import InputError
+from vibroimpact.model.isolators.design import design
+from vibroimpact.model.isolators.law import SpringLaw
+from vibroimpact.model.quantities import FORCE, GRAVITY
 from vibroimpact.model.validation import Accepts, constructor
 
 
-class FrictionIsolator(IsolatorLaw):
+class FrictionIsolator(SpringLaw):
     """A linear spring and dashpot with Coulomb friction beside them.
 
     The force is K u + C v + F_c sgn v while the mass slides. It sticks where it stops and the
@@ -44,8 +38,8 @@ class FrictionIsolator(IsolatorLaw):
     """
 
     kind: ClassVar[str] = "friction"
+    designs: ClassVar[tuple[str, ...]] = ("from_period", "from_pendulum")
 
-    stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
     friction: Annotated[float, Accepts(FORCE, minimum=0.0)]
 
     @constructor
@@ -62,6 +56,48 @@ class FrictionIsolator(IsolatorLaw):
             friction=friction,
             damping_exponent=damping_exponent,
         )
+
+    @classmethod
+    def from_period(
+        cls,
+        mass: float | str,
+        period: float | str,
+        damping_ratio: float | str = 0.0,
+        coefficient: float | str | None = None,
+        **others: Any,
+    ) -> Self:
+        """Return the isolator with this period while it slides, and friction.
+
+        Parameters
+        ----------
+        mass
+            What it carries, M in kg, greater than 0; or text such as ``"5000 t"``.
+        period
+            T in s of the spring, greater than 0; or text such as ``"2.5 s"``. A friction pendulum
+            of radius R has T = 2π √(R/g) whatever it carries.
+        damping_ratio
+            ξ of the dashpot beside it, at least 0.
+        coefficient
+            Coefficient of friction μ, at least 0, for F_c = μ M g.
+        **others
+            ``friction``, the force F_c, in the place of the coefficient.
+
+        Returns
+        -------
+        FrictionIsolator
+            K = M (2π/T)² and C = 2 ξ M 2π/T.
+
+        Raises
+        ------
+        InputError
+            If a value is not finite, has a wrong unit or lies outside its bounds.
+        """
+        if coefficient is not None:
+            if "friction" in others:
+                raise InputError("friction: given beside coefficient; one of the two is accepted")
+            m, mu = design(mass=mass, coefficient=coefficient)
+            others["friction"] = mu * m * GRAVITY
+        return super().from_period(mass, period, damping_ratio, **others)
 
     @classmethod
     def from_pendulum(
@@ -101,15 +137,9 @@ class FrictionIsolator(IsolatorLaw):
         >>> FrictionIsolator.from_pendulum("1000 kg", "9.80665 m", 0.05).stiffness
         1000.0
         """
-        weight = to_si(mass, MASS, "mass", above=0.0) * GRAVITY
-        r = to_si(radius, LENGTH, "radius", above=0.0)
-        mu = to_si(coefficient, DIMENSIONLESS, "coefficient", minimum=0.0)
+        m, r, mu = design(mass=mass, radius=radius, coefficient=coefficient)
+        weight = m * GRAVITY
         return cls(weight / r, damping, mu * weight)
-
-    @property
-    def initial_stiffness(self) -> float:
-        """K, N/m: that of the spring, while it slides."""
-        return self.stiffness
 
     def static_force(self, displacement: float) -> float:
         """K u + F_c sgn u in N, at a displacement in m; at rest it may be anything up to ±F_c."""

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.isolators.design import design, design_keys, force_of_strength
 from vibroimpact.model.kinds import Named
 from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, FORCE, STIFFNESS, power_damping
 from vibroimpact.model.units import pretty
@@ -30,6 +31,10 @@ class IsolatorLaw(Named):
     """
 
     _quiet: ClassVar = {"damping_exponent": 1.0}
+
+    designs: ClassVar[tuple[str, ...]] = ()
+    """Constructors from what a designer knows of the isolator of a mass, such as its period; a
+    table inside an `Oscillator` may hold their arguments instead of the fields."""
 
     # The exponent stands first, for the unit of the damping depends on it.
     damping_exponent: Annotated[float, Accepts(DIMENSIONLESS, above=0.0)] = 1.0
@@ -83,12 +88,87 @@ class IsolatorLaw(Named):
         """The c |v|^α sgn v in N, at a velocity in m/s."""
         return math.copysign(self.damping * abs(velocity) ** self.damping_exponent, velocity)
 
+    @classmethod
+    def table_keys(cls) -> list[str]:
+        """What a table of it may hold."""
+        return [*super().table_keys(), *design_keys(cls)]
+
+    @classmethod
+    def _designed(cls, by: str, made: dict[str, float], others: dict[str, Any]) -> Self:
+        """Make one of numbers that follow from a design, and of others that do not."""
+        for name in ("damping_exponent", *made):
+            if name in others:
+                raise InputError(f"{name}: given beside {by}; one of the two is accepted")
+        return cls(**made, **others)
+
+
+class SpringLaw(IsolatorLaw):
+    """A linear spring K, and what the law has beside it."""
+
+    designs: ClassVar[tuple[str, ...]] = ("from_period",)
+
+    stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
+
+    @constructor
+    def __init__(self, /, **values: Any) -> None:
+        super().__init__(**values)
+
+    @classmethod
+    def from_period(
+        cls, mass: float | str, period: float | str, damping_ratio: float | str, **others: Any
+    ) -> Self:
+        """Return the isolator that gives a mass this period and damping ratio.
+
+        Parameters
+        ----------
+        mass
+            What it carries, M in kg, greater than 0; or text such as ``"5000 t"``.
+        period
+            T in s, greater than 0, of the linear spring; or text such as ``"2.5 s"``.
+        damping_ratio
+            ξ of the dashpot beside it, at least 0; or text such as ``"15 %"``.
+        **others
+            What else the law has.
+
+        Returns
+        -------
+        IsolatorLaw
+            K = M (2π/T)² and C = 2 ξ M 2π/T.
+
+        Raises
+        ------
+        InputError
+            If a value is not finite, has a wrong unit or lies outside its bounds, or says what
+            follows from the period.
+
+        Examples
+        --------
+        >>> building = Oscillator("5000 t", Isolator.from_period("5000 t", "2.5 s", 0.15))
+        >>> round(1.0 / building.natural_frequency, 12), round(building.damping_ratio, 12)
+        (2.5, 0.15)
+        """
+        m, t, xi = design(mass=mass, period=period, damping_ratio=damping_ratio)
+        return cls._designed("period", spring_and_dashpot(m, t, xi), others)
+
+    @property
+    def initial_stiffness(self) -> float:
+        """K, N/m."""
+        return self.stiffness
+
+
+def spring_and_dashpot(mass: float, period: float, damping_ratio: float) -> dict[str, float]:
+    """The K (N/m) and C (N s/m) with which a mass (kg) has this period (s) and damping ratio."""
+    omega = math.tau / period
+    return {"stiffness": mass * omega**2, "damping": 2.0 * damping_ratio * mass * omega}
+
 
 class YieldingLaw(IsolatorLaw):
     """A spring k_p beside an element of stiffness k_e - k_p that yields.
 
     Its force is k_p u + (k_e - k_p) z; how z moves is the law's own.
     """
+
+    designs: ClassVar[tuple[str, ...]] = ("from_strength",)
 
     elastic_stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
     post_yield_stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
@@ -97,6 +177,69 @@ class YieldingLaw(IsolatorLaw):
     @constructor
     def __init__(self, /, **values: Any) -> None:
         super().__init__(**values)
+
+    @classmethod
+    def from_strength(
+        cls,
+        mass: float | str,
+        strength: float | str,
+        yield_displacement: float | str,
+        post_yield_period: float | str,
+        post_yield_damping_ratio: float | str = 0.0,
+        **others: Any,
+    ) -> Self:
+        """Return the isolator that a designer of lead-rubber bearings describes.
+
+        Parameters
+        ----------
+        mass
+            What it carries, M in kg, greater than 0; or text such as ``"5000 t"``.
+        strength
+            Characteristic strength Q_d, the force at zero displacement of a loop, as a share of
+            the weight M g from 0 to 1, 0 excluded; or as a force, in text such as ``"2.5 MN"``.
+        yield_displacement
+            u_y in m, greater than 0; or text such as ``"10 mm"``.
+        post_yield_period
+            T_p in s, greater than 0: that of the mass on the post-yield stiffness alone; or text
+            such as ``"2.5 s"``.
+        post_yield_damping_ratio
+            ξ_p of the dashpot, at least 0, by the post-yield period: what yields takes far more.
+        **others
+            What else the law has.
+
+        Returns
+        -------
+        YieldingLaw
+            k_p = M (2π/T_p)², F_y = Q_d + k_p u_y, k_e = F_y/u_y and C = 2 ξ_p M 2π/T_p (Naeim
+            and Kelly, Design of Seismic Isolated Structures, 1999, ch. 5).
+
+        Raises
+        ------
+        InputError
+            If a value is not finite, has a wrong unit or lies outside its bounds, or says what
+            follows from the strength.
+
+        Examples
+        --------
+        >>> bearing = BilinearIsolator.from_strength("5000 t", 0.05, "10 mm", "2.5 s")
+        >>> round((bearing.yield_force - bearing.post_yield_stiffness * 0.01) / 5e6 / 9.80665, 12)
+        0.05
+        """
+        m, u, t, xi = design(
+            mass=mass,
+            yield_displacement=yield_displacement,
+            post_yield_period=post_yield_period,
+            post_yield_damping_ratio=post_yield_damping_ratio,
+        )
+        spring = spring_and_dashpot(m, t, xi)
+        force = force_of_strength(m, strength) + spring["stiffness"] * u
+        made = {
+            "elastic_stiffness": force / u,
+            "post_yield_stiffness": spring["stiffness"],
+            "yield_force": force,
+            "damping": spring["damping"],
+        }
+        return cls._designed("strength", made, others)
 
     @model_validator(mode="after")
     def _yields(self) -> Self:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import ClassVar
 
-from vibroimpact.model.isolators.law import IsolatorLaw
-from vibroimpact.model.quantities import STIFFNESS
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.isolators.law import SpringLaw
+from vibroimpact.model.validation import constructor
 
 
-class Isolator(IsolatorLaw):
+class Isolator(SpringLaw):
     """The linear spring and dashpot that carry the mass (the paper's damper D).
 
     Its kind, ``"linear"``, need not be named in a table.
@@ -32,8 +31,6 @@ class Isolator(IsolatorLaw):
     kind: ClassVar[str] = "linear"
     usual: ClassVar[bool] = True
 
-    stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
-
     @constructor
     def __init__(
         self,
@@ -51,11 +48,6 @@ class Isolator(IsolatorLaw):
     def linear(self) -> bool:
         """Whether its force is K u + C v."""
         return self.damping_exponent == 1.0
-
-    @property
-    def initial_stiffness(self) -> float:
-        """K, N/m."""
-        return self.stiffness
 
     def static_force(self, displacement: float) -> float:
         """K u in N, at a displacement in m."""

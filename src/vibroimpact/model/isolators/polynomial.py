@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import Annotated, ClassVar
 
-from vibroimpact.model.isolators.law import IsolatorLaw
-from vibroimpact.model.quantities import STIFFNESS, power_stiffness
+from vibroimpact.model.isolators.law import SpringLaw
+from vibroimpact.model.quantities import power_stiffness
 from vibroimpact.model.validation import Accepts, constructor
 
 
-class PolynomialIsolator(IsolatorLaw):
+class PolynomialIsolator(SpringLaw):
     """The restoring force K u + k₃ u³ + k₅ u⁵, and a dashpot.
 
     Its kind in a table is ``"polynomial"``.
@@ -36,7 +36,6 @@ class PolynomialIsolator(IsolatorLaw):
 
     kind: ClassVar[str] = "polynomial"
 
-    stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
     cubic: Annotated[float, Accepts(power_stiffness(3.0))] = 0.0
     quintic: Annotated[float, Accepts(power_stiffness(5.0))] = 0.0
 
@@ -56,11 +55,6 @@ class PolynomialIsolator(IsolatorLaw):
             quintic=quintic,
             damping_exponent=damping_exponent,
         )
-
-    @property
-    def initial_stiffness(self) -> float:
-        """K, N/m."""
-        return self.stiffness
 
     def static_force(self, displacement: float) -> float:
         """K u + k₃ u³ + k₅ u⁵ in N, at a displacement in m."""

@@ -1,0 +1,120 @@
+"""What a designer knows of an isolator: numbers that make one only together with a mass."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.quantities import (
+    DIMENSIONLESS,
+    FORCE,
+    GRAVITY,
+    LENGTH,
+    MASS,
+    PERIOD,
+)
+from vibroimpact.model.units import one_of, shown
+from vibroimpact.model.validation import Accepts
+
+if TYPE_CHECKING:
+    from vibroimpact.model.isolators.law import IsolatorLaw
+
+_ACCEPTS = {
+    "mass": Accepts(MASS, above=0.0),
+    "period": Accepts(PERIOD, above=0.0),
+    "damping_ratio": Accepts(DIMENSIONLESS, minimum=0.0),
+    "strength": Accepts(DIMENSIONLESS, above=0.0),
+    "yield_displacement": Accepts(LENGTH, above=0.0),
+    "post_yield_period": Accepts(PERIOD, above=0.0),
+    "post_yield_damping_ratio": Accepts(DIMENSIONLESS, minimum=0.0),
+    "radius": Accepts(LENGTH, above=0.0),
+    "coefficient": Accepts(DIMENSIONLESS, minimum=0.0),
+}
+
+
+def design(**given: object) -> list[float]:
+    """Read the numbers of a design, each by its name, in SI units.
+
+    Raises
+    ------
+    InputError
+        If one is not finite, has a wrong unit or lies outside its bounds.
+    """
+    found = []
+    for name, value in given.items():
+        try:
+            number = _ACCEPTS[name](value)
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
+        assert number is not None
+        found.append(number)
+    return found
+
+
+def force_of_strength(mass: float, strength: object) -> float:
+    """A strength in N, given as such or as a share of the weight of a mass (kg).
+
+    Raises
+    ------
+    InputError
+        If it cannot be used.
+    """
+    number, quantity = one_of(strength, (DIMENSIONLESS, FORCE), "strength", above=0.0)
+    if quantity is FORCE:
+        return number
+    if number > 1.0:
+        raise InputError(
+            f"strength: {shown(strength)} times the weight; a share of it up to 1 is accepted, "
+            'such as 0.05, or a force with its unit, such as "250 kN"'
+        )
+    return number * mass * GRAVITY
+
+
+def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | None) -> Any:
+    """The isolator that a table describes by the arguments of one of its law's `designs`.
+
+    Parameters
+    ----------
+    table
+        May have a ``kind``.
+    law
+        The class of that kind.
+    mass
+        What it carries, in kg; None if that cannot be used.
+
+    Returns
+    -------
+    IsolatorLaw
+        Or the table itself, if it has none of those arguments.
+
+    Raises
+    ------
+    InputError
+        If one is missing, or cannot be used.
+    """
+    asked = [(name, _arguments(law, name)) for name in law.designs]
+    asked.sort(key=lambda one: -sum(p.name in table for p in one[1]))
+    name, own = asked[0] if asked else ("", [])
+    given = [p.name for p in own if p.name in table]
+    if not given:
+        return table
+    if mass is None:
+        raise InputError(f"{given[0]}: needs a mass to go with; a mass is accepted")
+    for p in own:
+        if p.default is p.empty and p.name not in table:
+            raise InputError(f"{p.name}: missing beside {given[0]}; {_ACCEPTS[p.name].words()}")
+    values = {key: value for key, value in table.items() if key != "kind"}
+    return getattr(law, name)(mass, **values)
+
+
+def design_keys(law: type[IsolatorLaw]) -> list[str]:
+    """What a table of this law may hold instead of its fields."""
+    return list(dict.fromkeys(p.name for name in law.designs for p in _arguments(law, name)))
+
+
+def _arguments(law: type[IsolatorLaw], name: str) -> list[inspect.Parameter]:
+    """What one of its designs is made of, besides the mass."""
+    takes = inspect.signature(getattr(law, name)).parameters.values()
+    return [p for p in takes if p.name in _ACCEPTS and p.name != "mass"]
