@@ -56,7 +56,9 @@ def build(rig: Oscillator, record: Record) -> None:
         ops.uniaxialMaterial("ElasticPPGap", contact, stiff, -1e30, -stop.gap)
         ends = (2, node) if sign == 1 else (node, 2)
         ops.element("zeroLength", contact, *ends, "-mat", contact, "-dir", 1)
-    ops.timeSeries("Path", 1, "-dt", record.step, "-values", *record.acceleration.tolist())
+    # One value more, or a last step that ends a rounding too late would find no load.
+    values = [*record.acceleration.tolist(), float(record.acceleration[-1])]
+    ops.timeSeries("Path", 1, "-dt", record.step, "-values", *values)
     ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
     ops.constraints("Plain")
     ops.numberer("Plain")

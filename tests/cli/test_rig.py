@@ -21,11 +21,12 @@ def test_a_case():
     )
 
 
-def test_parameter_sets():
-    what = subject("B2-G1-A3", RigOptions(parameters="identified"))
-    assert what.oscillator == vi.laboratory.case("B2-G1-A3", "identified").oscillator
-    assert what.name == "B2-G1-A3, identified parameters"
-    assert what.slug == "B2-G1-A3-identified"
+@pytest.mark.parametrize("which", ["identified", "refined"])
+def test_parameter_sets(which):
+    what = subject("B2-G1-A3", RigOptions(parameters=which))
+    assert what.oscillator == vi.laboratory.case("B2-G1-A3", which).oscillator
+    assert what.name == f"B2-G1-A3, {which} parameters"
+    assert what.slug == f"B2-G1-A3-{which}"
 
 
 def test_name():

@@ -60,10 +60,11 @@ def test_a_rigid_stop_is_named_by_its_kind(write):
     assert subject(str(path), RigOptions()).oscillator.left == vi.RigidStop(0.8, -0.002)
 
 
-def test_case_with_changes(write):
-    path = write('name = "my wall"\ncase = "B2-G1-A3"\nparameters = "identified"\n')
+@pytest.mark.parametrize("which", ["identified", "refined"])
+def test_case_with_changes(write, which):
+    path = write(f'name = "my wall"\ncase = "B2-G1-A3"\nparameters = "{which}"\n')
     what = subject(str(path), RigOptions(gap="9mm"))
-    expected = vi.laboratory.case("B2-G1-A3", "identified").oscillator
+    expected = vi.laboratory.case("B2-G1-A3", which).oscillator
     assert what.oscillator.isolator == expected.isolator
     assert what.oscillator.right.gap == 9e-3
     assert what[:2] == ("my wall, gap 9 mm", "my_wall-gap-9mm")

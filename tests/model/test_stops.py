@@ -68,7 +68,12 @@ def test_a_power_bumper_of_every_way():
             "restitution: 0 needs a dissipation without bound by the relation 'exact'; a resti",
         ),
         ("power", {"dissipation": -1}, "dissipation: -1 is less than 0; a dissipation factor"),
-        ("power", {"exponent": 0.5}, "exponent: 0.5 is less than 1"),
+        (
+            "power",
+            {"exponent": 0.5},
+            "exponent: 0.5 is less than 1; a dimensionless number of at least 1 is accepted, "
+            "such as 1.5",
+        ),
         ("power", {"stiffness": "3 kN/m"}, "stiffness: '3 kN/m' is a stiffness; a stiffness in N/"),
         ("power", {"stiffness": 0}, "stiffness: 0 is not greater than 0; a stiffness in N/m^1.5"),
         ("jankowski", {"restitution": 0}, "restitution: 0 is not greater than 0; a dimensionless"),

@@ -56,12 +56,13 @@ class RigOptions:
     """What replaces values of the case or study."""
 
     parameters: Annotated[
-        Literal["table", "identified"] | None,
+        Literal["table", "identified", "refined"] | None,
         Parameter(
             group=RIG,
             help=(
-                "Parameter set of a case: 'table' (every case; the default) or 'identified' "
-                "(fitted, for B2-G1-A3 and B2-G2-A2)."
+                "Parameter set of a case: 'table' (every case; the default), 'identified' "
+                "(fitted, for B2-G1-A3 and B2-G2-A2) or 'refined' (every case, on an isolator "
+                "that softens by itself)."
             ),
         ),
     ] = None

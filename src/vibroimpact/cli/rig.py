@@ -174,10 +174,10 @@ def _shaken_by(case: Case) -> Harmonic:
 
 def _of_case(code: str, parameters: Parameters | None) -> _Named:
     case = laboratory.case(code, parameters or "table")
-    if parameters != "identified":
+    if parameters is None or parameters == "table":
         return _Named(case.code, case.slug, case.oscillator, _shaken_by(case), None, True)
     # Two parameter sets of one test are two rigs: neither may overwrite the other's files.
-    title, first = f"{case.code}, identified parameters", f"{case.slug}-identified"
+    title, first = f"{case.code}, {parameters} parameters", f"{case.slug}-{parameters}"
     return _Named(title, first, case.oscillator, _shaken_by(case), None, True)
 
 

@@ -29,6 +29,7 @@ from pydantic import Field, create_model, model_validator
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Model, Oscillator, Periodic, Record, Repeated, validate
+from vibroimpact.model.laboratory import Parameters
 from vibroimpact.model.quantities import ANGLE, DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
 from vibroimpact.model.rigs import as_shaking
 from vibroimpact.model.validation import Accepts
@@ -135,7 +136,7 @@ class Study(Model):
 
     name: str | None = None
     case: str | None = None
-    parameters: Literal["table", "identified"] | None = None
+    parameters: Parameters | None = None
     oscillator: Oscillator | None = None
     excitation: ExcitationTable = ExcitationTable()
     sweep: SweepTable = SweepTable()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
 from pydantic import model_validator
@@ -17,6 +18,8 @@ from vibroimpact.model.quantities import (
 )
 from vibroimpact.model.stops.dissipation import Relation, dissipation_number
 from vibroimpact.model.validation import Accepts, constructor
+
+_EXPONENT = replace(DIMENSIONLESS, example="1.5", number=1.5)
 
 
 class PowerBumper(Named):
@@ -61,7 +64,7 @@ class PowerBumper(Named):
     _quiet: ClassVar = {"dissipation": None, "restitution": None, "relation": "exact"}
 
     # The exponent stands first, for the unit of the stiffness depends on it.
-    exponent: Annotated[float, Accepts(DIMENSIONLESS, minimum=1.0)] = 1.5
+    exponent: Annotated[float, Accepts(_EXPONENT, minimum=1.0)] = 1.5
     stiffness: Annotated[
         float, Accepts(STIFFNESS, above=0.0, by="exponent", family=power_stiffness)
     ]
