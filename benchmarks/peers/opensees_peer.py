@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.model import Bumper, Oscillator, Record
+from vibroimpact.model import BilinearIsolator, Bumper, Isolator, Oscillator, Record
 
 _PENALTY = 1e4
 """Stiffness of the contact over the bumper's."""
@@ -35,6 +35,20 @@ def _opensees():  # type: ignore[no-untyped-def]
 ops = _opensees()
 
 
+def isolate(rig: Oscillator) -> None:
+    """Put the isolator between the base and the mass."""
+    isolator = rig.isolator
+    if isinstance(isolator, BilinearIsolator):
+        elastic, ratio = isolator.elastic_stiffness, isolator.post_yield_stiffness
+        ops.uniaxialMaterial("Steel01", 1, isolator.yield_force, elastic, ratio / elastic)
+        ops.uniaxialMaterial("Elastic", 2, 0.0, isolator.damping)
+        ops.element("zeroLength", 2, 1, 2, "-mat", 2, "-dir", 1)
+    else:
+        assert isinstance(isolator, Isolator)
+        ops.uniaxialMaterial("Elastic", 1, isolator.stiffness, isolator.damping)
+    ops.element("zeroLength", 1, 1, 2, "-mat", 1, "-dir", 1)
+
+
 def build(rig: Oscillator, record: Record) -> None:
     """Make the model, at rest."""
     ops.wipe()
@@ -43,9 +57,10 @@ def build(rig: Oscillator, record: Record) -> None:
     ops.node(2, 0.0)
     ops.fix(1, 1)
     ops.mass(2, rig.mass)
-    ops.uniaxialMaterial("Elastic", 1, rig.isolator.stiffness, rig.isolator.damping)
-    ops.element("zeroLength", 1, 1, 2, "-mat", 1, "-dir", 1)
+    isolate(rig)
     for i, (sign, stop) in enumerate(((1, rig.right), (-1, rig.left)), start=1):
+        if stop is None:
+            continue
         assert isinstance(stop, Bumper)
         node, law, contact = 2 + i, 10 * i, 10 * i + 1
         ops.node(node, 0.0)
@@ -79,3 +94,14 @@ def follow(rig: Oscillator, record: Record, divisions: int) -> NDArray[np.float6
             raise ArithmeticError(f"OpenSees gave up at sample {k}")
         found[k] = ops.nodeDisp(2, 1)
     return found
+
+
+def peak(rig: Oscillator, record: Record, divisions: int) -> float:
+    """Largest displacement to either side at any of its steps, to the end of the record."""
+    build(rig, record)
+    largest = 0.0
+    for _ in range((len(record.acceleration) - 1) * divisions):
+        if ops.analyze(1, record.step / divisions):
+            raise ArithmeticError("OpenSees gave up")
+        largest = max(largest, abs(ops.nodeDisp(2, 1)))
+    return largest

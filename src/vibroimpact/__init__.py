@@ -42,6 +42,11 @@ _HOME = {
     "classify": "scenario.classify",
     "coexisting": "stability.coexisting",
     "contacts": "response.contacts",
+    "demands": "seismic.demands",
+    "exceedance": "seismic.suites",
+    "floor_record": "seismic.floor",
+    "fractiles": "seismic.suites",
+    "fragility": "seismic.fragility",
     "from_dimensionless": "model",
     "impact_section": "response.section",
     "laboratory": "model",
@@ -53,6 +58,7 @@ _HOME = {
     "response_spectrum": "response.response_spectrum",
     "save": "response.files",
     "scenario_map": "scenario.map",
+    "seismic_response": "seismic.response",
     "simulate": "response.simulate",
     "spectrum": "response.spectrum",
     "steady": "stability.steady",
@@ -90,6 +96,11 @@ __all__ = [
     "classify",
     "coexisting",
     "contacts",
+    "demands",
+    "exceedance",
+    "floor_record",
+    "fractiles",
+    "fragility",
     "from_dimensionless",
     "impact_section",
     "laboratory",
@@ -101,6 +112,7 @@ __all__ = [
     "response_spectrum",
     "save",
     "scenario_map",
+    "seismic_response",
     "simulate",
     "spectrum",
     "steady",
@@ -149,6 +161,11 @@ if TYPE_CHECKING:
     from vibroimpact.scenario.classify import classify
     from vibroimpact.scenario.map import scenario_map
     from vibroimpact.scenario.thresholds import Thresholds
+    from vibroimpact.seismic.demands import demands
+    from vibroimpact.seismic.floor import floor_record
+    from vibroimpact.seismic.fragility import fragility
+    from vibroimpact.seismic.response import seismic_response
+    from vibroimpact.seismic.suites import exceedance, fractiles
     from vibroimpact.stability.branch import branch
     from vibroimpact.stability.coexisting import coexisting
     from vibroimpact.stability.curves import bifurcation_curve

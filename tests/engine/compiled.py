@@ -13,6 +13,7 @@ import sys
 
 from vibroimpact import engine
 from vibroimpact.engine import jit
+from vibroimpact.engine.earthquakes import respond
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.parameters import Law, free_rig, rig_vector
 from vibroimpact.engine.recorded import follow
@@ -25,6 +26,9 @@ RIGS = {
 }
 """A rig for each flow of one sine; the flows of other forcings are compiled by their tests."""
 
+RECORDED = (follow, respond)
+"""Entries that only records go into."""
+
 
 def entries() -> list[Entry]:
     """All of the engine's that one sine needs; those without a rig are compiled by their tests."""
@@ -33,7 +37,7 @@ def entries() -> list[Entry]:
         value
         for name in names
         for value in vars(importlib.import_module(name)).values()
-        if type(value) is Entry and value.function.__module__ == name and value is not follow
+        if type(value) is Entry and value.function.__module__ == name and value not in RECORDED
     ]
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 import zarr
 
 import vibroimpact as vi
-from vibroimpact.scenario import store
+from vibroimpact.scenario import folder
 
 # What is kept does not depend on how much it is.
 X, Y = ("stiffness_ratio", [1.0, 16.0]), ("gap_ratio", [0.2, 0.6, 0.9])
@@ -104,6 +104,6 @@ def test_a_link_is_the_folder_that_it_leads_to(tmp_path):
 def test_a_store_of_another_version_is_refused(tmp_path, monkeypatch):
     axes = ("stiffness_ratio", [1.0, 2.0]), ("gap_ratio", [0.5, 0.6])
     vi.scenario_map(*axes, step=0.05, store=tmp_path / "map")
-    monkeypatch.setattr(store, "__version__", "99.0")
+    monkeypatch.setattr(folder, "__version__", "99.0")
     with pytest.raises(vi.InputError, match="vibroimpact_version differ"):
         vi.scenario_map(*axes, step=0.05, store=tmp_path / "map")

@@ -15,6 +15,7 @@ from vibroimpact._version import __version__
 from vibroimpact.cli.branch import branch
 from vibroimpact.cli.classify import classify
 from vibroimpact.cli.curve import curve
+from vibroimpact.cli.earthquake import earthquake
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
 from vibroimpact.cli.paper import paper
@@ -41,6 +42,7 @@ For example:
     vibroimpact branch B2-G1-A3
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
     vibroimpact record quake.AT2
+    vibroimpact earthquake B2-G1-A3 quake.AT2
     vibroimpact classify B2-G1-A3
     vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
     vibroimpact paper
@@ -103,7 +105,7 @@ def _app() -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
-    for command in (sweep, motion, branch, curve, simulate, record, classify):
+    for command in (sweep, motion, branch, curve, simulate, record, earthquake, classify):
         app.command(command)
     app.command(scenario_map, name="map")
     app.command(paper)

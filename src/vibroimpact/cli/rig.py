@@ -98,7 +98,9 @@ class _Named(NamedTuple):
     """Whether it is a case of the laboratory."""
 
 
-def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
+def subject(
+    text: str, options: RigOptions, name: str | None = None, shaken: Record | None = None
+) -> Subject:
     """Return the rig that a case code or the path of a study file names, with changes.
 
     Parameters
@@ -109,6 +111,8 @@ def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
         What replaces values.
     name
         What the files are called, instead of the rig and its changes.
+    shaken
+        What shakes it, whatever the case or the study says.
 
     Raises
     ------
@@ -116,6 +120,8 @@ def subject(text: str, options: RigOptions, name: str | None = None) -> Subject:
         If the code or the file cannot be used, or a value of the options.
     """
     found = _named(text, options)
+    if shaken is not None:
+        found = found._replace(shaking=shaken)
 
     def rig_of(given: RigOptions) -> tuple[Oscillator, Repeated | Record | None]:
         shaking = found.shaking

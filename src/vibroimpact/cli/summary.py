@@ -52,8 +52,8 @@ def rig_facts(subject: Subject) -> dict[str, Any]:
     }
 
 
-def rig_text(subject: Subject) -> RenderableType:
-    """Return the rig with every parameter that was used."""
+def rig_text(subject: Subject, shaking: bool = True) -> RenderableType:
+    """Return the rig with every parameter that was used, and what shakes it if it is asked for."""
     oscillator = subject.oscillator
     isolator = oscillator.isolator
     scaled, sprung = _dimensionless(subject), isolator.initial_stiffness > 0.0
@@ -98,7 +98,8 @@ def rig_text(subject: Subject) -> RenderableType:
         )
     if oscillator.force:
         table.add_row("constant force", pretty(oscillator.force, FORCE), "")
-    table.add_row(*_shaking_words(subject.shaking), "")
+    if shaking:
+        table.add_row(*_shaking_words(subject.shaking), "")
     return Group(Text(subject.name, style="bold"), table)
 
 

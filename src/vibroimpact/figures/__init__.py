@@ -11,6 +11,8 @@ from vibroimpact.figures.cases import scenario_cases
 from vibroimpact.figures.clearance import clearances
 from vibroimpact.figures.curves import bifurcation_curves
 from vibroimpact.figures.cycle import hysteresis_cycle
+from vibroimpact.figures.demands import fragility_curves, incremental_curves
+from vibroimpact.figures.earthquake import earthquake_page
 from vibroimpact.figures.family import family_legend, resonance_family
 from vibroimpact.figures.feature import feature_map
 from vibroimpact.figures.history import time_history
@@ -31,11 +33,14 @@ __all__ = [
     "bifurcation_curves",
     "bifurcation_diagram",
     "clearances",
+    "earthquake_page",
     "family_legend",
     "feature_map",
     "force_loop",
+    "fragility_curves",
     "frequency_marks",
     "hysteresis_cycle",
+    "incremental_curves",
     "motion_page",
     "phase_portrait",
     "record_history",

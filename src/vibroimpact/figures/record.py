@@ -52,27 +52,18 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
     InputError
         If the dataset is not that of a motion through a record, or there are not four axes.
     """
-    parameters = json.loads(getattr(motion, "attrs", {}).get("parameters", "{}"))
-    if "record" not in parameters or "displacement" not in motion:
-        raise InputError(
-            "motion: this is no motion through a record; a dataset of simulate with a Record and "
-            "samples is accepted, and time_history draws other motions"
-        )
+    stops = stops_of(motion)
     names = "base acceleration, displacement, acceleration and velocity"
     given = panels(axes, 4, names, (7.2, 8.6), title)
     time = motion["time"].values
-    stops = {side: parameters["oscillator"].get(side) for side in _SIDES}
     for ax, (variable, factor, label) in zip(given, _ROWS, strict=True):
         ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
         ax.plot(time, factor * motion[variable].values, color="black", linewidth=0.9, zorder=3)
         ax.set_ylabel(label)
         ax.set_xlim(time[0], time[-1])
         if variable != "base_acceleration":
-            _contacts(ax, motion)
-    for side, sign in _SIDES.items():
-        if stops[side]:
-            gap = 1e3 * sign * stops[side]["gap"]
-            given[1].axhline(gap, color="black", linestyle="--", linewidth=0.8, zorder=2)
+            contact_bands(ax, motion)
+    gap_lines(given[1], stops)
     hit = motion["event_contact"].values == 2
     given[1].scatter(
         motion["event_time"].values[hit],
@@ -82,15 +73,7 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
         zorder=4,
     )
     given[3].set_xlabel("time (s)")
-    present = [side for side in _SIDES if stops[side]]
-    handles: list[Any] = []
-    if present:
-        handles.append(Line2D([], [], color="black", linestyle="--", linewidth=0.8, label="gaps"))
-    for side in present:
-        colour, hatch = BANDS[side]
-        handles.append(
-            Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=f"{side} contact")
-        )
+    handles = stops_legend(stops)
     if hit.any():
         handles.append(
             Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
@@ -100,7 +83,45 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
     return given
 
 
-def _contacts(ax: Axes, motion: xr.Dataset) -> None:
+def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:
+    """The stops of a motion through a record, by side.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    parameters = json.loads(getattr(motion, "attrs", {}).get("parameters", "{}"))
+    if "record" not in parameters or "displacement" not in motion:
+        raise InputError(
+            "motion: this is no motion through a record; a dataset of simulate with a Record and "
+            "samples is accepted, and time_history draws other motions"
+        )
+    oscillator = parameters["oscillator"]
+    return {side: oscillator[side] for side in _SIDES if oscillator.get(side)}
+
+
+def gap_lines(ax: Axes, stops: dict[str, dict[str, Any]]) -> None:
+    """Where the stops stand, over a displacement in mm."""
+    for side, stop in stops.items():
+        gap = 1e3 * _SIDES[side] * stop["gap"]
+        ax.axhline(gap, color="black", linestyle="--", linewidth=0.8, zorder=2)
+
+
+def stops_legend(stops: dict[str, dict[str, Any]]) -> list[Any]:
+    """What gap lines and contact bands mean."""
+    handles: list[Any] = []
+    if stops:
+        handles.append(Line2D([], [], color="black", linestyle="--", linewidth=0.8, label="gaps"))
+    for side in stops:
+        colour, hatch = BANDS[side]
+        handles.append(
+            Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=f"{side} contact")
+        )
+    return handles
+
+
+def contact_bands(ax: Axes, motion: xr.Dataset) -> None:
     """Bands where the mass touches a stop."""
     for side, sign in _SIDES.items():
         spans = _spans(motion, sign)

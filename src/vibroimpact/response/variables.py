@@ -23,6 +23,7 @@ class Variable(NamedTuple):
 
 
 _OVER = "over that of the largest free flight of the same isolator and amplitude at any frequency"
+_RIGID = "infinite where a rigid stop was struck"
 
 VARIABLES: dict[str, Variable] = {
     # what may be varied
@@ -226,6 +227,38 @@ VARIABLES: dict[str, Variable] = {
     "total_supplied": Variable("J", "work on the mass of what shakes it, over the motion"),
     "total_isolator": Variable("J", "energy lost in the isolator over the motion"),
     "total_bumpers": Variable("J", "energy lost in the stops over the motion"),
+    # earthquakes
+    "peak_displacement": Variable("m", "largest relative displacement, to either side"),
+    "peak_displacement_right": Variable("m", "largest relative displacement to the right"),
+    "peak_displacement_left": Variable("m", "largest relative displacement to the left"),
+    "peak_acceleration": Variable(
+        "m s-2", "largest absolute acceleration, without sign", "but for that of rigid impacts"
+    ),
+    "peak_force": Variable("N", "largest contact force of either stop", _RIGID),
+    "peak_force_right": Variable("N", "largest contact force of the right stop", _RIGID),
+    "peak_force_left": Variable("N", "largest contact force of the left stop", _RIGID),
+    "impulse": Variable("N s", "impulse of both stops' contact forces, without sign"),
+    "impulse_right": Variable("N s", "impulse of the right stop's contact force"),
+    "impulse_left": Variable("N s", "impulse of the left stop's contact force"),
+    "impact_count": Variable("1", "number of contacts begun, with either stop"),
+    "impact_count_right": Variable("1", "number of contacts begun with the right stop"),
+    "impact_count_left": Variable("1", "number of contacts begun with the left stop"),
+    "residual_displacement": Variable("m", "displacement at which the mass comes to rest"),
+    "residual_swing": Variable("m", "half the width of the last swing about the residual place"),
+    "record": Variable("1", "name of the record"),
+    "scale": Variable("1", "level of shaking"),
+    "factor": Variable("1", "number that the record is multiplied by"),
+    "intensity": Variable("1", "intensity measure of the unscaled record"),
+    "fractile": Variable("1", "share of the records below"),
+    "exceeding": Variable("1", "number of records above the limit"),
+    "probability": Variable("1", "share of the records above the limit"),
+    "median_capacity": Variable("1", "level that half of the records need to reach the limit"),
+    "dispersion": Variable("1", "standard deviation of the logarithm of that level"),
+    "fitted_probability": Variable("1", "fitted probability of exceeding the limit"),
+    "bound": Variable("1", "lower or upper end of a confidence interval"),
+    "median_capacity_bound": Variable("1", "confidence interval of the median capacity"),
+    "dispersion_bound": Variable("1", "confidence interval of the dispersion"),
+    "fitted_probability_bound": Variable("1", "confidence band of the fitted probability"),
     # response spectra
     "natural_period": Variable("s", "natural period", "0: the mass moves with the base"),
     "orientation": Variable(

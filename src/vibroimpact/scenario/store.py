@@ -7,25 +7,21 @@ the block that was in work, and is completed to what it would have been.
 
 from __future__ import annotations
 
-import json
-import os
-import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from filelock import FileLock, Timeout
 from numpy.typing import NDArray
 
-from vibroimpact._version import __version__
-from vibroimpact.errors import InputError
+from vibroimpact.model.excitation import Of
 from vibroimpact.model.parameters import parameter
-from vibroimpact.response.variables import VARIABLES
 from vibroimpact.scenario.axes import Axis
 from vibroimpact.scenario.cell import COUNTS, VALUES
+from vibroimpact.scenario.folder import Kind, create, finished, folder, read
 from vibroimpact.scenario.kinds import Scenario
 from vibroimpact.scenario.nodes import UNKNOWN
 
@@ -33,6 +29,8 @@ if TYPE_CHECKING:  # it takes long to load: only where a map is made or read
     import zarr
 
 CREATED_BY = "vibroimpact.scenario_map"
+
+_KIND = Kind("map", CREATED_BY, frozenset({"scenario", "level", "done", *VALUES, *COUNTS}))
 
 
 class MapStore:
@@ -72,7 +70,7 @@ class MapStore:
 
     def finished(self) -> bool:
         """Whether the whole map is there."""
-        return bool(self._group.attrs.get("finished", False))
+        return finished(self._group)
 
     def finish(self) -> None:
         """Say that the whole map is there."""
@@ -92,13 +90,7 @@ class MapStore:
         return array
 
     def _read(self, name: str, where: Any = ...) -> NDArray[Any]:
-        try:
-            return np.array(self._array(name)[where])
-        except (RuntimeError, ValueError) as error:
-            raise InputError(
-                f"store: {self._group.store} is damaged ({name}: {error}); a map that was written "
-                "by this package is accepted"
-            ) from None
+        return read(self._group, "map", name, where)
 
 
 @contextmanager
@@ -129,150 +121,33 @@ def map_store(
     InputError
         If the folder holds something else, cannot be written to, or is in use.
     """
-    if path is None:
-        import zarr
-        from zarr.storage import MemoryStore
-
-        yield MapStore(
-            _make(zarr.open_group(MemoryStore(), mode="w"), axes, chunk, levels, parameters)
-        )
-        return
-    try:
-        folder = Path(path).expanduser().resolve()
-    except (TypeError, ValueError, RuntimeError):
-        raise InputError(f"store: {path!r}; the path of a folder is accepted") from None
-    try:
-        if not folder.parent.is_dir():
-            raise FileNotFoundError(2, "the folder that it lies in does not exist")
-        if folder.is_dir() and (done := _whole(folder, parameters)) is not None:
-            yield done
-            return
-        # Taken first: of two processes that would make the store, one is refused.
-        lock = folder.with_name(f".{folder.name}.lock")
-        with FileLock(lock).acquire(timeout=0):
-            store = MapStore(_opened(folder, axes, chunk, levels, parameters))
-            yield store
-            if store.finished():
-                lock.unlink(missing_ok=True)
-    except Timeout:
-        raise InputError(
-            f"store: {str(folder)!r} is being written by another process; when that has ended, or "
-            "another folder, is accepted"
-        ) from None
-    except OSError as error:
-        raise InputError(
-            f"store: {str(folder)!r} cannot be written ({error.strerror or error}); a folder "
-            "beside others that you may write to, on a disk with room, is accepted"
-        ) from None
+    of = parameters["base"].get("of", "acceleration")
+    make = partial(_make, axes=axes, chunk=chunk, levels=levels, of=of)
+    with folder(path, _KIND, parameters, make) as group:
+        yield MapStore(group)
 
 
-def _whole(folder: Path, parameters: dict[str, Any]) -> MapStore | None:
-    """The store if it holds the whole map: to read it takes no lock, and no right to write."""
-    if not any(folder.iterdir()):
-        return None
-    store = MapStore(_checked(folder, parameters, "r"))
-    return store if store.finished() else None
-
-
-def _opened(
-    folder: Path, axes: tuple[Axis, Axis], chunk: int, levels: int, parameters: dict[str, Any]
-) -> zarr.Group:
-    import zarr
-    from zarr.storage import LocalStore
-
-    if not folder.exists() or (folder.is_dir() and not any(folder.iterdir())):
-        # Made beside it and renamed: the store is there with all its arrays, or not at all.
-        beside = folder.with_name(f".{folder.name}.making")
-        shutil.rmtree(beside, ignore_errors=True)  # one that was killed may have left it
-        _make(zarr.open_group(LocalStore(beside), mode="w"), axes, chunk, levels, parameters)
-        os.replace(beside, folder)
-    return _checked(folder, parameters, "r+")
-
-
-def _checked(folder: Path, parameters: dict[str, Any], mode: Literal["r", "r+"]) -> zarr.Group:
-    """The group in a folder, if it is this map."""
-    import zarr
-    from zarr.storage import LocalStore
-
-    try:
-        group = zarr.open_group(LocalStore(folder, read_only=mode == "r"), mode=mode)
-        held = group.attrs.asdict()
-        if held.get("created_by") != CREATED_BY:
-            raise ValueError(folder)
-        known = json.loads(str(held["parameters"]))
-        version = held["vibroimpact_version"]
-        missing = {"scenario", "level", "done", *VALUES, *COUNTS} - set(group.array_keys())
-        if missing:
-            raise KeyError(*missing)
-    except (OSError, ValueError, KeyError):
-        raise InputError(
-            f"store: {str(folder)!r} exists and is no map, or a damaged one; a folder that does "
-            "not exist, or a map to be completed, is accepted"
-        ) from None
-    wanted = json.loads(json.dumps(parameters))
-    differing = [name for name in wanted if known.get(name) != wanted[name]]
-    if version != __version__:
-        differing.append("vibroimpact_version")
-    if differing:
-        raise InputError(
-            f"store: {str(folder)!r} holds another map: {', '.join(differing)} differ; another "
-            "folder, or the same values, are accepted"
-        )
-    return group
-
-
-def _make(
-    group: zarr.Group,
-    axes: tuple[Axis, Axis],
-    chunk: int,
-    levels: int,
-    parameters: dict[str, Any],
-) -> zarr.Group:
+def _make(group: zarr.Group, axes: tuple[Axis, Axis], chunk: int, levels: int, of: Of) -> None:
     import zarr
 
     x, y = axes
     dims = (y.name, x.name)
     shape = (len(y.values), len(x.values))
     for one in axes:
-        _create(group, one.name, one.values.shape, one.values.shape, "f8", np.nan, (one.name,))
+        create(group, one.name, one.values.shape, one.values.shape, "f8", np.nan, (one.name,))
         array = group[one.name]
         assert isinstance(array, zarr.Array)
         array[:] = one.values
-        known = parameter(one.name, of=parameters["base"].get("of", "acceleration"))
+        known = parameter(one.name, of=of)
         array.attrs.update(units=known.units, long_name=known.long_name)
     chunks = (min(chunk, shape[0]), min(chunk, shape[1]))
-    _create(group, "scenario", shape, chunks, "i1", UNKNOWN, dims)
+    create(group, "scenario", shape, chunks, "i1", UNKNOWN, dims)
     group["scenario"].attrs.update(
         flag_values=[int(s) for s in Scenario], flag_meanings=" ".join(s.label for s in Scenario)
     )
     for name in VALUES:
-        _create(group, name, shape, chunks, "f8", np.nan, dims)
+        create(group, name, shape, chunks, "f8", np.nan, dims)
     for name in (*COUNTS, "level"):
-        _create(group, name, shape, chunks, "i2", -1, dims)
+        create(group, name, shape, chunks, "i2", -1, dims)
     blocks = tuple(-(-n // chunk) for n in shape)
-    _create(group, "done", (levels, *blocks), (1, 1, 1), "i1", 0, ("pass", "row", "column"))
-    group.attrs.update(
-        created_by=CREATED_BY,
-        vibroimpact_version=__version__,
-        parameters=json.dumps(parameters),
-    )
-    return group
-
-
-def _create(
-    group: zarr.Group,
-    name: str,
-    shape: tuple[int, ...],
-    chunks: tuple[int, ...],
-    dtype: str,
-    fill: float,
-    dims: tuple[str, ...],
-) -> None:
-    array = group.create_array(
-        name, shape=shape, chunks=chunks, dtype=dtype, fill_value=fill, dimension_names=dims
-    )
-    if name in VARIABLES:
-        known = VARIABLES[name]
-        array.attrs.update(units=known.units, long_name=known.long_name)
-        if known.comment:
-            array.attrs.update(comment=known.comment)
+    create(group, "done", (levels, *blocks), (1, 1, 1), "i1", 0, ("pass", "row", "column"))

@@ -1,0 +1,213 @@
+"""``vibroimpact earthquake``: what records ask of a rig, in words, figures and files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Group, Parameter
+
+from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from vibroimpact.cli.rig import Subject
+    from vibroimpact.model import Oscillator, Record
+
+_READING = Group("Records (instead of what the files say)", sort_key=1)
+_MOTION = Group("Motion", sort_key=1)
+_TEXT = Parameter(allow_leading_hyphen=True)
+
+_SHORTEST, _LONGEST, _PERIODS, _DAMPING = 0.02, 5.0, 200, 0.05
+"""Of the spectra that are drawn."""
+
+
+def earthquake(
+    rig: RigName,
+    /,
+    *records: Annotated[
+        str,
+        Parameter(
+            name="RECORD", help="Files of records; none for the record of the study. See record."
+        ),
+    ],
+    scale: Annotated[
+        str | None, _TEXT, Parameter(group=_MOTION, help="Number that they are multiplied by.")
+    ] = None,
+    peak: Annotated[
+        str | None, _TEXT, Parameter(group=_MOTION, help="Their peak instead, such as 0.3g.")
+    ] = None,
+    tail: Annotated[
+        str | None,
+        _TEXT,
+        Parameter(
+            group=_MOTION,
+            help="How long the motion is followed behind them, as 10s; two natural periods.",
+        ),
+    ] = None,
+    samples: Annotated[
+        Whole,
+        Parameter(
+            group=_MOTION,
+            help="Samples per step of a record, of what is drawn and written; no peak depends on "
+            "it, but the floor spectrum does.",
+        ),
+    ] = 4,
+    component: Annotated[
+        str | None, Parameter(group=_READING, help="Which of several, by its name or number.")
+    ] = None,
+    unit: Annotated[
+        str | None, Parameter(group=_READING, help="Of the values, such as g or cm/s^2.")
+    ] = None,
+    step: Annotated[
+        str | None, _TEXT, Parameter(group=_READING, help="Time between samples, such as 10ms.")
+    ] = None,
+    changes: RigOptions | None = None,
+    output: OutputOptions | None = None,
+) -> int:
+    """Shake a rig by records, and say whether it hits its stops, and how hard.
+
+    Writes NAME-earthquake.csv with a row a record, and for each record NAME-RECORD-earthquake.png
+    and .nc (groups response, motion, ground and floor, the spectra of the ground and of the mass).
+
+    For example:
+
+        vibroimpact earthquake B2-G1-A3 RSN763_LOMAP_GIL067.AT2 --scale 0.2
+        vibroimpact earthquake wall.toml quake.AT2 other.V2 --component 1 --peak 0.3g --gap 40mm
+        vibroimpact earthquake quake.toml --tail 20s
+    """
+    from vibroimpact.cli.changes import slug
+    from vibroimpact.cli.output import output_folder, tell
+    from vibroimpact.cli.rig import subject
+    from vibroimpact.model import to_si
+    from vibroimpact.model.quantities import TIME
+
+    out = output or OutputOptions()
+    found = {
+        _name(file, component): _read(file, component, unit, step)
+        for file in dict.fromkeys(records)
+    }
+    first = next(iter(found.values()), None)
+    what = subject(rig, changes or RigOptions(), out.name, shaken=first)
+    shaking = _changed(found or _of_study(what), scale, peak)
+    behind = None if tail is None else to_si(tail, TIME, "--tail", minimum=0.0)
+    if samples < 1:
+        raise InputError(f"--samples: {samples}; a whole number of at least 1 is accepted")
+
+    with output_folder(out.output) as folder:
+        from rich.console import Group as Together
+        from rich.text import Text
+
+        from vibroimpact.cli import demand, summary
+        from vibroimpact.figures import earthquake_page, save_figure
+        from vibroimpact.response.files import save
+
+        files: dict[str, Path] = {}
+        told: list[Any] = []
+        responses: list[xr.Dataset] = []
+        facts: list[dict[str, Any]] = []
+        for name, record in shaking.items():
+            groups = _computed(what.oscillator, record, behind, samples)
+            stem = folder / f"{what.slug}-{slug(name)}-earthquake"
+            spectra = {"ground": groups["ground"], "mass": groups["floor"]}
+            page = earthquake_page(groups["motion"], spectra, title=f"{what.title}\n{name}")
+            files[f"data of {name}"] = save(groups, f"{stem}.nc")
+            files[f"figure of {name}"] = save_figure(page[0], f"{stem}.{out.figure}")
+            responses.append(groups["response"])
+            free = _free(what.oscillator, record, behind)
+            facts.append(demand.facts(name, record, groups["response"], what.oscillator, free))
+            told += [Text(), demand.text(name, record, groups["response"], what.oscillator, free)]
+        table = demand.together(list(shaking), responses)
+        files = {"table": save(table, folder / f"{what.slug}-earthquake.csv"), **files}
+    about = summary.rig_facts(what)
+    about.pop("record")
+    tell(
+        Together(summary.rig_text(what, shaking=False), *told),
+        {**about, "records": facts},
+        folder,
+        files,
+        out.json,
+    )
+    return 0
+
+
+def _name(file: str, component: str | None) -> str:
+    """What a record is called: its file, and its component if that was chosen."""
+    return " ".join([Path(file).name.removesuffix(".gz"), *([component] if component else [])])
+
+
+def _read(file: str, component: str | None, unit: str | None, step: str | None) -> Record:
+    from vibroimpact.model import Record
+
+    return Record.read(file, component, unit=unit, step=step)
+
+
+def _of_study(what: Subject) -> dict[str, Record]:
+    """The record that a study names.
+
+    Raises
+    ------
+    InputError
+        If it names none.
+    """
+    from vibroimpact.model import Record
+
+    if not isinstance(what.shaking, Record):
+        raise InputError(
+            "RECORD: missing; the file of a record is accepted, or a study that names one"
+        )
+    about = what.shaking.about
+    return {_name(about.source, about.component): what.shaking}
+
+
+def _changed(records: dict[str, Record], scale: str | None, peak: str | None) -> dict[str, Record]:
+    if scale is None and peak is None:
+        return records
+    size: str | float = 1.0 if scale is None else scale
+    return {name: one.scaled(size, peak=peak) for name, one in records.items()}
+
+
+def _computed(
+    rig: Oscillator, record: Record, tail: float | None, samples: int
+) -> dict[str, xr.Dataset]:
+    """The response, the motion, and the spectra of the ground and of the mass.
+
+    Raises
+    ------
+    InputError
+        If the motion was given up.
+    """
+    import numpy as np
+
+    from vibroimpact.engine.status import Status
+    from vibroimpact.response.response_spectrum import response_spectrum
+    from vibroimpact.response.simulate import simulate
+    from vibroimpact.seismic.floor import floor_record
+    from vibroimpact.seismic.free import free_tail
+    from vibroimpact.seismic.response import seismic_response
+
+    behind = free_tail(rig, record) if tail is None else tail
+    motion = simulate(rig, record, samples=samples, tail=behind)
+    if motion.attrs["status"] != Status.DONE.advice:
+        raise InputError(f"the motion was given up ({motion.attrs['status']})")
+    periods = np.geomspace(_SHORTEST, _LONGEST, _PERIODS)
+    return {
+        "response": seismic_response(rig, record, tail=behind),
+        "motion": motion,
+        "ground": response_spectrum(record, periods, _DAMPING),
+        "floor": response_spectrum(floor_record(motion), periods, _DAMPING),
+    }
+
+
+def _free(rig: Oscillator, record: Record, tail: float | None) -> xr.Dataset | None:
+    """The response without stops; None where there are none, or nothing else holds the mass."""
+    from vibroimpact.seismic.response import seismic_response
+
+    if not rig.stops:
+        return None
+    try:
+        return seismic_response(rig.without_bumpers(), record, tail=tail)
+    except InputError:
+        return None

@@ -1,0 +1,196 @@
+"""Suites of records: curves of incremental dynamic analysis, and fragility curves."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.style import LEGEND
+from vibroimpact.model import to_si
+from vibroimpact.model.quantities import LENGTH
+from vibroimpact.seismic.suites import fractiles, known
+
+_LABELS = {
+    "peak_displacement": (1e3, "largest $|u|$ (mm)"),
+    "peak_displacement_right": (1e3, "largest $u$ (mm)"),
+    "peak_displacement_left": (1e3, "largest $-u$ (mm)"),
+    "peak_acceleration": (1.0, "largest $|\\ddot u + A_t|$ (m/s²)"),
+    "peak_force": (1e-3, "largest contact force (kN)"),
+    "peak_force_right": (1e-3, "largest force of the right stop (kN)"),
+    "peak_force_left": (1e-3, "largest force of the left stop (kN)"),
+    "residual_displacement": (1e3, "residual displacement (mm)"),
+}
+_FRACTILES = (0.16, 0.5, 0.84)
+_DASHES = ("--", "-", "-.")
+
+
+def incremental_curves(
+    demands: xr.Dataset,
+    ax: Axes | None = None,
+    *,
+    quantity: str = "peak_displacement",
+    limit: float | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw a peak over the level of shaking: a grey curve a record, and the fractiles.
+
+    Parameters
+    ----------
+    demands
+        Dataset of `demands` of one rig: choose one by ``isel`` or ``sel`` where there are several.
+    ax
+        Axes to draw on. None makes a new figure.
+    quantity
+        One of its peaks.
+    limit
+        A value of the peak (SI units) that is drawn as a line, such as the gap.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If it is no such dataset, has fewer than two scales, or holds several rigs.
+    """
+    values = known(demands, quantity)
+    _one_rig(values, "demands")
+    ax = axes_or_new(ax, (5.6, 4.0), title)
+    factor, label = _LABELS.get(quantity, (1.0, _plain_label(demands, quantity)))
+    level = demands["scale"].values
+    for one in values.transpose("record", "scale").values:
+        finite = np.where(np.isfinite(one), one, np.nan)
+        ax.plot(level, factor * finite, color="0.75", linewidth=0.6, zorder=2)
+    found = fractiles(demands, quantity, _FRACTILES)[quantity]
+    for share, dashes in zip(_FRACTILES, _DASHES, strict=True):
+        curve = found.sel(fractile=share).values
+        ax.plot(
+            level,
+            factor * np.where(np.isfinite(curve), curve, np.nan),
+            color="black",
+            linestyle=dashes,
+            linewidth=1.5,
+            label=f"{100 * share:g} %",
+            zorder=3,
+        )
+    if limit is not None:
+        ax.axhline(factor * limit, color="#c8102e", linestyle=":", linewidth=1.2, label="limit")
+    ax.set_xlim(level[0], level[-1])
+    ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+    ax.set_xlabel(_scale_label(demands))
+    ax.set_ylabel(label)
+    ax.legend(ncols=4, **LEGEND)
+    return ax
+
+
+def fragility_curves(
+    fragility: xr.Dataset, ax: Axes | None = None, *, title: str | None = None
+) -> Axes:
+    """Draw a fragility curve with its confidence band over the shares of the records.
+
+    Parameters
+    ----------
+    fragility
+        Dataset of `fragility` of one rig, or over one parameter or a few rigs.
+    ax
+        Axes to draw on. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If it is no such dataset, or has more curves than can be told apart.
+    """
+    if not isinstance(fragility, xr.Dataset) or "fitted_probability" not in fragility:
+        raise InputError("fragility: this is no fragility; a dataset of fragility is accepted")
+    from scipy.special import ndtr
+
+    others = [str(dim) for dim in fragility["median_capacity"].dims]
+    if len(others) > 1 or fragility["median_capacity"].size > len(_LOOKS):
+        raise InputError(
+            f"fragility: {fragility['median_capacity'].size} curves; at most {len(_LOOKS)}, over "
+            "one dim, are accepted"
+        )
+    ax = axes_or_new(ax, (5.6, 4.0), title)
+    level = fragility["scale"].values
+    fine = np.geomspace(level[0], level[-1], 400)
+    every = (
+        [(None, fragility)]
+        if not others
+        else [(one, fragility.sel({others[0]: one})) for one in fragility[others[0]].values]
+    )
+    for (name, one), (colour, dashes, mark) in zip(every, _LOOKS, strict=False):
+        median, spread = float(one["median_capacity"]), float(one["dispersion"])
+        words = f"$\\theta$ = {median:.3g}, $\\beta$ = {spread:.2g}"
+        if name is not None:
+            words = f"{_value(fragility, others[0], name)}: {words}"
+        ax.plot(
+            fine,
+            ndtr((np.log(fine) - np.log(median)) / spread),
+            color=colour,
+            linestyle=dashes,
+            linewidth=1.4,
+            label=words,
+            zorder=3,
+        )
+        lower, upper = one["fitted_probability_bound"].transpose("bound", "scale").values
+        ax.fill_between(level, lower, upper, color=colour, alpha=0.15, linewidth=0.0, zorder=1)
+        ax.plot(
+            level,
+            one["probability"].values,
+            linestyle="",
+            marker=mark,
+            markersize=4.0,
+            color=colour,
+            markerfacecolor="none",
+            zorder=4,
+        )
+    ax.set_xlim(level[0], level[-1])
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel(_scale_label(fragility))
+    ax.set_ylabel("probability of exceeding the limit (–)")
+    ax.legend(ncols=1 if others else 2, **LEGEND)
+    return ax
+
+
+_LOOKS = (
+    ("black", "-", "o"),
+    ("#c8102e", "--", "s"),
+    ("#1f4fbf", "-.", "^"),
+    ("#00795c", ":", "D"),
+    ("#c05a00", (0, (5, 1, 1, 1, 1, 1)), "v"),
+)
+
+
+def _one_rig(values: xr.DataArray, what: str) -> None:
+    others = [str(dim) for dim in values.dims if dim not in ("record", "scale")]
+    if others:
+        raise InputError(
+            f"{what}: over {', '.join(others)}, too; those of one rig are accepted, as "
+            f"demands.isel({others[0]}=0)"
+        )
+    if values.sizes["scale"] < 2:
+        raise InputError(f"{what}: one scale; several are accepted")
+
+
+def _value(data: xr.Dataset, dim: str, value: object) -> str:
+    """A value of what is varied, as a legend names it."""
+    if data[dim].attrs.get("units") == "m":
+        return f"{dim.replace('_', ' ')} {1e3 * to_si(value, LENGTH, dim):.4g} mm"
+    unit = data[dim].attrs.get("units", "1")
+    number = value if isinstance(value, str) else f"{value:.4g}"
+    return f"{dim.replace('_', ' ')} {number}{'' if unit == '1' else f' {unit}'}"
+
+
+def _plain_label(data: xr.Dataset, quantity: str) -> str:
+    about = data[quantity].attrs
+    unit = "–" if about["units"] == "1" else about["units"]
+    return f"{about['long_name']} ({unit})"
+
+
+def _scale_label(data: xr.Dataset) -> str:
+    about = data["scale"].attrs
+    return f"{about['long_name']} ({'–' if about['units'] == '1' else 'm/s²'})"

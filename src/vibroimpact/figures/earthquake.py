@@ -1,0 +1,168 @@
+"""A record and what it does to a rig, on one page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.inline import Drawing, Panel, Panels
+from vibroimpact.figures.motions import SIDES, Shown, named, shown
+from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
+from vibroimpact.figures.style import EDGE, LEGEND
+from vibroimpact.model import GRAVITY
+from vibroimpact.response.phases import any_recorded
+
+_DASHES = ("-", "--", "-.", ":")
+_COLOURS = ("black", "#c8102e", "#1f4fbf", "#00795c")
+_MARKS = {1: ("^", "#c8102e"), -1: ("v", "#1f4fbf")}
+"""Of impacts with the right and with the left stop."""
+
+
+def earthquake_page(
+    motion: xr.Dataset,
+    spectra: Mapping[str, xr.Dataset] | None = None,
+    *,
+    title: str | None = None,
+) -> Panels:
+    """Draw a motion through a record on one page.
+
+    The record; the displacement between the stops; the absolute acceleration, in which triangles
+    mark the beginning of each contact; the force of isolator and stops over the displacement; and
+    response spectra.
+
+    Parameters
+    ----------
+    motion
+        Dataset of `simulate` through a `Record`, with samples.
+    spectra
+        Datasets of `response_spectrum` of one damping ratio by name, such as those of the ground
+        and of the mass (`floor_record`). None leaves that panel out.
+    title
+        Title of the page.
+
+    Returns
+    -------
+    tuple of Axes
+        For the record, the displacement, the acceleration, the force and, if given, the spectra;
+        ``axes[0].figure`` is the figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a motion through a record, or a spectrum is none.
+    """
+    stops = stops_of(motion)
+    figure = Drawing(figsize=(7.2, 9.4), layout="constrained")
+    grid = figure.add_gridspec(4, 2, height_ratios=[1.0, 1.4, 1.4, 1.9])
+    new: dict[str, Any] = {"axes_class": Panel}
+    base = figure.add_subplot(grid[0, :], **new)
+    others = [figure.add_subplot(grid[row, :], sharex=base, **new) for row in (1, 2)]
+    last = [figure.add_subplot(grid[3, 0] if spectra else grid[3, :], **new)]
+    if spectra:
+        last.append(figure.add_subplot(grid[3, 1], **new))
+    (curve,) = shown(named(motion, records=True))
+    _histories((base, *others), motion, curve, stops)
+    _force(last[0], motion, curve)
+    if spectra:
+        _spectra(last[1], spectra)
+    figure.align_ylabels([base, *others])
+    if title:
+        figure.suptitle(title)
+    return Panels((base, *others, *last))
+
+
+def _histories(
+    axes: tuple[Axes, ...], motion: xr.Dataset, curve: Shown, stops: dict[str, dict[str, Any]]
+) -> None:
+    base, moved, shaken = axes
+    time = motion["time"].values
+    for ax in axes:
+        ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
+    base.plot(time, motion["base_acceleration"].values, color="black", linewidth=0.7)
+    base.set_ylabel("base acceleration\n$A_t$ (m/s²)")
+    base.set_xlim(time[0], time[-1])
+    for ax, variable, factor in ((moved, "displacement", 1e3), (shaken, "acceleration", 1.0)):
+        ax.plot(curve.at, factor * curve.values[variable], color="black", linewidth=0.8, zorder=3)
+        contact_bands(ax, motion)
+    moved.set_ylabel("relative\ndisplacement $u$ (mm)")
+    shaken.set_ylabel("absolute acceleration\n$\\ddot u + A_t$ (m/s²)")
+    shaken.set_xlabel("time (s)")
+    for ax in (base, moved):
+        ax.tick_params(labelbottom=False)
+    gap_lines(moved, stops)
+    handles = stops_legend(stops)
+    begun = motion["event_contact"].values >= 1
+    for side, (mark, colour) in _MARKS.items():
+        here = begun & (motion["event_side"].values == side)
+        if here.any():
+            shaken.plot(
+                motion["event_time"].values[here],
+                motion["event_acceleration_behind"].values[here],
+                linestyle="",
+                marker=mark,
+                markersize=4.5,
+                color=colour,
+                markeredgecolor="white",
+                markeredgewidth=0.4,
+                zorder=4,
+            )
+            handles.append(
+                Line2D(
+                    [],
+                    [],
+                    linestyle="",
+                    marker=mark,
+                    markersize=4.5,
+                    color=colour,
+                    label=f"meets the {SIDES[side]} stop",
+                )
+            )
+    if handles:
+        moved.legend(handles=handles, ncols=5, **{**LEGEND, "columnspacing": 1.0})
+
+
+def _force(ax: Axes, motion: xr.Dataset, curve: Shown) -> None:
+    """What isolator and stops pull back with; its loops are the energy that they take."""
+    rig = any_recorded(motion).oscillator
+    pull = rig.force - rig.mass * curve.values["acceleration"]
+    scale, unit = (1e3, "kN") if np.abs(pull).max() >= 1e3 else (1.0, "N")
+    for zero in (ax.axhline, ax.axvline):
+        zero(0.0, color="0.7", linewidth=0.6, zorder=0)
+    ax.plot(1e3 * curve.values["displacement"], pull / scale, color="black", linewidth=0.6)
+    for side, gap in curve.gaps.items():
+        at = 1e3 * gap * (1.0 if side == "right" else -1.0)
+        ax.axvline(at, color="black", linestyle="--", linewidth=0.8, zorder=1)
+    ax.set_xlabel("relative displacement $u$ (mm)")
+    ax.set_ylabel(f"force of isolator and stops ({unit})")
+
+
+def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
+    for i, (name, spectrum) in enumerate(spectra.items()):
+        if "spectral_acceleration" not in spectrum or spectrum["spectral_acceleration"].ndim != 1:
+            raise InputError(
+                f"spectra[{name!r}]: this is no response spectrum of one damping ratio; a dataset "
+                "of response_spectrum with several periods is accepted"
+            )
+        ax.plot(
+            spectrum["natural_period"].values,
+            spectrum["spectral_acceleration"].values / GRAVITY,
+            color=_COLOURS[i % len(_COLOURS)],
+            linestyle=_DASHES[i % len(_DASHES)],
+            linewidth=1.2,
+            label=f"{name}, $\\zeta$ = {float(spectrum['damping_ratio']):g}",
+        )
+    periods = next(iter(spectra.values()))["natural_period"].values
+    ax.set_xscale("log")
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.set_xlim(periods.min(), periods.max())
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel("natural period (s)")
+    ax.set_ylabel("spectral acceleration (g)")
+    ax.grid(True, which="major", linewidth=0.4, color="0.85")
+    ax.legend(ncols=1, frameon=False, fontsize="small")

@@ -1,0 +1,208 @@
+"""Fragility curves: the probability that a level of shaking makes a peak exceed its limit."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.counts import share
+from vibroimpact.seismic.suites import described, exceedance, known, limit_of
+
+_Array = NDArray[np.float64]
+
+
+class Fit(NamedTuple):
+    """A lognormal curve Φ((ln s − ln θ)/β)."""
+
+    log_median: float
+    """ln θ."""
+    log_dispersion: float
+    """ln β."""
+
+    def reached(self, logarithms: _Array) -> _Array:
+        """(ln s − ln θ)/β."""
+        return (logarithms - self.log_median) / math.exp(self.log_dispersion)
+
+
+def fragility(
+    demands: xr.Dataset,
+    quantity: str,
+    limit: float | str,
+    *,
+    confidence: float = 0.9,
+) -> xr.Dataset:
+    """Fit a lognormal fragility curve to how many records exceed a limit at each scale.
+
+    P(scale) = Φ((ln scale − ln θ)/β), with θ and β of the largest binomial likelihood of the
+    numbers of records above the limit (Baker 2015, Earthquake Spectra 31(1)). Since the same
+    records are used at all scales, whether one exceeds at one scale tells of the next: the
+    uncertainty is that between records. It is found by leaving out one after the other (the
+    jackknife), with Student's distribution of as many degrees of freedom as there are records, less
+    one.
+
+    Parameters
+    ----------
+    demands
+        Dataset of `demands`.
+    quantity
+        One of its peaks, such as ``"peak_acceleration"``; ``"impact_count"`` with the limit 0 for
+        impact itself.
+    limit
+        In SI units or as text with units; what is greater exceeds it.
+    confidence
+        Of the intervals, between 0 and 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``median_capacity`` θ (in the scale's units), ``dispersion`` β and ``fitted_probability``
+        over the scales, each with its ends ``…_bound`` (dim ``bound``: lower, upper);
+        ``exceeding`` and ``probability`` as those of `exceedance`. NaN where the records do not
+        determine a curve (no scale has both records above and below that begin or end to exceed at
+        others); intervals are unbounded where they do not without one of the records.
+
+    Raises
+    ------
+    InputError
+        As `exceedance`; if no rig has a curve, or there are fewer than 3 records.
+    """
+    values = known(demands, quantity)
+    least = limit_of(demands, quantity, limit)
+    level = share(confidence, "confidence")
+    if values.sizes["record"] < 3:
+        raise InputError(
+            f"demands: {values.sizes['record']} records; at least 3 are accepted for a curve with "
+            "its uncertainty"
+        )
+    order = ("record", "scale", *(dim for dim in values.dims if dim not in ("record", "scale")))
+    above = (values > least).transpose(*order).values
+    logarithms = np.log(values["scale"].values)
+    shape = above.shape[2:]
+    found = {
+        name: np.full((*extra, *shape), np.nan)
+        for name, extra in (
+            ("median_capacity", ()),
+            ("dispersion", ()),
+            ("fitted_probability", (len(logarithms),)),
+            ("median_capacity_bound", (2,)),
+            ("dispersion_bound", (2,)),
+            ("fitted_probability_bound", (2, len(logarithms))),
+        )
+    }
+    for at in np.ndindex(*shape):
+        one = _curve(above[(slice(None), slice(None), *at)], logarithms, level)
+        if one is not None:
+            for name, value in one.items():
+                found[name][(..., *at)] = value
+    if np.isnan(found["median_capacity"]).all():
+        raise InputError(
+            f"limit: {limit!r}; at no scale some records exceed it and others do not so that a "
+            "curve is determined; other scales, closer to one another, or another limit are "
+            "accepted"
+        )
+    others = order[2:]
+    dims = {
+        "fitted_probability": ("scale", *others),
+        "fitted_probability_bound": ("bound", "scale", *others),
+    }
+    data = exceedance(demands, quantity, least).assign(
+        {
+            name: (dims.get(name, (*(("bound",) if "bound" in name else ()), *others)), value)
+            for name, value in found.items()
+        }
+    )
+    data = data.assign_coords(bound=["lower", "upper"])
+    data.attrs.clear()
+    about = {"quantity": quantity, "limit": least, "confidence": level}
+    data = described(data, "vibroimpact.fragility", demands, about)
+    for name in ("median_capacity", "median_capacity_bound"):
+        data[name].attrs["units"] = demands["scale"].attrs["units"]
+    return data
+
+
+def _curve(
+    above: NDArray[np.bool_], logarithms: _Array, confidence: float
+) -> dict[str, float | _Array] | None:
+    """The curve of one rig with its uncertainty; None if it is not determined."""
+    from scipy.special import ndtr
+    from scipy.stats import t
+
+    count = len(above)
+    whole = fit(above.sum(axis=0), count, logarithms)
+    if whole is None:
+        return None
+    left_out = [fit(above.sum(axis=0) - one, count - 1, logarithms, whole) for one in above]
+    reached = whole.reached(logarithms)
+    middle = np.array([*whole, *reached])
+    if any(one is None for one in left_out):
+        width = np.full(len(middle), np.inf)
+    else:
+        parts = np.array([[*one, *one.reached(logarithms)] for one in left_out if one])
+        spread = ((parts - parts.mean(axis=0)) ** 2).sum(axis=0)
+        width = t.ppf(0.5 + 0.5 * confidence, count - 1) * np.sqrt((count - 1) / count * spread)
+        middle = count * middle - (count - 1) * parts.mean(axis=0)
+    ends = np.array([middle - width, middle + width])
+    return {
+        "median_capacity": math.exp(whole.log_median),
+        "dispersion": math.exp(whole.log_dispersion),
+        "fitted_probability": ndtr(reached),
+        "median_capacity_bound": np.exp(ends[:, 0]),
+        "dispersion_bound": np.exp(ends[:, 1]),
+        "fitted_probability_bound": ndtr(ends[:, 2:]),
+    }
+
+
+def fit(
+    exceeding: NDArray[np.int64], count: int, logarithms: _Array, start: Fit | None = None
+) -> Fit | None:
+    """The curve of the largest binomial likelihood.
+
+    Parameters
+    ----------
+    exceeding
+        Records that exceed at each scale, of `count`.
+    logarithms
+        Of the scales.
+    start
+        A curve near it.
+
+    Returns
+    -------
+    Fit or None
+        None where there is none: where all records that exceed do so at scales above all those at
+        which one does not, or the curve falls.
+    """
+    from scipy.optimize import minimize
+    from scipy.special import log_ndtr
+
+    some, others = np.flatnonzero(exceeding > 0), np.flatnonzero(exceeding < count)
+    if not len(some) or not len(others) or logarithms[others[-1]] <= logarithms[some[0]]:
+        return None
+    middle, size = logarithms.mean(), np.ptp(logarithms)
+    x = (logarithms - middle) / size
+
+    def unlikely(line: _Array) -> tuple[float, _Array]:
+        """Minus the logarithm of the likelihood of Φ(a + b x), which is convex, and its slope."""
+        z = line[0] + line[1] * x
+        up, down = log_ndtr(z), log_ndtr(-z)
+        density = -0.5 * z * z - 0.5 * math.log(math.tau)
+        slope = exceeding * np.exp(density - up) - (count - exceeding) * np.exp(density - down)
+        return (
+            -float((exceeding * up + (count - exceeding) * down).sum()),
+            -np.array([slope.sum(), (slope * x).sum()]),
+        )
+
+    first = np.array([0.0, 2.0])
+    if start is not None:
+        dispersion = math.exp(start.log_dispersion)
+        first = np.array([(middle - start.log_median) / dispersion, size / dispersion])
+    found = minimize(unlikely, first, jac=True, method="BFGS", options={"gtol": 1e-9 * count})
+    a, b = found.x
+    if not b > 0.0:
+        return None
+    return Fit(middle - a / b * size, math.log(size / b))

@@ -1,0 +1,80 @@
+"""How strong a record is: the measure by which a suite of records is scaled."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Record, to_si
+from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, TIME, Quantity
+from vibroimpact.model.units import shown
+from vibroimpact.response.response_spectrum import response_spectrum
+
+_Array = NDArray[np.float64]
+
+
+class Measure(NamedTuple):
+    """An intensity measure."""
+
+    name: str
+    """For datasets."""
+    quantity: Quantity
+    period: float | None = None
+    """Of a spectral acceleration (s)."""
+    damping: float = 0.05
+
+    @property
+    def units(self) -> str:
+        """As datasets write them."""
+        return "1" if self.quantity is DIMENSIONLESS else "m s-2"
+
+    def of(self, records: list[Record]) -> _Array:
+        """Of each record as it is."""
+        if self.quantity is DIMENSIONLESS:
+            return np.ones(len(records))
+        if self.period is None:
+            return np.array([one.peak for one in records])
+        spectra = [response_spectrum(one, self.period, self.damping) for one in records]
+        return np.array([float(one["pseudo_acceleration"]) for one in spectra])
+
+    def factors(self, records: list[Record], levels: _Array) -> tuple[_Array, _Array]:
+        """The intensity of each record, and what it is multiplied by at each level.
+
+        Raises
+        ------
+        InputError
+            If a record is 0 throughout.
+        """
+        found = self.of(records)
+        for i in np.flatnonzero(found == 0.0):
+            raise InputError(
+                f"records[{i}]: it is 0 throughout, so that no factor gives it a {self.name}; one "
+                "that moves is accepted"
+            )
+        return found, levels / found[:, np.newaxis]
+
+
+def measure(given: Any) -> Measure:
+    """Read an intensity measure: "factor", "PGA", or a natural period and a damping ratio.
+
+    Raises
+    ------
+    InputError
+        If it is none of them.
+    """
+    if isinstance(given, str) and given == "factor":
+        return Measure("factor of the record", DIMENSIONLESS)
+    if isinstance(given, str) and given == "PGA":
+        return Measure("peak ground acceleration", ACCELERATION)
+    if not isinstance(given, tuple | list) or len(given) != 2:
+        raise InputError(
+            f'intensity: {shown(given)}; "factor", "PGA", or a natural period and a damping ratio '
+            "of the spectral acceleration, such as (1.0, 0.05), are accepted"
+        )
+    period = to_si(given[0], TIME, "intensity[0]", above=0.0)
+    damping = to_si(given[1], DIMENSIONLESS, "intensity[1]", minimum=0.0)
+    name = f"pseudo-acceleration at T = {period:.6g} s, ζ = {damping:.4g}"
+    return Measure(name, ACCELERATION, period, damping)

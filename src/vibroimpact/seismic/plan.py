@@ -1,0 +1,199 @@
+"""Which runs many rigs, records and scales make, and in which blocks they are done."""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator, Record, to_si
+from vibroimpact.model.parameters import parameter
+from vibroimpact.model.rigs import as_rig, rig_name
+from vibroimpact.model.units import shown
+
+_Array = NDArray[np.float64]
+
+NOT_VARIED = ("frequency", "amplitude", "gap_ratio")
+"""Parameters of what shakes it, which a record does not have."""
+
+_ANY = Harmonic(1.0, 1.0)
+"""What the registry of parameters asks for beside a rig."""
+
+
+class Varied(NamedTuple):
+    """Values of one parameter."""
+
+    name: str
+    values: _Array
+    units: str
+    long_name: str
+
+
+class Runs(NamedTuple):
+    """Rigs, and what is varied of them."""
+
+    rigs: dict[str, Oscillator]
+    varied: tuple[Varied, ...]
+    several: bool
+    """Whether the rigs are a dim."""
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Those of the rigs, behind record and scale."""
+        return (*(("rig",) if self.several else ()), *(one.name for one in self.varied))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Their lengths."""
+        return (
+            *((len(self.rigs),) if self.several else ()),
+            *(len(one.values) for one in self.varied),
+        )
+
+    def oscillator(self, at: tuple[int, ...]) -> Oscillator:
+        """The rig at a place along the dims.
+
+        Raises
+        ------
+        InputError
+            If a rig has no such parameter, or cannot have that value.
+        """
+        names = list(self.rigs)
+        rig = self.rigs[names[at[0] if self.several else 0]]
+        values = dict(zip((one.name for one in self.varied), at[self.several :], strict=True))
+        # The relaxation time sets the damping last.
+        for one in sorted(self.varied, key=lambda one: one.name == "relaxation_time"):
+            value = float(one.values[values[one.name]])
+            known = parameter(one.name)
+            rig, _ = known.write(rig, _ANY, value)
+            known.read(rig, _ANY)  # refuses what the rig does not have
+        return rig
+
+
+def runs(oscillator: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None) -> Runs:
+    """Read the rigs: one, or several by name or in a list; and what is varied of each.
+
+    Raises
+    ------
+    InputError
+        If one cannot be used.
+    """
+    if isinstance(oscillator, Mapping):
+        rigs = {str(name): _rig(one, f"oscillator[{name!r}]") for name, one in oscillator.items()}
+    elif isinstance(oscillator, list):
+        made = [_rig(one, f"oscillator[{i}]") for i, one in enumerate(oscillator)]
+        names = [rig_name(one, str(i)) for i, one in enumerate(oscillator)]
+        unique = names if len(set(names)) == len(names) else [str(i) for i in range(len(made))]
+        rigs = dict(zip(unique, made, strict=True))
+    else:
+        rigs = {"rig": _rig(oscillator, "oscillator")}
+    if not rigs:
+        raise InputError("oscillator: none given; one or several are accepted")
+    given = dict(vary or {})
+    if gaps is not None:
+        if "gap" in given:
+            raise InputError("gaps: given beside vary['gap']; one of the two is accepted")
+        given = {"gap": gaps, **given}
+    one = next(iter(rigs.values()))
+    varied = tuple(_varied(name, values, one) for name, values in given.items())
+    found = Runs(rigs, varied, isinstance(oscillator, Mapping | list))
+    for at in itertools.product(*((0, n - 1) for n in found.shape)):
+        found.oscillator(at)  # refused before anything is computed
+    return found
+
+
+def _rig(given: Any, where: str) -> Oscillator:
+    return given if isinstance(given, Oscillator) else as_rig(given, where, "an oscillator, ")[0]
+
+
+def _varied(name: str, values: Any, rig: Oscillator) -> Varied:
+    field = "gaps" if name == "gap" else f"vary[{name!r}]"
+    known = parameter(name, "vary").of(rig)
+    if known.name in NOT_VARIED:
+        raise InputError(f"vary: {name!r} is that of a sine; a parameter of the rig is accepted")
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise InputError(f"{field}: {shown(values)} is no list of values; one or more are accepted")
+    limits: dict[str, Any] = {"minimum": known.least} if known.zero else {"above": 0.0}
+    numbers = [
+        to_si(value, known.quantity, f"{field}[{i}]", **limits, maximum=known.most)
+        for i, value in enumerate(values)
+    ]
+    if not numbers:
+        raise InputError(f"{field}: no values; one or more are accepted")
+    if len(set(numbers)) < len(numbers):
+        raise InputError(f"{field}: a value is given twice; different ones are accepted")
+    return Varied(known.name, np.array(numbers), known.units, known.long_name)
+
+
+def suite(records: Any) -> dict[str, Record]:
+    """Read records: one, several by name, or a list, whose names are those of their files.
+
+    Raises
+    ------
+    InputError
+        If one is no record, or there is none.
+    """
+    if isinstance(records, Record):
+        records = [records]
+    if isinstance(records, Mapping):
+        found = {str(name): one for name, one in records.items()}
+    else:
+        listed = list(records) if isinstance(records, Iterable) else [records]
+        found = {}
+        for i, one in enumerate(listed):
+            about = one.about if isinstance(one, Record) else None
+            parts = (Path(about.source).name, about.component) if about else ()
+            name = " ".join(part for part in parts if part) or str(i)
+            found[name if name not in found else f"{name} ({i})"] = one
+    for name, one in found.items():
+        if not isinstance(one, Record):
+            raise InputError(f"records[{name!r}]: {shown(one)}; a Record is accepted")
+    if not found:
+        raise InputError("records: none given; one or several are accepted")
+    return found
+
+
+def digest(record: Record) -> str:
+    """What tells a record from another."""
+    return hashlib.sha256(record.acceleration.tobytes() + repr(record.step).encode()).hexdigest()
+
+
+class Block(NamedTuple):
+    """Part of all runs, with every scale."""
+
+    number: int
+    records: slice
+    rigs: tuple[slice, ...]
+    """Along each dim of the rigs."""
+
+    @property
+    def place(self) -> tuple[slice, ...]:
+        """In arrays over records, scales and the dims of the rigs."""
+        return (self.records, slice(None), *self.rigs)
+
+
+def chunks(shape: tuple[int, ...], most: int) -> tuple[int, ...]:
+    """How long blocks are along each dim: filled from the last on, `most` places in all."""
+    found = []
+    left = most
+    for length in reversed(shape):
+        found.append(max(1, min(length, left)))
+        left = max(1, left // found[-1])
+    return tuple(reversed(found))
+
+
+def blocks(shape: tuple[int, ...], most: int) -> Iterator[Block]:
+    """All of them, in turn; `shape` is that of records and rigs."""
+    sizes = chunks(shape, most)
+    ranges = [
+        [slice(i, min(i + size, length)) for i in range(0, length, size)]
+        for length, size in zip(shape, sizes, strict=True)
+    ]
+    for number, (first, *others) in enumerate(itertools.product(*ranges)):
+        yield Block(number, first, tuple(others))

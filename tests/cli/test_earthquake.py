@@ -1,0 +1,118 @@
+"""``vibroimpact earthquake`` from the words typed to the files written."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from seismic.rigs import noise
+
+COMMAND = "earthquake"
+
+
+@pytest.fixture
+def quake(tmp_path):
+    record = noise(8, count=200)
+    rows = [f"{t:.2f},{a:.9g}" for t, a in zip(record.time, record.acceleration, strict=True)]
+    (tmp_path / "quake.csv").write_text("\n".join(["Time (s),North (m/s^2)", *rows]) + "\n")
+    return "quake.csv"
+
+
+def test_words_figure_and_data(run, tmp_path, quake):
+    code, told, errors = run("B2-G1-A3", quake, "--scale", "0.3")
+    assert (code, errors) == (0, "")
+    stem = "B2-G1-A3-quake.csv-earthquake"
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {
+        f"{stem}.nc",
+        f"{stem}.png",
+        "B2-G1-A3-earthquake.csv",
+    }
+    record = vi.Record.read(tmp_path / quake).scaled(0.3)
+    direct = vi.seismic_response("B2-G1-A3", record)
+    counts = [int(direct[f"impact_count_{side}"]) for side in ("right", "left")]
+    assert min(counts) > 1
+    assert f"{counts[0]} right, {counts[1]} left" in told
+    assert "It hits the right stop" in told
+    assert "that without stops, where it would move by" in " ".join(told.split())
+    path = tmp_path / f"out/{stem}.nc"
+    held = vi.load(path, "response")
+    for name in direct.data_vars:
+        assert float(held[name]) == float(direct[name])
+    floor = vi.floor_record(vi.load(path, "motion"))
+    periods = vi.load(path, "floor")["natural_period"].values
+    np.testing.assert_array_equal(
+        vi.response_spectrum(floor, periods)["spectral_acceleration"],
+        vi.load(path, "floor")["spectral_acceleration"],
+    )
+    head, row = (tmp_path / "out/B2-G1-A3-earthquake.csv").read_text().splitlines()
+    values = dict(zip(head.split(","), row.split(","), strict=True))
+    assert values["record"] == "quake.csv"
+    assert float(values["peak_force (N)"]) == float(direct["peak_force"])
+
+
+def test_several_records_options_and_json(run, tmp_path, quake):
+    (tmp_path / "weak.csv").write_text((tmp_path / quake).read_text())
+    code, told, _ = run(
+        *("B2-G1-A3", quake, "weak.csv", "--peak", "0.01 g", "--tail", "3 s", "--gap", "40mm"),
+        *("--json", "--name", "made", "--figure", "svg", "--samples", "1"),
+    )
+    assert code == 0
+    facts = json.loads(told)
+    assert [one["name"] for one in facts["records"]] == ["quake.csv", "weak.csv"]
+    for one in facts["records"]:
+        assert one["impact_count"] == 0.0
+        assert one["verdict"].startswith("It hits no stop: ")
+        assert one["status"] == "done"
+        assert one["without_stops"]["peak_acceleration"] == one["peak_acceleration"]
+    assert facts["oscillator"]["right"]["gap"] == 0.04
+    assert facts["files"]["table"] == "out/made-earthquake.csv"
+    for path in facts["files"].values():
+        assert (tmp_path / path).is_file()
+
+
+def test_a_study_with_its_record_and_one_without(run, tmp_path, quake):
+    rig = """
+    [oscillator]
+    mass = "550 kg"
+    isolator = { kind = "friction", stiffness = "5 kN/m", damping = 0, friction = "300 N" }
+    right = { kind = "rigid", restitution = 0.5, gap = "10 mm" }
+    """
+    (tmp_path / "alone.toml").write_text(rig)
+    (tmp_path / "shaken.toml").write_text(rig + '[excitation]\nrecord = "quake.csv"\n')
+    told = {}
+    for name, words in (("alone", [quake]), ("shaken", [])):
+        code, told[name], errors = run(f"{name}.toml", *words)
+        assert (code, errors) == (0, "")
+        assert "with an impulse of" in " ".join(told[name].split())
+        assert "infinite right" in told[name]
+    assert told["alone"].splitlines()[1:12] == told["shaken"].splitlines()[1:12]
+    code, _, errors = run("B2-G1-A3")
+    assert code == 2
+    assert errors == (
+        "vibroimpact: error: RECORD: missing; the file of a record is accepted, or a study that "
+        "names one\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (["--scale", "0"], "scale: 0"),
+        (["--scale", "2", "--peak", "1"], "peak: '1' beside"),
+        (["--tail", "-1s"], "--tail: '-1s' is less than 0"),
+        (["--samples", "0"], "--samples: 0; a whole number of at least 1"),
+        (["--amplitude", "0.1g"], "--amplitude: '0.1g', but a record shakes this rig"),
+        (["--component", "Up"], "component: 'Up' is none of 'quake.csv'"),
+        (["nothing.AT2"], "record: 'nothing.AT2' cannot be read"),
+    ],
+)
+def test_wrong_input_is_one_line_and_nothing_is_written(run, tmp_path, quake, words, line):
+    code, told, errors = run("B2-G1-A3", quake, *words)
+    assert (code, told) == (2, "")
+    assert errors.startswith("vibroimpact: error: ")
+    assert errors.count("\n") == 1
+    assert line in errors
+    assert [p.name for p in tmp_path.iterdir()] == [quake]

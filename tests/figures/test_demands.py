@@ -1,0 +1,44 @@
+"""Curves of incremental dynamic analysis and of fragility."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from seismic.made import lognormal
+from vibroimpact.figures import fragility_curves, incremental_curves
+
+SCALES = np.linspace(0.2, 3.0, 10)
+
+
+def test_incremental_curves() -> None:
+    data = lognormal(np.random.default_rng(1), 12, SCALES, 0.4)
+    ax = incremental_curves(data, limit=1.5)
+    grey = [line for line in ax.lines if line.get_color() == "0.75"]
+    assert len(grey) == 12
+    np.testing.assert_allclose(grey[3].get_ydata(), 1e3 * data["peak_displacement"][3])
+    found = vi.fractiles(data)["peak_displacement"]
+    black = [line for line in ax.lines if line.get_color() == "black"]
+    for line, share in zip(black, found["fractile"].values, strict=True):
+        np.testing.assert_allclose(line.get_ydata(), 1e3 * found.sel(fractile=share))
+        assert line.get_label() == f"{100 * share:g} %"
+    assert ax.lines[-1].get_ydata()[0] == 1500.0
+    with pytest.raises(vi.InputError, match=r"^demands: one scale"):
+        incremental_curves(data.isel(scale=[0]))
+    several = data.expand_dims(gap=[0.01, 0.02]).transpose("record", "scale", "gap")
+    with pytest.raises(vi.InputError, match=r"^demands: over gap, too; .*isel\(gap=0\)"):
+        incremental_curves(several)
+
+
+def test_fragility_curves() -> None:
+    data = lognormal(np.random.default_rng(1), 12, SCALES, 0.4)
+    found = vi.fragility(data, "peak_displacement", 1.0)
+    ax = fragility_curves(found)
+    curve, marks = ax.lines
+    at = np.interp(float(found["median_capacity"]), *curve.get_data())
+    assert at == pytest.approx(0.5, abs=1e-3)
+    np.testing.assert_array_equal(marks.get_ydata(), found["probability"])
+    assert len(ax.collections) == 1
+    with pytest.raises(vi.InputError, match=r"^fragility: this is no fragility"):
+        fragility_curves(data)
