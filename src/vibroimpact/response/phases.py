@@ -196,7 +196,9 @@ def cut(motion: xr.Dataset, origin: Recorded[Repeated | Record]) -> Phases:
         [_met(motion, origin.oscillator, side, begun, at_events[:, 1]) for side in SIDES]
     )
     walls = [side for side, stop in zip(SIDES, stops, strict=True) if isinstance(stop, RigidStop)]
-    released = (kinds == DETACHMENT) & np.isin(sides, walls)
+    # What rests for no time at all is pulled off, not let go of where the force has fallen to zero.
+    rested = np.diff(motion["event_time"].values, prepend=motion["time"].values[0]) > 0.0
+    released = (kinds == DETACHMENT) & np.isin(sides, walls) & rested
     fresh = np.where(sides == 1, RIGHT, LEFT) | np.where(released, RELEASED, 0)
     events = _Events(
         at_events,
