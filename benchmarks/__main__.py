@@ -1,6 +1,7 @@
 """Run the benchmarks: `make bench`, or `python -m benchmarks`."""
 
 import argparse
+from collections.abc import Callable, Iterable
 
 from rich.console import Console
 
@@ -20,49 +21,46 @@ from benchmarks.startup import compiling, startup
 from benchmarks.trajectory import many, peers, short_runs, trajectory
 
 
+def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
+    """What is measured, in order, by name."""
+    return {
+        "trajectory": lambda: trajectory(peers(), compiling().text()),
+        "short": lambda: (short_runs(peers()), many()),
+        "laws": lambda: (laws(), yielding(), sampling(), *smooth()),
+        "records": lambda: (records(), spectra()),
+        "campaign": lambda: (campaign(),),
+        "motions": lambda: (motions(),),
+        "branches": lambda: (branches(),),
+        "scenarios": lambda: (scenarios(),),
+        "startup": lambda: (startup(compiling()), memory(), size()),
+    }
+
+
 def main() -> None:
     """Measure, print, and write if told to."""
+    every = groups()
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument(
         "--write", action="store_true", help="put the results into benchmarks/README.md"
     )
+    parser.add_argument("--only", choices=every, nargs="+", help="measure no more than these")
     arguments = parser.parse_args()
     console = Console()
     if not console.is_terminal:
         console = Console(width=120)
-    tables: list[Table] = []
-
-    def add(*more: Table | None) -> None:
-        for table in more:
-            if table is not None:
-                tables.append(table)
-                show(table, console)
-
-    with console.status("compiling ..."):
-        about = machine()
-        compiled = compiling()
-        others = peers()
-    add(about)
-    with console.status("trajectories ..."):
-        add(*trajectory(others, compiled.text()))
-        add(short_runs(others), many())
-        add(laws(), yielding(), sampling(), records(), spectra())
-        add(*smooth())
-    with console.status("the campaign ..."):
-        add(campaign())
-    with console.status("motions ..."):
-        add(motions())
-    with console.status("branches ..."):
-        add(branches())
-    with console.status("scenarios ..."):
-        add(scenarios())
-    with console.status("starting and memory ..."):
-        add(startup(compiled), memory(), size())
-    about.add("load when it ended", f"{load():.1f}")
+    tables = [machine()]
+    show(tables[0], console)
+    for name in arguments.only or every:
+        with console.status(f"{name} ..."):
+            found = [table for table in every[name]() if table is not None]
+        for table in found:
+            show(table, console)
+        tables += found
+    tables[0].add("load when it ended", f"{load():.1f}")
     missed = [row[0] for table in tables for row in table.rows if "NOT MET" in row]
     console.print(f"Not met: {'; '.join(missed)}." if missed else "All targets are met.")
     if arguments.write:
-        write(tables)
+        write(tables, whole=not arguments.only)
 
 
 if __name__ == "__main__":

@@ -68,15 +68,21 @@ def markdown(tables: Iterable[Table]) -> str:
     return "\n\n".join(parts)
 
 
-def write(tables: Iterable[Table], path: Path = README) -> None:
-    """Replace the results between the markers of README.md."""
+def write(tables: Iterable[Table], path: Path = README, whole: bool = True) -> None:
+    """Write the results between the markers of README.md, all anew or each over its namesake."""
     text = path.read_text(encoding="utf-8")
     before, begin, rest = text.partition(_BEGIN)
-    _, end, after = rest.partition(_END)
+    old, end, after = rest.partition(_END)
     if not (begin and end):
         raise SystemExit(f"{path} has no lines {_BEGIN} and {_END}")
-    text = f"{before}{begin}\n\n{markdown(tables)}\n\n{end}{after}"
-    path.write_text(text, encoding="utf-8")
+    parts = {} if whole else {part.partition("\n")[0]: part for part in _parts(old)}
+    parts |= {part.partition("\n")[0]: part for part in _parts(markdown(tables))}
+    results = "\n\n".join(f"### {part}" for part in parts.values())
+    path.write_text(f"{before}{begin}\n\n{results}\n\n{end}{after}", encoding="utf-8")
+
+
+def _parts(text: str) -> list[str]:
+    return [part.strip() for part in text.split("### ") if part.strip()]
 
 
 def _line(cells: Iterable[str]) -> str:

@@ -75,7 +75,9 @@ def impact(
             rate += math.sqrt(plan[stop + par.BUMPER_STIFFNESS]) + plan[stop + par.BUMPER_DAMPING]
             change += plan[stop + par.BUMPER_STIFFNESS] * abs(v)
             change += plan[stop + par.BUMPER_DAMPING] * push
-    lost = plan[par.CURVED] != 0.0 and v * v < 2.0 * push * _GRAIN * abs(u)
+    # A yielding isolator's displacement is reckoned from where it would come to rest.
+    size = abs(u) + (abs(plan[par.LOAD]) + abs(plan[par.HYSTERETIC] * z)) / (stiffness + 1e-300)
+    lost = plan[par.CURVED] != 0.0 and v * v < 2.0 * push * _GRAIN * size
     if (rest * rate > _CHATTERED or rest * change > _CHATTERED * push) and not lost:
         return event, t, arrival, bounced
     last = Motion(bounced.mode, side | SETTLING, u, v, right, left, z, 0.0, clock)

@@ -280,6 +280,11 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
     if event in (RIGHT, LEFT):
         return event, t, 0.0, Motion(mode | event, event, u, 0.0, right, left, z, 0.0, after)
     fresh = slips if event == TURNED else 0
+    if not mode and event == TURNED:  # away from what it touches, at first without acceleration
+        if slips == SLIPS_LEFT and u >= gap_r + right:
+            fresh |= RIGHT | RELEASED
+        elif slips == SLIPS_RIGHT and -u >= gap_l + left:
+            fresh |= LEFT | RELEASED
     return event, t, 0.0, Motion(mode, fresh, u, 0.0, right, left, z, age + t, after)
 
 

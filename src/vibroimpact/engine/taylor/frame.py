@@ -11,7 +11,7 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import value
+from vibroimpact.engine.forcing.dispatch import pace, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import (
@@ -26,6 +26,10 @@ from vibroimpact.engine.motion import (
 
 _ROUNDING = 1e-15
 """Of forces that balance, as a share of what shakes the mass."""
+
+_UNMET = 1e-12
+"""A share of the speed that what drives the mass gives it in the time in which that changes. A stop
+met no faster, or pressed from the start, has not been met: there is no impact to lose by."""
 
 
 class Frame(NamedTuple):
@@ -122,12 +126,14 @@ def push_of(plan: Vector, side: int, closing: float, speed: float) -> Push:
     """The law of a pressed power-law stop.
 
     `closing` is the rate of its deformation, whose sign may matter, `speed` that at which it
-    was met.
+    was met, which a law of restitution divides by.
     """
     at = par.BUMPER + par.WIDTH * (side - 1)
     dissipation = plan[at + par.DISSIPATION]
     if dissipation < 0.0:
-        dissipation = -dissipation / speed if speed > 0.0 else 0.0
+        most = plan[MOST] + abs(plan[par.LOAD])
+        met = speed > _UNMET * most / (pace(plan) + 1e-300)
+        dissipation = -dissipation / speed if met else 0.0
     viscous = plan[at + par.BUMPER_DAMPING] if closing > 0.0 else 0.0
     return Push(plan[at + par.BUMPER_STIFFNESS], plan[at + par.EXPONENT], dissipation, viscous)
 

@@ -67,10 +67,23 @@ def shallow(
     """
     if push.stiffness == 0.0:
         return push, longest
-    energy = 0.5 * closing * closing * (push.exponent + 1.0)
-    little = (_NOTHING * energy / push.stiffness) ** (1.0 / (push.exponent + 1.0))
+    # What it does up to a depth δ is beside a speed that is there from the start, or comes by δ″ or
+    # δ‴: δ′ = √(2 δ″ δ) or (9/2 δ‴ δ²)^⅓.
+    power, gained, quickened = push.exponent + 1.0, max(gains, 0.0), (4.5 * jerk) ** (1.0 / 3.0)
+    share = _NOTHING * power / push.stiffness
+    little = max(
+        (0.5 * share * closing * closing) ** (1.0 / power),
+        (share * gained) ** (1.0 / (power - 1.0)),
+        (0.5 * share * quickened * quickened) ** (1.0 / (power - 4.0 / 3.0)),
+    )
     if push.viscous > 0.0:
-        little = min(little, (_NOTHING * closing / push.viscous) ** 0.8)
+        share = _NOTHING / push.viscous
+        beside = max(
+            (share * max(closing, 0.0)) ** 0.8,
+            (share * math.sqrt(2.0 * gained)) ** (4.0 / 3.0),
+            (share * quickened) ** (12.0 / 7.0),
+        )
+        little = min(little, beside)
     little = max(little, grain)
     if deformation > little:
         # The series of its slope ends where it begins to be pressed.
