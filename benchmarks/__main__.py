@@ -7,6 +7,7 @@ from rich.console import Console
 
 from benchmarks.branches import branches
 from benchmarks.campaign import campaign
+from benchmarks.earthquakes import earthquakes
 from benchmarks.laws import laws, sampling, yielding
 from benchmarks.machine import load, machine
 from benchmarks.memory import memory
@@ -28,6 +29,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "short": lambda: (short_runs(peers()), many()),
         "laws": lambda: (laws(), yielding(), sampling(), *smooth()),
         "records": lambda: (records(), spectra()),
+        "earthquakes": lambda: (earthquakes(),),
         "campaign": lambda: (campaign(),),
         "motions": lambda: (motions(),),
         "branches": lambda: (branches(),),
