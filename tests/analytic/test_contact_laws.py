@@ -121,3 +121,30 @@ def test_a_mass_that_is_pushed_from_rest_where_it_touches(exponent: float) -> No
     ).y[:, -1]
     found = vi.simulate(rig, shaken, 0.06, samples=0)["final_state"].values[:2]
     np.testing.assert_allclose(found, exact, atol=1e-9)
+
+
+@pytest.mark.parametrize("exponent", [1.5, 2.0, 3.0])
+@pytest.mark.parametrize("dissipation", [0.0, 0.5])
+def test_a_contact_that_is_looked_at_just_before_it_ends(
+    exponent: float, dissipation: float
+) -> None:
+    """A mass on its way out, followed up to some time before it parts, against DOP853."""
+    stop = vi.PowerBumper(2e7 * 2e-3 ** (1.5 - exponent), 6e-3, exponent, dissipation=dissipation)
+    rig = vi.Oscillator(550.0, vi.Isolator(26e3, 1.1e3), stop)
+    shaken, start = vi.Harmonic(1e-9, 1.0), vi.State(7.8e-3, -0.06)
+    parts = float(vi.simulate(rig, shaken, 0.5, start)["event_time"][0])
+
+    def slope(_: float, state: np.ndarray) -> list[float]:
+        u, v = state
+        depth = max(u - 6e-3, 0.0)
+        push = stop.stiffness * depth**exponent * (1.0 + dissipation * v)
+        return [v, -(26e3 * u + 1.1e3 * v + push) / 550.0]
+
+    times = parts * np.linspace(0.1, 0.999, 40)
+    begin = [start.displacement, start.velocity]
+    exact = solve_ivp(
+        slope, (0.0, parts), begin, "DOP853", times, rtol=1e-12, atol=1e-15, max_step=1e-4
+    ).y.T
+    for time, state in zip(times, exact, strict=True):
+        found = vi.simulate(rig, shaken, time, start, samples=0)["final_state"].values[:2]
+        np.testing.assert_allclose(found, state, atol=1e-9)

@@ -264,18 +264,22 @@ def time_at(plan: Vector, y: float) -> float:
 
 
 @kernel
-def share_of(plan: Vector, time: float, whole: float, h: float) -> float:
-    """At which share of the leap it is so late; time grows with it, if ever so slowly."""
-    low, high = 0.0, 1.0
-    y = time / whole
+def share_of(plan: Vector, time: float, last: float, late: float, h: float) -> float:
+    """At which share of the leap it is so late, if it is later at the share `last`.
+
+    Up to a detachment time grows with the share, if ever so slowly; behind one, where w < 0, it
+    goes back.
+    """
+    low, high = 0.0, last
+    y = last * (time / late)
     for _ in range(80):
-        late = time_at(plan, y) - time
-        if late > 0.0:
+        over = time_at(plan, y) - time
+        if over > 0.0:
             high = y
         else:
             low = y
         w, _, _, _, _ = state_at(plan, y, False)
-        new = y - late / (2.0 * h * w) if w > 0.0 else low
+        new = y - over / (2.0 * h * w) if w > 0.0 else low
         if not low < new < high:
             new = 0.5 * (low + high)
         if abs(new - y) <= 1e-15 or not low < new < high:
@@ -332,11 +336,12 @@ def press_on(plan: Vector, motion: Motion, limit: float, hint: float) -> Leap:
     if event != LIMIT or whole > limit:
         spectrum(plan, NODES_T, SPECTRUM_T, 1.0, 0.0, 0.0)
         expand_nodes(plan, hysteretic)
+        last = 1.0
         if event != LIMIT:
-            t = time_at(plan, y)
+            t, last = time_at(plan, y), y
         if t > limit:
+            y = share_of(plan, limit, last, t, h)
             event, t = LIMIT, limit
-            y = share_of(plan, limit, whole, h)
         w1, v1, _, z1, _ = state_at(plan, y, hysteretic)
     if forces.slope == 0.0 or not hysteretic:
         z1 = z  # exactly, where a spring yields
