@@ -40,6 +40,7 @@ from vibroimpact.engine.motion import (
 )
 from vibroimpact.engine.taylor.frame import (
     Frame,
+    balanced,
     curved_stop,
     push_of,
     stuck,
@@ -72,6 +73,9 @@ from vibroimpact.engine.taylor.step import headed
 _MOST = 50_000
 """Steps to one event, far more than any needs whose rates are those of the rig. A stop that is
 met all but without speed may have a dissipation beyond all bounds, and is given up."""
+
+_AT_ONCE = 1e-6
+"""Of a phase whose length is known: what ends it sooner is rounding."""
 
 
 class Found(NamedTuple):
@@ -231,7 +235,7 @@ def turns(plan: Vector, found: Found, motion: Motion, frame: Frame) -> Found:
     velocity_series(plan, 1.0)
     if motion.v == 0.0:
         plan[ASKED] = 0.0
-        if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED):
+        if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED) or balanced(plan, motion):
             plan[ASKED + 1] = 0.0
     clearance = Clearance(0.0, ways, 0.0, 0.0, False)
     found = watch(plan, found, TURNED, ASKED, spread(plan, ASKED), clearance, False, False)
@@ -383,4 +387,10 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
 def smooth(plan: Vector, motion: Motion, limit: float) -> tuple[float, Motion]:
     """How long a motion follows one piece of its laws, stops left out, and what is behind it."""
     event, t, _, after = advance_taylor(plan, motion, limit)
-    return (t if event == TURNED else limit), after
+    if event == TURNED:
+        return t, after
+    if event != LIMIT and t < _AT_ONCE * limit:
+        # It begins without a force, and the rounding of its time has it part at once.
+        frame, length = begun(plan, motion, _AT_ONCE * limit)
+        return length, motion_at(plan, motion, frame, 1.0)
+    return limit, after

@@ -200,11 +200,19 @@ def way_of(plan: Vector, motion: Motion) -> float:
         return 1.0
     if motion.fresh & SLIPS_LEFT:
         return -1.0
-    a = without_friction(plan, motion)
-    if abs(a) <= _ROUNDING * (plan[MOST] + abs(plan[par.LOAD])):
+    if balanced(plan, motion):
         s, c = motion.clock
         a = value(plan, s, c) - value(plan, s + 1e-8 * c, c - 1e-8 * s)
+    else:
+        a = without_friction(plan, motion)
     return math.copysign(1.0, a)
+
+
+@kernel
+def balanced(plan: Vector, motion: Motion) -> bool:
+    """Whether the forces but for friction are zero to rounding."""
+    size = plan[MOST] + abs(plan[par.LOAD])
+    return bool(abs(without_friction(plan, motion)) <= _ROUNDING * size)
 
 
 @kernel
