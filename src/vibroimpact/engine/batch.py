@@ -15,19 +15,13 @@ from numpy.typing import NDArray
 from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
-from vibroimpact.engine.hold import (
-    NOT_FINITE,
-    OUTCOME,
-    STOPPED,
-    TOO_MANY_EVENTS,
-    TOO_MUCH_WORK,
-    hold,
-)
+from vibroimpact.engine.hold import OUTCOME, hold
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.record import Record, write
+from vibroimpact.engine.status import NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 
 @entry(

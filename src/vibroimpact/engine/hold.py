@@ -17,7 +17,27 @@ from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, aged, finite
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.extremes import Extremes
-from vibroimpact.engine.status import Status
+from vibroimpact.engine.pursuit import (
+    PARTS,
+    counts,
+    disturbed,
+    guess,
+    guessed,
+    hold_on,
+    matrix_room,
+    parts_of,
+    pursuit_room,
+    radius,
+    size_of,
+    trusted,
+)
+from vibroimpact.engine.status import (
+    DONE,
+    NOT_FINITE,
+    NOT_SETTLED,
+    TOO_MANY_EVENTS,
+    TOO_MUCH_WORK,
+)
 
 LONGEST = 16
 """Longest period, in forcing cycles, that is recognised."""
@@ -32,19 +52,16 @@ _PATIENCE = 50  # times max_cycles, for a motion that keeps closing in
 _CLOSING = 1e-3  # closer than this share of its size, a motion may be closing in
 _RECENT = 0.2  # share of the cycles so far in which it must have come twice as close
 
+_PURSUED = 96  # cycles in which a motion of one cycle is sought by going ahead
+_DISTURBED = 1e-6  # of its size, a fixed point that is looked at
+_WAITS = 8  # cycles behind a step ahead that was taken back
+
 # What a hold writes.
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME = range(9)
 RESULTS = 9
 
 past_memory = stack(LONGEST * 4)
 distances = stack(LONGEST + 1)
-
-DONE = int(Status.DONE)
-NOT_SETTLED = int(Status.NOT_SETTLED)
-TOO_MANY_EVENTS = int(Status.TOO_MANY_EVENTS)
-TOO_MUCH_WORK = int(Status.TOO_MUCH_WORK)
-NOT_FINITE = int(Status.NOT_FINITE)
-STOPPED = int(Status.STOPPED)
 
 
 @kernel
@@ -75,6 +92,109 @@ def measure(
 
 
 @kernel
+def pursue(
+    plan: Vector,
+    motion: Motion,
+    clock: Clock,
+    period: float,
+    weight: float,
+    tolerance: float,
+    max_cycles: int,
+    max_events: int,
+) -> tuple[bool, int, Motion]:
+    """Follow a motion of one cycle, and go ahead where it is seen where it leads.
+
+    Returns
+    -------
+    found, cycles, motion
+        Whether it was reached to the tolerance; else the motion is one that following gave.
+    """
+    room = pursuit_room()
+    kept = motion  # what following gave, before going ahead
+    alike = 0  # cycles with as many events
+    former = -1
+    ahead = False
+    last = math.inf  # way of the last step ahead
+    before = math.inf  # size of the last change
+    waits = 0
+    scale = 0.0
+    k = 0
+    while k < min(max_cycles, _PURSUED):
+        section = motion
+        events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
+        k += 1
+        if events > max_events or not finite(motion):
+            return False, k, kept if ahead else section
+        alike = alike + 1 if events == former else 0
+        former = events
+        scale = max(0.5 * scale, weight * abs(motion.u), abs(motion.v))
+        hold_on(room, section, motion)
+        change = size_of(room, PARTS, weight)
+        if ahead and (alike == 0 or not change < 0.5 * before):
+            motion, ahead, alike, last = kept, False, 0, math.inf
+            waits = k + _WAITS
+            continue
+        before = change
+        if alike < 2:
+            continue
+        way, moved, contracts = guess(room, weight)
+        if alike < 3:
+            continue
+        trust = k >= waits and trusted(way, moved, contracts, scale)
+        go = way <= 0.5 * last if ahead else trust
+        if not go:
+            if ahead:
+                motion, ahead, alike, last = kept, False, 0, math.inf
+                waits = k + _WAITS
+            continue
+        if not ahead:
+            kept = motion
+        ahead = True
+        last = way
+        motion = guessed(plan, room, motion)
+        if _SAFETY * way <= tolerance * scale:
+            used, stays = attracts(plan, motion, clock, period, weight, scale, max_events)
+            return stays, k + used, motion if stays else kept
+    return False, k, kept if ahead else motion
+
+
+@kernel
+def attracts(
+    plan: Vector,
+    motion: Motion,
+    clock: Clock,
+    period: float,
+    weight: float,
+    scale: float,
+    max_events: int,
+) -> tuple[int, bool]:
+    """Whether small disturbances of a fixed point die out; and the cycles that it took to see."""
+    matrix, other = matrix_room(), matrix_room()
+    cycles = 0
+    for j in range(PARTS):
+        unit = 1.0 if j == 1 else weight
+        by = _DISTURBED * scale / unit
+        known = counts(plan, motion, j, period)
+        after = motion
+        if known:
+            begun = disturbed(plan, motion, j, by)
+            by = parts_of(begun, j) - parts_of(motion, j)
+            known = by != 0.0
+            if known:
+                events, after, _ = cycle(plan, begun, clock, period, max_events, UNOBSERVED)
+                cycles += 1
+                if events > max_events:
+                    return cycles, False
+        for i in range(PARTS):
+            grown = 0.0
+            if known:
+                grown = (parts_of(after, i) - parts_of(motion, i)) / by
+                grown *= (1.0 if i == 1 else weight) / unit
+            matrix[PARTS * i + j] = grown
+    return cycles, radius(matrix, other) < 1.0
+
+
+@kernel
 def settle(
     plan: Vector,
     motion: Motion,
@@ -92,6 +212,11 @@ def settle(
         `n` is the period in forcing cycles, 0 if the motion did not settle.
     """
     weight = stiff_rate(plan)
+    found, k, motion = pursue(
+        plan, motion, clock, period, weight, tolerance, max_cycles, max_events
+    )
+    if found:
+        return DONE, 1, k, motion
     past = past_memory()
     block, former = distances(), distances()
     recent, earlier = distances(), distances()  # ratios of successive blocks
@@ -102,11 +227,12 @@ def settle(
     scale = 0.0
     size = 0.0  # of the state, in this block and in the one before
     former_size = 0.0
-    k = 0
+    pursued = k
+    max_cycles += pursued
     n = 0
     outcome = NOT_SETTLED
     while k < max_cycles or (
-        _STALLED_CYCLES <= k < _PATIENCE * max_cycles
+        _STALLED_CYCLES <= k - pursued < _PATIENCE * max_cycles
         and stalled * _BLOCK < _RECENT * k
         and best <= _CLOSING * scale
     ):
@@ -127,7 +253,7 @@ def settle(
         size = max(size, weight * abs(u), abs(v))
         scale = max(size, former_size)
         # Longer periods are looked for only where the simplest has not come soon.
-        longest = 1 if k <= 4 * _BLOCK else LONGEST
+        longest = 1 if k - pursued <= 4 * _BLOCK else LONGEST
         for i in range(1, longest + 1):
             q = (k - i) % LONGEST
             d = max(
@@ -140,7 +266,7 @@ def settle(
                 abs(v - past[q * 4 + 1]),
             )
             block[i] = max(block[i], d)
-        if k % _BLOCK:
+        if (k - pursued) % _BLOCK:
             continue
         for i in range(1, longest + 1):
             # ρ to the power of i, from the slowest of three successive blocks: on a rotating

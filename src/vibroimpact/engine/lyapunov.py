@@ -8,7 +8,6 @@ from typing import Any
 from vibroimpact.engine.dispatch import build, start_growth, stiff_rate, too_much_work
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
-from vibroimpact.engine.hold import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer, workspace
@@ -16,6 +15,7 @@ from vibroimpact.engine.motion import finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.growth import Growth
 from vibroimpact.engine.observers.tangent import Tangent, unit_disturbances
+from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
 # the damping, and the state at the section behind the cycle.

@@ -8,7 +8,7 @@ from typing import Any
 from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
-from vibroimpact.engine.hold import DONE, NOT_FINITE, NOT_SETTLED, measure
+from vibroimpact.engine.hold import measure
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import pointer, stack, workspace
@@ -30,6 +30,7 @@ from vibroimpact.engine.section_map import (
     section_map,
     system_plan,
 )
+from vibroimpact.engine.status import DONE, NOT_FINITE, NOT_SETTLED
 
 _NEWTON_STEPS = 16
 _GOOD = 1e-14  # residual over the scale at which nothing is left to gain

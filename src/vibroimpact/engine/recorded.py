@@ -11,12 +11,12 @@ from typing import Any
 from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
-from vibroimpact.engine.hold import NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import aged, at_section, finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.record import Record, write
+from vibroimpact.engine.status import NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # Columns of a line: A_t at its beginning (m/s²), its slope (m/s³) and how long it lasts (s).
 BEGINS, SLOPE, LASTS = range(3)

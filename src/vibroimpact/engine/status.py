@@ -44,3 +44,11 @@ _ADVICE = {
         "hardly meant there; lower the amplitude, or give the isolator a term that hardens"
     ),
 }
+
+# The same for kernels, whose constants are plain numbers.
+DONE = int(Status.DONE)
+NOT_SETTLED = int(Status.NOT_SETTLED)
+TOO_MANY_EVENTS = int(Status.TOO_MANY_EVENTS)
+TOO_MUCH_WORK = int(Status.TOO_MUCH_WORK)
+NOT_FINITE = int(Status.NOT_FINITE)
+STOPPED = int(Status.STOPPED)
