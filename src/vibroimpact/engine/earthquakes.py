@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
-from vibroimpact.engine.hold import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import Motion, aged, finite, unpacked
 from vibroimpact.engine.observers.demand import Demand, unseen
+from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # What is found of a run, the observer's numbers first; then where the mass comes to rest, half the
 # width of its last swing about that place (m), and how the run ended, a `Status`.

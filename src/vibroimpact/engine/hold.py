@@ -52,7 +52,7 @@ _PATIENCE = 50  # times max_cycles, for a motion that keeps closing in
 _CLOSING = 1e-3  # closer than this share of its size, a motion may be closing in
 _RECENT = 0.2  # share of the cycles so far in which it must have come twice as close
 
-_PURSUED = 96  # cycles in which a motion of one cycle is sought by going ahead
+_PURSUED = 48  # cycles in which a motion must have come closer to be pursued any longer
 _DISTURBED = 1e-6  # of its size, a fixed point that is looked at
 _WAITS = 8  # cycles behind a step ahead that was taken back
 
@@ -111,15 +111,20 @@ def pursue(
     """
     room = pursuit_room()
     kept = motion  # what following gave, before going ahead
-    alike = 0  # cycles with as many events
-    former = -1
-    ahead = False
-    last = math.inf  # way of the last step ahead
-    before = math.inf  # size of the last change
-    waits = 0
+    left = math.inf  # size of the last change then
+    alike, former = 0, -1  # cycles with as many events as the one before
+    filled = 0  # cycles behind the last fresh start
+    ahead = False  # what is followed is not what following gave
+    stepped = False  # the cycle before ended with a guess
+    last, before = math.inf, math.inf  # the last way, and size of the change before
     scale = 0.0
-    k = 0
-    while k < min(max_cycles, _PURSUED):
+    waits, k = 0, 0
+    most, was_most = 0.0, math.inf  # largest change in this block of cycles, and in the one before
+    while k < max_cycles:
+        if k % _PURSUED == 0:
+            if most > 0.9 * was_most:
+                break
+            most, was_most = 0.0, most if k else math.inf
         section = motion
         events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
         k += 1
@@ -129,28 +134,32 @@ def pursue(
         former = events
         scale = max(0.5 * scale, weight * abs(motion.u), abs(motion.v))
         hold_on(room, section, motion)
+        filled += 1
         change = size_of(room, PARTS, weight)
-        if ahead and (alike == 0 or not change < 0.5 * before):
-            motion, ahead, alike, last = kept, False, 0, math.inf
+        most = max(most, change)
+        if ahead and (alike == 0 or change > 0.5 * left):
+            motion, ahead, stepped, alike, filled, last = kept, False, False, 0, 0, math.inf
             waits = k + _WAITS
             continue
+        if stepped and change > 0.5 * before:  # there is more to it than the secants tell
+            stepped, filled = False, 1
         before = change
-        if alike < 2:
+        if alike < 2 or filled < 3:
+            stepped = False
             continue
         way, moved, contracts = guess(room, weight)
-        if alike < 3:
-            continue
-        trust = k >= waits and trusted(way, moved, contracts, scale)
-        go = way <= 0.5 * last if ahead else trust
+        if stepped:
+            go = way <= 0.5 * last
+        elif ahead:
+            go = contracts and way <= last
+        else:
+            go = filled > 3 and k >= waits and trusted(way, moved, contracts, scale)
+        stepped = go
         if not go:
-            if ahead:
-                motion, ahead, alike, last = kept, False, 0, math.inf
-                waits = k + _WAITS
             continue
         if not ahead:
-            kept = motion
-        ahead = True
-        last = way
+            kept, left = motion, change
+        ahead, last = True, way
         motion = guessed(plan, room, motion)
         if _SAFETY * way <= tolerance * scale:
             used, stays = attracts(plan, motion, clock, period, weight, scale, max_events)
@@ -228,7 +237,6 @@ def settle(
     size = 0.0  # of the state, in this block and in the one before
     former_size = 0.0
     pursued = k
-    max_cycles += pursued
     n = 0
     outcome = NOT_SETTLED
     while k < max_cycles or (

@@ -34,7 +34,7 @@ _NEAR = 0.05
 """Of the motion's size: the longest way that is gone at once."""
 _AGREE = 0.1
 """Of the way: by how much two successive guesses may differ."""
-_PARALLEL = 1e-9
+_PARALLEL = 1e-4
 """Two secants with a determinant below this share of their squares are one."""
 
 _FORGOTTEN = 9.0
