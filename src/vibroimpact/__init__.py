@@ -43,6 +43,7 @@ _HOME = {
     "coexisting": "stability.coexisting",
     "contacts": "response.contacts",
     "demands": "seismic.demands",
+    "design": "sizing.chart",
     "exceedance": "seismic.suites",
     "floor_record": "seismic.floor",
     "fractiles": "seismic.suites",
@@ -50,10 +51,12 @@ _HOME = {
     "from_dimensionless": "model",
     "impact_section": "response.section",
     "laboratory": "model",
+    "least_acceleration": "sizing.best",
     "load": "response.files",
     "lyapunov_exponents": "stability.exponents",
     "orbit": "stability.orbit",
     "progress_bar": "response.progress",
+    "required_gap": "sizing.gap",
     "resonance_diagram": "stability.diagram",
     "response_spectrum": "response.response_spectrum",
     "save": "response.files",
@@ -97,6 +100,7 @@ __all__ = [
     "coexisting",
     "contacts",
     "demands",
+    "design",
     "exceedance",
     "floor_record",
     "fractiles",
@@ -104,10 +108,12 @@ __all__ = [
     "from_dimensionless",
     "impact_section",
     "laboratory",
+    "least_acceleration",
     "load",
     "lyapunov_exponents",
     "orbit",
     "progress_bar",
+    "required_gap",
     "resonance_diagram",
     "response_spectrum",
     "save",
@@ -166,6 +172,9 @@ if TYPE_CHECKING:
     from vibroimpact.seismic.fragility import fragility
     from vibroimpact.seismic.response import seismic_response
     from vibroimpact.seismic.suites import exceedance, fractiles
+    from vibroimpact.sizing.best import least_acceleration
+    from vibroimpact.sizing.chart import design
+    from vibroimpact.sizing.gap import required_gap
     from vibroimpact.stability.branch import branch
     from vibroimpact.stability.coexisting import coexisting
     from vibroimpact.stability.curves import bifurcation_curve

@@ -259,6 +259,23 @@ VARIABLES: dict[str, Variable] = {
     "median_capacity_bound": Variable("1", "confidence interval of the median capacity"),
     "dispersion_bound": Variable("1", "confidence interval of the dispersion"),
     "fitted_probability_bound": Variable("1", "confidence band of the fitted probability"),
+    # sizing
+    "penetration": Variable("m", "largest displacement beyond a gap"),
+    "hitting": Variable(
+        "1", "share of the records that make the mass hit", "of sines 1 where any of them does"
+    ),
+    "pareto": Variable(
+        "1",
+        "whether no other design beats it",
+        "none has a smaller displacement or acceleration without a larger one of the other",
+    ),
+    "displacement_frequency": Variable("Hz", "frequency of the largest displacement"),
+    "acceleration_frequency": Variable("Hz", "frequency of the largest acceleration"),
+    "unsettled_count": Variable("1", "number of holds without a periodic motion"),
+    "required_gap": Variable("m", "gap of each side at which nothing is hit"),
+    "required_gap_right": Variable("m", "gap of the right side at which nothing is hit"),
+    "required_gap_left": Variable("m", "gap of the left side at which nothing is hit"),
+    "evaluations": Variable("1", "number of designs that were tried"),
     # response spectra
     "natural_period": Variable("s", "natural period", "0: the mass moves with the base"),
     "orientation": Variable(

@@ -26,7 +26,7 @@ from vibroimpact.response.variables import describe, motion_parameters
 _Array = NDArray[np.float64]
 
 _QUANTITIES = {"m": LENGTH, "m s-2": ACCELERATION, "N": FORCE, "1": DIMENSIONLESS}
-_UNSTABLE = (int(Status.NOT_FINITE), int(Status.REVERSED))
+UNSTABLE = (int(Status.NOT_FINITE), int(Status.REVERSED))
 """Runs that went beyond all limits; of others that were given up nothing is known."""
 _VAST = 1e300
 """Stands for infinity where quantiles are interpolated."""
@@ -70,11 +70,17 @@ def fractiles(
     ]
     if not chosen:
         raise InputError("shares: none given; one or more from 0 to 1 are accepted")
-    found = np.quantile(np.minimum(values.values, _VAST), chosen, axis=values.dims.index("record"))
+    found = quantiles(values.values, chosen, values.dims.index("record"))
     dims = ("fractile", *(dim for dim in values.dims if dim != "record"))
-    found[found > 1e-3 * _VAST] = np.inf
     data = xr.Dataset({quantity: (dims, found)}, {"fractile": chosen, **_coords(values)})
     return described(data, "vibroimpact.fractiles", demands, {"quantity": quantity})
+
+
+def quantiles(values: _Array, shares: Sequence[float], axis: int) -> _Array:
+    """Quantiles along an axis, which comes first; values may be infinite."""
+    found: _Array = np.quantile(np.minimum(values, _VAST), shares, axis=axis)
+    found[found > 1e-3 * _VAST] = np.inf
+    return found
 
 
 def exceedance(demands: xr.Dataset, quantity: str, limit: float | str = 0.0) -> xr.Dataset:
@@ -136,12 +142,12 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
     if quantity not in peaks:
         raise InputError(f"quantity: {shown(quantity)}; one of {', '.join(peaks)} is accepted")
     status = demands["status"].values
-    for code in np.unique(status[(status != Status.DONE) & ~np.isin(status, _UNSTABLE)]):
+    for code in np.unique(status[(status != Status.DONE) & ~np.isin(status, UNSTABLE)]):
         raise InputError(
             f"demands: {int((status == code).sum())} runs were given up, and nothing is known of "
             f"them: {Status(int(code)).advice}"
         )
-    found: xr.DataArray = demands[quantity].where(~np.isin(status, _UNSTABLE), math.inf)
+    found: xr.DataArray = demands[quantity].where(~np.isin(status, UNSTABLE), math.inf)
     return found
 
 

@@ -1,0 +1,1 @@
+"""Sizing: which gap and which stops keep displacement and acceleration acceptable."""

@@ -1,0 +1,139 @@
+"""Displacement, acceleration and contact force of many designs as one dataset."""
+
+from __future__ import annotations
+
+import itertools
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator
+from vibroimpact.model.counts import whole
+from vibroimpact.model.rigs import AnyRig
+from vibroimpact.response.threads import Progress
+from vibroimpact.response.variables import describe, oscillator_parameters
+from vibroimpact.seismic.plan import Runs, runs
+from vibroimpact.sizing.front import non_dominated
+from vibroimpact.sizing.shaking import AnyShaken, asked, one_rig
+from vibroimpact.sizing.sines import STEP
+
+
+def design(
+    oscillator: Oscillator | AnyRig,
+    shaking: AnyShaken,
+    vary: Mapping[str, ArrayLike],
+    *,
+    fractile: float = 1.0,
+    frequencies: tuple[float | str, float | str] | None = None,
+    step: float = STEP,
+    tail: float | str | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Return the trade-off between displacement and acceleration over parameters of a rig.
+
+    Parameters
+    ----------
+    oscillator
+        What vibrates, with any isolator and any stops; or a laboratory case or its code.
+    shaking
+        Sines, by their amplitude as in `sweep`: the worst steady motion counts of all frequencies,
+        swept up and down. Or a record, or several by name or as a list: a fractile over them
+        counts, each from rest, at its own size.
+    vary
+        Values of parameters by name, all combined, such as ``"gap"``, ``"bumper_stiffness"``,
+        ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` or ``"yield_force"``. Those
+        of stops are set on both sides, where the stop has them.
+    fractile
+        Share of the records below; 1 for the largest of all.
+    frequencies
+        Lowest and highest frequency of the sines. None for a range about the primary resonance, of
+        each design.
+    step
+        Step of the sweeps, as a share of the natural frequency, or smaller where the damping is
+        light; about the largest responses it is 64 times as fine.
+    tail
+        How long a motion is followed behind a record; see `seismic_response`.
+    threads
+        How many designs are computed at once; None for one a processor. No result depends on it.
+    progress
+        Called from the calling thread with what is done and all there is.
+
+    Returns
+    -------
+    xarray.Dataset
+        A dim for each parameter that is varied. ``peak_displacement`` (m; ``_right``, ``_left``),
+        ``peak_acceleration`` (absolute, m/s²), ``peak_force`` of a stop (N), ``penetration`` beyond
+        a gap (m), ``hitting``: the share of the records that make the mass hit, or whether any sine
+        does. ``pareto``: whether no other design has less displacement without more acceleration,
+        or less acceleration without more displacement. Of sines also where the
+        largest are (``displacement_frequency``, ``acceleration_frequency``), and
+        ``unsettled_count``, holds without a periodic motion, whose peaks are those of 100 cycles.
+        ``status`` is 0 where a design was done; values of one that was given up are NaN, and
+        infinite where the motion had no bound.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    rig = one_rig(oscillator)
+    what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
+    plan = _designs(rig, vary)
+    workers = None if threads is None else whole(threads, "threads")
+    places = list(itertools.product(*(range(n) for n in plan.shape)))
+    found = what.peaks([plan.oscillator(at) for at in places], workers, progress)
+    data = _dataset(plan, found)
+    warn(found["status"], "design")
+    parameters = {
+        "oscillator": oscillator_parameters(rig),
+        "varied": {one.name: one.values.tolist() for one in plan.varied},
+        **what.parameters(),
+    }
+    data = describe(data, "vibroimpact.design", parameters)
+    for one in plan.varied:
+        data[one.name].attrs.update(units=one.units, long_name=one.long_name)
+    return data
+
+
+def _designs(oscillator: Oscillator, vary: Any) -> Runs:
+    """Read which rigs are looked at.
+
+    Raises
+    ------
+    InputError
+        If nothing is varied, or a value cannot be used.
+    """
+    if not isinstance(vary, Mapping) or not vary:
+        raise InputError(
+            f"vary: {vary!r}; values of one parameter or more are accepted, such as "
+            '{"gap": ["200 mm", "300 mm"]}'
+        )
+    return runs(oscillator, None, vary)
+
+
+def _dataset(plan: Runs, found: Mapping[str, NDArray[Any]]) -> xr.Dataset:
+    """What was found of each design, over what was varied."""
+    shaped = {name: (plan.dims, values.reshape(plan.shape)) for name, values in found.items()}
+    best = non_dominated(found["peak_displacement"], found["peak_acceleration"])
+    return xr.Dataset(
+        {**shaped, "pareto": (plan.dims, best.reshape(plan.shape))},
+        {one.name: one.values for one in plan.varied},
+    )
+
+
+def warn(status: NDArray[Any], who: str) -> None:
+    """Tell of designs that were given up."""
+    for code in np.unique(status[status != Status.DONE]):
+        count = int((status == code).sum())
+        warnings.warn(
+            f"{who}: {count} of {status.size} designs were given up: {Status(int(code)).advice}",
+            RuntimeWarning,
+            stacklevel=3,
+        )
