@@ -49,7 +49,7 @@ def test_zero_amplitude_is_ordinary():
 
 def test_str():
     assert str(Harmonic("0.05 g", 2.5)) == (
-        "Harmonic(amplitude=0.490333 m/s², frequency=2.5 Hz, phase=0 rad)"
+        "Harmonic(amplitude=0.05 g, frequency=2.5 Hz, phase=0 rad)"
     )
 
 

@@ -17,8 +17,11 @@ from vibroimpact.model.quantities import (
     ANGLE,
     DAMPING,
     DIMENSIONLESS,
+    ENERGY,
+    FORCE,
     FREQUENCY,
     GRAVITY,
+    IMPULSE,
     LENGTH,
     MASS,
     STIFFNESS,
@@ -38,6 +41,9 @@ QUANTITIES = [
     VELOCITY,
     ANGLE,
     DIMENSIONLESS,
+    FORCE,
+    IMPULSE,
+    ENERGY,
 ]
 
 
@@ -244,7 +250,16 @@ def test_bounds(value, bounds, words):
         (0.0, LENGTH, "0 m"),
         (-0.002, LENGTH, "-2 mm"),
         (550.0, MASS, "550 kg"),
-        (0.4903325, ACCELERATION, "0.490333 m/s²"),
+        (0.4903325, ACCELERATION, "0.05 g"),
+        (1.3141, ACCELERATION, "0.134001 g"),
+        (0.0, ACCELERATION, "0 m/s²"),
+        (79.2e6, FORCE, "79.2 MN"),
+        (999.9999999e3, FORCE, "1 MN"),
+        (-2.4e9, FORCE, "-2.4 GN"),
+        (5e12, MASS, "5e+09 t"),
+        (0.312, LENGTH, "312 mm"),
+        (5e6, DAMPING, "5 MN s/m"),
+        (0.05, MASS, "0.05 kg"),
         (2.5, FREQUENCY, "2.5 Hz"),
         (0.15, DIMENSIONLESS, "0.15"),
     ],
@@ -262,6 +277,21 @@ def test_pretty(value, quantity, text):
 def test_pretty_text_reads_back(quantity, size, sign):
     value = sign * size
     assert to_si(pretty(value, quantity), quantity, "x") == pytest.approx(value, rel=1e-5)
+
+
+@settings(deadline=None)
+@given(
+    st.sampled_from(QUANTITIES),
+    st.floats(min_value=1e-9, max_value=1e9),
+    st.integers(min_value=3, max_value=12),
+)
+def test_what_is_printed_reads_back_to_its_digits(quantity, size, digits):
+    text = pretty(size, quantity, digits)
+    assert abs(to_si(text, quantity, "x") - size) <= 0.5000001 * size * 10.0 ** (1 - digits)
+    # Between the units that there are, no power of ten is needed.
+    first, last = quantity.scales[-1].size, quantity.scales[0].size
+    if 1e-3 * first <= size <= 1e6 * last:
+        assert "e" not in text.split()[0]
 
 
 @settings(deadline=None)

@@ -87,7 +87,7 @@ def test_knet_keeps_its_offset_and_says_so(written):
     assert record.step == 0.1
     assert (record.about.station, record.about.component) == ("NWH001", "N-S")
     (left,) = vi.Record.read(written(knet())).about.notes
-    assert left.startswith("mean 8.3125 m/s² left in, 27.7 % of")
+    assert left.startswith("mean 0.847639 g left in, 27.7 % of")
     assert vi.Record.read(written(knet("5"))).about.component == "E-W, surface"
     assert vi.Record.read(written(knet("1")), "N-S").about.component == "N-S, borehole"
 

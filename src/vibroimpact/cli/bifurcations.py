@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.cli.numbers import plain
+from vibroimpact.cli.numbers import plain, shown_in
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
@@ -74,7 +74,8 @@ def text(data: xr.Dataset) -> RenderableType:
 
 def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
     table = Table("bifurcation", box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    heading = f"{parameter.replace('_', ' ')}{'' if units == '1' else f' ({units})'}"
+    unit = shown_in(units, [one["value"] for one in found])
+    heading = f"{parameter.replace('_', ' ')}{f' ({unit.symbol})' if unit.symbol else ''}"
     for name in (heading, "η_d", "largest multipliers", ""):
         table.add_column(name, justify="right")
     for one in found:
@@ -85,7 +86,7 @@ def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
             largest = f"{first[0]:.4f}, {second[0]:.4f}"
         table.add_row(
             one["kind"],
-            f"{plain(one['value'], 10)}",
+            f"{plain(one['value'] / unit.size, 10)}",
             f"{plain(one['eta_d'], 4)}",
             largest,
             _note(one),

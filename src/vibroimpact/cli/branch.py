@@ -29,6 +29,8 @@ PARAMETERS = (
 )
 """Those of the registry that can be followed, written out: help loads nothing that computes."""
 
+_PHYSICAL: dict[str, Any] = {"eta_d": "peak_displacement", "eta_a": "peak_acceleration"}
+
 _WITH_UNITS = Parameter(group=_BRANCH, allow_leading_hyphen=True)
 
 
@@ -71,9 +73,27 @@ def branch(
         Parameter(help="Excitation frequency where another parameter is varied, such as 2Hz."),
     ] = None,
     quantity: Annotated[
-        Literal["eta_d", "eta_a", "displacement_excursion", "eccentricity"],
+        Literal[
+            "eta_d",
+            "eta_a",
+            "displacement_excursion",
+            "eccentricity",
+            "peak_displacement",
+            "peak_acceleration",
+            "peak_force_right",
+            "peak_force_left",
+        ],
         Parameter(group=_BRANCH, help="What the figure shows."),
     ] = "eta_d",
+    physical: Annotated[
+        bool,
+        Parameter(
+            group=_BRANCH,
+            negative="",
+            show_default=False,
+            help="Draw the largest displacement (mm) for eta_d, acceleration (g) for eta_a.",
+        ),
+    ] = False,
     longest: Annotated[
         Whole, Parameter(group=_BRANCH, help="Longest period, in cycles, that is followed.")
     ] = 4,
@@ -152,7 +172,8 @@ def branch(
         for message in dict.fromkeys(str(warning.message) for warning in caught):
             warn(message)
         data.attrs["title"] = what.name
-        axes = bifurcation_diagram(data, quantity=quantity, sweep=swept, title=what.title)
+        drawn = _PHYSICAL.get(quantity, quantity) if physical else quantity
+        axes = bifurcation_diagram(data, quantity=drawn, sweep=swept, title=what.title)
         stem = folder / f"{what.slug}-{along.replace('_', '-')}-branches"
         files = {
             "data": save(data, f"{stem}.nc"),

@@ -12,11 +12,11 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact._version import __version__
+from vibroimpact.cli import largest
 from vibroimpact.cli.numbers import plain
 from vibroimpact.cli.rig import Subject
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
-    GRAVITY,
     Bumper,
     Dimensionless,
     Isolator,
@@ -29,7 +29,15 @@ from vibroimpact.model import (
     to_dimensionless,
 )
 from vibroimpact.model.access import scale_of
-from vibroimpact.model.quantities import DAMPING, FORCE, LENGTH, MASS, STIFFNESS, VELOCITY
+from vibroimpact.model.quantities import (
+    ACCELERATION,
+    DAMPING,
+    FORCE,
+    LENGTH,
+    MASS,
+    STIFFNESS,
+    VELOCITY,
+)
 from vibroimpact.model.units import pretty
 from vibroimpact.response.resonance import Features, Range
 from vibroimpact.response.variables import excitation_parameters
@@ -128,6 +136,7 @@ def sweep_facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[st
         "hysteresis": [item._asdict() for item in found.hysteresis],
         "unsettled": [item._asdict() for item in found.unsettled],
         "contact": [item._asdict() for item in found.contact],
+        "largest": largest.facts(data),
         "advice": advice,
     }
 
@@ -143,6 +152,8 @@ def sweep_text(data: xr.Dataset, found: Features, advice: list[str]) -> Renderab
             if len(frequency) > 1
             else f"1 frequency, {plain(frequency[0])} Hz, {directions}"
         ),
+        Text(),
+        largest.text(data),
         Text(),
         _peaks(found),
         Text(),
@@ -246,7 +257,7 @@ def _shaking_words(shaken: Repeated | Record) -> tuple[str, str]:
         return _SHAKEN[shaken.of], f"harmonics of {sizes}"
     size = shaken.amplitude
     if shaken.of == "acceleration":
-        return "base", f"A = {plain(size, 7)} m/s² = {plain(size / GRAVITY, 6)} g"
+        return "base", f"A = {plain(size, 7)} m/s² = {pretty(size, ACCELERATION)}"
     return _SHAKEN[shaken.of], pretty(size, shaken.quantity)
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
-from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.cli.options import COMPUTATION, OUTPUT, OutputOptions, RigName, RigOptions, Whole
 
 _FREQUENCIES = Group("Frequencies", sort_key=1)
 _FREQUENCY = Parameter(group=_FREQUENCIES, allow_leading_hyphen=True)
@@ -45,6 +45,18 @@ def sweep(
         Literal["forward", "backward", "both"] | None,
         Parameter(group=_FREQUENCIES, help="Rising, falling, or (the default) both."),
     ] = None,
+    physical: Annotated[
+        bool,
+        Parameter(
+            group=OUTPUT,
+            negative="",
+            show_default=False,
+            help=(
+                "Draw the largest acceleration (g), displacement (mm) and contact force instead "
+                "of η_a and η_d."
+            ),
+        ),
+    ] = False,
     changes: RigOptions | None = None,
     threads: Annotated[
         Whole | None,
@@ -75,7 +87,7 @@ def sweep(
         vibroimpact sweep B2-G1-A3 --parameters identified
         vibroimpact sweep B3-10mm-A3 --from 0.3Hz --to 4Hz --step 0.01Hz
         vibroimpact sweep B2-G1-A3 --left-gap 9mm --no-right --output one-sided
-        vibroimpact sweep study.toml --direction forward --json
+        vibroimpact sweep building.toml --physical --direction forward --json
     """
     from vibroimpact.cli import grid, summary
     from vibroimpact.cli.output import output_folder, progress_bar, tell, write_text
@@ -118,7 +130,7 @@ def sweep(
         # Imported late: whoever waits for numbers need not wait for matplotlib.
         from vibroimpact.figures import resonance_curves, save_figure
 
-        axes = resonance_curves(data, found=found, title=what.title)
+        axes = resonance_curves(data, found=found, title=what.title, physical=physical)
         stem = folder / f"{what.slug}-sweep"
         files = {
             "data": save(data, f"{stem}.nc"),

@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.cli.numbers import (
+    ACCELERATIONS,
     ENERGIES,
     FORCES,
     IMPULSES,
@@ -107,12 +108,13 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
     supplied, lost = data["energy_supplied"].item(), data["energy_bumpers"].item()
     _, joule, joules = fitting((supplied, lost), ENERGIES)
     floor, ceiling = data["acceleration_min"].item(), data["acceleration_max"].item()
+    _, g, gravity = fitting((floor, ceiling), ACCELERATIONS)
     rows = [
         ("evidence", data.attrs["evidence"]),
         ("exponents", _exponents(data)),
         ("displacement", f"{plain(low / size, 5)} to {plain(high / size, 5)} {metres}"),
         ("eccentricity", f"{plain(middle / size, 4)} {metres}"),
-        ("acceleration", f"{plain(floor, 5)} to {plain(ceiling, 5)} m/s² (absolute)"),
+        ("acceleration", f"{plain(floor / g, 5)} to {plain(ceiling / g, 5)} {gravity} (absolute)"),
         (
             "impacts",
             f"{plain(data['impacts_right'].item(), 4)} right, "

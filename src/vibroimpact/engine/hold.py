@@ -16,7 +16,7 @@ from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, aged, finite
 from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.extremes import Extremes
+from vibroimpact.engine.observers.extremes import NOTHING
 from vibroimpact.engine.pursuit import (
     PARTS,
     counts,
@@ -58,7 +58,8 @@ _WAITS = 8  # cycles behind a step ahead that was taken back
 
 # What a hold writes.
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME = range(9)
-RESULTS = 9
+FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT = range(9, 13)
+RESULTS = 13
 
 past_memory = stack(LONGEST * 4)
 distances = stack(LONGEST + 1)
@@ -74,8 +75,11 @@ def measure(
     max_events: int,
     result: Vector,
 ) -> tuple[int, Motion]:
-    """Follow `cycles` forcing cycles and write their exact extremes and contact counts."""
-    notes = Extremes(math.inf, -math.inf, math.inf, -math.inf, 0, 0)
+    """Follow `cycles` forcing cycles and write their exact extremes and contact counts.
+
+    Forces and impulses are those per unit mass.
+    """
+    notes = NOTHING
     outcome = DONE
     done = 0
     while done < cycles and outcome == DONE:
@@ -88,6 +92,8 @@ def measure(
     result[U_LEAST], result[U_MOST] = notes.u_least, notes.u_most
     result[A_LEAST], result[A_MOST] = notes.a_least, notes.a_most
     result[HITS_RIGHT], result[HITS_LEFT] = notes.hits_right / done, notes.hits_left / done
+    result[FORCE_RIGHT], result[FORCE_LEFT] = notes.force_right, notes.force_left
+    result[IMPULSE_RIGHT], result[IMPULSE_LEFT] = notes.impulse_right, notes.impulse_left
     return outcome, motion
 
 

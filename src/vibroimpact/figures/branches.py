@@ -15,17 +15,33 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.labels import Names
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND, SWEEPS
+from vibroimpact.model.parameters import in_units
+from vibroimpact.model.quantities import FORCE, GRAVITY
 
 _Array = NDArray[np.float64]
 
-Quantity = Literal["eta_d", "eta_a", "displacement_excursion", "eccentricity"]
+Quantity = Literal[
+    "eta_d",
+    "eta_a",
+    "displacement_excursion",
+    "eccentricity",
+    "peak_displacement",
+    "peak_acceleration",
+    "peak_force_right",
+    "peak_force_left",
+]
 
 _LABELS = {
     "eta_d": (1.0, "$\\eta_d$ (–)"),
     "eta_a": (1.0, "$\\eta_a$ (–)"),
     "displacement_excursion": (1e3, "excursion of displacement (mm)"),
     "eccentricity": (1e3, "eccentricity (mm)"),
+    "peak_displacement": (1e3, "largest displacement (mm)"),
+    "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration (g)"),
+    "peak_force_right": (0.0, "largest force of the right stop ({})"),
+    "peak_force_left": (0.0, "largest force of the left stop ({})"),
 }
+"""Factor and label; a force is in the unit that fits it."""
 
 
 _NORMALISED = {"eta_d": "displacement_excursion", "eta_a": "acceleration_excursion"}
@@ -72,7 +88,9 @@ def bifurcation_diagram(
     ax
         Axes to draw on. None makes a new figure.
     quantity
-        ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"`` or ``"eccentricity"``.
+        ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"``, ``"eccentricity"``,
+        ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force_right"`` or
+        ``"peak_force_left"``.
     sweep
         Dataset of `sweep` over the same frequencies, whose holds are drawn as marks.
     title
@@ -98,6 +116,9 @@ def bifurcation_diagram(
     if sweep is not None and "direction" not in sweep.coords:
         raise InputError("sweep: this is no sweep; a dataset of sweep is accepted")
     factor, label = _LABELS[quantity]
+    if factor == 0.0:
+        fits = FORCE.unit(*data[quantity].values)
+        factor, label = 1.0 / fits.size, label.format(fits.symbol)
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])
     x, y = scale * data[name].values, factor * data[quantity].values
@@ -163,11 +184,14 @@ def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
 
 
 def axis_unit(values: xr.DataArray) -> tuple[float, str]:
-    """Factor and unit in which a parameter is drawn: lengths in mm."""
+    """Factor and unit in which a parameter is drawn: lengths in mm, others as they are large."""
     units = str(values.attrs["units"])
     if units == "m":
         return 1e3, "mm"
-    return 1.0, {"1": "–", "m s-2": "m/s²", "N m-1": "N/m", "N s m-1": "N s/m"}.get(units, units)
+    if units in ("N", "N m-1", "N s m-1", "kg"):
+        scale = in_units(units).unit(*values.values.ravel())
+        return 1.0 / scale.size, scale.symbol
+    return 1.0, {"1": "–", "m s-2": "m/s²"}.get(units, units)
 
 
 def _pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:

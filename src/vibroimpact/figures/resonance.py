@@ -14,22 +14,10 @@ from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
-from vibroimpact.response.peaks import Curve
 from vibroimpact.response.resonance import Features, Jump, features
 
-_PANELS: tuple[tuple[Curve, str, str], ...] = (
-    (
-        "eta_a",
-        "free_acceleration_excursion",
-        "normalised excursion of\nabsolute acceleration $\\eta_a$ (–)",
-    ),
-    (
-        "eta_d",
-        "free_displacement_excursion",
-        "normalised excursion of\nrelative displacement $\\eta_d$ (–)",
-    ),
-)
 _HATCHES = {"right": "", "left": "/////"}
 _LABELS = {
     "right": "right hysteresis (forward above)",
@@ -47,53 +35,60 @@ def resonance_curves(
     *,
     found: Features | None = None,
     title: str | None = None,
+    physical: bool = False,
 ) -> Panels:
-    """Draw η_a and η_d against the excitation frequency.
+    """Draw η_a and η_d against the excitation frequency, or what an engineer asks for.
 
     Forward sweep red and solid with dots, backward blue and dashed with squares, free flight
     black; vertical arrows where a sweep jumps; hysteresis shaded, left hysteresis hatched as
-    well; a cross where the motion did not settle.
+    well; a cross where the motion did not settle. In physical units, the gaps are dotted lines.
 
     Parameters
     ----------
     data
         Dataset of `vibroimpact.sweep`, or one rig of `vibroimpact.sweeps`.
     axes
-        Two Axes, for η_a and η_d. None makes a new figure.
+        Two Axes, for η_a and η_d, or as many as there are physical panels. None makes a new
+        figure.
     found
         Features to mark, if they are known already; otherwise found here.
     title
         Title of a new figure.
+    physical
+        Whether the largest absolute acceleration (g), the largest displacement (mm) and, where a
+        stop is touched, the largest contact force are drawn instead of η_a and η_d; of rigid
+        stops the largest impulse.
 
     Returns
     -------
     tuple of Axes
-        For η_a and η_d; ``axes[0].figure`` is the figure.
+        For η_a and η_d, or acceleration, displacement and force; ``axes[0].figure`` is the
+        figure.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a sweep of one rig, or there are not two axes.
+        If the dataset is not that of a sweep of one rig, or there are not as many axes.
     """
     found = features(data) if found is None else found
-    given = panels(axes, 2, "η_a and η_d", (7.2, 6.8), title)
-    for ax, (curve, free, label) in zip(given, _PANELS, strict=True):
-        _panel(ax, data, found, curve, free)
-        ax.set_ylabel(label)
-    upper, lower = given
-    lower.set_xlabel("excitation frequency $f$ (Hz)")
-    entries = _legend(data, found)
+    drawn = physical_curves(data) if physical else normalised(data)
+    what = " and ".join(one.name for one in drawn)
+    given = panels(axes, len(drawn), what, (7.2, 0.4 + 3.2 * len(drawn)), title)
+    for ax, one in zip(given, drawn, strict=True):
+        _panel(ax, data, found, one)
+        ax.set_ylabel(one.label)
+    upper = given[0]
+    given[-1].set_xlabel("excitation frequency $f$ (Hz)")
+    entries = [*_legend(data, found), *(line.entry() for one in drawn for line in one.levels)]
     upper.legend(handles=entries, ncols=2 if len(entries) <= 4 else 3, **LEGEND)
     return given
 
 
-def _panel(ax: Axes, data: xr.Dataset, found: Features, curve: Curve, free: str) -> None:
+def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn) -> None:
     frequency = data["frequency"].values
-    reference = data[free].values / data[f"largest_{free}"].values
-    values = data[curve].values
     margin = 0.02 * (frequency[-1] - frequency[0]) or 0.05 * frequency[0]
     ax.set_xlim(frequency[0] - margin, frequency[-1] + margin)
-    ax.set_ylim(0.0, 1.06 * max(np.nanmax(reference), np.nanmax(values, initial=0.0)))
+    ax.set_ylim(0.0, 1.06 * drawn.top)
 
     for item in found.hysteresis:
         if item.settled:
@@ -105,21 +100,25 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, curve: Curve, free: str)
                 hatch=_HATCHES[item.side],
                 zorder=0,
             )
-    ax.plot(
-        frequency,
-        reference,
-        color=FREE.colour,
-        linestyle=FREE.dashes,
-        linewidth=FREE.width,
-        label=FREE.label,
-        zorder=2,
-    )
+    for level in drawn.levels:
+        ax.axhline(level.value, label=level.label, zorder=1, **level.style)
+    if drawn.free is not None:
+        ax.plot(
+            frequency,
+            drawn.free,
+            color=FREE.colour,
+            linestyle=FREE.dashes,
+            linewidth=FREE.width,
+            label=FREE.label,
+            zorder=2,
+        )
     jumps = [jump for jump in found.jumps if jump.settled]
     for layer, direction in enumerate(d for d in SWEEPS if d in data["direction"]):
         one = data.sel(direction=direction)
         look = SWEEPS[direction]
         mine = [jump for jump in jumps if jump.direction == direction]
-        x, y = _parted(frequency, one[curve].values, mine)
+        values = drawn.curves[direction]
+        x, y = _parted(frequency, values, mine)
         style = curve_style(look, len(x))
         wild = one["motion"].values != "periodic"
         if wild.any():  # its marks would hide the crosses
@@ -131,12 +130,12 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, curve: Curve, free: str)
         if len(loose):
             ax.plot(
                 frequency[loose],
-                one[curve].values[loose],
+                values[loose],
                 label=f"{look.label}, not settled",
                 zorder=5 + layer,
                 **_loose_style(look),
             )
-    _draw_jumps(ax, curve, jumps)
+    _draw_jumps(ax, frequency, drawn, jumps)
 
 
 def _loose_style(look: Look) -> dict[str, Any]:
@@ -168,7 +167,7 @@ def _thinned(frequency: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArra
     return np.array(kept, dtype=np.intp)
 
 
-def _draw_jumps(ax: Axes, curve: Curve, jumps: list[Jump]) -> None:
+def _draw_jumps(ax: Axes, frequency: NDArray[np.float64], drawn: Drawn, jumps: list[Jump]) -> None:
     """Draw vertical arrows from value to value, half-way between the two frequencies."""
     box = ax.get_window_extent()
     points = 72.0 / ax.figure.dpi
@@ -176,7 +175,8 @@ def _draw_jumps(ax: Axes, curve: Curve, jumps: list[Jump]) -> None:
     per_hertz = box.width * points / (right - left)
     per_unit = box.height * points / (top - bottom)
     for jump in jumps:
-        start, end = getattr(jump, curve)
+        values = drawn.curves[jump.direction]
+        start, end = (values[np.searchsorted(frequency, at)] for at in (jump.before, jump.after))
         # Arrows of a narrow hysteresis would cover each other: move them apart a little, the
         # lower frequency to the left.
         others = [o.frequency for o in jumps if o.direction != jump.direction]

@@ -50,6 +50,11 @@ _UNITS = {
 """As datasets write them; units of laws with other exponents as they are."""
 
 
+def in_units(units: str) -> Quantity:
+    """What a dataset's units are those of."""
+    return next(quantity for quantity, text in _UNITS.items() if text == units)
+
+
 _PEAKS = {"displacement": "peak base displacement", "force": "peak force on the mass"}
 
 

@@ -2,11 +2,31 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import NamedTuple
 
 GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s² (the *g* of ``"0.05 g"``)."""
+
+
+class Scale(NamedTuple):
+    """A unit for printing, and from which size on it is used."""
+
+    least: float
+    size: float
+    """In SI units."""
+    symbol: str
+
+
+def fitting(values: Iterable[float], scales: tuple[Scale, ...]) -> Scale:
+    """The unit in which the largest of some values is written; the SI unit of zeros."""
+    largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
+    if largest == 0.0:
+        return next((scale for scale in scales if scale.size == 1.0), scales[0])
+    return next(scale for scale in scales if largest >= scale.least)
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,8 +47,8 @@ class Quantity:
     number
         The same example as a plain SI number.
     scales
-        Units for printing, largest first: (smallest magnitude printed in it, its size in
-        SI units, its symbol).
+        Units for printing, largest first: (smallest size printed in it, its size in SI units,
+        its symbol).
     """
 
     name: str
@@ -36,7 +56,11 @@ class Quantity:
     symbol: str
     example: str
     number: float
-    scales: tuple[tuple[float, float, str], ...]
+    scales: tuple[Scale, ...]
+
+    def unit(self, *values: float) -> Scale:
+        """The unit in which the largest of some values is written; that of 1 for zeros."""
+        return fitting(values, self.scales)
 
     @property
     def phrase(self) -> str:
@@ -50,7 +74,7 @@ LENGTH = Quantity(
     "m",
     "15 mm",
     0.015,
-    ((1.0, 1.0, "m"), (1e-4, 1e-3, "mm"), (0.0, 1e-6, "µm")),
+    (Scale(1.0, 1.0, "m"), Scale(1e-4, 1e-3, "mm"), Scale(0.0, 1e-6, "µm")),
 )
 MASS = Quantity(
     "mass",
@@ -58,7 +82,7 @@ MASS = Quantity(
     "kg",
     "550 kg",
     550,
-    ((1e4, 1e3, "t"), (0.0, 1.0, "kg")),
+    (Scale(1e4, 1e3, "t"), Scale(0.0, 1.0, "kg")),
 )
 STIFFNESS = Quantity(
     "stiffness",
@@ -66,7 +90,12 @@ STIFFNESS = Quantity(
     "N/m",
     "510 kN/m",
     510000,
-    ((1e10, 1e9, "GN/m"), (1e7, 1e6, "MN/m"), (1e3, 1e3, "kN/m"), (0.0, 1.0, "N/m")),
+    (
+        Scale(1e10, 1e9, "GN/m"),
+        Scale(1e7, 1e6, "MN/m"),
+        Scale(1e3, 1e3, "kN/m"),
+        Scale(0.0, 1.0, "N/m"),
+    ),
 )
 DAMPING = Quantity(
     "damping",
@@ -74,7 +103,7 @@ DAMPING = Quantity(
     "N s/m",
     "1.1 kN s/m",
     1100,
-    ((1e7, 1e6, "MN s/m"), (1e2, 1e3, "kN s/m"), (0.0, 1.0, "N s/m")),
+    (Scale(1e6, 1e6, "MN s/m"), Scale(1e2, 1e3, "kN s/m"), Scale(0.0, 1.0, "N s/m")),
 )
 ACCELERATION = Quantity(
     "acceleration",
@@ -82,7 +111,11 @@ ACCELERATION = Quantity(
     "m/s²",
     "0.05 g",
     0.4903325,
-    ((0.0, 1.0, "m/s²"),),
+    (
+        Scale(1e-4 * GRAVITY, GRAVITY, "g"),
+        Scale(1e-7 * GRAVITY, 1e-3 * GRAVITY, "mg"),
+        Scale(0.0, 1.0, "m/s²"),
+    ),
 )
 FREQUENCY = Quantity(
     "frequency",
@@ -90,7 +123,7 @@ FREQUENCY = Quantity(
     "Hz",
     "2.5 Hz",
     2.5,
-    ((1e3, 1e3, "kHz"), (0.0, 1.0, "Hz")),
+    (Scale(1e3, 1e3, "kHz"), Scale(0.0, 1.0, "Hz")),
 )
 TIME = Quantity(
     "time",
@@ -98,7 +131,7 @@ TIME = Quantity(
     "s",
     "20 ms",
     0.02,
-    ((0.1, 1.0, "s"), (0.0, 1e-3, "ms")),
+    (Scale(0.1, 1.0, "s"), Scale(0.0, 1e-3, "ms")),
 )
 PERIOD = replace(TIME, example="2.5 s", number=2.5)
 VELOCITY = Quantity(
@@ -107,7 +140,7 @@ VELOCITY = Quantity(
     "m/s",
     "150 mm/s",
     0.15,
-    ((1.0, 1.0, "m/s"), (0.0, 1e-3, "mm/s")),
+    (Scale(1.0, 1.0, "m/s"), Scale(0.0, 1e-3, "mm/s")),
 )
 FORCE = Quantity(
     "force",
@@ -115,20 +148,38 @@ FORCE = Quantity(
     "N",
     "120 N",
     120,
-    ((1e6, 1e6, "MN"), (1e3, 1e3, "kN"), (0.0, 1.0, "N")),
+    (Scale(1e9, 1e9, "GN"), Scale(1e6, 1e6, "MN"), Scale(1e3, 1e3, "kN"), Scale(0.0, 1.0, "N")),
 )
-ANGLE = Quantity("angle", (("radian", 1),), "rad", "90 deg", 1.5708, ((0.0, 1.0, "rad"),))
-DIMENSIONLESS = Quantity("dimensionless number", (), "", "0.15", 0.15, ((0.0, 1.0, ""),))
+IMPULSE = Quantity(
+    "impulse",
+    (("kilogram", 1), ("meter", 1), ("second", -1)),
+    "N s",
+    "2 kN s",
+    2000,
+    (Scale(1e6, 1e6, "MN s"), Scale(1e3, 1e3, "kN s"), Scale(0.0, 1.0, "N s")),
+)
+ENERGY = Quantity(
+    "energy",
+    (("kilogram", 1), ("meter", 2), ("second", -2)),
+    "J",
+    "2 kJ",
+    2000,
+    (Scale(1e6, 1e6, "MJ"), Scale(1e3, 1e3, "kJ"), Scale(1e-3, 1.0, "J"), Scale(0.0, 1e-3, "mJ")),
+)
+ANGLE = Quantity("angle", (("radian", 1),), "rad", "90 deg", 1.5708, (Scale(0.0, 1.0, "rad"),))
+DIMENSIONLESS = Quantity("dimensionless number", (), "", "0.15", 0.15, (Scale(0.0, 1.0, ""),))
 DISSIPATION = Quantity(
     "dissipation factor",
     (("meter", -1), ("second", 1)),
     "s/m",
     "0.4 s/m",
     0.4,
-    ((0.0, 1.0, "s/m"),),
+    (Scale(0.0, 1.0, "s/m"),),
 )
 """χ of a contact force k δⁿ (1 + χ δ')."""
-DECAY = Quantity("inverse length", (("meter", -1),), "1/m", "200 1/m", 200, ((0.0, 1.0, "1/m"),))
+DECAY = Quantity(
+    "inverse length", (("meter", -1),), "1/m", "200 1/m", 200, (Scale(0.0, 1.0, "1/m"),)
+)
 
 
 @cache
@@ -144,7 +195,7 @@ def power_stiffness(exponent: float) -> Quantity:
         f"510 kN/m{power}",
         510000,
         tuple(
-            (smallest, size, f"{prefix}N/m{power}")
+            Scale(smallest, size, f"{prefix}N/m{power}")
             for smallest, size, prefix in (
                 (1e10, 1e9, "G"),
                 (1e7, 1e6, "M"),
@@ -167,7 +218,11 @@ def power_damping(exponent: float) -> Quantity:
         f"N {over}",
         f"1.1 kN {over}",
         1100,
-        ((1e7, 1e6, f"MN {over}"), (1e2, 1e3, f"kN {over}"), (0.0, 1.0, f"N {over}")),
+        (
+            Scale(1e7, 1e6, f"MN {over}"),
+            Scale(1e2, 1e3, f"kN {over}"),
+            Scale(0.0, 1.0, f"N {over}"),
+        ),
     )
 
 

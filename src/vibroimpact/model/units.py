@@ -35,7 +35,6 @@ _TWO_PI = Decimal("6.283185307179586476925286766559")
 # Named only so that a message can say what a text of the wrong dimension is.
 _ALSO_NAMED: dict[tuple[tuple[str, float], ...], str] = {
     (("radian", 1), ("second", -1)): "an angular frequency",
-    (("kilogram", 1), ("meter", 2), ("second", -2)): "an energy",
     (("kilogram", 1), ("meter", -1), ("second", -2)): "a pressure",
     (("meter", 2),): "an area",
     (("kelvin", 1),): "a temperature",
@@ -43,6 +42,9 @@ _ALSO_NAMED: dict[tuple[tuple[str, float], ...], str] = {
 _NAMES: dict[tuple[tuple[str, float], ...], str] = _ALSO_NAMED | {
     q.base: q.phrase for q in vars(quantities).values() if isinstance(q, Quantity)
 }
+
+_LEAST, _MOST = 1e-7, 1e9
+"""Sizes between which a number is written without a power of ten."""
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(?:inf|infinity|∞|nan)\b|[+-]?∞", re.IGNORECASE)
@@ -205,10 +207,18 @@ def shown(value: object) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def pretty(value: float, quantity: Quantity) -> str:
-    """Write an SI value with six digits and a unit of fitting size.
+def plain(value: float, digits: int = 6) -> str:
+    """Write a number with so many significant digits and, unless it is huge or tiny, no power."""
+    text = f"{value:.{digits}g}"
+    if "e" not in text or not _LEAST <= abs(value) < _MOST:
+        return text
+    return f"{Decimal(text):f}"
 
-    `to_si` reads the text back, to the six digits.
+
+def pretty(value: float, quantity: Quantity, digits: int = 6) -> str:
+    """Write an SI value with so many digits and a unit of fitting size, as an engineer does.
+
+    `to_si` reads the text back, to these digits.
 
     Parameters
     ----------
@@ -216,20 +226,19 @@ def pretty(value: float, quantity: Quantity) -> str:
         In SI units.
     quantity
         What it is.
+    digits
+        How many are significant.
 
     Returns
     -------
     str
-        Such as ``"510 kN/m"``, ``"7.5 mm"``, ``"0.15"``.
+        Such as ``"510 kN/m"``, ``"7.5 mm"``, ``"0.134 g"``, ``"0.15"``.
     """
-    size = abs(value)
-    base_symbol = quantity.symbol
-    if size == 0.0 or not math.isfinite(value):
-        return f"{value:g} {base_symbol}".rstrip()
-    for smallest, unit, symbol in quantity.scales:
-        if size >= smallest:
-            return f"{value / unit:.6g} {symbol}".rstrip()
-    return f"{value:.6g} {base_symbol}".rstrip()
+    if not math.isfinite(value):
+        return f"{value:g} {quantity.symbol}".rstrip()
+    # What rounds up to the next unit is written in that: 1 MN, not 1000 kN.
+    unit = quantity.unit(float(f"{value:.{digits}g}"))
+    return f"{plain(value / unit.size, digits)} {unit.symbol}".rstrip()
 
 
 class _RefusalError(Exception):

@@ -34,9 +34,10 @@ from vibroimpact.response.free_flight import (
     free_flight_excursions,
     reference_excursions,
 )
+from vibroimpact.response.held import held
 from vibroimpact.response.own_flight import swept_flight
 from vibroimpact.response.reversal import judged
-from vibroimpact.response.start import as_state, components, engine_rig, engine_state
+from vibroimpact.response.start import as_state, engine_rig, engine_state
 from vibroimpact.response.threads import Progress, run
 from vibroimpact.response.variables import (
     COMPONENTS,
@@ -88,6 +89,11 @@ def sweep(
         Dims ``direction`` and ``frequency``. ``eta_d`` and ``eta_a`` are the excursions over
         those of the largest free flight at any frequency, whatever range is swept (the paper's
         Section 4); an undamped isolator has none, and they are taken over 2A/ω0² and 2A.
+        ``displacement_max`` and ``displacement_min`` are how far the mass goes to the right and to
+        the left of u = 0, ``peak_displacement`` and ``peak_acceleration`` the larger size of both
+        ends; ``peak_force_right`` and ``peak_force_left`` are what either stop pushes with at most,
+        infinite in an impact on a rigid one, of which ``peak_impulse_right`` and
+        ``peak_impulse_left`` are the largest impulses.
         ``section`` is the state at the end of each hold; ``status`` and ``motion`` say how
         each hold ended. Values are NaN only where ``status`` says that there is none.
 
@@ -235,7 +241,7 @@ def sweeps(
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
         ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
         results[r][..., hold.OUTCOME] = ended
-    data = _dataset(results, states, free, largest, angle)
+    data = held([oscillator for oscillator, _, _ in pairs], results, states, free, largest, angle)
     data = data.assign_coords(
         rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
     )
@@ -342,45 +348,6 @@ def _directions(directions: Sequence[str]) -> tuple[str, ...]:
             f"directions: {list(given)!r}; 'forward', 'backward' or both, once each, are accepted"
         )
     return given
-
-
-def _dataset(
-    results: NDArray[np.float64],
-    states: NDArray[np.float64],
-    free: NDArray[np.float64],
-    largest: NDArray[np.float64],
-    phase: float,
-) -> xr.Dataset:
-    dims = ("rig", "direction", "frequency")
-    low, high = results[..., hold.U_LEAST], results[..., hold.U_MOST]
-    floor, ceiling = results[..., hold.A_LEAST], results[..., hold.A_MOST]
-    excursion, peak = high - low, ceiling - floor
-    reference = largest[..., np.newaxis, np.newaxis]
-    period = results[..., hold.PERIOD].astype(np.int64)
-    values = {
-        "displacement_excursion": excursion,
-        "acceleration_excursion": peak,
-        "eta_d": excursion / reference[0],
-        "eta_a": peak / reference[1],
-        "displacement_max": high,
-        "displacement_min": low,
-        "acceleration_max": ceiling,
-        "acceleration_min": floor,
-        "eccentricity": 0.5 * (high + low),
-        "impacts_right": results[..., hold.HITS_RIGHT],
-        "impacts_left": results[..., hold.HITS_LEFT],
-        "motion": np.where(period > 0, "periodic", "undecided"),
-        "period": period,
-        "cycles": results[..., hold.CYCLES].astype(np.int64),
-        "status": results[..., hold.OUTCOME].astype(np.int64),
-    }
-    data = xr.Dataset({name: (dims, value) for name, value in values.items()})
-    data["section"] = ((*dims, "component"), components(states, phase))
-    data["free_displacement_excursion"] = (("rig", "frequency"), free[0])
-    data["free_acceleration_excursion"] = (("rig", "frequency"), free[1])
-    data["largest_free_displacement_excursion"] = ("rig", largest[0])
-    data["largest_free_acceleration_excursion"] = ("rig", largest[1])
-    return data
 
 
 def advice(data: xr.Dataset) -> list[str]:

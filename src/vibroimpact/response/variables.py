@@ -53,10 +53,20 @@ VARIABLES: dict[str, Variable] = {
         "normalised excursion of absolute acceleration",
         _OVER,
     ),
-    "displacement_max": Variable("m", "largest relative displacement"),
-    "displacement_min": Variable("m", "smallest relative displacement"),
+    "displacement_max": Variable(
+        "m", "largest relative displacement", "how far the mass goes to the right"
+    ),
+    "displacement_min": Variable(
+        "m", "smallest relative displacement", "minus how far the mass goes to the left"
+    ),
     "acceleration_max": Variable("m s-2", "largest absolute acceleration"),
     "acceleration_min": Variable("m s-2", "smallest absolute acceleration"),
+    "peak_displacement": Variable("m", "largest relative displacement, to either side"),
+    "peak_acceleration": Variable("m s-2", "largest absolute acceleration, without sign"),
+    "peak_force_right": Variable("N", "largest contact force of the right stop", _RIGID),
+    "peak_force_left": Variable("N", "largest contact force of the left stop", _RIGID),
+    "peak_impulse_right": Variable("N s", "largest impulse of an impact on the right rigid stop"),
+    "peak_impulse_left": Variable("N s", "largest impulse of an impact on the left rigid stop"),
     "eccentricity": Variable("m", "eccentricity", "half the sum of the displacement's extremes"),
     "impacts_right": Variable("1", "contacts with the right stop per forcing cycle"),
     "impacts_left": Variable("1", "contacts with the left stop per forcing cycle"),
@@ -208,6 +218,10 @@ VARIABLES: dict[str, Variable] = {
     "bifurcation_eta_d": Variable("1", "normalised excursion of relative displacement"),
     "bifurcation_eta_a": Variable("1", "normalised excursion of absolute acceleration"),
     "bifurcation_eccentricity": Variable("m", "eccentricity at the bifurcation"),
+    "bifurcation_peak_displacement": Variable("m", "largest relative displacement"),
+    "bifurcation_peak_acceleration": Variable("m s-2", "largest absolute acceleration"),
+    "bifurcation_peak_force_right": Variable("N", "largest contact force of the right stop"),
+    "bifurcation_peak_force_left": Variable("N", "largest contact force of the left stop"),
     "bifurcation_period": Variable("1", "period of the orbit in forcing cycles"),
     "bifurcation_contacts": Variable(
         "1", "contacts per period", "of a grazing on both of its sides"

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
+from vibroimpact.model import Oscillator
+from vibroimpact.response import held
 from vibroimpact.response.free_flight import reference_excursions
 from vibroimpact.response.variables import (
     COMPONENTS,
@@ -49,7 +51,7 @@ def as_dataset(
         for s in bifurcations.with_critical(one.stations, one.bifurcations)
     ]
     orbits = [s.orbit for _, s in stations]
-    sizes = _sizes(orbits)
+    sizes = _sizes(fam.oscillator, orbits)
     multipliers = np.array([one.multipliers for one in orbits])
     values = {
         "arclength": [s.arclength for _, s in stations],
@@ -67,7 +69,7 @@ def as_dataset(
         "multiplier_real": (("point", "multiplier"), multipliers.real),
         "multiplier_imag": (("point", "multiplier"), multipliers.imag),
         "section": (("point", "component"), np.array([state_of(one) for one in orbits])),
-        **_bifurcations(followed, fam.states),
+        **_bifurcations(followed, fam),
     }
     coordinates = {name: ("point", [one.value for one in orbits]), "component": COMPONENTS}
     data = xr.Dataset(variables, coordinates)
@@ -89,12 +91,13 @@ def as_dataset(
     )
 
 
-def _bifurcations(followed: list[Followed], states: int) -> dict[str, Any]:
+def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
     """The bifurcations as variables."""
     found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
-    multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, states)
-    sizes = _sizes([b.orbit for _, b in found])
-    told = ("displacement_excursion", "eta_d", "eta_a", "eccentricity")
+    multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, fam.states)
+    sizes = _sizes(fam.oscillator, [b.orbit for _, b in found])
+    peaks = ("peak_displacement", "peak_acceleration", "peak_force_right", "peak_force_left")
+    told = ("displacement_excursion", "eta_d", "eta_a", "eccentricity", *peaks)
     values: dict[str, Any] = {
         "kind": np.array([b.kind for _, b in found], dtype=str),
         "value": [b.orbit.value for _, b in found],
@@ -132,24 +135,16 @@ def state_of(one: Orbit) -> list[float]:
     return [*one.point[:4], one.section.family.phase, contact, one.point[4]]
 
 
-def _sizes(orbits: list[Orbit]) -> dict[str, _Array]:
-    """Extremes, excursions and contacts per cycle of orbits."""
+def _sizes(oscillator: Oscillator, orbits: list[Orbit]) -> dict[str, _Array]:
+    """Extremes, excursions, contacts per cycle and contact forces of orbits."""
     measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
-    high, low = measured[:, hold.U_MOST], measured[:, hold.U_LEAST]
-    top, bottom = measured[:, hold.A_MOST], measured[:, hold.A_LEAST]
     free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
+    # Neither the mass nor whether a stop is rigid changes along a branch.
+    found = held.sizes(oscillator, measured)
     return {
-        "displacement_max": high,
-        "displacement_min": low,
-        "displacement_excursion": high - low,
-        "acceleration_max": top,
-        "acceleration_min": bottom,
-        "acceleration_excursion": top - bottom,
-        "eta_d": (high - low) / free[:, 0],
-        "eta_a": (top - bottom) / free[:, 1],
-        "eccentricity": 0.5 * (high + low),
-        "impacts_right": measured[:, hold.HITS_RIGHT],
-        "impacts_left": measured[:, hold.HITS_LEFT],
+        **found,
+        "eta_d": found["displacement_excursion"] / free[:, 0],
+        "eta_a": found["acceleration_excursion"] / free[:, 1],
     }
 
 

@@ -1,4 +1,4 @@
-"""Exact extremes of displacement and absolute acceleration over a stretch of one phase.
+"""Exact extremes of displacement, absolute acceleration and contact forces over a stretch.
 
 The largest sample is never the maximum. Each piece's series is walked with
 steps on which either the slope or the curvature provably keeps its sign, so that every local
@@ -7,7 +7,8 @@ extreme is found and polished (docs/theory.md, section 4).
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
+from typing import Any, NamedTuple
 
 from vibroimpact.engine.dispatch import (
     accelerated,
@@ -16,14 +17,18 @@ from vibroimpact.engine.dispatch import (
     coordinate,
     displacement,
     expanded,
+    expanded_force,
     following,
     more,
+    rest_level,
 )
+from vibroimpact.engine.forcing.dispatch import pull_series
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.layout import ORDER
+from vibroimpact.engine.linear.layout import ORDER, RATE
 from vibroimpact.engine.linear.roots import jet
+from vibroimpact.engine.linear.stops import rigid
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import LEFT, RIGHT, Stretch
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
 _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
@@ -88,8 +93,50 @@ def series_extremes(
     return least, most, at_least, at_most
 
 
+class Part(NamedTuple):
+    """A piece: it covers −1/2 ≤ y ≤ high, and the clock in its middle is s, c."""
+
+    high: float
+    s: float
+    c: float
+
+
+@kernel
+def pushed(
+    plan: Vector, cursor: Any, before: Motion, side: int, part: Part, series: Vector, most: float
+) -> float:
+    """What the stop on a side pushes with at most on a piece, if more than `most`; it is touched.
+
+    Per unit mass, at rest on a rigid one too; `series` is written over.
+    """
+    if not rigid(plan, side):
+        expanded_force(plan, cursor, before.mode, side, series)
+        _, found, _, _ = series_extremes(series, -0.5, part.high, 0.0, most)
+        return found
+    facing = -1.0 if before.mode == LEFT else 1.0
+    facing = facing if side == RIGHT else -facing
+    rate = plan[cursor.table + RATE]
+    pull_series(plan, cursor.table, part.s, part.c, series)
+    least, largest, _, _ = series_extremes(series, -0.5, part.high, math.inf, -math.inf)
+    pulled = least if facing > 0.0 else -largest
+    force: float = rest_level(plan, before, side) - pulled * rate * rate
+    return max(most, force)
+
+
+@kernel
+def struck(plan: Vector, stretch: Stretch, side: int) -> float:
+    """How much an impact on the rigid stop of a side changes the velocity (m/s); 0 without one."""
+    if stretch.event != side or not rigid(plan, side):
+        return 0.0
+    return abs(stretch.arrival - stretch.after.v)
+
+
 class Extremes(NamedTuple):
-    """Range of the displacement (m) and of the absolute acceleration (m/s²), contacts begun."""
+    """Range of the displacement (m) and of the absolute acceleration (m/s²), contacts begun.
+
+    Then the largest force of a stop, infinite of a rigid one that is struck, and the largest
+    impulse of an impact on a rigid one, per unit mass (m/s², m/s).
+    """
 
     u_least: float
     u_most: float
@@ -97,13 +144,24 @@ class Extremes(NamedTuple):
     a_most: float
     hits_right: int
     hits_left: int
+    force_right: float
+    force_left: float
+    impulse_right: float
+    impulse_left: float
+
+
+NOTHING = Extremes(math.inf, -math.inf, math.inf, -math.inf, 0, 0, 0.0, 0.0, 0.0, 0.0)
+"""Before anything is seen."""
 
 
 @observer(Extremes)
 def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
     """Widen the ranges by one stretch. One-sided values at both its ends count."""
     before, event, step = stretch.before, stretch.event, stretch.step
-    u_least, u_most, a_least, a_most, hits_right, hits_left = notes
+    u_least, u_most, a_least, a_most = notes.u_least, notes.u_most, notes.a_least, notes.a_most
+    hits_right, hits_left = notes.hits_right, notes.hits_left
+    force_right, force_left = notes.force_right, notes.force_left
+    impulse_right, impulse_left = notes.impulse_right, notes.impulse_left
     series = workspace()
     sign = -1.0 if before.mode == LEFT else 1.0
     x = coordinate(plan, before)
@@ -117,9 +175,15 @@ def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
         unit = accelerated(plan, cursor, s, c, series)
         least, most, _, _ = series_extremes(series, -0.5, high, least_a / unit, most_a / unit)
         least_a, most_a = least * unit, most * unit
+        part = Part(high, s, c)
+        if before.mode & RIGHT:
+            force_right = pushed(plan, cursor, before, RIGHT, part, series, force_right)
+        if before.mode & LEFT:
+            force_left = pushed(plan, cursor, before, LEFT, part, series, force_left)
         cursor = following(plan, cursor)
     if before.mode == LEFT:
         x_least, x_most, least_a, most_a = x_most, x_least, -most_a, -least_a
+    right, left = struck(plan, stretch, RIGHT), struck(plan, stretch, LEFT)
     return Extremes(
         min(u_least, displacement(plan, before.mode, x_least)),
         max(u_most, displacement(plan, before.mode, x_most)),
@@ -127,4 +191,8 @@ def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
         max(a_most, most_a),
         hits_right + (event == RIGHT),
         hits_left + (event == LEFT),
+        math.inf if right > 0.0 else force_right,
+        math.inf if left > 0.0 else force_left,
+        max(impulse_right, right),
+        max(impulse_left, left),
     )

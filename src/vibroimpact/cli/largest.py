@@ -1,0 +1,71 @@
+"""What a sweep asks of a rig at most: displacements, acceleration, and the forces of the stops."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from rich.console import RenderableType
+from rich.table import Table
+
+from vibroimpact.cli.numbers import plain
+from vibroimpact.model.quantities import ACCELERATION, FORCE, IMPULSE, LENGTH, Quantity
+from vibroimpact.model.units import pretty
+
+_DIGITS = 4
+
+_ROWS: dict[str, tuple[str, str, float, Quantity]] = {
+    "displacement_right": ("displacement to the right", "displacement_max", 1.0, LENGTH),
+    "displacement_left": ("displacement to the left", "displacement_min", -1.0, LENGTH),
+    "acceleration": ("absolute acceleration", "peak_acceleration", 1.0, ACCELERATION),
+    "force_right": ("force of the right stop", "peak_force_right", 1.0, FORCE),
+    "force_left": ("force of the left stop", "peak_force_left", 1.0, FORCE),
+    "impulse_right": ("impulse of the right stop", "peak_impulse_right", 1.0, IMPULSE),
+    "impulse_left": ("impulse of the left stop", "peak_impulse_left", 1.0, IMPULSE),
+}
+"""In words, and which variable, with which sign."""
+
+
+def facts(data: xr.Dataset) -> dict[str, Any]:
+    """The largest of each over all holds, in SI units, and where; of stops that are touched.
+
+    A rigid stop that is struck has an impulse, and no finite force.
+    """
+    found: dict[str, Any] = {}
+    for name, (_, variable, sign, _) in _ROWS.items():
+        values = sign * data[variable].transpose("direction", "frequency").values
+        if np.isnan(values).all():
+            continue
+        d, f = np.unravel_index(np.nanargmax(values), values.shape)
+        value = float(values[d, f])
+        if name.startswith(("force", "impulse")) and not 0.0 < value < math.inf:
+            continue
+        found[name] = {
+            "value": value + 0.0,
+            "frequency": float(data["frequency"][f]),
+            "direction": str(data["direction"].values[d]),
+        }
+    return found
+
+
+def text(data: xr.Dataset) -> RenderableType:
+    """The same as a table."""
+    table = Table(
+        title="Largest",
+        title_justify="left",
+        title_style="",
+        box=None,
+        show_header=False,
+        pad_edge=False,
+        padding=(0, 2, 0, 2),
+    )
+    table.add_column()
+    table.add_column(justify="right")
+    table.add_column()
+    for name, one in facts(data).items():
+        words, _, _, quantity = _ROWS[name]
+        where = f"at {plain(one['frequency'])} Hz, {one['direction']}"
+        table.add_row(words, pretty(one["value"], quantity, _DIGITS), where)
+    return table

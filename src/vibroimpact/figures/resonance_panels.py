@@ -1,0 +1,156 @@
+"""What the panels of resonance curves show: η, or an engineer's g, mm and kN."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, equilibrium
+from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
+from vibroimpact.model.units import plain
+
+_Array = NDArray[np.float64]
+
+_SEEN = 2.0
+"""A gap is drawn unless it is so many times as large as all displacements."""
+
+
+class Level(NamedTuple):
+    """A line at one height."""
+
+    value: float
+    label: str
+    style: dict[str, Any]
+
+    def entry(self) -> Line2D:
+        """Its entry in a legend."""
+        return Line2D([], [], label=self.label, **self.style)
+
+
+class Drawn(NamedTuple):
+    """One panel, in the units of its axis."""
+
+    name: str
+    label: str
+    curves: dict[str, _Array]
+    """By direction of the sweep."""
+    free: _Array | None
+    """The same in free flight."""
+    levels: tuple[Level, ...] = ()
+
+    @property
+    def top(self) -> float:
+        """The largest of all."""
+        curves = [*self.curves.values(), *([] if self.free is None else [self.free])]
+        highest = [float(np.nanmax(curve, initial=0.0)) for curve in curves]
+        return max([*highest, *(level.value for level in self.levels)])
+
+
+def normalised(data: xr.Dataset) -> list[Drawn]:
+    """η_a and η_d."""
+    found = []
+    for symbol, kind, words in (
+        ("a", "acceleration", "absolute acceleration"),
+        ("d", "displacement", "relative displacement"),
+    ):
+        free = f"free_{kind}_excursion"
+        found.append(
+            Drawn(
+                f"η_{symbol}",
+                f"normalised excursion of\n{words} $\\eta_{symbol}$ (–)",
+                _curves(data, f"eta_{symbol}", 1.0),
+                data[free].values / data[f"largest_{free}"].values,
+            )
+        )
+    return found
+
+
+def physical_curves(data: xr.Dataset) -> list[Drawn]:
+    """The largest absolute acceleration, displacement and, where there is one, contact force.
+
+    Raises
+    ------
+    InputError
+        If a dataset of an older version does not hold them.
+    """
+    if "peak_acceleration" not in data:
+        raise InputError("physical: this sweep has no peak_acceleration; a new one is accepted")
+    rig = _rig(data)
+    rest = _rest(rig)
+    swing = 0.5e3 * data["free_displacement_excursion"].values
+    swings = _curves(data, "peak_displacement", 1e3)
+    found = [
+        Drawn(
+            "acceleration",
+            "largest absolute\nacceleration (g)",
+            _curves(data, "peak_acceleration", 1.0 / GRAVITY),
+            0.5 / GRAVITY * data["free_acceleration_excursion"].values,
+        ),
+        Drawn(
+            "displacement",
+            "largest relative\ndisplacement (mm)",
+            swings,
+            None if rest is None else swing + 1e3 * abs(rest),
+            _gaps(rig, _SEEN * max(np.nanmax(one, initial=0.0) for one in swings.values())),
+        ),
+    ]
+    for words, quantity in (("force", FORCE), ("impulse", IMPULSE)):
+        right, left = (_curves(data, f"peak_{words}_{side}", 1.0) for side in ("right", "left"))
+        sizes = {direction: np.fmax(right[direction], left[direction]) for direction in right}
+        # No impact on a rigid stop has a finite force.
+        known = {key: np.where(np.isfinite(size), size, np.nan) for key, size in sizes.items()}
+        largest = max(float(np.nanmax(size, initial=0.0)) for size in known.values())
+        if largest > 0.0:
+            unit = quantity.unit(largest)
+            curves = {key: size / unit.size for key, size in known.items()}
+            found.append(Drawn(words, f"largest contact\n{words} ({unit.symbol})", curves, None))
+    return found
+
+
+def _curves(data: xr.Dataset, name: str, factor: float) -> dict[str, _Array]:
+    return {
+        str(direction): factor * data[name].sel(direction=direction).values
+        for direction in data["direction"].values
+    }
+
+
+def _rig(data: xr.Dataset) -> Oscillator | None:
+    """The rig that was swept, if the dataset holds no other."""
+    rigs = json.loads(data.attrs["parameters"])["rigs"]
+    return Oscillator.model_validate(rigs[0]["oscillator"]) if len(rigs) == 1 else None
+
+
+def _rest(rig: Oscillator | None) -> float | None:
+    """Where the isolator alone holds the mass (m); None if that is not known."""
+    if rig is None:
+        return None
+    try:
+        return equilibrium(rig.without_bumpers()).displacement
+    except InputError:  # stops hold it
+        return None
+
+
+def _gaps(rig: Oscillator | None, farthest: float) -> tuple[Level, ...]:
+    """The gaps that are within sight (mm)."""
+    if rig is None:
+        return ()
+    gaps = {side: getattr(rig, side) for side in ("right", "left")}
+    known = {side: 1e3 * stop.gap for side, stop in gaps.items() if stop is not None}
+    if len(known) == 2 and known["right"] == known["left"]:
+        known = {"": known["right"]}
+    dashes = {"": ":", "right": ":", "left": (0, (1, 3))}
+    return tuple(
+        Level(
+            gap,
+            f"{side} gap, {plain(gap, 4)} mm".strip(),
+            {"color": "0.3", "linewidth": 1.1, "linestyle": dashes[side]},
+        )
+        for side, gap in known.items()
+        if 0.0 < gap <= farthest
+    )

@@ -1,0 +1,61 @@
+"""The largest of each that a sweep meets, as its summary tells it."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.model import GRAVITY
+
+COMMAND = "sweep"
+BUILDING = """
+[oscillator]
+mass = "5000 t"
+isolator = { period = "2.5 s", damping_ratio = 0.15 }
+right = { stiffness = "500 MN/m", damping = "5 MN s/m", gap = "300 mm" }
+[excitation]
+amplitude = "0.12 g"
+[sweep]
+frequencies = [0.3, 0.4, 0.5]
+"""
+WALL = BUILDING.replace(
+    'stiffness = "500 MN/m", damping = "5 MN s/m"', 'kind = "rigid", restitution = 0.5'
+)
+
+
+def test_a_building_in_millimetres_g_and_meganewtons(run, tmp_path):
+    (tmp_path / "building.toml").write_text(BUILDING)
+    code, told, errors = run("building.toml", "--physical")
+    assert (code, errors) == (0, "")
+    data = vi.load(tmp_path / "out/building-sweep.nc")
+    rows = {line.rsplit("  at ")[0].strip() for line in told.splitlines() if " Hz, " in line}
+    for words, name, unit, symbol in (
+        ("displacement to the right", "displacement_max", 1e-3, "mm"),
+        ("displacement to the left", "displacement_min", -1e-3, "mm"),
+        ("absolute acceleration", "peak_acceleration", GRAVITY, "g"),
+        ("force of the right stop", "peak_force_right", 1e6, "MN"),
+    ):
+        values = data[name].values / unit
+        line = next(row for row in rows if row.startswith(words))
+        number, found = line.removeprefix(words).split()
+        assert found == symbol
+        assert float(number) == pytest.approx(values.max(), rel=5e-4)
+    assert not [row for row in rows if row.startswith(("force of the left", "impulse"))]
+    assert "e+" not in told
+
+
+def test_as_json_in_si_units(run, tmp_path):
+    (tmp_path / "wall.toml").write_text(WALL)
+    code, told, _ = run("wall.toml", "--json")
+    assert code == 0
+    largest = json.loads(told)["largest"]
+    data = vi.load(tmp_path / "out/wall-sweep.nc")
+    assert "force_right" not in largest  # an impact has no finite one
+    one = largest["impulse_right"]
+    assert one["value"] == float(data["peak_impulse_right"].max())
+    at = data["peak_impulse_right"].sel(frequency=one["frequency"], direction=one["direction"])
+    assert float(at) == one["value"]
+    assert np.isinf(data["peak_force_right"].max())
