@@ -322,12 +322,12 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     path = _path(where, steps)
     if kind == "value_error":
         problem = str(mistake["ctx"]["error"])
-        if path and _FIELD.match(problem):  # of a field inside, which belongs to the path
+        if path and _FIELD.match(problem):  # of a field inside
             return f"{path}.{problem}"
     elif kind == "missing":
         problem = _missing(holder, str(location[-1]))
     elif kind == "extra_forbidden":
-        problem = _unknown_key(_keys(holder), str(location[-1]))
+        problem = _unknown_key(cast("type[Model]", holder).table_keys(), str(location[-1]))
     elif kind == "union_tag_invalid":
         choice = _choice(holder, str(location[-1]))
         assert choice is not None
@@ -381,17 +381,12 @@ def _along(
     return steps, model
 
 
-def _keys(model: type[BaseModel]) -> list[str]:
-    return model.table_keys() if issubclass(model, Model) else in_order(model)
-
-
 def _fields(model: type[BaseModel]) -> str:
     return _listed(in_order(model))
 
 
 def _listed(keys: list[str]) -> str:
-    *names, last = keys
-    return f"{', '.join(names)} and {last}" if names else last
+    return " and ".join(filter(None, (", ".join(keys[:-1]), keys[-1])))
 
 
 def _missing(model: type[BaseModel], name: str) -> str:

@@ -61,10 +61,6 @@ VARIABLES: dict[str, Variable] = {
     ),
     "acceleration_max": Variable("m s-2", "largest absolute acceleration"),
     "acceleration_min": Variable("m s-2", "smallest absolute acceleration"),
-    "peak_displacement": Variable("m", "largest relative displacement, to either side"),
-    "peak_acceleration": Variable("m s-2", "largest absolute acceleration, without sign"),
-    "peak_force_right": Variable("N", "largest contact force of the right stop", _RIGID),
-    "peak_force_left": Variable("N", "largest contact force of the left stop", _RIGID),
     "peak_impulse_right": Variable("N s", "largest impulse of an impact on the right rigid stop"),
     "peak_impulse_left": Variable("N s", "largest impulse of an impact on the left rigid stop"),
     "eccentricity": Variable("m", "eccentricity", "half the sum of the displacement's extremes"),
@@ -241,7 +237,7 @@ VARIABLES: dict[str, Variable] = {
     "total_supplied": Variable("J", "work on the mass of what shakes it, over the motion"),
     "total_isolator": Variable("J", "energy lost in the isolator over the motion"),
     "total_bumpers": Variable("J", "energy lost in the stops over the motion"),
-    # earthquakes
+    # sweeps, branches and earthquakes
     "peak_displacement": Variable("m", "largest relative displacement, to either side"),
     "peak_displacement_right": Variable("m", "largest relative displacement to the right"),
     "peak_displacement_left": Variable("m", "largest relative displacement to the left"),
@@ -251,6 +247,7 @@ VARIABLES: dict[str, Variable] = {
     "peak_force": Variable("N", "largest contact force of either stop", _RIGID),
     "peak_force_right": Variable("N", "largest contact force of the right stop", _RIGID),
     "peak_force_left": Variable("N", "largest contact force of the left stop", _RIGID),
+    # earthquakes
     "impulse": Variable("N s", "impulse of both stops' contact forces, without sign"),
     "impulse_right": Variable("N s", "impulse of the right stop's contact force"),
     "impulse_left": Variable("N s", "impulse of the left stop's contact force"),
