@@ -322,7 +322,7 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     path = _path(where, steps)
     if kind == "value_error":
         problem = str(mistake["ctx"]["error"])
-        if path and _FIELD.match(problem):  # of a field inside
+        if path and _FIELD.match(problem):
             return f"{path}.{problem}"
     elif kind == "missing":
         problem = _missing(holder, str(location[-1]))
@@ -333,7 +333,7 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
         assert choice is not None
         path, problem = f"{path}.kind", choice.unknown(mistake["input"])
     elif kind in ("model_type", "model_attributes_type"):
-        problem = f"{value} is not a table; a table with {_fields(wanted)} is accepted"
+        problem = f"{value} is not a table; a table with {_listed(in_order(wanted))} is accepted"
     else:
         message = mistake["msg"]
         problem = f"{value} is refused: {message[:1].lower()}{message[1:]}"
@@ -381,10 +381,6 @@ def _along(
     return steps, model
 
 
-def _fields(model: type[BaseModel]) -> str:
-    return _listed(in_order(model))
-
-
 def _listed(keys: list[str]) -> str:
     return " and ".join(filter(None, (", ".join(keys[:-1]), keys[-1])))
 
@@ -394,7 +390,7 @@ def _missing(model: type[BaseModel], name: str) -> str:
     for accepts in metadata:
         if isinstance(accepts, Accepts):
             return f"missing; {accepts.words()}"
-    return f"missing; {_fields(model)} are accepted"
+    return f"missing; {_listed(in_order(model))} are accepted"
 
 
 def _unknown_key(keys: list[str], name: str) -> str:
