@@ -6,8 +6,10 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import vibroimpact as vi
+from vibroimpact.cli import largest
 from vibroimpact.model import GRAVITY
 
 COMMAND = "sweep"
@@ -51,11 +53,25 @@ def test_as_json_in_si_units(run, tmp_path):
     (tmp_path / "wall.toml").write_text(WALL)
     code, told, _ = run("wall.toml", "--json")
     assert code == 0
-    largest = json.loads(told)["largest"]
+    found = json.loads(told)["largest"]
     data = vi.load(tmp_path / "out/wall-sweep.nc")
-    assert "force_right" not in largest  # an impact has no finite one
-    one = largest["impulse_right"]
-    assert one["value"] == float(data["peak_impulse_right"].max())
+    assert "force_right" not in found  # an impact has no finite one
+    one = found["impulse_right"]
+    assert one["value"] == pytest.approx(float(data["peak_impulse_right"].max()), rel=1e-9)
     at = data["peak_impulse_right"].sel(frequency=one["frequency"], direction=one["direction"])
     assert float(at) == one["value"]
     assert np.isinf(data["peak_force_right"].max())
+
+
+def test_of_what_is_the_same_to_rounding_the_forward_sweep_is_named():
+    rig = vi.Oscillator(550, vi.Isolator(26.8e3, 1.1e3))
+    data = vi.sweep(rig, 0.5, [0.9, 1.1, 1.5])
+    more = xr.where(data["direction"] == "backward", 1.0 + 1e-12, 1.0)
+    for name in ("displacement_max", "peak_acceleration"):
+        data[name] = data[name] * more
+    found = largest.facts(data)
+    assert [found[name]["direction"] for name in ("displacement_right", "acceleration")] == [
+        "forward",
+        "forward",
+    ]
+    assert set(found) == {"displacement_right", "displacement_left", "acceleration"}

@@ -15,6 +15,7 @@ from vibroimpact.model.quantities import ACCELERATION, FORCE, IMPULSE, LENGTH, Q
 from vibroimpact.model.units import pretty
 
 _DIGITS = 4
+_SAME = 1e-9
 
 _ROWS: dict[str, tuple[str, str, float, Quantity]] = {
     "displacement_right": ("displacement to the right", "displacement_max", 1.0, LENGTH),
@@ -38,12 +39,13 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
         values = sign * data[variable].transpose("direction", "frequency").values
         if np.isnan(values).all():
             continue
-        d, f = np.unravel_index(np.nanargmax(values), values.shape)
-        value = float(values[d, f])
-        if name.startswith(("force", "impulse")) and not 0.0 < value < math.inf:
+        most = float(np.nanmax(values))
+        if name.startswith(("force", "impulse")) and not 0.0 < most < math.inf:
             continue
+        # Of sweeps that agree to rounding the forward one is named.
+        d, f = np.unravel_index(np.argmax(values >= most - _SAME * abs(most)), values.shape)
         found[name] = {
-            "value": value + 0.0,
+            "value": float(values[d, f]) + 0.0,
             "frequency": float(data["frequency"][f]),
             "direction": str(data["direction"].values[d]),
         }
