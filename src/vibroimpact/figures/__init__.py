@@ -12,6 +12,7 @@ from vibroimpact.figures.clearance import clearances
 from vibroimpact.figures.curves import bifurcation_curves
 from vibroimpact.figures.cycle import hysteresis_cycle
 from vibroimpact.figures.demands import fragility_curves, incremental_curves
+from vibroimpact.figures.design import design_chart, pareto_front
 from vibroimpact.figures.earthquake import earthquake_page
 from vibroimpact.figures.family import family_legend, resonance_family
 from vibroimpact.figures.feature import feature_map
@@ -33,6 +34,7 @@ __all__ = [
     "bifurcation_curves",
     "bifurcation_diagram",
     "clearances",
+    "design_chart",
     "earthquake_page",
     "family_legend",
     "feature_map",
@@ -42,6 +44,7 @@ __all__ = [
     "hysteresis_cycle",
     "incremental_curves",
     "motion_page",
+    "pareto_front",
     "phase_portrait",
     "record_history",
     "resonance_curves",

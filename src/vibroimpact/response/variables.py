@@ -275,17 +275,14 @@ VARIABLES: dict[str, Variable] = {
     "hitting": Variable(
         "1", "share of the records that make the mass hit", "of sines 1 where any of them does"
     ),
-    "pareto": Variable(
-        "1",
-        "whether no other design beats it",
-        "none has a smaller displacement or acceleration without a larger one of the other",
-    ),
+    "pareto": Variable("1", "whether no other design beats it in displacement and acceleration"),
     "displacement_frequency": Variable("Hz", "frequency of the largest displacement"),
     "acceleration_frequency": Variable("Hz", "frequency of the largest acceleration"),
     "unsettled_count": Variable("1", "number of holds without a periodic motion"),
-    "required_gap": Variable("m", "gap of each side at which nothing is hit"),
-    "required_gap_right": Variable("m", "gap of the right side at which nothing is hit"),
-    "required_gap_left": Variable("m", "gap of the left side at which nothing is hit"),
+    **{
+        f"required_gap{side}": Variable("m", f"gap of {which} side at which nothing is hit")
+        for side, which in (("", "each"), ("_right", "the right"), ("_left", "the left"))
+    },
     "evaluations": Variable("1", "number of designs that were tried"),
     # response spectra
     "natural_period": Variable("s", "natural period", "0: the mass moves with the base"),

@@ -1,0 +1,303 @@
+"""Design charts: displacement and acceleration over parameters, and what no design beats."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.style import LEGEND
+from vibroimpact.model import GRAVITY
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model.units import pretty
+from vibroimpact.scenario.axes import logarithmic
+
+_Array = NDArray[np.float64]
+
+_QUANTITIES = {
+    "peak_displacement": (1e3, "largest $|u|$ (mm)"),
+    "peak_acceleration": (1.0 / GRAVITY, "largest $|\\ddot u + A_t|$ (g)"),
+    "peak_force": (1e-3, "largest contact force (kN)"),
+}
+_LEVELS = 9
+_NAMED = 5
+"""Points of a front that have their parameters beside them, at most."""
+
+
+def design_chart(
+    data: xr.Dataset,
+    axes: Any = None,
+    *,
+    quantities: tuple[str, ...] = ("peak_displacement", "peak_acceleration"),
+    title: str | None = None,
+) -> Panels:
+    """Draw the demands on designs over one parameter, or as contours over two.
+
+    Dots mark designs that no other one beats; beyond the thick dashed line nothing is hit.
+
+    Parameters
+    ----------
+    data
+        Dataset of `design` over one or two parameters, with two values or more of each.
+    axes
+        Axes to draw on, one a quantity. None makes a new figure.
+    quantities
+        What is drawn: ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force"``.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If it is no such dataset.
+    """
+    dims = _dims(data)
+    for name in quantities:
+        if name not in _QUANTITIES:
+            raise InputError(
+                f"quantities: {name!r}; one or more of {', '.join(_QUANTITIES)} are accepted"
+            )
+    if len(dims) > 2 or min(data.sizes[dim] for dim in dims) < 2:
+        raise InputError(
+            f"data: over {dict(data.sizes)}; one or two parameters with at least two values each "
+            "are accepted, as those of data.isel"
+        )
+    if axes is None:
+        count = len(quantities)
+        made = new_axes(1, count, (4.9 * count, 4.6))
+        if title:
+            made[0, 0].figure.suptitle(title)
+        panels = Panels(made[0])
+    else:
+        panels = Panels(np.ravel(axes))
+    if len(panels) != len(quantities):
+        raise InputError(
+            f"axes: {len(panels)} given; {len(quantities)} are accepted, one a quantity"
+        )
+    for ax, name in zip(panels, quantities, strict=True):
+        (_curve if len(dims) == 1 else _contours)(ax, data, name)
+    return panels
+
+
+def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
+    """Draw acceleration over displacement of all designs, with the front that none beats.
+
+    Parameters
+    ----------
+    data
+        Dataset of `design`.
+    ax
+        Axes to draw on. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If it is no such dataset, or no design is known.
+    """
+    dims = _dims(data)
+    u, a = (
+        _QUANTITIES[name][0] * data[name].values.ravel()
+        for name in ("peak_displacement", "peak_acceleration")
+    )
+    best = data["pareto"].values.ravel().astype(bool)
+    if not best.any():
+        raise InputError("data: no design was done; a dataset with one or more is accepted")
+    ax = axes_or_new(ax, (6.4, 4.8), title)
+    finite = np.isfinite(u) & np.isfinite(a)
+    hits = data["hitting"].values.ravel() > 0.0
+    for mine, face, label in ((hits, "0.75", "hits a stop"), (~hits, "white", "hits nothing")):
+        if (finite & mine).any():
+            ax.plot(
+                u[finite & mine],
+                a[finite & mine],
+                linestyle="",
+                marker="o",
+                markersize=4.0,
+                markerfacecolor=face,
+                markeredgecolor="0.6",
+                markeredgewidth=0.6,
+                label=label,
+                zorder=2,
+            )
+    order = np.flatnonzero(best)[np.lexsort((a[best], u[best]))]
+    ax.plot(
+        u[order],
+        a[order],
+        color="black",
+        linewidth=1.2,
+        marker="s",
+        markersize=4.5,
+        label="beaten by no other",
+        zorder=4,
+    )
+    ax.set_xlabel(_QUANTITIES["peak_displacement"][1])
+    ax.set_ylabel(_QUANTITIES["peak_acceleration"][1])
+    ax.set_ylim(bottom=0.0)
+    ax.margins(x=0.08)
+    _name_points(ax, data, dims, order, u, a)
+    ax.legend(ncols=3, **LEGEND)
+    return ax
+
+
+def _name_points(
+    ax: Axes, data: xr.Dataset, dims: list[str], order: NDArray[Any], u: _Array, a: _Array
+) -> None:
+    """Numbers at some points of the front, evenly along it, and their parameters in a corner."""
+    wide, high = max(np.ptp(u[order]), 1e-12), max(np.ptp(a[order]), 1e-12)
+    along = np.concatenate(
+        [[0.0], np.cumsum(np.hypot(np.diff(u[order]) / wide, np.diff(a[order]) / high))]
+    )
+    wanted = np.linspace(0.0, along[-1], min(_NAMED, len(order)))
+    chosen = dict.fromkeys(int(np.abs(along - at).argmin()) for at in wanted)
+    lines = []
+    for number, k in enumerate(chosen, start=1):
+        at = np.unravel_index(order[k], data["pareto"].shape)
+        told = [_told(dim, float(data[dim].values[i])) for dim, i in zip(dims, at, strict=True)]
+        lines.append(f"{number}  {', '.join(told)}")
+        ax.annotate(
+            str(number),
+            (u[order[k]], a[order[k]]),
+            xytext=(-4.0, -4.0),
+            textcoords="offset points",
+            ha="right",
+            va="top",
+            fontsize="small",
+            fontweight="bold",
+            zorder=6,
+        )
+    names = ", ".join(str(data[dim].attrs["long_name"]) for dim in dims)
+    told_of = "\n".join([*textwrap.wrap(names, 44), *lines])
+    ax.text(
+        1.02,
+        1.0,
+        told_of,
+        transform=ax.transAxes,
+        ha="left",
+        va="top",
+        fontsize="small",
+        linespacing=1.4,
+    )
+
+
+def _told(name: str, value: float) -> str:
+    return pretty(float(f"{value:.3g}"), PARAMETERS[name].quantity)
+
+
+def _dims(data: Any) -> list[str]:
+    if not isinstance(data, xr.Dataset) or "pareto" not in data:
+        raise InputError("data: this is no design; a dataset of design is accepted")
+    return [str(dim) for dim in data["pareto"].dims]
+
+
+def _unit(name: str, values: _Array) -> tuple[float, str]:
+    """Factor and unit in which a parameter is drawn, of fitting size; lengths in mm."""
+    quantity = PARAMETERS[name].quantity
+    if quantity is LENGTH:
+        return 1e3, "mm"
+    largest = float(np.abs(values).max())
+    for smallest, unit, symbol in quantity.scales:
+        if largest >= smallest:
+            return 1.0 / unit, symbol or "–"
+    return 1.0, quantity.symbol or "–"
+
+
+def _axis(axis: Any, values: xr.DataArray) -> _Array:
+    """Scale, limit and label an axis; return the values in its unit."""
+    name = str(values.name)
+    factor, unit = _unit(name, values.values)
+    which = axis.axis_name
+    if logarithmic(values.values):
+        axis.axes.set(**{f"{which}scale": "log"})
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
+    drawn: _Array = factor * values.values
+    label = f"{values.attrs['long_name']} ({unit})"
+    axis.axes.set(
+        **{f"{which}lim": (drawn.min(), drawn.max()), f"{which}label": textwrap.fill(label, 44)}
+    )
+    return drawn
+
+
+def _sorted(data: xr.Dataset) -> xr.Dataset:
+    return data.sortby([str(dim) for dim in data["pareto"].dims])
+
+
+def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
+    data = _sorted(data)
+    (dim,) = _dims(data)
+    factor, label = _QUANTITIES[name]
+    x = _axis(ax.xaxis, data[dim])
+    y = factor * np.where(np.isfinite(data[name].values), data[name].values, np.nan)
+    ax.plot(x, y, color="black", linewidth=1.4, zorder=3)
+    best = data["pareto"].values.astype(bool)
+    ax.plot(x[best], y[best], "o", color="black", markersize=4.0, label="beaten by no other")
+    free = ~(data["hitting"].values > 0.0)
+    ax.plot(
+        x[free],
+        y[free],
+        "o",
+        markersize=7.0,
+        markerfacecolor="none",
+        markeredgecolor="0.5",
+        label="hits nothing",
+    )
+    ax.set_ylabel(label)
+    ax.set_ylim(bottom=0.0)
+    ax.legend(ncols=2, **LEGEND)
+
+
+def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
+    data = _sorted(data)
+    second, first = _dims(data)
+    # A gap lies along the bottom, whichever was named first.
+    if second == "gap":
+        first, second = second, first
+    data = data.transpose(second, first)
+    factor, label = _QUANTITIES[name]
+    x, y = _axis(ax.xaxis, data[first]), _axis(ax.yaxis, data[second])
+    values = np.ma.masked_invalid(factor * data[name].values)
+    ax.set_title(label, fontsize="medium")
+    if np.ptp(values.compressed()) > 1e-9 * np.abs(values).max():
+        filled = ax.contourf(x, y, values, levels=_LEVELS, cmap="YlGnBu", alpha=0.55, zorder=1)
+        lines = ax.contour(x, y, values, levels=filled.levels, colors="0.15", linewidths=0.7)
+        ax.clabel(lines, fontsize="small", fmt=lambda level: f"{level:.3g}")
+    hits = (data["hitting"].values > 0.0).astype(float)
+    handles = []
+    if 0.0 < hits.mean() < 1.0:
+        ax.contour(x, y, hits, levels=[0.5], colors="#c8102e", linewidths=2.0, linestyles="--")
+        handles.append(
+            Line2D([], [], color="#c8102e", linewidth=2.0, linestyle="--", label="nothing is hit")
+        )
+    best = np.argwhere(data["pareto"].values.astype(bool))
+    (dots,) = ax.plot(
+        x[best[:, 1]],
+        y[best[:, 0]],
+        linestyle="",
+        marker="o",
+        markersize=4.0,
+        color="black",
+        clip_on=False,
+        label="beaten by no other",
+        zorder=5,
+    )
+    ax.legend(
+        handles=[dots, *handles],
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.16),
+        frameon=False,
+        ncols=2,
+        fontsize="small",
+    )
