@@ -7,6 +7,7 @@ from rich.console import Console
 
 from benchmarks.branches import branches
 from benchmarks.campaign import campaign
+from benchmarks.designs import designs
 from benchmarks.earthquakes import earthquakes
 from benchmarks.laws import laws, sampling, yielding
 from benchmarks.machine import load, machine
@@ -34,6 +35,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "motions": lambda: (motions(),),
         "branches": lambda: (branches(),),
         "scenarios": lambda: (scenarios(),),
+        "designs": lambda: (designs(),),
         "startup": lambda: (startup(compiling()), memory(), size()),
     }
 

@@ -15,6 +15,7 @@ from vibroimpact._version import __version__
 from vibroimpact.cli.branch import branch
 from vibroimpact.cli.classify import classify
 from vibroimpact.cli.curve import curve
+from vibroimpact.cli.design import design
 from vibroimpact.cli.earthquake import earthquake
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
@@ -43,6 +44,7 @@ For example:
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
     vibroimpact record quake.AT2
     vibroimpact earthquake B2-G1-A3 quake.AT2
+    vibroimpact design B2-G1-A3
     vibroimpact classify B2-G1-A3
     vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
     vibroimpact paper
@@ -105,7 +107,7 @@ def _app() -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
-    for command in (sweep, motion, branch, curve, simulate, record, earthquake, classify):
+    for command in (sweep, motion, branch, curve, simulate, record, earthquake, design, classify):
         app.command(command)
     app.command(scenario_map, name="map")
     app.command(paper)

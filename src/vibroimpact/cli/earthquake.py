@@ -86,12 +86,12 @@ def earthquake(
 
     out = output or OutputOptions()
     found = {
-        _name(file, component): _read(file, component, unit, step)
+        record_name(file, component): read_record(file, component, unit, step)
         for file in dict.fromkeys(records)
     }
     first = next(iter(found.values()), None)
     what = subject(rig, changes or RigOptions(), out.name, shaken=first)
-    shaking = _changed(found or _of_study(what), scale, peak)
+    shaking = scaled_records(found or record_of_study(what), scale, peak)
     behind = None if tail is None else to_si(tail, TIME, "--tail", minimum=0.0)
     if samples < 1:
         raise InputError(f"--samples: {samples}; a whole number of at least 1 is accepted")
@@ -133,18 +133,19 @@ def earthquake(
     return 0
 
 
-def _name(file: str, component: str | None) -> str:
+def record_name(file: str, component: str | None) -> str:
     """What a record is called: its file, and its component if that was chosen."""
     return " ".join([Path(file).name.removesuffix(".gz"), *([component] if component else [])])
 
 
-def _read(file: str, component: str | None, unit: str | None, step: str | None) -> Record:
+def read_record(file: str, component: str | None, unit: str | None, step: str | None) -> Record:
+    """Read the file of a record; what is None is what the file says."""
     from vibroimpact.model import Record
 
     return Record.read(file, component, unit=unit, step=step)
 
 
-def _of_study(what: Subject) -> dict[str, Record]:
+def record_of_study(what: Subject) -> dict[str, Record]:
     """The record that a study names.
 
     Raises
@@ -159,10 +160,13 @@ def _of_study(what: Subject) -> dict[str, Record]:
             "RECORD: missing; the file of a record is accepted, or a study that names one"
         )
     about = what.shaking.about
-    return {_name(about.source, about.component): what.shaking}
+    return {record_name(about.source, about.component): what.shaking}
 
 
-def _changed(records: dict[str, Record], scale: str | None, peak: str | None) -> dict[str, Record]:
+def scaled_records(
+    records: dict[str, Record], scale: str | None, peak: str | None
+) -> dict[str, Record]:
+    """Multiply records by a number, or give them a peak."""
     if scale is None and peak is None:
         return records
     size: str | float = 1.0 if scale is None else scale

@@ -30,7 +30,6 @@ _Axis = tuple[str, list[float], str]
 _PUBLISHED = "B3-10mm-A3"
 _SYMBOLS = {"acceleration": "A =", "displacement": "X =", "force": "F ="}
 _NODES = 21
-_MOST = 4_000_000
 
 
 def scenario_map(
@@ -234,7 +233,7 @@ def _ratio(value: float) -> str:
 
 def _axis(option: str, name: str, text: str, of: Of) -> _Axis:
     """Read ``LOW:HIGH[:log][:NODES]``."""
-    from vibroimpact.model import to_si
+    from vibroimpact.cli.ranges import spread
     from vibroimpact.model.parameters import parameter
     from vibroimpact.scenario.axes import NAMES
 
@@ -243,41 +242,12 @@ def _axis(option: str, name: str, text: str, of: Of) -> _Axis:
         known = ", ".join(name.replace("_", "-") for name in NAMES)
         raise InputError(f"{option}: {name!r}; one of {known} is accepted")
     varied = parameter(key, option, of)
-    parts = [part.strip() for part in text.split(":")]
-    logarithmic = "log" in parts[2:3]
-    rest = parts[3:] if logarithmic else parts[2:]
-    if len(parts) < 2 or len(rest) > 1 or not all(parts):
-        raise InputError(
-            f"{option}: {text!r}; a range LOW:HIGH[:log][:NODES] is accepted, such as 0.5:100:log"
-        )
-    above = None if varied.zero and not logarithmic else 0.0
-    least = 0.0 if above is None else None
-    low, high = (
-        to_si(part, varied.quantity, option, above=above, minimum=least, maximum=varied.most)
-        for part in parts[:2]
-    )
-    if not low < high:
-        raise InputError(f"{option}: {low:g} is not below {high:g}; a rising range is accepted")
-    nodes = _NODES
-    if rest:
-        if not (rest[0].isascii() and rest[0].isdecimal()) or int(rest[0]) < 2:
-            raise InputError(
-                f"{option}: {rest[0]!r} nodes; a whole number of at least 2 is accepted"
-            )
-        nodes = int(rest[0])
-    if nodes > _MOST:
-        raise InputError(f"{option}: {nodes} nodes; at most {_MOST} are accepted")
-    shares = [i / (nodes - 1) for i in range(nodes)]
-    if logarithmic:
-        ratio = math.log(high / low)
-        values = [low * math.exp(share * ratio) for share in shares]
-    else:
-        values = [low + share * (high - low) for share in shares]
-    return key, [low, *values[1:-1], high], "log" if logarithmic else "linear"
+    return key, *spread(option, varied, text, _NODES)
 
 
 def _check(what: Subject, axes: tuple[_Axis, ...], refine: int) -> None:
     """Refuse what cannot be mapped before anything is written."""
+    from vibroimpact.cli.ranges import MOST
     from vibroimpact.scenario.axes import Base, axis, check_pair, one_sine
 
     try:
@@ -293,8 +263,8 @@ def _check(what: Subject, axes: tuple[_Axis, ...], refine: int) -> None:
     if not 0 <= refine <= 8:
         raise InputError(f"--refine: {refine}; a whole number from 0 to 8 is accepted")
     nodes = (len(x.values) << refine) * (len(y.values) << refine)
-    if nodes > _MOST:
-        raise InputError(f"--refine: {refine} makes {nodes} nodes; at most {_MOST} are accepted")
+    if nodes > MOST:
+        raise InputError(f"--refine: {refine} makes {nodes} nodes; at most {MOST} are accepted")
 
 
 def _as_option(message: str) -> str:

@@ -131,6 +131,21 @@ class SimulateTable(Model):
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
 
 
+class DesignTable(Model):
+    """``[design]``: for what a rig is sized, and what may be chosen.
+
+    Records stand beside the study file; without them the excitation counts. A range is a text
+    LOW:HIGH[:log][:VALUES].
+    """
+
+    records: list[str] | None = None
+    vary: dict[str, str] | None = None
+    limits: dict[str, float | str] | None = None
+    fractile: Annotated[
+        float | None, Accepts(DIMENSIONLESS, minimum=0.0, maximum=1.0, optional=True)
+    ] = None
+
+
 class Study(Model):
     """A study file: ``case`` or ``[oscillator]``, and tables for the commands."""
 
@@ -141,6 +156,7 @@ class Study(Model):
     excitation: ExcitationTable = ExcitationTable()
     sweep: SweepTable = SweepTable()
     simulate: SimulateTable = SimulateTable()
+    design: DesignTable = DesignTable()
 
     @model_validator(mode="after")
     def _one_rig(self) -> Self:

@@ -117,19 +117,20 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     ax = axes_or_new(ax, (6.4, 4.8), title)
     finite = np.isfinite(u) & np.isfinite(a)
     hits = data["hitting"].values.ravel() > 0.0
-    for mine, face, label in ((hits, "0.75", "hits a stop"), (~hits, "white", "hits nothing")):
+    looks = ((hits, "0.75", 4.0, 2, "hits a stop"), (~hits, "none", 9.0, 5, "hits nothing"))
+    for mine, face, size, above, label in looks:
         if (finite & mine).any():
             ax.plot(
                 u[finite & mine],
                 a[finite & mine],
                 linestyle="",
                 marker="o",
-                markersize=4.0,
+                markersize=size,
                 markerfacecolor=face,
-                markeredgecolor="0.6",
-                markeredgewidth=0.6,
+                markeredgecolor="0.5",
+                markeredgewidth=0.7,
                 label=label,
-                zorder=2,
+                zorder=above,
             )
     order = np.flatnonzero(best)[np.lexsort((a[best], u[best]))]
     ax.plot(
@@ -178,7 +179,7 @@ def _name_points(
             zorder=6,
         )
     names = ", ".join(str(data[dim].attrs["long_name"]) for dim in dims)
-    told_of = "\n".join([*textwrap.wrap(names, 44), *lines])
+    told_of = "\n".join([*textwrap.wrap(names, 26), *lines])
     ax.text(
         1.02,
         1.0,
@@ -279,7 +280,14 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
     if 0.0 < hits.mean() < 1.0:
         ax.contour(x, y, hits, levels=[0.5], colors="#c8102e", linewidths=2.0, linestyles="--")
         handles.append(
-            Line2D([], [], color="#c8102e", linewidth=2.0, linestyle="--", label="nothing is hit")
+            Line2D(
+                [],
+                [],
+                color="#c8102e",
+                linewidth=2.0,
+                linestyle="--",
+                label="beyond it nothing is hit",
+            )
         )
     best = np.argwhere(data["pareto"].values.astype(bool))
     (dots,) = ax.plot(

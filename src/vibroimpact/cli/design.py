@@ -1,0 +1,245 @@
+"""``vibroimpact design``: which gap and which stops, in words, figures and files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Group, Parameter
+
+from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.errors import InputError
+
+if TYPE_CHECKING:
+    from vibroimpact.cli.rig import Subject
+    from vibroimpact.model import Record
+
+_DESIGN = Group("Design", sort_key=1)
+_READING = Group("Records (instead of what the files say)", sort_key=1)
+_TEXT = Parameter(group=_DESIGN, allow_leading_hyphen=True)
+_PAIRS = Parameter(group=_DESIGN, allow_leading_hyphen=True, negative="")
+_NODES = 15
+
+
+def design(
+    rig: RigName,
+    /,
+    *records: Annotated[
+        str,
+        Parameter(
+            name="RECORD",
+            help="Files of records; none for those of the study, or for sines of its amplitude.",
+        ),
+    ],
+    vary: Annotated[
+        tuple[tuple[str, str], ...],
+        _PAIRS,
+        Parameter(
+            show_default=False,
+            help=(
+                "Parameter and range, NAME LOW:HIGH[:log][:VALUES], 15 values if none are given; "
+                "once or twice. Such as gap, bumper-stiffness, bumper-damping, isolator-period, "
+                "damping-ratio, yield-force."
+            ),
+        ),
+    ] = (),
+    best: Annotated[
+        bool,
+        Parameter(
+            group=_DESIGN,
+            negative="",
+            show_default=False,
+            help="Search the bumper with the least acceleration for the gap, too.",
+        ),
+    ] = False,
+    limit: Annotated[
+        tuple[tuple[str, str], ...],
+        _PAIRS,
+        Parameter(
+            show_default=False,
+            help="What it must not exceed: peak-force, penetration or peak-displacement; 5MN.",
+        ),
+    ] = (),
+    fractile: Annotated[
+        str | None, _TEXT, Parameter(help="Share of the records that count; 1, all of them.")
+    ] = None,
+    scale: Annotated[
+        str | None, _TEXT, Parameter(help="Number that records are multiplied by.")
+    ] = None,
+    peak: Annotated[
+        str | None, _TEXT, Parameter(help="The records' peak instead, such as 0.3g.")
+    ] = None,
+    start: Annotated[
+        str | None, _TEXT, Parameter(name="--from", help="Lowest frequency of sines.")
+    ] = None,
+    to: Annotated[str | None, _TEXT, Parameter(help="Highest frequency of sines.")] = None,
+    component: Annotated[
+        str | None, Parameter(group=_READING, help="Which of several, by its name or number.")
+    ] = None,
+    unit: Annotated[
+        str | None, Parameter(group=_READING, help="Of the values, such as g or cm/s^2.")
+    ] = None,
+    step: Annotated[
+        str | None,
+        Parameter(
+            group=_READING, allow_leading_hyphen=True, help="Time between samples, such as 10ms."
+        ),
+    ] = None,
+    changes: RigOptions | None = None,
+    threads: Annotated[
+        Whole | None,
+        Parameter(group=COMPUTATION, help="How many are computed at once; one a processor."),
+    ] = None,
+    output: OutputOptions | None = None,
+) -> int:
+    """Say which gap is needed to hit nothing, and chart displacement against acceleration.
+
+    Under records, or under sines of any frequency swept up and down. Writes NAME-design.nc and .csv
+    with a row a design, NAME-design.png (over one or two parameters) and NAME-pareto.png, the
+    designs that no other one beats.
+
+    For example:
+
+        vibroimpact design building.toml
+        vibroimpact design building.toml a.AT2 b.AT2 --vary gap 100mm:500mm
+        vibroimpact design building.toml --vary gap 100mm:500mm --vary damping-ratio 0.05:0.3
+        vibroimpact design building.toml --best --gap 250mm --limit penetration 50mm
+    """
+    from vibroimpact.cli.earthquake import read_record, record_name
+    from vibroimpact.cli.output import output_folder, progress_bar, tell
+    from vibroimpact.cli.rig import subject
+
+    out = output or OutputOptions()
+    found = {
+        record_name(file, component): read_record(file, component, unit, step)
+        for file in dict.fromkeys(records or _listed(rig))
+    }
+    what = subject(rig, changes or RigOptions(), out.name, shaken=next(iter(found.values()), None))
+    shaking = _shaking(what, found, scale, peak)
+    table = what.study.design if what.study else None
+    share = fractile if fractile is not None else (table and table.fractile)
+    asked: dict[str, Any] = {
+        "fractile": 1.0 if share is None else _share(share),
+        "threads": threads,
+        "frequencies": _frequencies(what, start, to) if not found else None,
+    }
+    ranges = _ranges(what, vary or tuple(((table and table.vary) or {}).items()))
+    limits: dict[str, Any] = {**((table and table.limits) or {}), **dict(limit)}
+    if limit and not best:
+        raise InputError("--limit: given without --best; it is accepted beside it")
+
+    from vibroimpact.sizing.best import least_acceleration
+    from vibroimpact.sizing.chart import design as chart
+    from vibroimpact.sizing.gap import required_gap
+
+    with output_folder(out.output) as folder:
+        from rich.console import Group as Together
+
+        from vibroimpact.cli import sized, summary
+        from vibroimpact.figures import design_chart, pareto_front, save_figure
+        from vibroimpact.response.files import save
+
+        stem = f"{what.slug}-design"
+        files: dict[str, Path] = {}
+        with progress_bar("computing") as progress:
+            gap = required_gap(what.oscillator, shaking, **asked)
+            values = ranges or _usual(what, float(gap["required_gap"]))
+            data = chart(what.oscillator, shaking, values, **asked, progress=progress)
+            least = (
+                least_acceleration(
+                    what.oscillator, shaking, limits=limits, **asked, progress=progress
+                )
+                if best
+                else None
+            )
+        files["data"] = save(data, folder / f"{stem}.nc")
+        files["table"] = save(data, folder / f"{stem}.csv")
+        if data["pareto"].ndim <= 2 and min(data["pareto"].shape) > 1:
+            panels = design_chart(data, title=what.title)
+            files["chart"] = save_figure(panels, folder / f"{stem}.{out.figure}")
+        front = pareto_front(data, title=what.title)
+        files["front"] = save_figure(front, folder / f"{what.slug}-pareto.{out.figure}")
+    about = summary.rig_facts(what)
+    about.pop("record", None)
+    tell(
+        Together(
+            summary.rig_text(what, shaking=not found),
+            *sized.text(what.oscillator, gap, data, least, list(found)),
+        ),
+        {**about, **sized.facts(gap, data, least)},
+        folder,
+        files,
+        out.json,
+    )
+    return 0
+
+
+def _listed(rig: str) -> list[str]:
+    """The records of a study's design, beside its file."""
+    from vibroimpact.cli.study import read_study
+
+    path = Path(rig)
+    if path.suffix.lower() != ".toml" and not path.is_file():
+        path = path.with_name(f"{path.name}.toml") if path.name else path
+        if not path.is_file():
+            return []
+    return [str(path.parent / name) for name in read_study(path).design.records or []]
+
+
+def _shaking(what: Subject, found: dict[str, Record], scale: str | None, peak: str | None) -> Any:
+    from vibroimpact.cli.earthquake import record_of_study, scaled_records
+    from vibroimpact.model import Record
+
+    records = found or (record_of_study(what) if isinstance(what.shaking, Record) else {})
+    if not records:
+        for option, value in (("--scale", scale), ("--peak", peak)):
+            if value is not None:
+                raise InputError(f"{option}: {value!r}, but no record is given; --amplitude is")
+        return what.repeated
+    found.update(records)
+    return scaled_records(records, scale, peak)
+
+
+def _share(value: Any) -> float:
+    from vibroimpact.model import to_si
+    from vibroimpact.model.quantities import DIMENSIONLESS
+
+    return to_si(value, DIMENSIONLESS, "--fractile", minimum=0.0, maximum=1.0)
+
+
+def _frequencies(what: Subject, start: str | None, to: str | None) -> tuple[Any, Any] | None:
+    """The range of sines that options or the study say; None if neither does."""
+    table = what.study.sweep if what.study else None
+    low = start if start is not None else (table and table.start)
+    high = to if to is not None else (table and table.to)
+    if low is None and high is None:
+        return None
+    if low is None or high is None:
+        which = "--from" if low is None else "--to"
+        raise InputError(f"{which}: missing; the lowest and the highest frequency are accepted")
+    return low, high
+
+
+def _ranges(what: Subject, pairs: tuple[tuple[str, str], ...]) -> dict[str, list[float]]:
+    from vibroimpact.cli.ranges import spread
+    from vibroimpact.model.parameters import parameter
+
+    found = {}
+    for name, text in pairs:
+        varied = parameter(name, "--vary").of(what.oscillator)
+        found[varied.name], _ = spread("--vary", varied, text, _NODES)
+    return found
+
+
+def _usual(what: Subject, need: float) -> dict[str, list[float]]:
+    """What is varied if nobody says it: gaps up to the required one, and bumpers' stiffness."""
+    from vibroimpact.model import Bumper
+
+    stops = what.oscillator.stops
+    if not stops:
+        raise InputError("--vary: missing; it is needed for a rig without stops")
+    gaps = [need * (i + 1) / 12.0 for i in range(14)]
+    if not all(isinstance(stop, Bumper) for stop in stops):
+        return {"gap": gaps}
+    middle = max(stop.stiffness for stop in stops if isinstance(stop, Bumper))
+    return {"gap": gaps, "bumper_stiffness": [middle * 10.0 ** (i / 6.0) for i in range(-6, 7)]}

@@ -1,0 +1,174 @@
+"""``vibroimpact design`` from the words typed to the files written."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from measured import measured
+from seismic.rigs import noise
+
+COMMAND = "design"
+STUDY = """
+name = "building"
+
+[oscillator]
+mass = "5000 t"
+isolator = { period = "2.5 s", damping_ratio = 0.15 }
+right = { stiffness = "500 MN/m", damping = "5 MN s/m", gap = "300 mm" }
+left = { stiffness = "500 MN/m", damping = "5 MN s/m", gap = "300 mm" }
+"""
+DESIGN = """
+[design]
+records = ["a.csv", "b.csv"]
+vary = { gap = "20 mm:200 mm:3", bumper_stiffness = "50 MN/m:1000 MN/m:log:4" }
+limits = { penetration = "40 mm" }
+fractile = 0.5
+"""
+RECORDS = {"a.csv": noise(1, 5.0, 200), "b.csv": noise(2, 6.0, 150)}
+SIZES = ("peak_displacement", "peak_acceleration", "peak_force")
+
+
+@pytest.fixture
+def study(tmp_path):
+    for name, one in RECORDS.items():
+        rows = [f"{t:.2f},{a:.9g}" for t, a in zip(one.time, one.acceleration, strict=True)]
+        (tmp_path / name).write_text("\n".join(["Time (s),North (m/s^2)", *rows]) + "\n")
+    (tmp_path / "building.toml").write_text(STUDY + DESIGN)
+    return tmp_path
+
+
+def _rig() -> vi.Oscillator:
+    wall = vi.Bumper("500 MN/m", "5 MN s/m", "300 mm")
+    isolator = vi.Isolator.from_period("5000 t", period="2.5 s", damping_ratio=0.15)
+    return vi.Oscillator("5000 t", isolator, wall, wall)
+
+
+def test_a_study_with_records(run, study):
+    code, told, errors = run("building.toml")
+    assert (code, errors) == (0, "")
+    out = study / "out"
+    assert {p.name for p in out.iterdir()} == {
+        "building-design.nc",
+        "building-design.csv",
+        "building-design.png",
+        "building-pareto.png",
+    }
+    records = {name: vi.Record.read(study / name) for name in RECORDS}
+    vary = {"gap": np.linspace(0.02, 0.2, 3), "bumper_stiffness": np.geomspace(5e7, 1e9, 4)}
+    direct = vi.design(_rig(), records, vary, fractile=0.5)
+    held = vi.load(out / "building-design.nc")
+    for name in SIZES:
+        np.testing.assert_allclose(held[name], direct[name], rtol=1e-12)
+    need = vi.required_gap(_rig(), records, fractile=0.5)
+    words = " ".join(told.split())
+    assert f"Required gap: {1e3 * float(need['required_gap']):.4g} mm to hit nothing" in words
+    assert "The gap of 300 mm is " in words
+    assert "Designs: 3 × 4, over gap and bumper stiffness; " in words
+    rows = (out / "building-design.csv").read_text().splitlines()
+    assert len(rows) == 13
+
+
+def test_sines_best_and_json(run, study):
+    (study / "sines.toml").write_text(STUDY + '[excitation]\namplitude = "0.1 g"\n')
+    words = ("--gap", "200mm", "--vary", "gap", "0.1:0.4:3", "--from", "0.2Hz", "--to", "0.8Hz")
+    code, told, errors = run(
+        "sines.toml", *words, "--best", "--limit", "penetration", "60mm", "--json"
+    )
+    assert (code, errors) == (0, "")
+    facts = json.loads(told)
+    rig = _rig()
+    rig = rig.replace(**{side: getattr(rig, side).replace(gap=0.2) for side in ("right", "left")})
+    need = vi.required_gap(rig, "0.1 g", frequencies=(0.2, 0.8))
+    assert facts["required_gap"] == float(need["required_gap"])
+    assert facts["designs"] == 3
+    assert facts["best"]["penetration"] <= 0.06
+    limits = {"penetration": 0.06}
+    best = vi.least_acceleration(rig, "0.1 g", limits=limits, frequencies=(0.2, 0.8))
+    assert facts["best"]["bumper_damping"] == pytest.approx(float(best["bumper_damping"]))
+    for path in facts["files"].values():
+        assert (study / path).is_file()
+
+
+def test_the_usual_chart_of_records_on_the_command_line(run, study):
+    (study / "rig.toml").write_text(STUDY)
+    code, told, _ = run("rig.toml", "a.csv", "--scale", "0.5", "--figure", "svg")
+    assert code == 0
+    assert "Designs: 14 × 13, over gap and bumper stiffness" in " ".join(told.split())
+    half = RECORDS["a.csv"].scaled(0.5)
+    need = 1e3 * float(vi.required_gap(_rig(), half)["required_gap"])
+    assert f"Required gap: {need:.4g} mm to hit nothing under a.csv" in " ".join(told.split())
+
+
+def test_three_measured_records(run, tmp_path):
+    """The building under El Centro, Kobe and Morgan Hill, as they were recorded."""
+    folder = measured("boucwen_frame")
+    names = sorted(p for p in folder.iterdir() if p.suffix in (".csv", ".txt"))[:3]
+    if len(names) < 3:
+        pytest.skip("fewer than three measured records are there")
+    records = {}
+    for path in names:
+        time, acceleration = np.loadtxt(path, delimiter=",")
+        record = vi.Record(acceleration, float(np.diff(time).mean()))
+        records[path.stem] = record
+        rows = [f"{t:.9g},{a:.9g}" for t, a in zip(record.time, acceleration, strict=True)]
+        (tmp_path / f"{path.stem}.csv").write_text("\n".join(["Time (s),A (m/s^2)", *rows]) + "\n")
+    (tmp_path / "building.toml").write_text(STUDY)
+    files = [f"{name}.csv" for name in records]
+    code, told, errors = run("building.toml", *files, "--vary", "gap", "0.1:0.5:5", "--json")
+    assert (code, errors) == (0, "")
+    facts = json.loads(told)
+    # Of a linear building it is the largest spectral displacement at its period and damping.
+    wanted = max(
+        float(vi.response_spectrum(one, [2.5], 0.15)["spectral_displacement"].values.max())
+        for one in records.values()
+    )
+    assert facts["required_gap"] == pytest.approx(wanted, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (("--vary", "length", "1:2"), "--vary: 'length'; one of "),
+        (("--vary", "gap", "2"), "--vary: '2'; a range LOW:HIGH"),
+        (("--vary", "gap", "0.2:0.1"), "--vary: 0.2 is not below 0.1"),
+        (("--vary", "gap", "1kg:2"), "--vary: '1kg'"),
+        (("--vary", "yield-force", "1:2"), "yield_force: unknown key"),
+        (("--limit", "penetration", "1mm"), "--limit: given without --best"),
+        (("--best", "--limit", "speed", "1"), "limits: 'speed'; one of "),
+        (("--fractile", "2"), "--fractile: '2'"),
+        (("--scale", "0"), "scale: 0"),
+        (("none.csv",), "record: 'none.csv' cannot be read"),
+        (("--threads", "0"), "threads: 0"),
+    ],
+)
+def test_wrong_input_is_one_line_and_nothing_is_written(run, study, words, line):
+    before = {p.name for p in study.iterdir()}
+    code, told, errors = run("building.toml", *words)
+    assert (code, told) == (2, "")
+    assert errors.startswith("vibroimpact: error: ")
+    assert errors.count("\n") == 1
+    assert line in errors
+    assert {p.name for p in study.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("table", "line"),
+    [
+        ("[design]\nrecord = 'a.csv'", "design.record: unknown key; records, vary, limits and fr"),
+        ("[design]\nrecords = ['no.csv']", "record: 'no.csv' cannot be read"),
+        ("[design]\nrecords = ['a.csv']\nvary = { gap = 3 }", "design.vary.gap"),
+        ("[design]\nfractile = 1.5", "design.fractile: 1.5"),
+        ("[excitation]\namplitude = 0.1\n[sweep]\nfrom = 0.2", "--to: missing"),
+        ("", "excitation.amplitude: missing"),
+    ],
+)
+def test_wrong_studies(run, study, table, line):
+    (study / "wrong.toml").write_text(STUDY + table)
+    code, told, errors = run("wrong.toml")
+    assert (code, told) == (2, "")
+    assert errors.count("\n") == 1
+    assert line in errors

@@ -1,0 +1,61 @@
+"""Figures of design charts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from seismic.rigs import RIGS, noise
+from vibroimpact.figures import design_chart, pareto_front
+from vibroimpact.model import GRAVITY
+
+GAPS, STIFFNESSES = np.linspace(0.01, 0.3, 5), np.geomspace(100.0, 2000.0, 4)
+
+
+@pytest.fixture(scope="module")
+def data():
+    vary = {"gap": GAPS, "bumper_stiffness": STIFFNESSES}
+    return vi.design(RIGS["bumpers"], noise(8, count=120), vary)
+
+
+def test_contours_over_two_parameters(data) -> None:
+    left, right = design_chart(data, title="made")
+    assert left.get_title() == "largest $|u|$ (mm)"
+    assert right.get_title() == "largest $|\\ddot u + A_t|$ (g)"
+    assert left.get_xlabel() == "gap of each side (mm)"
+    assert left.get_ylabel() == "stiffness of both bumpers (kN/m)"
+    assert left.get_yscale() == "log"
+    dots = left.lines[-1]
+    at = np.argwhere(data["pareto"].transpose("bumper_stiffness", "gap").values)
+    np.testing.assert_allclose(dots.get_xdata(), 1e3 * GAPS[at[:, 1]])
+    np.testing.assert_allclose(dots.get_ydata(), 1e-3 * STIFFNESSES[at[:, 0]])
+
+
+def test_curves_over_one(data) -> None:
+    one = data.isel(bumper_stiffness=1)
+    (ax,) = design_chart(one, quantities=("peak_force",))
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e-3 * one["peak_force"])
+
+
+def test_the_front(data) -> None:
+    ax = pareto_front(data)
+    front = next(line for line in ax.lines if line.get_label() == "beaten by no other")
+    best = data["pareto"].values
+    u, a = (np.sort(data[f"peak_{what}"].values[best]) for what in ("displacement", "acceleration"))
+    np.testing.assert_allclose(front.get_xdata(), 1e3 * u)
+    np.testing.assert_allclose(front.get_ydata(), a[::-1] / GRAVITY)
+    told = ax.texts[-1].get_text()
+    assert told.startswith("gap of each side,")
+    assert "1  " in told
+    assert " mm, " in told
+    assert " N/m" in told or " kN/m" in told
+
+
+def test_refused(data) -> None:
+    with pytest.raises(vi.InputError, match=r"^data: this is no design"):
+        pareto_front(data.drop_vars("pareto"))
+    with pytest.raises(vi.InputError, match=r"^quantities: 'speed'"):
+        design_chart(data, quantities=("speed",))
+    with pytest.raises(vi.InputError, match=r"^data: over .*; one or two parameters"):
+        design_chart(data.isel(gap=[0]))
