@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +28,10 @@ _PEAK = 0.2
 _FINER = 8
 """Steps in the place of one beside a maximum, and again in the place of those."""
 _LEVELS = 2
+_ALIKE = 1e-6
+"""Difference of two largest holds that are one motion."""
+_FAR = 0.8
+"""A sweep whose largest hold is smaller than this share of the other's is not looked at more."""
 _TOLERANCE = 1e-9
 _LEAST_CYCLES, _WINDOW, _MAX_EVENTS = 300, 100, 10_000
 _SOUND = (int(Status.DONE), int(Status.NOT_SETTLED))
@@ -114,14 +118,12 @@ class _Search:
         self.max_cycles = cycles(rig, sines.shaken, high, _LEAST_CYCLES)
 
     def worst(self) -> Worst:
-        every: list[_Holds] = []
-        for way in (1, -1):
-            coarse = self._held(np.ascontiguousarray(self.grid[::way]), self.start)
-            every.append(coarse)
-            for size in (_displacement, _acceleration):
-                about = coarse
+        swept = [self._held(np.ascontiguousarray(self.grid[::way]), self.start) for way in (1, -1)]
+        every = list(swept)
+        for size in (_displacement, _acceleration):
+            for about in _to_be_refined(swept, size):
                 for _ in range(_LEVELS):
-                    at = int(np.argmax(np.nan_to_num(size(about.results), nan=-1.0)))
+                    at = _top(size(about.results))
                     if not about.results[at, hold.PERIOD]:
                         break  # no smooth curve goes through a motion that is not periodic
                     about = self._finer(about, at)
@@ -207,6 +209,21 @@ class _Search:
             out,
         )
         return float(out.max()) * self.rig.mass
+
+
+def _to_be_refined(swept: list[_Holds], size: Callable[[_Array], _Array]) -> list[_Holds]:
+    """The sweeps whose largest may be that of both; of two that are at one motion, one."""
+    tops = [_top(size(one.results)) for one in swept]
+    values = [float(size(one.results)[k]) for one, k in zip(swept, tops, strict=True)]
+    places = [float(one.frequency[k]) for one, k in zip(swept, tops, strict=True)]
+    if places[0] == places[1] and math.isclose(*values, rel_tol=_ALIKE):
+        return swept[:1]
+    return [one for one, value in zip(swept, values, strict=True) if not value < _FAR * max(values)]
+
+
+def _top(size: _Array) -> int:
+    """Where it is largest, of what is known."""
+    return int(np.argmax(np.nan_to_num(size, nan=-1.0)))
 
 
 def _displacement(results: _Array) -> _Array:
