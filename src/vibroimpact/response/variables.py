@@ -10,7 +10,7 @@ import xarray as xr
 
 from vibroimpact._version import __version__
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
+from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, State
 from vibroimpact.model.parameters import PARAMETERS, parameter
 
 
@@ -272,9 +272,7 @@ VARIABLES: dict[str, Variable] = {
     "fitted_probability_bound": Variable("1", "confidence band of the fitted probability"),
     # sizing
     "penetration": Variable("m", "largest displacement beyond a gap"),
-    "hitting": Variable(
-        "1", "share of the records that make the mass hit", "of sines 1 where any of them does"
-    ),
+    "hitting": Variable("1", "share of the records that make it hit, or whether any sine does"),
     "pareto": Variable("1", "whether no other design beats it in displacement and acceleration"),
     "displacement_frequency": Variable("Hz", "frequency of the largest displacement"),
     "acceleration_frequency": Variable("Hz", "frequency of the largest acceleration"),
@@ -335,15 +333,7 @@ VARIABLES: dict[str, Variable] = {
     "mirrored_pair_count": Variable("1", "number of ranges with mirrored pairs of motions"),
 }
 
-COMPONENTS = [
-    "displacement",
-    "velocity",
-    "right_bumper",
-    "left_bumper",
-    "phase",
-    "contact",
-    "isolator",
-]
+COMPONENTS = [*State.model_fields]
 """Components of a state in a dataset, in the order of `State`'s fields."""
 
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
-from vibroimpact.engine.pressed import forces
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, equilibrium
 from vibroimpact.response.reversal import judged
@@ -94,7 +93,6 @@ class Sines(NamedTuple):
         found: list[Worst | None] = [None] * len(rigs)
         counter = np.zeros((len(rigs), 2), dtype=np.int64)
         batch.sweep.prepare(*vectors)
-        forces.prepare(*vectors)
 
         def task(number: int) -> None:
             if not counter[number, 1]:
@@ -183,32 +181,13 @@ class _Search:
             float(right.max()),
             float(left.max()),
             float(acceleration.max()),
-            self._force(held, touching),
+            float(results[:, [hold.FORCE_RIGHT, hold.FORCE_LEFT]].max()) * self.rig.mass,
             bool(touching.any()),
             float(held.frequency[size.argmax()]),
             float(held.frequency[acceleration.argmax()]),
             int((codes != Status.DONE).sum()),
             int(Status.DONE),
         )
-
-    def _force(self, held: _Holds, touching: NDArray[np.bool_]) -> float:
-        """The largest contact force (N)."""
-        count = int(touching.sum())
-        if not count:
-            return 0.0
-        out = np.empty((count, 2))
-        period = held.results[touching, hold.PERIOD].astype(np.int64)
-        forces(
-            self.vector,
-            np.full(count, self.amplitude),
-            np.ascontiguousarray(held.frequency[touching]),
-            self.phase,
-            np.ascontiguousarray(held.states[touching]),
-            np.where(period > 0, period, _WINDOW),
-            _MAX_EVENTS,
-            out,
-        )
-        return float(out.max()) * self.rig.mass
 
 
 def _to_be_refined(swept: list[_Holds], size: Callable[[_Array], _Array]) -> list[_Holds]:
