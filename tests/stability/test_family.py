@@ -109,3 +109,26 @@ def test_over_the_restitution_of_a_wall():
             float(here["displacement_min"]), rel=1e-9
         )
         np.testing.assert_allclose(alone["multiplier_real"], here["multiplier_real"], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "low", "high"), [("elastic_stiffness", 2.0, 6.0), ("right_restitution", 0.4, 0.9)]
+)
+def test_parameters_that_do_not_count_in_proportion(parameter, low, high):
+    """Each orbit belongs to the rig that the parameter says, and closes there."""
+    stop = vi.PowerBumper(200.0, 0.3, 1.5, restitution=0.6)
+    rig = vi.Oscillator(1.0, vi.BoucWenIsolator(4.0, 1.0, 0.2, 0.1), stop, stop.replace(gap=0.5))
+    shaken = vi.Harmonic(0.5, 1.1 / (2 * np.pi))
+    data = vi.branch(rig, shaken, parameter=parameter, low=low, high=high)
+    values = data[parameter].values
+    assert values.min() <= low + 1e-9
+    assert values.max() >= high - 1e-9
+    for k in np.linspace(0, len(values) - 1, 5).astype(int):
+        value = float(values[k])
+        if parameter == "elastic_stiffness":
+            here = rig.replace(isolator=rig.isolator.replace(elastic_stiffness=value))
+        else:
+            here = rig.replace(right=stop.replace(restitution=value))
+        start = data["section"].isel(point=int(k))
+        after = vi.simulate(here, shaken, int(data["period"]), start, samples=0)["final_state"]
+        np.testing.assert_allclose(after[:2], start[:2], atol=1e-9)

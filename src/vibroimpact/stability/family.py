@@ -1,7 +1,8 @@
 """A rig and its forcing along one parameter: what a branch of orbits is followed in.
 
-Each parameter moves the rig's numbers along a straight line, so that the engine needs only where
-the line begins and where it goes.
+Nearly each parameter moves the rig's numbers along a straight line, so that the engine needs only
+where the line begins and where it goes; of the others, such as a yield force, it is given the line
+that touches where it is.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from numpy.typing import NDArray
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine import section_map
 from vibroimpact.engine.section_map import PARAMETER
-from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.access import Setting
 from vibroimpact.model.parameters import Parameter, followed
@@ -25,6 +25,9 @@ _Array = NDArray[np.float64]
 _BUMPERS = (par.BUMPER, par.BUMPER + par.WIDTH)
 RATES = [at + par.RATE for at in _BUMPERS]
 """Where the bumpers' rates of relaxation stand in the engine's vector."""
+
+_TOUCH = 0.01
+"""Of the step to a neighbouring value, by which a touching line is made."""
 
 
 class Family(NamedTuple):
@@ -37,7 +40,18 @@ class Family(NamedTuple):
     """The parameter where the family was made."""
     base: _Array
     direction: _Array
-    """The engine's system vector is base + p · direction."""
+    """The engine's system vector is base + p · direction, here at least."""
+    straight: bool = True
+    """Whether it is so at any p."""
+
+    def near(self, value: float) -> Family:
+        """The same family with the line that touches at a value of the parameter."""
+        if self.straight:
+            return self
+        step = _TOUCH * (self.parameter.beside(value) - value)
+        here = _vector(self, value)
+        direction = (_vector(self, value + step) - _vector(self, value - step)) / (2.0 * step)
+        return self._replace(base=here - value * direction, direction=direction)
 
     @property
     def states(self) -> int:
@@ -62,6 +76,8 @@ class Family(NamedTuple):
 
     def system(self, value: float) -> _Array:
         """The engine's vector at a value of the parameter."""
+        if not self.straight:
+            return system_vector(*self.at(value))
         vector = self.base.copy()
         moving = self.direction != 0.0
         vector[moving] += value * self.direction[moving]
@@ -90,38 +106,22 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     same = here == there
     difference = np.subtract(there, here, out=np.zeros_like(here), where=~same)
     direction = difference / step
-    if here[par.CURVED]:
-        _check_straight(varied, oscillator, excitation, value, step, here, direction)
     base = np.subtract(here, value * direction, out=here.copy(), where=~same)
-    return Family(varied, oscillator, excitation, value, base, direction)
+    made = Family(varied, oscillator, excitation, value, base, direction)
+    return made._replace(straight=not here[par.CURVED] or _straight(made, step))
 
 
-def _check_straight(
-    varied: Parameter,
-    oscillator: Oscillator,
-    excitation: Repeated,
-    value: float,
-    step: float,
-    here: _Array,
-    direction: _Array,
-) -> None:
-    """Refuse a parameter that no straight line in the engine's numbers follows.
+def _straight(made: Family, step: float) -> bool:
+    """Whether the engine's numbers move in proportion to the parameter."""
+    middle = made.value + 0.5 * step
+    return np.allclose(_vector(made, middle), made.base + middle * made.direction, rtol=1e-9)
 
-    Raises
-    ------
-    InputError
-        If there is one.
-    """
-    middle = system_vector(*varied.write(oscillator, excitation, value + 0.5 * step))
-    middle[RATES] = np.inf
-    moving = direction != 0.0
-    along = here[moving] + 0.5 * step * direction[moving]
-    if not np.allclose(middle[moving], along, rtol=1e-9, atol=0.0):
-        raise InputError(
-            f"parameter: {varied.name!r} is not followed under this law, in whose numbers it does "
-            "not count in proportion; the frequency, the amplitude, a gap, a force or another "
-            "stiffness or damping is accepted"
-        )
+
+def _vector(made: Family, value: float) -> _Array:
+    """The engine's vector; rates follow from stiffness and damping, and move along no line."""
+    vector = system_vector(*made.at(value))
+    vector[RATES] = made.base[RATES]
+    return vector
 
 
 def system_vector(oscillator: Oscillator, excitation: Repeated) -> _Array:

@@ -26,6 +26,11 @@ MAX_EVENTS = 1000
 
 _GRAZES = 1e-4
 
+_LINES = 12
+"""Lines that are tried one after the other, each of which touches where the one before has led."""
+_TOUCHED = 1e-8
+"""Of the parameter's size: so near to where it touches, a line is right to rounding."""
+
 HELD = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 """Normal of the plane on which the parameter does not change."""
 
@@ -203,9 +208,9 @@ def corrected(
     normal
         Normal of the plane, scaled; of its components only those in `SEEN` count.
     """
-    fam = section.family
-    rig = fam.system(float(point[section_map.PARAMETER]))
-    for _ in range(2):
+    rig = section.family.system(float(point[section_map.PARAMETER]))
+    for _ in range(_LINES):
+        fam = section.family.near(float(point[section_map.PARAMETER]))
         found = _blank(section, point, mode)
         outcome = orbit.correct(
             rig,
@@ -222,9 +227,21 @@ def corrected(
             found.carried,
             found.slope,
         )
-        if carries(rig, there := fam.system(found.value)):
+        if Status(outcome) is not Status.DONE and not fam.straight:
             break
-        rig = there  # Newton's method has gone from bumpers that are apart to such that overlap
+        there = fam.system(found.value)
+        # From bumpers that are apart to such that overlap, it begins again from where it was.
+        carried = carries(rig, there)
+        moved = abs(found.value - float(point[section_map.PARAMETER]))
+        touches = fam.straight or moved <= _TOUCHED * section.scale[section_map.PARAMETER]
+        if carried and touches:
+            break
+        if carried:
+            point = found.point
+        rig = there
+    else:
+        if not section.family.straight:
+            return Status.NOT_SETTLED, found
     return Status(outcome), found
 
 
@@ -232,11 +249,12 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
     """The map and its derivative at a point that need not be fixed, and the point's image."""
     found = _blank(section, point, mode)
     image = found.point.copy()
+    fam = section.family.near(found.value)
     outcome = orbit.evaluate(
-        section.family.system(found.value),
-        section.family.base,
-        section.family.direction,
-        section.family.phase,
+        fam.system(found.value),
+        fam.base,
+        fam.direction,
+        fam.phase,
         section.count,
         section.mirror,
         MAX_EVENTS,

@@ -48,6 +48,13 @@ def plane(oscillator: Oscillator, excitation: Repeated, names: tuple[str, str]) 
     if other.name == first.parameter.name:
         raise InputError(f"parameters: {names[0]!r} twice; two different ones are accepted")
     second = family(oscillator, excitation, names[1])
+    for one in (first, second):
+        if not one.straight:
+            raise InputError(
+                f"parameters: {one.parameter.name!r} does not count in proportion under this law, "
+                "and no curve follows it; the frequency, the amplitude, a gap, a force or another "
+                "stiffness or damping is accepted (a branch follows any)"
+            )
     made = Plane(first, other, second.value, second.direction)
     p, q = first.parameter.beside(first.value, 3.0), other.beside(second.value, 6.0)
     guess = made.at_vectors(q).system(p)
