@@ -75,8 +75,7 @@ def impact(
             rate += math.sqrt(plan[stop + par.BUMPER_STIFFNESS]) + plan[stop + par.BUMPER_DAMPING]
             change += plan[stop + par.BUMPER_STIFFNESS] * abs(v)
             change += plan[stop + par.BUMPER_DAMPING] * push
-    # A yielding isolator's displacement is reckoned from where it would come to rest.
-    size = abs(u) + (abs(plan[par.LOAD]) + abs(plan[par.HYSTERETIC] * z)) / (stiffness + 1e-300)
+    size = abs(u) + abs(z)  # by which a yielding isolator's displacement is moved in its tables
     lost = plan[par.CURVED] != 0.0 and v * v < 2.0 * push * _GRAIN * size
     if (rest * rate > _CHATTERED or rest * change > _CHATTERED * push) and not lost:
         return event, t, arrival, bounced
