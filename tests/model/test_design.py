@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from vibroimpact.model import GRAVITY
-from vibroimpact.model.parameters import followed, parameter
+from vibroimpact.model.parameters import parameter
 from vibroimpact.stability.plane import plane
 
 MASS = 5e6
@@ -184,12 +184,17 @@ def test_the_period_as_a_parameter_keeps_the_damping_ratio():
         period.read(yielding, shaken)
 
 
-def test_nothing_is_followed_along_the_period():
+def test_a_branch_follows_the_period_and_a_curve_does_not():
     case = vi.laboratory.case("B2-G1-A3")
-    for name in ("isolator-period", "isolator_period"):
-        with pytest.raises(vi.InputError, match="is not followed, for the stiffness goes with"):
-            followed(name)
-    with pytest.raises(vi.InputError, match=r"^parameter: 'isolator_period' is not followed"):
-        vi.branch(case, "2 Hz", parameter="isolator_period", low=1, high=2)
-    with pytest.raises(vi.InputError, match=r"^parameters: 'isolator_period' is not followed"):
-        plane(case.oscillator, vi.Harmonic(case.amplitude, 2.0), ("frequency", "isolator_period"))
+    shaken = vi.Harmonic(case.amplitude, 2.0)
+    data = vi.branch(case, "2 Hz", parameter="isolator_period", low=0.6, high=1.2)
+    mass, isolator = case.oscillator.mass, case.oscillator.isolator
+    ratio = isolator.damping / (2.0 * (isolator.stiffness * mass) ** 0.5)
+    for k in (0, data.sizes["point"] // 2, -1):
+        period = float(data["isolator_period"][k])
+        here = case.oscillator.replace(isolator=vi.Isolator.from_period(mass, period, ratio))
+        state = data["section"].isel(point=k)
+        after = vi.simulate(here, shaken, 1, state, samples=0)["final_state"]
+        assert after[:2].values == pytest.approx(state[:2].values, abs=1e-9)
+    with pytest.raises(vi.InputError, match=r"^parameters: 'isolator_period' does not count in"):
+        plane(case.oscillator, shaken, ("frequency", "isolator_period"))

@@ -24,10 +24,10 @@ PARAMETERS = (
     "left-exponent, dissipation, right-dissipation, left-dissipation, bumper-mass, right-mass, "
     "left-mass, stiffness, damping, damping-exponent, friction, elastic-stiffness, "
     "post-yield-stiffness, yield-force, cubic, quintic, beta, gamma, reversal-stiffness, "
-    "final-stiffness, decay, hardening, hardening-force, stiffness-ratio, gap-ratio, "
-    "relaxation-time, damping-ratio"
+    "final-stiffness, decay, hardening, hardening-force, isolator-period, stiffness-ratio, "
+    "gap-ratio, relaxation-time, damping-ratio"
 )
-"""Those of the registry that can be followed, written out: help loads nothing that computes."""
+"""Those of the registry, written out: help loads nothing that computes."""
 
 _PHYSICAL: dict[str, Any] = {"eta_d": "peak_displacement", "eta_a": "peak_acceleration"}
 
@@ -205,9 +205,9 @@ def option_range(
         If there is no such parameter, an end is missing or cannot be used, or none lies between.
     """
     from vibroimpact.model import to_si
-    from vibroimpact.model.parameters import followed
+    from vibroimpact.model.parameters import parameter
 
-    varied = followed(name, field, of)
+    varied = parameter(name, field, of)
     if rig is not None:
         varied = varied.of(rig)
     given: list[str | float | None] = [low, high]

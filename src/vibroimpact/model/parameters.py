@@ -118,23 +118,6 @@ def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> P
     return PARAMETERS[key]
 
 
-def followed(name: str, field: str = "parameter", of: Of = "acceleration") -> Parameter:
-    """As `parameter`, of one along which branches are followed.
-
-    Raises
-    ------
-    InputError
-        If there is none of that name, or none can be followed along it.
-    """
-    found = parameter(name, field, of)
-    if not found.straight:
-        raise InputError(
-            f"{field}: {name!r} is not followed, for the stiffness goes with its inverse square; "
-            "'stiffness' is accepted, and in sweeps and maps the period as well"
-        )
-    return found
-
-
 def bounds(varied: Parameter, low: float | str, high: float | str) -> tuple[float, float]:
     """Read the ends of a range.
 

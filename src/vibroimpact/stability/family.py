@@ -17,7 +17,7 @@ from vibroimpact.engine import section_map
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.access import Setting
-from vibroimpact.model.parameters import Parameter, followed
+from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.response.start import engine_rig
 
 _Array = NDArray[np.float64]
@@ -96,7 +96,7 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    varied = followed(name, of=excitation.of).of(oscillator)
+    varied = parameter(name, of=excitation.of).of(oscillator)
     value = varied.read(oscillator, excitation)
     step = varied.beside(value) - value
     here = system_vector(oscillator, excitation)
@@ -108,7 +108,8 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     direction = difference / step
     base = np.subtract(here, value * direction, out=here.copy(), where=~same)
     made = Family(varied, oscillator, excitation, value, base, direction)
-    return made._replace(straight=not here[par.CURVED] or _straight(made, step))
+    straight = varied.straight and (not here[par.CURVED] or _straight(made, step))
+    return made._replace(straight=straight)
 
 
 def _straight(made: Family, step: float) -> bool:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
-from vibroimpact.model.parameters import Parameter, followed
+from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.stability.family import RATES, Family, family, system_vector
 
 _Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ def plane(oscillator: Oscillator, excitation: Repeated, names: tuple[str, str]) 
         If there is no such parameter, the rig has none, or the two do not go together.
     """
     first = family(oscillator, excitation, names[0])
-    other = followed(names[1], "parameters", excitation.of).of(oscillator)
+    other = parameter(names[1], "parameters", excitation.of).of(oscillator)
     if other.name == first.parameter.name:
         raise InputError(f"parameters: {names[0]!r} twice; two different ones are accepted")
     second = family(oscillator, excitation, names[1])
