@@ -49,9 +49,11 @@ class Family(NamedTuple):
         if self.straight:
             return self
         step = _TOUCH * (self.parameter.beside(value) - value)
-        here = _vector(self, value)
-        direction = (_vector(self, value + step) - _vector(self, value - step)) / (2.0 * step)
-        return self._replace(base=here - value * direction, direction=direction)
+        here, on, back = (_vector(self, value + way * step) for way in (0, 1, -1))
+        moves = on != back  # what does not may be infinite
+        direction = np.subtract(on, back, out=np.zeros_like(here), where=moves) / (2.0 * step)
+        base = np.subtract(here, value * direction, out=here.copy(), where=moves)
+        return self._replace(base=base, direction=direction)
 
     @property
     def states(self) -> int:
