@@ -17,20 +17,6 @@ from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, aged, finite
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.extremes import NOTHING
-from vibroimpact.engine.pursuit import (
-    PARTS,
-    counts,
-    disturbed,
-    guess,
-    guessed,
-    hold_on,
-    matrix_room,
-    parts_of,
-    pursuit_room,
-    radius,
-    size_of,
-    trusted,
-)
 from vibroimpact.engine.status import (
     DONE,
     NOT_FINITE,
@@ -52,9 +38,6 @@ _PATIENCE = 50  # times max_cycles, for a motion that keeps closing in
 _CLOSING = 1e-3  # closer than this share of its size, a motion may be closing in
 _RECENT = 0.2  # share of the cycles so far in which it must have come twice as close
 
-_PURSUED = 48  # cycles in which a motion must have come closer to be pursued any longer
-_DISTURBED = 1e-6  # of its size, a fixed point that is looked at
-_WAITS = 8  # cycles behind a step ahead that was taken back
 
 # What a hold writes.
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME = range(9)
@@ -98,118 +81,6 @@ def measure(
 
 
 @kernel
-def pursue(
-    plan: Vector,
-    motion: Motion,
-    clock: Clock,
-    period: float,
-    weight: float,
-    tolerance: float,
-    max_cycles: int,
-    max_events: int,
-) -> tuple[bool, int, Motion]:
-    """Follow a motion of one cycle, and go ahead where it is seen where it leads.
-
-    Returns
-    -------
-    found, cycles, motion
-        Whether it was reached to the tolerance; else the motion is one that following gave.
-    """
-    room = pursuit_room()
-    kept = motion  # what following gave, before going ahead
-    left = math.inf  # size of the last change then
-    alike, former = 0, -1  # cycles with as many events as the one before
-    filled = 0  # cycles behind the last fresh start
-    ahead = False  # what is followed is not what following gave
-    stepped = False  # the cycle before ended with a guess
-    last, before = math.inf, math.inf  # the last way, and size of the change before
-    scale = 0.0
-    waits, k = 0, 0
-    most, was_most = 0.0, math.inf  # largest change in this block of cycles, and in the one before
-    while k < max_cycles:
-        if k % _PURSUED == 0:
-            if most > 0.9 * was_most:
-                break
-            most, was_most = 0.0, most if k else math.inf
-        section = motion
-        events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
-        k += 1
-        if events > max_events or not finite(motion):
-            return False, k, kept if ahead else section
-        alike = alike + 1 if events == former else 0
-        former = events
-        scale = max(0.5 * scale, weight * abs(motion.u), abs(motion.v))
-        hold_on(room, section, motion)
-        filled += 1
-        change = size_of(room, PARTS, weight)
-        most = max(most, change)
-        if ahead and (alike == 0 or change > 0.5 * left):
-            motion, ahead, stepped, alike, filled, last = kept, False, False, 0, 0, math.inf
-            waits = k + _WAITS
-            continue
-        if stepped and change > 0.5 * before:  # there is more to it than the secants tell
-            stepped, filled = False, 1
-        before = change
-        if alike < 2 or filled < 3:
-            stepped = False
-            continue
-        way, moved, contracts = guess(room, weight)
-        if stepped:
-            go = way <= 0.5 * last
-        elif ahead:
-            go = contracts and way <= last
-        else:
-            go = filled > 3 and k >= waits and trusted(way, moved, contracts, scale)
-        stepped = go
-        if not go:
-            continue
-        if not ahead:
-            kept, left = motion, change
-        ahead, last = True, way
-        motion = guessed(plan, room, motion)
-        if _SAFETY * way <= tolerance * scale:
-            used, stays = attracts(plan, motion, clock, period, weight, scale, max_events)
-            return stays, k + used, motion if stays else kept
-    return False, k, kept if ahead else motion
-
-
-@kernel
-def attracts(
-    plan: Vector,
-    motion: Motion,
-    clock: Clock,
-    period: float,
-    weight: float,
-    scale: float,
-    max_events: int,
-) -> tuple[int, bool]:
-    """Whether small disturbances of a fixed point die out; and the cycles that it took to see."""
-    matrix, other = matrix_room(), matrix_room()
-    cycles = 0
-    for j in range(PARTS):
-        unit = 1.0 if j == 1 else weight
-        by = _DISTURBED * scale / unit
-        known = counts(plan, motion, j, period)
-        after = motion
-        if known:
-            begun = disturbed(plan, motion, j, by)
-            by = parts_of(begun, j) - parts_of(motion, j)
-            known = by != 0.0
-            if known:
-                events, after, _ = cycle(plan, begun, clock, period, max_events, UNOBSERVED)
-                cycles += 1
-                if events > max_events:
-                    return cycles, False
-        for i in range(PARTS):
-            grown = 0.0
-            if known:
-                grown = (parts_of(after, i) - parts_of(motion, i)) / by
-                grown *= (1.0 if i == 1 else weight) / unit
-            matrix[PARTS * i + j] = grown
-    return cycles, radius(matrix, other) < 1.0
-
-
-@kernel
 def settle(
     plan: Vector,
     motion: Motion,
@@ -227,11 +98,6 @@ def settle(
         `n` is the period in forcing cycles, 0 if the motion did not settle.
     """
     weight = stiff_rate(plan)
-    found, k, motion = pursue(
-        plan, motion, clock, period, weight, tolerance, max_cycles, max_events
-    )
-    if found:
-        return DONE, 1, k, motion
     past = past_memory()
     block, former = distances(), distances()
     recent, earlier = distances(), distances()  # ratios of successive blocks
@@ -242,11 +108,11 @@ def settle(
     scale = 0.0
     size = 0.0  # of the state, in this block and in the one before
     former_size = 0.0
-    pursued = k
+    k = 0
     n = 0
     outcome = NOT_SETTLED
     while k < max_cycles or (
-        _STALLED_CYCLES <= k - pursued < _PATIENCE * max_cycles
+        _STALLED_CYCLES <= k < _PATIENCE * max_cycles
         and stalled * _BLOCK < _RECENT * k
         and best <= _CLOSING * scale
     ):
@@ -267,7 +133,7 @@ def settle(
         size = max(size, weight * abs(u), abs(v))
         scale = max(size, former_size)
         # Longer periods are looked for only where the simplest has not come soon.
-        longest = 1 if k - pursued <= 4 * _BLOCK else LONGEST
+        longest = 1 if k <= 4 * _BLOCK else LONGEST
         for i in range(1, longest + 1):
             q = (k - i) % LONGEST
             d = max(
@@ -280,7 +146,7 @@ def settle(
                 abs(v - past[q * 4 + 1]),
             )
             block[i] = max(block[i], d)
-        if (k - pursued) % _BLOCK:
+        if k % _BLOCK:
             continue
         for i in range(1, longest + 1):
             # ρ to the power of i, from the slowest of three successive blocks: on a rotating
