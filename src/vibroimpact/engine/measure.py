@@ -58,6 +58,11 @@ X_LEAST, X_MOST, A_LEAST, A_MOST, A_TIME, FORCE, IMPULSE, WORK = range(8)
 LOST, LOST_RIGHT, LOST_LEFT = range(8, 11)
 MEASURES = 11
 
+_HALT = 1e-5
+"""Of what is left of a phase: a step that comes no farther."""
+_HALTS = 16
+"""Such steps in a row, behind which a phase is taken as one piece: it is as short as rounding."""
+
 
 @kernel
 def measure_stretch(
@@ -130,8 +135,12 @@ def measure_phase(plan: Vector, before: Motion, length: float, side: int, out: V
     out[A_LEAST], out[A_MOST] = a, a
     t = 0.0
     here = before
+    halts = 0  # in a row
     while t < length:
         step, behind = smooth(plan, here, length - t)
+        halts = halts + 1 if step <= _HALT * (length - t) else 0
+        if halts > _HALTS:
+            step, behind = length - t, here
         measure_stretch(plan, here, step, t, side, out)
         out[LOST_RIGHT] += unkept(plan, here, behind, RIGHT)
         out[LOST_LEFT] += unkept(plan, here, behind, LEFT)
