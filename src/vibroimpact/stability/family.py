@@ -117,7 +117,7 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
 def _straight(made: Family, step: float) -> bool:
     """Whether the engine's numbers move in proportion to the parameter."""
     middle = made.value + 0.5 * step
-    return np.allclose(_vector(made, middle), made.base + middle * made.direction, rtol=1e-9)
+    return np.allclose(_vector(made, middle), made.base + middle * made.direction, 1e-9, 0.0)
 
 
 def _vector(made: Family, value: float) -> _Array:
