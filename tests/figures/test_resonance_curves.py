@@ -18,6 +18,7 @@ from matplotlib.text import Text
 import vibroimpact as vi
 from vibroimpact.figures import resonance_curves, save_figure
 from vibroimpact.figures.style import SWEEPS
+from vibroimpact.response.resonance import features
 
 
 @cache
@@ -109,6 +110,13 @@ class TestPrimaryResonance:
             )
             assert same_color(down.get_edgecolor(), SWEEPS["forward"].colour)
             assert same_color(up.get_edgecolor(), SWEEPS["backward"].colour)
+
+    @pytest.mark.parametrize(("low", "high", "kept"), [(0.5, 1.5, 0), (1.0, 2.0, 1), (3.0, 5.0, 0)])
+    def test_a_part_of_a_sweep_shows_its_own_jumps(self, low, high, kept):
+        data = swept("B2-G1-A3", parameters="identified")
+        part = data.sel(frequency=slice(low, high))
+        for ax in resonance_curves(part, found=features(data)):
+            assert len(arrows(ax)) == kept
 
     def test_no_line_across_a_jump(self):
         ax, _ = self.axes

@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Group, Parameter
 
-from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.cli.options import (
+    COMPUTATION,
+    OutputOptions,
+    RecordOptions,
+    RigName,
+    RigOptions,
+    Whole,
+)
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -15,7 +22,6 @@ if TYPE_CHECKING:
     from vibroimpact.model import Record
 
 _DESIGN = Group("Design", sort_key=1)
-_READING = Group("Records (instead of what the files say)", sort_key=1)
 _TEXT = Parameter(group=_DESIGN, allow_leading_hyphen=True)
 _PAIRS = Parameter(group=_DESIGN, allow_leading_hyphen=True, negative="")
 _NODES = 15
@@ -73,18 +79,7 @@ def design(
         str | None, _TEXT, Parameter(name="--from", help="Lowest frequency of sines.")
     ] = None,
     to: Annotated[str | None, _TEXT, Parameter(help="Highest frequency of sines.")] = None,
-    component: Annotated[
-        str | None, Parameter(group=_READING, help="Which of several, by its name or number.")
-    ] = None,
-    unit: Annotated[
-        str | None, Parameter(group=_READING, help="Of the values, such as g or cm/s^2.")
-    ] = None,
-    step: Annotated[
-        str | None,
-        Parameter(
-            group=_READING, allow_leading_hyphen=True, help="Time between samples, such as 10ms."
-        ),
-    ] = None,
+    reading: RecordOptions | None = None,
     changes: RigOptions | None = None,
     threads: Annotated[
         Whole | None,
@@ -105,15 +100,11 @@ def design(
         vibroimpact design building.toml --vary gap 100mm:500mm --vary damping-ratio 0.05:0.3
         vibroimpact design building.toml --best --gap 250mm --limit penetration 50mm
     """
-    from vibroimpact.cli.earthquake import read_record, record_name
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
 
     out = output or OutputOptions()
-    found = {
-        record_name(file, component): read_record(file, component, unit, step)
-        for file in dict.fromkeys(records or _listed(rig))
-    }
+    found = (reading or RecordOptions()).read(records or _listed(rig))
     what = subject(rig, changes or RigOptions(), out.name, shaken=next(iter(found.values()), None))
     shaking = _shaking(what, found, scale, peak)
     table = what.study.design if what.study else None

@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Group, Parameter
 
-from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.cli.options import (
+    OutputOptions,
+    RecordOptions,
+    RigName,
+    RigOptions,
+    Whole,
+    record_name,
+)
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,7 +23,6 @@ if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import Oscillator, Record
 
-_READING = Group("Records (instead of what the files say)", sort_key=1)
 _MOTION = Group("Motion", sort_key=1)
 _TEXT = Parameter(allow_leading_hyphen=True)
 
@@ -55,15 +61,7 @@ def earthquake(
             "it, but the floor spectrum does.",
         ),
     ] = 4,
-    component: Annotated[
-        str | None, Parameter(group=_READING, help="Which of several, by its name or number.")
-    ] = None,
-    unit: Annotated[
-        str | None, Parameter(group=_READING, help="Of the values, such as g or cm/s^2.")
-    ] = None,
-    step: Annotated[
-        str | None, _TEXT, Parameter(group=_READING, help="Time between samples, such as 10ms.")
-    ] = None,
+    reading: RecordOptions | None = None,
     changes: RigOptions | None = None,
     output: OutputOptions | None = None,
 ) -> int:
@@ -85,10 +83,7 @@ def earthquake(
     from vibroimpact.model.quantities import TIME
 
     out = output or OutputOptions()
-    found = {
-        record_name(file, component): read_record(file, component, unit, step)
-        for file in dict.fromkeys(records)
-    }
+    found = (reading or RecordOptions()).read(records)
     first = next(iter(found.values()), None)
     what = subject(rig, changes or RigOptions(), out.name, shaken=first)
     shaking = scaled_records(found or record_of_study(what), scale, peak)
@@ -131,18 +126,6 @@ def earthquake(
         out.json,
     )
     return 0
-
-
-def record_name(file: str, component: str | None) -> str:
-    """What a record is called: its file, and its component if that was chosen."""
-    return " ".join([Path(file).name.removesuffix(".gz"), *([component] if component else [])])
-
-
-def read_record(file: str, component: str | None, unit: str | None, step: str | None) -> Record:
-    """Read the file of a record; what is None is what the file says."""
-    from vibroimpact.model import Record
-
-    return Record.read(file, component, unit=unit, step=step)
 
 
 def record_of_study(what: Subject) -> dict[str, Record]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from cyclopts import Group, Parameter, Token
@@ -11,9 +12,11 @@ from cyclopts import Group, Parameter, Token
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
+    from vibroimpact.model import Record
     from vibroimpact.scenario.thresholds import Thresholds
 
 RIG = Group("Rig (replacing values of the case or study)", sort_key=2)
+READING = Group("Reading of records (instead of what the files say)", sort_key=1)
 COMPUTATION = Group("Computation", sort_key=3)
 THRESHOLDS = Group("Thresholds", sort_key=3)
 OUTPUT = Group("Output", sort_key=4)
@@ -179,6 +182,49 @@ class ThresholdOptions:
             return Thresholds(**{name: v for name, v in given.items() if v is not None})
         except InputError as error:
             raise InputError(f"--{error}") from None
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class RecordOptions:
+    """What is said of files of records in place of what they say themselves."""
+
+    component: Annotated[
+        str | None,
+        Parameter(
+            group=READING,
+            help="Which of several: its name in the file, such as 90, Up or HNE, or its number.",
+        ),
+    ] = None
+    unit: Annotated[
+        str | None,
+        Parameter(
+            group=READING,
+            help="Of the values, such as g or cm/s^2; a length, such as mm, is differentiated.",
+        ),
+    ] = None
+    step: Annotated[
+        str | None,
+        Parameter(
+            group=READING, allow_leading_hyphen=True, help="Time between samples, such as 10ms."
+        ),
+    ] = None
+
+    def read(self, files: Iterable[str]) -> dict[str, Record]:
+        """Read the files of records, by their names."""
+        from vibroimpact.model import Record
+
+        return {
+            record_name(file, self.component): Record.read(
+                file, self.component, unit=self.unit, step=self.step
+            )
+            for file in dict.fromkeys(files)
+        }
+
+
+def record_name(file: str, component: str | None) -> str:
+    """What a record is called: its file, and its component if that was chosen."""
+    return " ".join([Path(file).name.removesuffix(".gz"), *([component] if component else [])])
 
 
 @Parameter(name="*")

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
-from vibroimpact.cli.options import OutputOptions, Whole
+from vibroimpact.cli.options import READING, OutputOptions, RecordOptions, Whole, record_name
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -15,7 +14,6 @@ if TYPE_CHECKING:
 
     from vibroimpact.model import Record
 
-_READING = Group("Reading (instead of what the file says)", sort_key=1)
 _CHANGES = Group("Changes (in this order)", sort_key=2)
 _SPECTRUM = Group("Response spectrum", sort_key=3)
 _TEXT = Parameter(allow_leading_hyphen=True)
@@ -25,25 +23,8 @@ def record(
     file: Annotated[str, Parameter(name="FILE", help="The record's file, packed by gzip or not.")],
     /,
     *,
-    component: Annotated[
-        str | None,
-        Parameter(
-            group=_READING,
-            help="Which of several: its name in the file, such as 90, Up or HNE, or its number.",
-        ),
-    ] = None,
-    unit: Annotated[
-        str | None,
-        Parameter(
-            group=_READING,
-            help="Of the values, such as g or cm/s^2; a length, such as mm, is differentiated.",
-        ),
-    ] = None,
-    step: Annotated[
-        str | None, _TEXT, Parameter(group=_READING, help="Time between samples, such as 10ms.")
-    ] = None,
-    station: Annotated[str | None, Parameter(group=_READING, help="Name of the station.")] = None,
-    label: Annotated[str | None, Parameter(group=_READING, help="Name of the component.")] = None,
+    station: Annotated[str | None, Parameter(group=READING, help="Name of the station.")] = None,
+    label: Annotated[str | None, Parameter(group=READING, help="Name of the component.")] = None,
     start: Annotated[
         str | None, _TEXT, Parameter(group=_CHANGES, help="Where it is cut off before, as 5s.")
     ] = None,
@@ -72,6 +53,7 @@ def record(
     periods: Annotated[
         Whole, Parameter(group=_SPECTRUM, help="How many periods, evenly apart in logarithm.")
     ] = 200,
+    reading: RecordOptions | None = None,
     output: OutputOptions | None = None,
 ) -> int:
     """Read a record, say what it is, and draw it with its response spectrum.
@@ -90,7 +72,7 @@ def record(
     from vibroimpact.model import Record, to_si
     from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 
-    out = output or OutputOptions()
+    out, how = output or OutputOptions(), reading or RecordOptions()
     ratios = [to_si(part, DIMENSIONLESS, "--damping") for part in damping.split(",")]
     first = to_si(shortest, TIME, "--shortest", above=0.0)
     last = to_si(longest, TIME, "--longest", above=0.0)
@@ -98,7 +80,9 @@ def record(
         raise InputError(f"--longest: {longest}; a period longer than {shortest} is accepted")
     if periods < 2:
         raise InputError(f"--periods: {periods}; a whole number of at least 2 is accepted")
-    found = Record.read(file, component, unit=unit, step=step, station=station, label=label)
+    found = Record.read(
+        file, how.component, unit=how.unit, step=how.step, station=station, label=label
+    )
     if start is not None or end is not None:
         found = found.cut(start or 0.0, end)
     if baseline is not None:
@@ -115,11 +99,11 @@ def record(
         from vibroimpact.response.response_spectrum import response_spectrum
 
         spectrum = response_spectrum(found, np.geomspace(first, last, periods), ratios)
-        names = [Path(file).name.removesuffix(".gz"), *([component] if component else [])]
-        stem = folder / f"{slug(out.name or '-'.join(names))}-record"
+        name = out.name or record_name(file, how.component)
+        stem = folder / f"{slug(name)}-record"
         about = found.about
         where = ", ".join(part for part in (about.station, about.component) if part)
-        axes = accelerogram(found, spectrum, title=out.name or where or names[0])
+        axes = accelerogram(found, spectrum, title=out.name or where or name)
         files = {
             "data": save({"record": as_dataset(found), "spectrum": spectrum}, f"{stem}.nc"),
             "figure": save_figure(axes[0], f"{stem}.{out.figure}"),

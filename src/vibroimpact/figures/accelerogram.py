@@ -10,8 +10,8 @@ import xarray as xr
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels, new_axes
 from vibroimpact.figures.response_spectra import response_spectra
-from vibroimpact.figures.style import EDGE
-from vibroimpact.model import Record
+from vibroimpact.figures.style import EDGE, also_in_g
+from vibroimpact.model import GRAVITY, Record
 
 
 def accelerogram(
@@ -64,7 +64,7 @@ def accelerogram(
     ax.plot([record.time[at]], [peak], "o", color="#c8102e", markersize=4, zorder=4)
     late = record.time[at] > 0.7 * record.duration
     ax.annotate(
-        f"{peak:.4g} m/s² at {record.time[at]:.5g} s".replace("-", "−"),
+        f"{peak:.4g} m/s² = {peak / GRAVITY:.3g} g at {record.time[at]:.5g} s".replace("-", "−"),
         (record.time[at], peak),
         (-8 if late else 8, 0),
         textcoords="offset points",
@@ -76,6 +76,7 @@ def accelerogram(
     ax.margins(y=0.1)
     ax.set_xlabel("time (s)")
     ax.set_ylabel("base acceleration\n$A_t$ (m/s²)")
+    also_in_g(ax)
     if spectrum is not None:
         response_spectra(spectrum, given[1])
     return given

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motions import axes_or_new
-from vibroimpact.figures.style import LEGEND
+from vibroimpact.figures.style import LEGEND, also_in_g
 from vibroimpact.model import to_si
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.seismic.suites import fractiles, known
@@ -81,6 +81,8 @@ def incremental_curves(
     ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
     ax.set_xlabel(_scale_label(demands))
     ax.set_ylabel(label)
+    if quantity == "peak_acceleration":
+        also_in_g(ax)
     ax.legend(ncols=4, **LEGEND)
     return ax
 

@@ -14,7 +14,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Drawing, Panel, Panels
 from vibroimpact.figures.motions import SIDES, Shown, named, shown
 from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
-from vibroimpact.figures.style import EDGE, LEGEND
+from vibroimpact.figures.style import EDGE, LEGEND, also_in_g
 from vibroimpact.model import GRAVITY
 from vibroimpact.response.phases import any_recorded
 
@@ -93,6 +93,8 @@ def _histories(
     moved.set_ylabel("relative\ndisplacement $u$ (mm)")
     shaken.set_ylabel("absolute acceleration\n$\\ddot u + A_t$ (m/s²)")
     shaken.set_xlabel("time (s)")
+    also_in_g(base)
+    also_in_g(shaken)
     for ax in (base, moved):
         ax.tick_params(labelbottom=False)
     gap_lines(moved, stops)

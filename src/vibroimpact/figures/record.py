@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.history import BANDS
 from vibroimpact.figures.inline import Panels
-from vibroimpact.figures.style import EDGE, LEGEND, panels
+from vibroimpact.figures.style import EDGE, LEGEND, also_in_g, panels
 
 _ROWS = (
     ("base_acceleration", 1.0, "base acceleration\n$A_t$ (m/s²)"),
@@ -63,6 +63,8 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
         ax.set_xlim(time[0], time[-1])
         if variable != "base_acceleration":
             contact_bands(ax, motion)
+        if "acceleration" in variable:
+            also_in_g(ax)
     gap_lines(given[1], stops)
     hit = motion["event_contact"].values == 2
     given[1].scatter(

@@ -112,7 +112,10 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn) -> None:
             label=FREE.label,
             zorder=2,
         )
-    jumps = [jump for jump in found.jumps if jump.settled]
+    # Of a part of a sweep its own jumps alone.
+    jumps = [
+        jump for jump in found.jumps if jump.settled and {jump.before, jump.after} <= set(frequency)
+    ]
     for layer, direction in enumerate(d for d in SWEEPS if d in data["direction"]):
         one = data.sel(direction=direction)
         look = SWEEPS[direction]

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motions import axes_or_new
-from vibroimpact.figures.style import LEGEND
+from vibroimpact.figures.style import LEGEND, also_in_g
 
 _LABELS = {
     "spectral_displacement": (1e3, "largest $|u|$ (mm)"),
@@ -91,6 +91,8 @@ def response_spectra(
     ax.set_xlim(periods[periods > 0.0].min(), periods.max())
     ax.set_xlabel("natural period (s)")
     ax.set_ylabel(label)
+    if "acceleration" in quantity:
+        also_in_g(ax)
     ax.grid(True, which="major", linewidth=0.4, color="0.85")
     ax.legend(ncols=2 if "orientation" in others else min(len(every), 5), **LEGEND)
     return ax

@@ -7,10 +7,12 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.model import GRAVITY
 from vibroimpact.response.files import write_whole
 
 FORMATS = ("png", "pdf", "svg")
@@ -133,6 +135,14 @@ def panels(
     if len(given) != count:
         raise InputError(f"axes: {len(given)} given; {count} are accepted, for {what}")
     return given
+
+
+def also_in_g(ax: Axes) -> None:
+    """Give axes of an acceleration in m/s² a second scale on the right, in g."""
+    scale = ax.secondary_yaxis(
+        "right", functions=(lambda a: a / GRAVITY, lambda in_g: in_g * GRAVITY)
+    )
+    scale.set_ylabel("(g)")
 
 
 def save_figure(drawn: Any, path: Path | str) -> Path:
