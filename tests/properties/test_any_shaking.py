@@ -72,12 +72,16 @@ def through(rig: vi.Oscillator, record: vi.Record, start, samples: int = 1):
 
 
 def tame_record(rig: vi.Oscillator, record: vi.Record, start: vi.State):
+    """Of those motions only in which disturbances grow less than 300 times.
+
+    Rounding, 2e-14 behind some dozen impacts that lose nothing, is then below 1e-11.
+    """
     data = through(rig, record, start)
     speed = float(np.abs(data["velocity"]).max())
     for sign in (1e-9, -1e-9):
         other = vi.Record(record.acceleration * (1 + sign), record.step)
         beside = start.replace(velocity=start.velocity - sign * speed)
-        assume(distance(data, states(through(rig, other, beside))) < 1e-6)
+        assume(distance(data, states(through(rig, other, beside))) < 3e-7)
     return data
 
 

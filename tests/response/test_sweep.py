@@ -147,8 +147,7 @@ class TestStepping:
         for i in range(3):
             held = data.isel(frequency=i)
             shaken = vi.Harmonic(case.amplitude, float(held["frequency"]), 0.7)
-            cycles = int(held["cycles"])
-            end = vi.simulate(case.oscillator, shaken, cycles, start, samples=0)["final_state"]
+            end = vi.simulate(case.oscillator, shaken, 400, start, samples=0)["final_state"]
             np.testing.assert_allclose(held["section"], end, rtol=1e-9, atol=1e-14)
             start = held["section"]
 

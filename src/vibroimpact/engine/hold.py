@@ -1,5 +1,6 @@
 """One held frequency: wait until the motion has settled, then measure it.
 
+A motion of one cycle is pursued (`pursuit`); what is not found so is followed, until it has settled.
 Settled means that the stroboscopic state repeats after n ≤ LONGEST cycles. The distance
 d_n(k) = ‖s_k − s_(k−n)‖ shrinks geometrically on the way to a stable orbit; from its decay over
 two blocks of cycles follows what is still missing, d_n ρⁿ / (1 − ρⁿ), and that must be below
@@ -17,6 +18,7 @@ from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, aged, finite
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.extremes import NOTHING
+from vibroimpact.engine.pursuit import pursue
 from vibroimpact.engine.status import (
     DONE,
     NOT_FINITE,
@@ -97,6 +99,11 @@ def settle(
         `n` is the period in forcing cycles, 0 if the motion did not settle.
     """
     weight = stiff_rate(plan)
+    found, gone, motion = pursue(
+        plan, motion, clock, period, weight, tolerance, max_cycles, max_events
+    )
+    if found:
+        return DONE, 1, gone, motion
     past = past_memory()
     block, former = distances(), distances()
     recent, earlier = distances(), distances()  # ratios of successive blocks
@@ -110,7 +117,7 @@ def settle(
     k = 0
     n = 0
     outcome = NOT_SETTLED
-    while k < max_cycles or (
+    while gone + k < max_cycles or (
         _STALLED_CYCLES <= k < _PATIENCE * max_cycles
         and stalled * _BLOCK < _RECENT * k
         and best <= _CLOSING * scale
@@ -199,7 +206,7 @@ def settle(
             recent[i] = block[i] / former[i] if former[i] < math.inf else math.inf
             former[i] = block[i] if i <= longest else math.inf
             block[i] = 0.0
-    return outcome, n, k, motion
+    return outcome, n, gone + k, motion
 
 
 @kernel

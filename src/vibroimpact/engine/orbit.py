@@ -11,6 +11,7 @@ from vibroimpact.engine.flows import planned
 from vibroimpact.engine.hold import measure
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.loop import cycle
+from vibroimpact.engine.matrix import solve
 from vibroimpact.engine.memory import pointer, stack, workspace
 from vibroimpact.engine.observers.margin import Margin
 from vibroimpact.engine.observers.tangent import DISTURBANCE
@@ -47,33 +48,6 @@ def copy(source: Vector, target: Vector, n: int) -> None:
     """Copy n numbers."""
     for i in range(n):
         target[i] = source[i]
-
-
-@kernel
-def solve(a: Vector, b: Vector, n: int) -> bool:
-    """Solve a x = b by elimination with pivoting; x replaces b. False if a is singular."""
-    for k in range(n):
-        best = k
-        for i in range(k + 1, n):
-            if abs(a[i * n + k]) > abs(a[best * n + k]):
-                best = i
-        if not abs(a[best * n + k]) > 1e-300:
-            return False
-        if best != k:
-            for j in range(n):
-                a[k * n + j], a[best * n + j] = a[best * n + j], a[k * n + j]
-            b[k], b[best] = b[best], b[k]
-        for i in range(k + 1, n):
-            factor = a[i * n + k] / a[k * n + k]
-            if factor != 0.0:
-                for j in range(k, n):
-                    a[i * n + j] -= factor * a[k * n + j]
-                b[i] -= factor * b[k]
-    for k in range(n - 1, -1, -1):
-        for j in range(k + 1, n):
-            b[k] -= a[k * n + j] * b[j]
-        b[k] /= a[k * n + k]
-    return True
 
 
 Line = tuple[Vector, Vector, float, int, bool, int, Vector]
