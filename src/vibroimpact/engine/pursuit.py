@@ -197,20 +197,21 @@ def pursue(
         if alike < 2 or filled < 3:
             stepped = False
             continue
-        way, moved, contracts = guess(room, weight)
-        if stepped:
-            go = way <= 0.5 * last
-        elif ahead:
-            go = contracts and way <= last
-        else:
-            go = filled > 3 and k >= waits and trusted(way, moved, contracts, scale)
-        stepped = go
-        if not go:
-            continue
+        way = 0.0
         if not ahead:
             kept, left = motion, change
-        ahead, last = True, way
-        motion = guessed(plan, room, motion)
+        if change > tolerance * scale:
+            way, moved, contracts = guess(room, weight)
+            if stepped:
+                stepped = way <= 0.5 * last
+            elif ahead:
+                stepped = contracts and way <= last
+            else:
+                stepped = filled > 3 and k >= waits and trusted(way, moved, contracts, scale)
+            if not stepped:
+                continue
+            ahead, last = True, way
+            motion = guessed(plan, room, motion)
         if way <= _CLOSE * scale:
             used, found, motion = close_in(
                 plan, motion, clock, period, weight, tolerance, scale, max_events
