@@ -10,40 +10,69 @@ import importlib
 import pkgutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 from vibroimpact import engine
 from vibroimpact.engine import jit
+from vibroimpact.engine.batch import trajectory
 from vibroimpact.engine.earthquakes import respond
 from vibroimpact.engine.entry import Entry
-from vibroimpact.engine.parameters import Law, free_rig, rig_vector
+from vibroimpact.engine.measure import measure_phases
+from vibroimpact.engine.parameters import Drive, Law, free_rig, rig_vector
 from vibroimpact.engine.recorded import follow
+from vibroimpact.response.threads import available
 
-RIGS = {
-    "Apart": free_rig(),
-    "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None),
+ONE_SINE = {
     "Curved": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0)),
     "Yielding": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(friction=1.0)),
+    "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None),
+    "Apart": free_rig(),
 }
-"""A rig for each flow of one sine; the flows of other forcings are compiled by their tests."""
+"""A rig for each flow of one sine; what takes longest begins first."""
 
-RECORDED = (follow, respond)
+_LAWS = {"": Law(), "Curved": Law(cubic=1.0), "Yielding": Law(friction=1.0)}
+_SEVERAL = Drive(weights=((1.0, 0.0), (0.0, 1.0)))
+_RECORD = Drive(interval=1.0)
+
+RIGS = {
+    **ONE_SINE,
+    **{
+        f"{name}{forcing}": rig_vector(1.0, 1.0, 0.1, None, None, drive=drive, law=law)
+        for forcing, drive in (("Several", _SEVERAL), ("Recorded", _RECORD))
+        for name, law in _LAWS.items()
+    },
+}
+"""A rig for each flow."""
+
+ONLY_RECORDS = (follow, respond)
 """Entries that only records go into."""
+RECORDS = (*ONLY_RECORDS, measure_phases)
+"""Entries that records go into."""
 
 
-def entries() -> list[Entry]:
-    """All of the engine's that one sine needs; those without a rig are compiled by their tests."""
+def entries(flow: str = "Apart") -> list[Entry]:
+    """The engine's entries that the tests ask for of a flow; those without a rig by their tests."""
     names = [found.name for found in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}.")]
-    return [
+    every = [
         value
         for name in names
         for value in vars(importlib.import_module(name)).values()
-        if type(value) is Entry and value.function.__module__ == name and value not in RECORDED
+        if type(value) is Entry and value.function.__module__ == name
     ]
+    if flow.endswith("Recorded"):
+        return list(RECORDS)
+    if flow in ("CurvedSeveral", "YieldingSeveral"):
+        return [trajectory]
+    return [one for one in every if one not in ONLY_RECORDS]
 
 
 def compile_for(flow: str) -> None:
-    for entry in entries():
+    for entry in entries(flow):
         entry.prepare(RIGS[flow])
+
+
+def compiled(flow: str) -> int:
+    return subprocess.call([sys.executable, __file__, flow])
 
 
 if __name__ == "__main__":
@@ -52,6 +81,5 @@ if __name__ == "__main__":
             jit.announce = lambda text: None  # it is said once
         compile_for(sys.argv[1])
     else:
-        side_by_side = [subprocess.Popen([sys.executable, __file__, flow]) for flow in RIGS]
-        codes = [process.wait() for process in side_by_side]
-        sys.exit(any(codes))
+        with ThreadPoolExecutor(available()) as pool:
+            sys.exit(any(pool.map(compiled, RIGS)))

@@ -29,6 +29,7 @@ from properties.test_restart import CYCLES, end_of_cut_run
 from reference.linear_phases import lines
 
 ROUNDING = 1e-11
+ULPS = 16
 ANY = motions(any_shaking=True)
 
 
@@ -72,17 +73,21 @@ def through(rig: vi.Oscillator, record: vi.Record, start, samples: int = 1):
 
 
 def tame_record(rig: vi.Oscillator, record: vi.Record, start: vi.State):
-    """Of those motions only in which disturbances grow less than 300 times.
+    """The motion, of those only that do not blow up small disturbances, and how far rounding goes.
 
-    Rounding, 2e-14 behind some dozen impacts that lose nothing, is then below 1e-11.
+    Each line of the record and each event rounds by some units in the last place, which grow as
+    disturbances of the start and of the record do; a phase may last long besides.
     """
     data = through(rig, record, start)
     speed = float(np.abs(data["velocity"]).max())
+    growth = 1.0
     for sign in (1e-9, -1e-9):
         other = vi.Record(record.acceleration * (1 + sign), record.step)
         beside = start.replace(velocity=start.velocity - sign * speed)
-        assume(distance(data, states(through(rig, other, beside))) < 3e-7)
-    return data
+        growth = max(growth, distance(data, states(through(rig, other, beside))) / 1e-9)
+    assume(growth < 1000.0)
+    events = data.sizes["event"] + len(record.time)
+    return data, max(1e-12, ULPS * np.finfo(float).eps * growth * events)
 
 
 @examples(60)
@@ -103,7 +108,7 @@ def test_a_record_may_be_cut_anywhere(
 ) -> None:
     """At a sample, or within a line: there the record has samples once it is made finer."""
     rig, record, start = given
-    whole = tame_record(rig, record, start)
+    whole, rounding = tame_record(rig, record, start)
     count = (len(record.acceleration) - 1) * parts
     assume(count > 1)
     step = record.step / parts
@@ -115,15 +120,15 @@ def test_a_record_may_be_cut_anywhere(
     rest = vi.simulate(
         rig, vi.Record(fine[at:], step), start=first, samples=0, tail=2.5 * record.step
     )
-    assert distance(whole, rest["final_state"].values[:4]) < ROUNDING
+    assert distance(whole, rest["final_state"].values[:4]) < rounding
 
 
 @examples(40)
 @given(recorded())
 def test_the_mirrored_record(given: tuple[vi.Oscillator, vi.Record, vi.State]) -> None:
     rig, record, start = given
-    data = tame_record(rig, record, start)
+    data, rounding = tame_record(rig, record, start)
     turned = vi.Record(-record.acceleration, record.step)
     back = vi.State(-start.displacement, -start.velocity)
     image = states(through(rig.mirrored(), turned, back))
-    assert distance(data, -image[[0, 1, 3, 2]]) < ROUNDING
+    assert distance(data, -image[[0, 1, 3, 2]]) < rounding

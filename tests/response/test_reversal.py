@@ -61,3 +61,11 @@ def test_nothing_known_is_no_reversal() -> None:
     assert codes.tolist() == [0, 0, Status.TOO_MANY_EVENTS, Status.REVERSED]
     assert ended(rig, Status.DONE, [], np.nan) is Status.DONE
     assert ended(rig, Status.DONE, [np.nan, -2.0, 1.0], 0.5) is Status.REVERSED
+
+
+def test_a_motion_that_runs_away_while_it_is_measured() -> None:
+    rig = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 1.0, -50.0))
+    start = vi.State(0.7128601657875597, 1.7338760758080227)
+    found = vi.sweep(rig, 3.0, [0.5264547101961601], "forward", start=start, max_cycles=1)
+    assert (found["status"] == Status.REVERSED).all()
+    assert np.isnan(found["displacement_max"]).all()

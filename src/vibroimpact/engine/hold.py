@@ -1,7 +1,7 @@
 """One held frequency: wait until the motion has settled, then measure it.
 
-A motion of one cycle is pursued (`pursuit`); what is not found so is followed, until it has settled.
-Settled means that the stroboscopic state repeats after n ≤ LONGEST cycles. The distance
+A motion of one cycle is pursued (`pursuit`); what is not found so is followed until it has
+settled. Settled means that the stroboscopic state repeats after n ≤ LONGEST cycles. The distance
 d_n(k) = ‖s_k − s_(k−n)‖ shrinks geometrically on the way to a stable orbit; from its decay over
 two blocks of cycles follows what is still missing, d_n ρⁿ / (1 − ρⁿ), and that must be below
 the tolerance (docs/decisions/0004-sweep-convergence.md).
@@ -72,6 +72,8 @@ def measure(
         if events > max_events:  # a cycle that is given up leaves the state of its section
             outcome = TOO_MANY_EVENTS
             motion = section
+        elif not finite(motion):
+            outcome = NOT_FINITE
         done += 1
     result[U_LEAST], result[U_MOST] = notes.u_least, notes.u_most
     result[A_LEAST], result[A_MOST] = notes.a_least, notes.a_most

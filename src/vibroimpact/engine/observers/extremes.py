@@ -56,6 +56,8 @@ def series_extremes(
     width = high - low
     f, f1, f2 = jet(series, p)
     least, most = min(least, f), max(most, f)
+    if not third < math.inf:
+        return least, most, at_least, at_most  # of a motion that runs away
     while p < high:
         width = min(width, high - p)
         steep = abs(f1) > abs(f2) * width + 0.5 * third * width * width
