@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels, new_axes
@@ -139,10 +140,16 @@ def panels(
 
 def also_in_g(ax: Axes) -> None:
     """Give axes of an acceleration in m/s² a second scale on the right, in g."""
-    scale = ax.secondary_yaxis(
-        "right", functions=(lambda a: a / GRAVITY, lambda in_g: in_g * GRAVITY)
-    )
+    scale = ax.secondary_yaxis("right", functions=(_in_g, _from_g))
     scale.set_ylabel("(g)")
+
+
+def _in_g(acceleration: ArrayLike) -> NDArray[np.float64]:
+    return np.asarray(acceleration, dtype=float) / GRAVITY
+
+
+def _from_g(multiple: ArrayLike) -> NDArray[np.float64]:
+    return np.asarray(multiple, dtype=float) * GRAVITY
 
 
 def save_figure(drawn: Any, path: Path | str) -> Path:
