@@ -14,8 +14,15 @@ from engine.compiled import RIGS, compile_for, entries
 from vibroimpact.engine import jit
 from vibroimpact.engine.flows import _ADVANCE
 
-PREPARE = "from vibroimpact.engine import measure; measure.measure_phases.prepare()"
-"""The entry that is compiled soonest: how long it takes decides nothing here."""
+ENTRY = """\
+from vibroimpact.engine.entry import entry
+
+
+@entry("f8(f8[::1])")
+def first(given, rig):
+    return rig[0]
+"""
+"""An entry that is compiled at once: how long it takes decides nothing here."""
 
 LOAD = f"""\
 import sys
@@ -60,16 +67,20 @@ def run(code: str, cache: Path, **environment: str) -> str:
 
 def test_processes_share_the_cache_safely(tmp_path: Path) -> None:
     """Two at once on an empty cache: one compiles, one waits and loads; so does a third."""
-    both = [start(PREPARE, tmp_path) for _ in range(2)]
+    (tmp_path / "small.py").write_text(ENTRY)
+    prepare = (
+        f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import small; small.first.prepare()"
+    )
+    both = [start(prepare, tmp_path) for _ in range(2)]
     errors = [process.communicate()[1] for process in both]
     assert [process.returncode for process in both] == [0, 0], errors
     assert sorted(NOTICE in error for error in errors) == [False, True]
-    assert NOTICE not in run(PREPARE, tmp_path)
+    assert NOTICE not in run(prepare, tmp_path)
     assert len(list(tmp_path.glob("engine-*"))) == 1
     # A damaged file is no reason to fail, now or ever after.
     for path in tmp_path.rglob("*.nb[ic]"):
         path.write_bytes(path.read_bytes()[:40])
-    assert NOTICE in run(PREPARE, tmp_path)
+    assert NOTICE in run(prepare, tmp_path)
     assert not list(tmp_path.rglob("*.nb[ic]"))
 
 

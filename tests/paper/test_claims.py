@@ -196,6 +196,7 @@ class TestBroken:
 
         monkeypatch.setattr(laboratory, "case", mutated)
 
+    @FULL_ONLY
     def test_bumpers_ten_times_softer(self, monkeypatch, found):
         def soft(rig: vi.Oscillator) -> vi.Oscillator:
             if rig.right is None:
