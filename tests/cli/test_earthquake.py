@@ -97,6 +97,41 @@ def test_a_study_with_its_record_and_one_without(run, tmp_path, quake):
     )
 
 
+def test_the_records_of_a_design(run, tmp_path, quake):
+    """The same study gives the page of each record and the design."""
+    (tmp_path / "other.csv").write_text((tmp_path / quake).read_text())
+    (tmp_path / "rig.toml").write_text(
+        '[oscillator]\nmass = "550 kg"\nisolator = { stiffness = "26 kN/m", damping = 1000 }\n'
+        f'[design]\nrecords = ["{quake}", "other.csv"]\n'
+    )
+    code, told, errors = run("rig.toml", "--json")
+    assert (code, errors) == (0, "")
+    assert [one["name"] for one in json.loads(told)["records"]] == [quake, "other.csv"]
+
+
+def test_two_files_of_one_name_are_refused(run, tmp_path, quake):
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / quake).write_text((tmp_path / quake).read_text())
+    code, out, errors = run("B2-G1-A3", quake, f"b/{quake}")
+    assert (code, out) == (2, "")
+    assert errors.startswith(f"vibroimpact: error: RECORD: 'b/{quake}' has the name of another one")
+
+
+def test_what_is_said_in_place_of_a_file_is_told(run, tmp_path):
+    head = ["PEER", "Made, 2000", "ACCELERATION TIME SERIES IN UNITS OF G"]
+    values = [f"{0.01 * (i % 3 - 1):.7E}" for i in range(50)]
+    lines = [*head, "NPTS=  50, DT=  .0100 SEC", *values]
+    (tmp_path / "made.AT2").write_text("\n".join(lines) + "\n")
+    code, _, errors = run("B2-G1-A3", "made.AT2", "--step", "33ms", "--unit", "cm/s^2")
+    assert code == 0
+    assert "--step: 33 ms instead of the 10 ms that 'made.AT2' says" in errors
+    assert "--unit: cm/s^2 instead of the " in errors
+    assert all(line.startswith("vibroimpact: warning: ") for line in errors.splitlines())
+    (tmp_path / "bare.csv").write_text("\n".join(f"{i % 3 - 1}" for i in range(50)) + "\n")
+    code, _, errors = run("B2-G1-A3", "bare.csv", "--step", "10ms", "--unit", "m/s^2")
+    assert (code, errors) == (0, "")
+
+
 @pytest.mark.parametrize(
     ("words", "line"),
     [

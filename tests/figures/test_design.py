@@ -32,6 +32,21 @@ def test_contours_over_two_parameters(data) -> None:
     np.testing.assert_allclose(dots.get_ydata(), 1e-3 * STIFFNESSES[at[:, 0]])
 
 
+def test_the_line_where_nothing_is_hit_is_on_the_safe_side(data) -> None:
+    """What lies beyond it is designs that hit nothing, never half-way to one that hits."""
+    left, _ = design_chart(data)
+    at = [p.vertices for one in left.collections if _red(one) for p in one.get_paths()]
+    assert at
+    safe = data["hitting"].transpose("gap", "bumper_stiffness").values == 0.0
+    first = 1e3 * GAPS[safe.argmax(axis=0)].min()
+    assert min(points[:, 0].min() for points in at if len(points)) > first - 0.01 * first
+
+
+def _red(drawn) -> bool:
+    colours = np.atleast_2d(drawn.get_edgecolor())
+    return bool(len(colours)) and np.allclose(colours[0][:3], np.array([0xC8, 0x10, 0x2E]) / 255)
+
+
 def test_curves_over_one(data) -> None:
     one = data.isel(bumper_stiffness=1)
     (ax,) = design_chart(one, quantities=("peak_force",))

@@ -100,11 +100,12 @@ def design(
         vibroimpact design building.toml --vary gap 100mm:500mm --vary damping-ratio 0.05:0.3
         vibroimpact design building.toml --best --gap 250mm --limit penetration 50mm
     """
+    from vibroimpact.cli.earthquake import listed
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
 
     out = output or OutputOptions()
-    found = (reading or RecordOptions()).read(records or _listed(rig))
+    found = (reading or RecordOptions()).read(records or listed(rig))
     what = subject(rig, changes or RigOptions(), out.name, shaken=next(iter(found.values()), None))
     shaking = _shaking(what, found, scale, peak)
     table = what.study.design if what.study else None
@@ -163,18 +164,6 @@ def design(
         out.json,
     )
     return 0
-
-
-def _listed(rig: str) -> list[str]:
-    """The records of a study's design, beside its file."""
-    from vibroimpact.cli.study import read_study
-
-    path = Path(rig)
-    if path.suffix.lower() != ".toml" and not path.is_file():
-        path = path.with_name(f"{path.name}.toml") if path.name else path
-        if not path.is_file():
-            return []
-    return [str(path.parent / name) for name in read_study(path).design.records or []]
 
 
 def _shaking(what: Subject, found: dict[str, Record], scale: str | None, peak: str | None) -> Any:

@@ -83,7 +83,7 @@ def earthquake(
     from vibroimpact.model.quantities import TIME
 
     out = output or OutputOptions()
-    found = (reading or RecordOptions()).read(records)
+    found = (reading or RecordOptions()).read(records or listed(rig, beside_record=False))
     first = next(iter(found.values()), None)
     what = subject(rig, changes or RigOptions(), out.name, shaken=first)
     shaking = scaled_records(found or record_of_study(what), scale, peak)
@@ -126,6 +126,21 @@ def earthquake(
         out.json,
     )
     return 0
+
+
+def listed(rig: str, *, beside_record: bool = True) -> list[str]:
+    """The records of a study's design, beside its file; or none if it is shaken by one itself."""
+    from vibroimpact.cli.study import read_study
+
+    path = Path(rig)
+    if path.suffix.lower() != ".toml" and not path.is_file():
+        path = path.with_name(f"{path.name}.toml") if path.name else path
+        if not path.is_file():
+            return []
+    study = read_study(path)
+    if study.excitation.record is not None and not beside_record:
+        return []
+    return [str(path.parent / name) for name in study.design.records or []]
 
 
 def record_of_study(what: Subject) -> dict[str, Record]:

@@ -211,15 +211,49 @@ class RecordOptions:
     ] = None
 
     def read(self, files: Iterable[str]) -> dict[str, Record]:
-        """Read the files of records, by their names."""
-        from vibroimpact.model import Record
+        """Read the files of records, by their names.
 
-        return {
-            record_name(file, self.component): Record.read(
-                file, self.component, unit=self.unit, step=self.step
-            )
-            for file in dict.fromkeys(files)
-        }
+        Where it is said otherwise than a file says itself, that is told.
+
+        Raises
+        ------
+        InputError
+            If one cannot be read, or two have one name.
+        """
+        found: dict[str, Record] = {}
+        for file in dict.fromkeys(files):
+            name = record_name(file, self.component)
+            if name in found:
+                raise InputError(
+                    f"RECORD: {file!r} has the name of another one; files of different names are "
+                    "accepted"
+                )
+            found[name] = self._read(file)
+        return found
+
+    def _read(self, file: str) -> Record:
+        from vibroimpact.cli.output import warn
+        from vibroimpact.model import Record
+        from vibroimpact.model.quantities import TIME
+        from vibroimpact.model.units import pretty
+
+        read = Record.read(file, self.component, unit=self.unit, step=self.step)
+        for option, given in (("step", self.step), ("unit", self.unit)):
+            if given is None:
+                continue
+            left = {"unit": self.unit, "step": self.step, option: None}
+            try:
+                own = Record.read(file, self.component, **left)
+            except InputError:  # the file does not say it
+                continue
+            if option == "step" and own.step != read.step:
+                said, now = pretty(own.step, TIME), pretty(read.step, TIME)
+                warn(f"--step: {now} instead of the {said} that {file!r} says")
+            if option == "unit" and own.about.unit != read.about.unit:
+                warn(
+                    f"--unit: {read.about.unit} instead of the {own.about.unit} that {file!r} says"
+                )
+        return read
 
 
 def record_name(file: str, component: str | None) -> str:

@@ -43,7 +43,8 @@ def design_chart(
 ) -> Panels:
     """Draw the demands on designs over one parameter, or as contours over two.
 
-    Dots mark designs that no other one beats; beyond the thick dashed line nothing is hit.
+    Dots mark designs that no other one beats; from the thick dashed line on nothing is hit by the
+    designs that were computed.
 
     Parameters
     ----------
@@ -278,7 +279,8 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
     hits = (data["hitting"].values > 0.0).astype(float)
     handles = []
     if 0.0 < hits.mean() < 1.0:
-        ax.contour(x, y, hits, levels=[0.5], colors="#c8102e", linewidths=2.0, linestyles="--")
+        # Through the designs that just hit nothing: never on the side of those that hit.
+        ax.contour(x, y, hits, levels=[1e-3], colors="#c8102e", linewidths=2.0, linestyles="--")
         handles.append(
             Line2D(
                 [],
@@ -286,7 +288,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
                 color="#c8102e",
                 linewidth=2.0,
                 linestyle="--",
-                label="beyond it nothing is hit",
+                label="from here on nothing is hit",
             )
         )
     best = np.argwhere(data["pareto"].values.astype(bool))
