@@ -16,6 +16,7 @@ from vibroimpact.figures.motions import SIDES, Shown, named, shown
 from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
 from vibroimpact.figures.style import EDGE, LEGEND, also_in_g
 from vibroimpact.model import GRAVITY
+from vibroimpact.model.quantities import FORCE, fitting
 from vibroimpact.response.phases import any_recorded
 
 _DASHES = ("-", "--", "-.", ":")
@@ -98,7 +99,7 @@ def _histories(
     for ax in (base, moved):
         ax.tick_params(labelbottom=False)
     gap_lines(moved, stops)
-    handles = stops_legend(stops)
+    handles = stops_legend(stops, motion)
     begun = motion["event_contact"].values >= 1
     for side, (mark, colour) in _MARKS.items():
         here = begun & (motion["event_side"].values == side)
@@ -133,7 +134,7 @@ def _force(ax: Axes, motion: xr.Dataset, curve: Shown) -> None:
     """What isolator and stops pull back with; its loops are the energy that they take."""
     rig = any_recorded(motion).oscillator
     pull = rig.force - rig.mass * curve.values["acceleration"]
-    scale, unit = (1e3, "kN") if np.abs(pull).max() >= 1e3 else (1.0, "N")
+    _, scale, unit = fitting([float(np.abs(pull).max())], FORCE.scales)
     for zero in (ax.axhline, ax.axvline):
         zero(0.0, color="0.7", linewidth=0.6, zorder=0)
     ax.plot(1e3 * curve.values["displacement"], pull / scale, color="black", linewidth=0.6)
@@ -167,4 +168,4 @@ def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
     ax.set_xlabel("natural period (s)")
     ax.set_ylabel("spectral acceleration (g)")
     ax.grid(True, which="major", linewidth=0.4, color="0.85")
-    ax.legend(ncols=1, frameon=False, fontsize="small")
+    ax.legend(ncols=2, **{**LEGEND, "columnspacing": 1.0})

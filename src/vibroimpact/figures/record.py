@@ -75,7 +75,7 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
         zorder=4,
     )
     given[3].set_xlabel("time (s)")
-    handles = stops_legend(stops)
+    handles = stops_legend(stops, motion)
     if hit.any():
         handles.append(
             Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
@@ -110,12 +110,14 @@ def gap_lines(ax: Axes, stops: dict[str, dict[str, Any]]) -> None:
         ax.axhline(gap, color="black", linestyle="--", linewidth=0.8, zorder=2)
 
 
-def stops_legend(stops: dict[str, dict[str, Any]]) -> list[Any]:
-    """What gap lines and contact bands mean."""
+def stops_legend(stops: dict[str, dict[str, Any]], motion: xr.Dataset) -> list[Any]:
+    """What gap lines mean, and contact bands of stops that are touched."""
     handles: list[Any] = []
     if stops:
         handles.append(Line2D([], [], color="black", linestyle="--", linewidth=0.8, label="gaps"))
     for side in stops:
+        if not len(_spans(motion, _SIDES[side])):
+            continue
         colour, hatch = BANDS[side]
         handles.append(
             Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=f"{side} contact")
