@@ -10,6 +10,7 @@ import pytest
 import vibroimpact as vi
 from samples import sample
 from seismic.made import lognormal, suite
+from seismic.rigs import RIGS, noise
 from vibroimpact.seismic.fragility import fit
 
 BETA = 0.4
@@ -101,3 +102,14 @@ def test_wrong_input() -> None:
         vi.fragility(data.isel(record=[0, 1]), "peak_displacement", 1.0)
     with pytest.raises(vi.InputError, match=r"^confidence: 1.5"):
         vi.fragility(data, "peak_displacement", 1.0, confidence=1.5)
+
+
+def test_of_impact_itself_no_limit_is_asked() -> None:
+    rig = RIGS["bumpers"]
+    records = {str(seed): noise(seed, count=60) for seed in range(6)}
+    data = vi.demands(rig, records, np.linspace(0.1, 1.5, 8))
+    curve = vi.fragility(data, "impact_count")
+    assert curve.identical(vi.fragility(data, "impact_count", 0))
+    np.testing.assert_array_equal(curve["exceeding"], (data["impact_count"] > 0).sum("record"))
+    with pytest.raises(vi.InputError, match=r"^limit: missing; a limit of peak_acceleration"):
+        vi.fragility(data, "peak_acceleration")

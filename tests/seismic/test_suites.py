@@ -68,6 +68,7 @@ def test_wrong_input() -> None:
         (lambda: vi.fractiles(data, shares=(1.2,)), r"shares\[0\]: 1.2"),
         (lambda: vi.fractiles(data, shares=()), "shares: none given"),
         (lambda: vi.exceedance(data, "peak_displacement", "3 kg"), "limit: '3 kg'"),
+        (lambda: vi.exceedance(data, "peak_displacement"), "limit: missing; a limit of peak_disp"),
     ):
         with pytest.raises(vi.InputError, match=f"^{line}"):
             ask()

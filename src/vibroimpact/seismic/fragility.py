@@ -32,7 +32,7 @@ class Fit(NamedTuple):
 def fragility(
     demands: xr.Dataset,
     quantity: str,
-    limit: float | str,
+    limit: float | str | None = None,
     *,
     confidence: float = 0.9,
 ) -> xr.Dataset:
@@ -50,10 +50,9 @@ def fragility(
     demands
         Dataset of `demands`.
     quantity
-        One of its peaks, such as ``"peak_acceleration"``; ``"impact_count"`` with the limit 0 for
-        impact itself.
+        One of its peaks, such as ``"peak_acceleration"``; ``"impact_count"`` for impact itself.
     limit
-        In SI units or as text with units; what is greater exceeds it.
+        In SI units or as text with units; what is greater exceeds it. None for 0, of counts.
     confidence
         Of the intervals, between 0 and 1.
 

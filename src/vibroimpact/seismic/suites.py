@@ -83,7 +83,7 @@ def quantiles(values: _Array, shares: Sequence[float], axis: int) -> _Array:
     return found
 
 
-def exceedance(demands: xr.Dataset, quantity: str, limit: float | str = 0.0) -> xr.Dataset:
+def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = None) -> xr.Dataset:
     """Return the share of the records that exceed a limit at each scale.
 
     ``exceedance(demands, "impact_count")`` is the probability of impact.
@@ -95,7 +95,7 @@ def exceedance(demands: xr.Dataset, quantity: str, limit: float | str = 0.0) -> 
     quantity
         One of its peaks.
     limit
-        In SI units or as text with units; what is greater exceeds it.
+        In SI units or as text with units; what is greater exceeds it. None for 0, of counts.
 
     Returns
     -------
@@ -117,10 +117,22 @@ def exceedance(demands: xr.Dataset, quantity: str, limit: float | str = 0.0) -> 
     return described(data, "vibroimpact.exceedance", demands, about)
 
 
-def limit_of(demands: xr.Dataset, quantity: str, limit: float | str) -> float:
-    """Read a limit of one of the peaks."""
-    expected: Quantity | None = _QUANTITIES.get(demands[quantity].attrs["units"])
-    return to_si(limit, expected or DIMENSIONLESS, "limit")
+def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> float:
+    """Read a limit of one of the peaks; None for 0, of what is counted.
+
+    Raises
+    ------
+    InputError
+        If it is another quantity, or is missing where nothing is counted.
+    """
+    expected: Quantity = _QUANTITIES.get(demands[quantity].attrs["units"]) or DIMENSIONLESS
+    if limit is None:
+        if expected is DIMENSIONLESS:
+            return 0.0
+        raise InputError(
+            f"limit: missing; a limit of {quantity} is accepted, such as {expected.example!r}"
+        )
+    return to_si(limit, expected, "limit")
 
 
 def known(demands: Any, quantity: str) -> xr.DataArray:
