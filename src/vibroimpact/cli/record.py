@@ -99,8 +99,8 @@ def record(
         from vibroimpact.response.response_spectrum import response_spectrum
 
         spectrum = response_spectrum(found, np.geomspace(first, last, periods), ratios)
-        name = out.name or record_name(file, how.component)
-        stem = folder / f"{slug(name.replace(' ', '-'))}-record"
+        name = record_name(file, how.component)
+        stem = folder / f"{slug(out.name or name.replace(' ', '-'))}-record"
         about = found.about
         where = ", ".join(part for part in (about.station, about.component) if part)
         axes = accelerogram(found, spectrum, title=out.name or where or name)
