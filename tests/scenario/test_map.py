@@ -16,7 +16,7 @@ import zarr
 
 import vibroimpact as vi
 from scenario.small_map import OPTIONS, X, Y, rig_of, small
-from vibroimpact.response.variables import VARIABLES
+from vibroimpact.response.vocabulary import VARIABLES
 from vibroimpact.scenario.axes import one_sine
 from vibroimpact.scenario.cell import COUNTS, VALUES
 from vibroimpact.scenario.frequencies import frequencies

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from vibroimpact._version import __version__
 from vibroimpact.errors import InputError
-from vibroimpact.response.variables import VARIABLES
+from vibroimpact.response.vocabulary import VARIABLES
 
 if TYPE_CHECKING:  # it takes long to load: only where a store is made or read
     import zarr

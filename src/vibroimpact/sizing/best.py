@@ -17,7 +17,8 @@ from vibroimpact.model.counts import whole
 from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.response.threads import Progress
-from vibroimpact.response.variables import VARIABLES, describe, oscillator_parameters
+from vibroimpact.response.variables import describe, oscillator_parameters
+from vibroimpact.response.vocabulary import VARIABLES
 from vibroimpact.seismic.plan import Runs, runs
 from vibroimpact.sizing.shaking import PEAKS, AnyShaken, Asked, asked, one_rig
 from vibroimpact.sizing.sines import STEP
