@@ -56,6 +56,7 @@ _HOME = {
     "lyapunov_exponents": "stability.exponents",
     "orbit": "stability.orbit",
     "progress_bar": "response.progress",
+    "read_measurement": "measurement.read",
     "required_gap": "sizing.gap",
     "resonance_diagram": "stability.diagram",
     "response_spectrum": "response.response_spectrum",
@@ -113,6 +114,7 @@ __all__ = [
     "lyapunov_exponents",
     "orbit",
     "progress_bar",
+    "read_measurement",
     "required_gap",
     "resonance_diagram",
     "response_spectrum",
@@ -132,6 +134,7 @@ __all__ = [
 
 if TYPE_CHECKING:
     from vibroimpact.errors import InputError
+    from vibroimpact.measurement.read import read_measurement
     from vibroimpact.model import (
         BilinearIsolator,
         BoucWenIsolator,

@@ -14,9 +14,11 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import new_axes
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
+from vibroimpact.measurement.read import is_measured
 from vibroimpact.model import Record
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import any_recorded, phases, recorded, touches
+from vibroimpact.response.sine import forcing_sine, slope
 
 _Array = NDArray[np.float64]
 
@@ -60,7 +62,8 @@ def named(
     if not given:
         raise InputError("motions: there is none; at least one motion is accepted")
     for motion in given.values():
-        (any_recorded if records else recorded)(motion)
+        if not _seen(motion):
+            (any_recorded if records else recorded)(motion)
     return given
 
 
@@ -80,7 +83,9 @@ def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: in
             raise InputError(f"cycles: {cycles!r}; a number greater than 0 is accepted")
         return cycles
     periods = [
-        round(origin.cycles) for origin in map(recorded, motions.values()) if origin.periodic
+        round(origin.cycles)
+        for motion in motions.values()
+        if not _seen(motion) and (origin := recorded(motion)).periodic
     ]
     shared = math.lcm(*periods)
     if shared > MOST_CYCLES:
@@ -103,11 +108,26 @@ def shown(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[Show
     """Curves of motions: the last cycles of a simulation, the first ones of a steady motion.
 
     A periodic motion is repeated as often as it takes, or shown once if `cycles` is infinite.
+    Measured ones are moved by whole cycles to where the others begin.
     """
-    return [
+    drawn = [
         _shown(motion, look, cycles)
         for motion, look in zip(motions.values(), looks(list(motions)), strict=True)
     ]
+    of_model = [c.at[0] for c, m in zip(drawn, motions.values(), strict=True) if not _seen(m)]
+    if not of_model:
+        return drawn
+    return [
+        curve._replace(at=curve.at + math.floor(min(of_model) + 1e-9) - math.floor(curve.at[0]))
+        if _seen(motion) and "cycle" not in motion and len(curve.at)
+        else curve
+        for curve, motion in zip(drawn, motions.values(), strict=True)
+    ]
+
+
+def _seen(motion: xr.Dataset) -> bool:
+    """Whether a motion was measured."""
+    return is_measured(motion) and "event_time" not in motion
 
 
 def axes_or_new(ax: Axes | None, size: tuple[float, float], title: str | None) -> Axes:
@@ -127,7 +147,37 @@ def name_lines(ax: Axes, curves: list[Shown]) -> None:
         ax.legend(ncols=min(len(curves), 3), **LEGEND)
 
 
+def _measured(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
+    """A measured history; its cycles begin where the base's sine, as A sin θ, has θ = 0.
+
+    A velocity that was not measured is the slope of the displacement, smoothed.
+    """
+    time = motion["time"].values
+    base, moved = (
+        motion[name].values if name in motion else None
+        for name in ("base_acceleration", "displacement")
+    )
+    sine = forcing_sine(time, base, moved, motion.attrs.get("frequency"))
+    at = time
+    if sine is not None:
+        at = sine.frequency * time + (sine.phase / (2.0 * math.pi) if base is not None else 0.0)
+        at = at - math.floor(at[0])
+    values = {}
+    for name in ("displacement", "velocity", "acceleration"):
+        held = motion[name].values if name in motion else np.full(len(time), np.nan)
+        if name == "velocity" and name not in motion and moved is not None:
+            known = np.isfinite(moved)
+            held = np.full(len(time), np.nan)
+            held[known] = slope(time[known], moved[known], sine)
+        values[name] = held
+    curve = Shown(look, at, values, [], (np.empty(0), np.empty(0)), {})
+    last = min(float(at[-1]), math.ceil(at[0]) + cycles)
+    return curve if math.isinf(cycles) else _cut(curve, float(math.ceil(at[0])), last)
+
+
 def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
+    if _seen(motion):
+        return _measured(motion, look, cycles)
     origin = any_recorded(motion)
     shaken = origin.excitation
     if isinstance(shaken, Record):

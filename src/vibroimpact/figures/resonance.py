@@ -14,8 +14,10 @@ from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.measured import measured_curves, measured_points
 from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
+from vibroimpact.measurement.read import as_measured, is_measured
 from vibroimpact.response.resonance import Features, Jump, features
 
 _HATCHES = {"right": "", "left": "/////"}
@@ -36,6 +38,7 @@ def resonance_curves(
     found: Features | None = None,
     title: str | None = None,
     physical: bool = False,
+    measured: xr.Dataset | None = None,
 ) -> Panels:
     """Draw η_a and η_d against the excitation frequency, or what an engineer asks for.
 
@@ -46,7 +49,7 @@ def resonance_curves(
     Parameters
     ----------
     data
-        Dataset of `vibroimpact.sweep`, or one rig of `vibroimpact.sweeps`.
+        Dataset of `vibroimpact.sweep`, or one rig of `vibroimpact.sweeps`; or measured curves.
     axes
         Two Axes, for η_a and η_d, or as many as there are physical panels. None makes a new
         figure.
@@ -58,6 +61,10 @@ def resonance_curves(
         Whether the largest absolute acceleration (g), the largest displacement (mm) and, where a
         stop is touched, the largest contact force are drawn instead of η_a and η_d; of rigid
         stops the largest impulse.
+    measured
+        Curves of `vibroimpact.read_measurement`, drawn as open points over the computed ones.
+        Excursions are taken over the free flight of the computed rig; in physical units, half of
+        them stands for the largest value where that was not measured.
 
     Returns
     -------
@@ -70,6 +77,8 @@ def resonance_curves(
     InputError
         If the dataset is not that of a sweep of one rig, or there are not as many axes.
     """
+    if is_measured(data) and "motion" not in data:
+        return measured_curves(data, axes, title=title)
     found = features(data) if found is None else found
     drawn = physical_curves(data) if physical else normalised(data)
     what = " and ".join(one.name for one in drawn)
@@ -80,6 +89,9 @@ def resonance_curves(
     upper = given[0]
     given[-1].set_xlabel("excitation frequency $f$ (Hz)")
     entries = [*_legend(data, found), *(line.entry() for one in drawn for line in one.levels)]
+    if measured is not None:
+        names = [one.name for one in drawn]
+        entries += measured_points(given, names, data, as_measured(measured, "measured"))
     upper.legend(handles=entries, ncols=2 if len(entries) <= 4 else 3, **LEGEND)
     return given
 

@@ -138,6 +138,9 @@ def features(
 ) -> Features:
     """Find all features of a sweep; the thresholds are those of the functions below.
 
+    Of measured curves they are no smaller than the measurement's noise: see
+    `vibroimpact.measurement.features`.
+
     Raises
     ------
     InputError

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
 from vibroimpact.engine import fourier
 from vibroimpact.errors import InputError
@@ -12,6 +13,7 @@ from vibroimpact.model import Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.response.measuring import asked, table
 from vibroimpact.response.phases import Phases, Recorded, phases, recorded
+from vibroimpact.response.sine import forcing_sine
 from vibroimpact.response.variables import describe, motion_parameters
 
 _Complex = NDArray[np.complex128]
@@ -35,7 +37,8 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples.
+        Dataset of `steady`, or of `simulate` with samples; or a measured history, whose orders are
+        those of the sine of its base.
     highest
         Highest order f / f_exc.
 
@@ -52,6 +55,8 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
         If the dataset is not that of a motion with samples, or `highest` is not positive.
     """
     limit = to_si(highest, DIMENSIONLESS, "highest", above=0.0)
+    if motion.attrs.get("kind") == "history" and "event_time" not in motion:
+        return _of_measured(motion, limit)
     origin = recorded(motion)
     if origin.periodic:
         n = int(motion["period"])
@@ -95,14 +100,48 @@ def _windowed(
             f"motion: a record of {origin.cycles:g} cycles and {count} samples has no spectrum; "
             "at least one cycle and four samples are accepted"
         )
-    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(count) / count)
     order = np.arange(count // 2 + 1) / cycles
     kept = order <= highest
-    lines = []
-    for name in _QUANTITIES:
-        values = motion[name].values[:count]
-        mean = values.mean()
-        line = 2.0 * np.fft.rfft(window * (values - mean)) / window.sum()
-        line[0] = mean
-        lines.append(line[kept])
+    lines = [_lines(motion[name].values[:count])[kept] for name in _QUANTITIES]
     return order[kept], lines, cycles
+
+
+def _lines(values: NDArray[np.float64]) -> _Complex:
+    """Complex amplitudes of even samples over whole cycles, through a Hann window."""
+    count = len(values)
+    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(count) / count)
+    mean = values.mean()
+    line: _Complex = 2.0 * np.fft.rfft(window * (values - mean)) / window.sum()
+    line[0] = mean
+    return line
+
+
+def _of_measured(motion: xr.Dataset, highest: float) -> xr.Dataset:
+    """The spectrum of a measured history, over the whole cycles of its forcing.
+
+    Its samples are taken over, by a spline, to times that divide these cycles evenly.
+    """
+    time = motion["time"].values
+    held = {name: motion[name].values for name in _QUANTITIES if name in motion}
+    base = motion["base_acceleration"].values if "base_acceleration" in motion else None
+    sine = forcing_sine(time, base, next(iter(held.values()), None), motion.attrs.get("frequency"))
+    cycles = 0 if sine is None else int((time[-1] - time[0]) * sine.frequency + 1e-9)
+    if sine is None or cycles < 1 or not held:
+        raise InputError(
+            "motion: the measured history has no whole cycle of a sine; one cycle of "
+            "displacement, velocity or acceleration and at least 8 samples are accepted"
+        )
+    span = cycles / sine.frequency
+    count = int(np.searchsorted(time, time[0] + span))
+    even = time[0] + span * np.arange(count) / count
+    order = np.arange(count // 2 + 1) / cycles
+    kept = order <= highest
+    data = xr.Dataset(coords={"order": order[kept]})
+    data.coords["line_frequency"] = ("order", order[kept] * sine.frequency)
+    for name, values in held.items():
+        known = np.isfinite(values)
+        line = _lines(CubicSpline(time[known], values[known])(even))[kept]
+        data[f"{name}_amplitude"] = ("order", np.abs(line))
+        data[f"{name}_phase"] = ("order", np.angle(line))
+    data.attrs["method"] = f"Hann window over {cycles} forcing cycles"
+    return describe(data, "vibroimpact.spectrum", {"frequency": sine.frequency})

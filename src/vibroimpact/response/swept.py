@@ -45,15 +45,50 @@ _ARRAYS = ("eta_a", "eta_d", "settled", "period", "touching")
 
 
 def swept(data: xr.Dataset) -> Swept:
-    """Arrays of the sweep of one rig.
+    """Arrays of the sweep of one rig, or of measured curves.
+
+    Of measured curves, η is taken over their own maximum where it was not measured; their motions
+    count as settled.
 
     Raises
     ------
     InputError
         If the dataset is not that of a sweep of one rig.
     """
+    if data.attrs.get("kind") == "curves" and "motion" not in data:
+        return _of_measured(data)
     (one,) = each_swept(as_rigs(data))
     return one
+
+
+def _of_measured(data: xr.Dataset) -> Swept:
+    """Arrays of measured curves: the mean of what was held more than once."""
+    known: tuple[Direction, ...] = ("forward", "backward")
+    directions = tuple(d for d in known if d in data["direction"].values)
+    one = data.sel(direction=list(directions))
+    one = one.mean("repeat") if "repeat" in one.dims else one
+    found = {}
+    for short, kind in (("a", "acceleration"), ("d", "displacement")):
+        for name in (f"eta_{short}", f"{kind}_excursion", f"{kind}_max"):
+            if name in one:
+                values = np.abs(one[name].transpose("direction", "frequency").values)
+                scale = 1.0 if name.startswith("eta") else np.nanmax(values)
+                found[short] = values / scale
+                break
+    if not found:
+        raise InputError(
+            "data: the measured curves have neither excursions nor maxima nor η; one is accepted"
+        )
+    a, d = (found.get(short, next(iter(found.values()))) for short in "ad")
+    return Swept(
+        one["frequency"].values,
+        directions,
+        a,
+        d,
+        np.isfinite(a),
+        np.ones(a.shape, dtype=np.int64),
+        np.zeros(a.shape, dtype=bool),
+    )
 
 
 def as_rigs(data: xr.Dataset) -> xr.Dataset:

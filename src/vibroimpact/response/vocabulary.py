@@ -120,6 +120,11 @@ VARIABLES: dict[str, Variable] = {
     "event_left_bumper": Variable("m", "deformation of the left bumper at the event"),
     "event_acceleration_before": Variable("m s-2", "absolute acceleration just before the event"),
     "event_acceleration_behind": Variable("m s-2", "absolute acceleration just after the event"),
+    # measurements
+    "repeat": Variable("1", "number of the hold, where a frequency was held more than once"),
+    "mass_displacement": Variable("m", "absolute displacement of the mass"),
+    "base_displacement": Variable("m", "displacement of the base"),
+    "contact_force": Variable("N", "force of the contact, as a sensor has it"),
     # contacts
     "contact_side": Variable("1", "stop of the contact: -1 left, 1 right"),
     "contact_start": Variable("s", "time at which the contact begins"),

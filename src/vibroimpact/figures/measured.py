@@ -1,0 +1,184 @@
+"""Measured resonance curves: alone, or as points over computed ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.style import EDGE, LEGEND, SHADE, SWEEPS, panels
+from vibroimpact.measurement.features import measured_features
+from vibroimpact.model.quantities import GRAVITY
+
+_Array = NDArray[np.float64]
+
+
+class _Panel(NamedTuple):
+    """One quantity that may have been measured."""
+
+    variable: str
+    factor: float
+    label: str
+
+
+_PANELS = (
+    (
+        _Panel(
+            "acceleration_excursion", 1.0 / GRAVITY, "excursion of absolute\nacceleration $E_a$ (g)"
+        ),
+        _Panel("eta_a", 1.0, "normalised excursion of\nabsolute acceleration $\\eta_a$ (–)"),
+        _Panel("acceleration_max", 1.0 / GRAVITY, "largest absolute\nacceleration (g)"),
+    ),
+    (
+        _Panel("displacement_excursion", 1e3, "excursion of relative\ndisplacement $E_d$ (mm)"),
+        _Panel("eta_d", 1.0, "normalised excursion of\nrelative displacement $\\eta_d$ (–)"),
+        _Panel("displacement_max", 1e3, "largest relative\ndisplacement (mm)"),
+    ),
+)
+"""Of acceleration and displacement: what is drawn, the first that was measured."""
+
+
+def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
+    """Draw measured curves: a point a hold, hysteresis shaded, the step of a jump dotted.
+
+    Parameters
+    ----------
+    data
+        Curves of `vibroimpact.read_measurement`.
+    axes
+        As many Axes as there are quantities. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If nothing that is drawn was measured, or there are not as many axes.
+    """
+    drawn = [next((p for p in some if p.variable in data), None) for some in _PANELS]
+    shown = [panel for panel in drawn if panel is not None]
+    if not shown:
+        raise InputError("data: it has neither excursions nor maxima nor η; measured curves do")
+    found = measured_features(data)
+    what = " and ".join(panel.variable for panel in shown)
+    given = panels(axes, len(shown), what, (7.2, 0.4 + 3.2 * len(shown)), title)
+    for ax, panel in zip(given, shown, strict=True):
+        for item in found.hysteresis:
+            ax.axvspan(*item.ends, facecolor=SHADE, edgecolor=EDGE, lw=0.0, zorder=0)
+        for direction, look in SWEEPS.items():
+            if direction not in data["direction"]:
+                continue
+            x, y = points_of(data[panel.variable].sel(direction=direction))
+            jumps = [j for j in found.jumps if j.direction == direction]
+            cuts = np.searchsorted(x, sorted(max(j.before, j.after) for j in jumps))
+            ax.plot(
+                np.insert(x, cuts, np.nan),
+                panel.factor * np.insert(y, cuts, np.nan),
+                color=look.colour,
+                linestyle=look.dashes,
+                linewidth=0.6,
+                marker=look.marker,
+                markersize=look.size,
+                markerfacecolor=look.colour if look.filled else "none",
+                label=f"{look.label}, measured",
+                zorder=3,
+            )
+            mean = data[panel.variable].sel(direction=direction)
+            mean = mean.mean("repeat") if "repeat" in mean.dims else mean
+            for jump in jumps:
+                ends = mean.sel(frequency=[jump.before, jump.after]).values
+                ax.plot(
+                    [jump.before, jump.after],
+                    panel.factor * ends,
+                    color=look.colour,
+                    linestyle=":",
+                    linewidth=1.0,
+                    zorder=2,
+                )
+        ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+        ax.set_ylabel(panel.label)
+    given[-1].set_xlabel("excitation frequency $f$ (Hz)")
+    given[0].legend(ncols=2, **LEGEND)
+    return given
+
+
+def points_of(values: xr.DataArray) -> tuple[_Array, _Array]:
+    """Frequencies and values of all that was measured in one direction."""
+    grid = np.broadcast_to(
+        values["frequency"].values.reshape(-1, *([1] * (values.ndim - 1))),
+        values.transpose("frequency", ...).shape,
+    )
+    table = values.transpose("frequency", ...).values
+    known = np.isfinite(table)
+    return grid[known], table[known]
+
+
+def measured_points(
+    axes: Sequence[Axes], names: Sequence[str], computed: xr.Dataset, measured: xr.Dataset
+) -> list[Any]:
+    """Draw measured points over computed curves; return what a legend shows of them.
+
+    Parameters
+    ----------
+    axes, names
+        The panels: ``η_a``, ``η_d``, ``acceleration``, ``displacement`` or others.
+    computed
+        The sweep beneath. Its largest free flight normalises excursions where η was not measured.
+    measured
+        Curves of `read_measurement`.
+    """
+    entries: dict[str, Any] = {}
+    for ax, name in zip(axes, names, strict=True):
+        for direction, look in SWEEPS.items():
+            if direction not in measured["direction"]:
+                continue
+            found = _on_panel(name, computed, measured.sel(direction=direction))
+            if found is None:
+                continue
+            (line,) = ax.plot(
+                *found,
+                linestyle="none",
+                marker="o" if look.filled else "s",
+                markersize=5.0 if look.filled else 6.5,
+                markerfacecolor="none",
+                markeredgecolor="black" if look.filled else look.colour,
+                markeredgewidth=0.9,
+                label=f"measured, {look.label}",
+                zorder=6,
+            )
+            entries[direction] = line
+            top = 1.06 * float(np.max(found[1], initial=0.0))
+            if top > ax.get_ylim()[1]:
+                ax.set_ylim(top=top)
+    return list(entries.values())
+
+
+def _on_panel(
+    name: str, computed: xr.Dataset, measured: xr.Dataset
+) -> tuple[_Array, _Array] | None:
+    """Frequencies and values in the units of a panel; None where it was not measured."""
+    kind = "acceleration" if name in ("η_a", "acceleration") else "displacement"
+    if name in ("η_a", "η_d"):
+        if f"eta_{name[-1]}" in measured:
+            return points_of(measured[f"eta_{name[-1]}"])
+        if f"{kind}_excursion" not in measured:
+            return None
+        x, y = points_of(measured[f"{kind}_excursion"])
+        return x, y / float(computed[f"largest_free_{kind}_excursion"])
+    if name != kind:
+        return None
+    factor = 1e3 if kind == "displacement" else 1.0 / GRAVITY
+    ends = [measured[n] for n in (f"{kind}_max", f"{kind}_min") if n in measured]
+    if len(ends) == 2:
+        x, y = points_of(ends[0].copy(data=np.maximum(*(np.abs(end.values) for end in ends))))
+        return x, factor * y
+    if f"{kind}_excursion" in measured:  # half of it, exact of a symmetric motion
+        x, y = points_of(measured[f"{kind}_excursion"])
+        return x, 0.5 * factor * y
+    return None

@@ -1,0 +1,1 @@
+"""Measured data: files of tests as labelled datasets, whatever program wrote them."""

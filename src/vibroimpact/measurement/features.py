@@ -1,0 +1,99 @@
+"""Peaks, jumps and hysteresis of measured curves, with the resolution of the steps.
+
+What `vibroimpact.response.resonance` does for computed sweeps, with thresholds above the
+measurement's noise. The noise is that of the differences between the two directions where they
+follow one motion, or of the third differences of a single curve.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.response import resonance
+from vibroimpact.response.peaks import CURVES, PROMINENCE
+from vibroimpact.response.resonance import APART, Features
+from vibroimpact.response.swept import Swept, swept
+
+_NOISES = 6.0
+"""Least difference of two motions, and least prominence of a peak, in standard deviations."""
+_LOW, _OF_NORMAL = 0.3, 0.3853
+"""A quantile, and what it is of the size of a standard normal number."""
+
+
+def noise_of(data: xr.Dataset | Swept) -> float:
+    """Standard deviation of a measured value as a share of it, estimated robustly; 0 if unknown."""
+    both = data if isinstance(data, Swept) else swept(data)
+    found: list[float] = []
+    for name in CURVES:
+        values = getattr(both, name)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            logs = np.log(values)
+        if len(logs) == 2:
+            change = (logs[0] - logs[1]) / np.sqrt(2.0)
+        else:
+            # Third differences leave little of a smooth curve, and √20 times the noise.
+            change = np.diff(logs[0][np.isfinite(logs[0])], 3) / np.sqrt(20.0)
+        change = np.abs(change[np.isfinite(change)])
+        found += change.tolist()
+    # The directions differ by more than noise in a hysteresis, hence the lower values alone.
+    return float(np.quantile(found, _LOW)) / _OF_NORMAL if len(found) >= 8 else 0.0
+
+
+def measured_features(data: xr.Dataset) -> Features:
+    """All that measured curves show.
+
+    Parameters
+    ----------
+    data
+        Curves of `read_measurement`.
+
+    Returns
+    -------
+    Features
+        As of a computed sweep; jumps lie between two neighbouring frequencies, which are the
+        resolution of the measurement.
+
+    Raises
+    ------
+    InputError
+        If the dataset holds no curves.
+    """
+    both = swept(data)
+    noise = noise_of(both)
+    apart = max(APART, _NOISES * noise)
+    return resonance.features(
+        both, apart=apart, unsettled_apart=apart, prominence=max(PROMINENCE, _NOISES * noise)
+    )
+
+
+def in_words(data: xr.Dataset) -> list[str]:
+    """What measured curves show, a line each."""
+    both = swept(data)
+    found = measured_features(data)
+    step = np.diff(both.frequency)
+    lines = []
+    if len(step):
+        told = (
+            f"{step.min():.4g}" if np.ptp(step) < 1e-6 else f"{step.min():.4g} to {step.max():.4g}"
+        )
+        lines.append(
+            f"{len(both.frequency)} frequencies, {both.frequency[0]:.4g} to "
+            f"{both.frequency[-1]:.4g} Hz, in steps of {told} Hz: what lies between two steps is "
+            "not seen"
+        )
+    lines.append(f"noise: {100.0 * noise_of(both):.2g} % of a value")
+    lines += [
+        f"{peak.direction}: peak of {'E_a' if peak.curve == 'eta_a' else 'E_d'} at "
+        f"{peak.frequency:.4g} Hz{' (the end of the curve)' if peak.at_end else ''}"
+        for peak in found.peaks
+        if peak.primary
+    ]
+    for jump in found.jumps:
+        way = "up" if jump.upward else "down"
+        low, high = sorted((jump.before, jump.after))
+        lines.append(f"{jump.direction}: jump {way} between {low:.4g} and {high:.4g} Hz")
+    for item in found.hysteresis:
+        side = "forward above" if item.side == "right" else "backward above"
+        lines.append(f"hysteresis, {side}: {item.low:.4g} to {item.high:.4g} Hz")
+    return lines

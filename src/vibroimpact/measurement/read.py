@@ -1,0 +1,242 @@
+"""Measured data from files of any usual program, as datasets with the names of this package."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.errors import InputError
+from vibroimpact.measurement import binary, text
+from vibroimpact.measurement.columns import Array, Column, Columns
+from vibroimpact.measurement.curves import curves
+from vibroimpact.measurement.histories import history
+from vibroimpact.measurement.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
+from vibroimpact.model.quantities import ACCELERATION, FREQUENCY
+from vibroimpact.model.units import to_si
+from vibroimpact.response.files import load
+from vibroimpact.response.variables import describe
+
+_READERS = {
+    ".mat": binary.read_mat,
+    ".h5": binary.read_hdf5,
+    ".hdf5": binary.read_hdf5,
+    ".hdf": binary.read_hdf5,
+    ".uff": binary.read_uff,
+    ".unv": binary.read_uff,
+    ".tdms": binary.read_tdms,
+}
+CREATED_BY = "vibroimpact.read_measurement"
+
+
+def read_measurement(
+    path: Path | str,
+    *,
+    columns: Mapping[str, str] | None = None,
+    units: Mapping[str, str] | None = None,
+    direction: str | None = None,
+    group: str | None = None,
+    amplitude: float | str | None = None,
+    frequency: float | str | None = None,
+) -> xr.Dataset:
+    """Read measured curves or time histories.
+
+    Parameters
+    ----------
+    path
+        A table of text (CSV and its relatives), a MATLAB (``.mat``), HDF5 (``.h5``), universal
+        (``.uff``, with ``vibroimpact[uff]``) or TDMS file (``.tdms``, with ``vibroimpact[tdms]``),
+        or a NetCDF file of this package.
+    columns
+        Names of the file's columns by variable, such as ``{"displacement_excursion": "Ed"}``,
+        where the names alone do not tell.
+    units
+        Units by variable or by column, such as ``{"displacement_excursion": "mm"}``, instead of
+        those of the file.
+    direction
+        ``"forward"`` or ``"backward"``, of curves that do not tell.
+    group
+        Which of several tests of the file.
+    amplitude
+        Peak base acceleration of the test (m/s², or text such as ``"0.05 g"``), where the file does
+        not say ``amplitude = ...``.
+    frequency
+        Of the base's sine (Hz) in a time history, where the file does not say it.
+
+    Returns
+    -------
+    xarray.Dataset
+        Curves have the dims ``direction`` and ``frequency``, and ``repeat`` where a frequency was
+        held more than once; histories have ``time``. Variables are named as in `sweep` and
+        `simulate`, in SI units. The attribute ``notes`` tells what was guessed and left out, a
+        line each; ``left_out`` names the columns that were not understood.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or a column or unit cannot be told.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise InputError(f"measurement: {str(path)!r} does not exist; a file of a test is accepted")
+    if file.suffix.lower() == ".nc":
+        return _checked(load(file))
+    tables = [t for t in _READERS.get(file.suffix.lower(), text.read)(file) if t.columns]
+    tables = [part for table in tables for part in _runs(table)]
+    table = _chosen(str(path), tables, group)
+    notes: list[str] = []
+    known, left = _known(table, columns or {}, units or {}, notes)
+    variables = {found.variable for found, _ in known.values()}
+    if "frequency" in variables and variables & set(CURVES):
+        data, kind = curves(table, known, direction, notes), "curves"
+    elif "time" in variables:
+        data, kind = history(table, known, notes), "history"
+    else:
+        names = ", ".join(repr(column.name) for column in table.columns)
+        raise InputError(
+            f"measurement: {str(path)!r} has the columns {names}; a frequency with excursions, "
+            "maxima and minima or η, or a time with displacements or accelerations, is accepted, "
+            "or columns={'frequency': NAME, ...}"
+        )
+    if left:
+        notes.append(f"not understood, and left out: {', '.join(left)}")
+    told = {"amplitude": (amplitude, ACCELERATION), "frequency": (frequency, FREQUENCY)}
+    for name, (value, quantity) in told.items():
+        given = table.said.get(name) if value is None else value
+        if given is not None:
+            data.attrs[name] = to_si(given, quantity, name, above=0.0)
+    data.attrs |= {
+        "source": file.name,
+        "kind": kind,
+        "notes": "\n".join(notes),
+        "left_out": "\n".join(left),
+    }
+    return describe(data, CREATED_BY)
+
+
+def is_measured(data: object) -> bool:
+    """Whether a dataset holds measured data."""
+    return isinstance(data, xr.Dataset) and data.attrs.get("kind") in ("curves", "history")
+
+
+def _checked(data: xr.Dataset) -> xr.Dataset:
+    if is_measured(data):
+        return data
+    if {"direction", "frequency"} <= set(data.dims) and set(data) & set(CURVES):
+        kind = "curves"
+    elif "time" in data.dims and set(data) & set(HISTORIES):
+        kind = "history"
+    else:
+        raise InputError(
+            "measurement: the dataset holds neither curves (direction, frequency) nor a history "
+            "(time); one of sweep, simulate or read_measurement is accepted"
+        )
+    return data.assign_attrs(kind=kind, notes="")
+
+
+def as_measured(data: object, where: str = "data") -> xr.Dataset:
+    """Accept a dataset of `read_measurement`, `sweep` or `simulate`, or the path of a file.
+
+    Raises
+    ------
+    InputError
+        If it is none of these.
+    """
+    if isinstance(data, str | Path):
+        return read_measurement(data)
+    if isinstance(data, xr.Dataset):
+        return _checked(data)
+    raise InputError(
+        f"{where}: {type(data).__name__} is no measurement; a dataset of read_measurement, or the "
+        "path of a file, is accepted"
+    )
+
+
+def _runs(table: Columns) -> list[Columns]:
+    """The runs of a table whose columns are called ``Run 1: Time`` and so on, each by itself."""
+    groups: dict[str, list[Column]] = {}
+    for column in table.columns:
+        run, mark, name = column.name.partition(":")
+        groups.setdefault(run.strip() if mark else "", []).append(
+            column._replace(name=name.strip() if mark else column.name)
+        )
+    if len(groups) < 2:
+        return [table]
+    said = dict(table.said)
+    return [
+        table._replace(columns=tuple(group), said={**said, "group": run})
+        for run, group in groups.items()
+    ]
+
+
+def _chosen(path: str, tables: list[Columns], group: str | None) -> Columns:
+    """The test that is asked for."""
+    if not tables:
+        raise InputError(f"measurement: {path!r} holds no columns of numbers; some are accepted")
+    names = [table.said.get("group") or str(i + 1) for i, table in enumerate(tables)]
+    if group is None and len(tables) == 1:
+        return tables[0]
+    if group in names:
+        return tables[names.index(group)]
+    given = f"{group!r} is none of them" if group is not None else "none is chosen"
+    raise InputError(
+        f"group: {path!r} holds {len(tables)} tests, and {given}; "
+        f"{', '.join(map(repr, names))} are accepted"
+    )
+
+
+def _known(
+    table: Columns, columns: Mapping[str, str], units: Mapping[str, str], notes: list[str]
+) -> tuple[dict[int, tuple[Meaning, Array]], list[str]]:
+    """What each column holds, in SI units; and those that are not understood."""
+    names = [column.name for column in table.columns]
+    chosen = {}
+    accepted = [*AXES, "direction", *CURVES, *HISTORIES]
+    for variable, name in columns.items():
+        bare, way = variable, None
+        for end in ("forward", "backward"):
+            if variable.endswith(f"_{end}"):
+                bare, way = variable.removesuffix(f"_{end}"), end
+        if bare not in accepted:
+            raise InputError(f"columns: {variable!r}; one of {', '.join(accepted)} is accepted")
+        if name not in names:
+            raise InputError(
+                f"columns[{variable!r}]: {name!r} is no column of {table.path!r}; one of "
+                f"{', '.join(names)} is accepted"
+            )
+        chosen[names.index(name)] = Meaning(bare, way)  # type: ignore[arg-type]
+    for key in units:
+        if key not in accepted and key not in names:
+            raise InputError(
+                f"units: {key!r} is neither a variable nor a column of {table.path!r}; "
+                f"{', '.join(names)} are accepted"
+            )
+    found: dict[int, tuple[Meaning, Array]] = {}
+    left = []
+    for i, column in enumerate(table.columns):
+        said = chosen.get(i) or meaning(column.name)
+        if said is None or (i not in chosen and _taken(said, chosen, found)):
+            left.append(column.name)
+            continue
+        if said.variable == "direction":
+            found[i] = (said, np.empty(0))
+            continue
+        if column.values.dtype.kind == "U":
+            left.append(column.name)
+            continue
+        unit = units.get(said.variable) or units.get(column.name)
+        values, told = in_si(column, said, unit, table.path)
+        if told:
+            notes.append(told)
+        found[i] = (said, values)
+    return found, left
+
+
+def _taken(
+    said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, tuple[Meaning, Array]]
+) -> bool:
+    """Whether another column holds the same."""
+    others = [*chosen.values(), *(one for one, _ in found.values())]
+    return any((one.variable, one.direction) == (said.variable, said.direction) for one in others)

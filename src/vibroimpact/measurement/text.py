@@ -1,0 +1,159 @@
+"""Tables of text: CSV and its relatives.
+
+Apart by commas, semicolons, tabs or blanks; with decimal commas where no comma parts the columns.
+Lines that begin with ``#`` may say ``amplitude = 0.05 g``. The last line of words before the
+numbers names the columns; a line of units may follow it.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.measurement.columns import Column, Columns
+
+_SAID = re.compile(r"^\s*([A-Za-z][\w ]*?)\s*[=:]\s*(.+?)\s*$")
+_ABSENT = {"", "nan", "na", "n/a", "none", "null", "-", "--", "#n/a", "missing"}
+_UNIT = re.compile(r"[\[(]\s*([^\[\]()]*?)\s*[\])]\s*$")
+_UNIT_LIKE = re.compile(
+    r"^[\[(]?\s*(hz|s|ms|mm|m|cm|µm|um|g|mg|kn|n|%|-|–|1|rad/s|rpm|m/s\S*|mm/s\S*|m s-\d|in|inch)?"
+    r"\s*[\])]?$",
+    re.IGNORECASE,
+)
+
+
+def read(path: Path) -> list[Columns]:
+    """The table of a text file.
+
+    Raises
+    ------
+    InputError
+        If it has no table of numbers, or a row of another width.
+    """
+    lines = _decoded(path).splitlines()
+    said: dict[str, str] = {}
+    kept: list[tuple[int, str]] = []
+    for number, line in enumerate(lines, 1):
+        bare = line.strip()
+        if bare.startswith(("#", "%", "//")):
+            if found := _SAID.match(bare.lstrip("#%/ ")):
+                said[_key(found[1])] = found[2].strip().strip('"')
+        elif bare:
+            kept.append((number, line))
+    if not kept:
+        raise InputError(f"measurement: {str(path)!r} is empty; a table with names is accepted")
+    mark = _delimiter([line for _, line in kept])
+    rows = [(number, _parts(line, mark)) for number, line in kept]
+    decimal = "," if mark != "," else "."
+    first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, decimal)), None)
+    if first is None:
+        raise InputError(f"measurement: {str(path)!r} has no numbers; a table of them is accepted")
+    head = [cells for _, cells in rows[:first]]
+    for cells in head:
+        if len(cells) <= 2 and (found := _SAID.match(" = ".join(c for c in cells if c))):
+            said.setdefault(_key(found[1]), found[2])
+    width = len(rows[first][1])
+    named = [cells for cells in head if len(cells) == width and any(cells)]
+    units: list[str] = []
+    if len(named) > 1 and all(_UNIT_LIKE.match(cell) for cell in named[-1]):
+        units = [cell.strip("[]() ") for cell in named.pop()]
+    if not named:
+        raise InputError(
+            f"measurement: {str(path)!r} does not name its {width} columns; a first line such as "
+            "'frequency (Hz), direction, displacement excursion (mm)' is accepted"
+        )
+    body = rows[first:]
+    for number, cells in body:
+        if len(cells) != width:
+            raise InputError(
+                f"measurement: {str(path)!r}, line {number}: {len(cells)} values where the first "
+                f"row has {width}; as many are accepted"
+            )
+    columns = []
+    for j, name in enumerate(named[-1]):
+        cells = [row[j] for _, row in body]
+        bare, unit = parted(name)
+        columns.append(
+            Column(
+                bare,
+                unit or (units[j] if units else None) or None,
+                _values(str(path), bare, cells, [number for number, _ in body], decimal),
+            )
+        )
+    numbers = np.array([number for number, _ in body])
+    return [Columns(str(path), tuple(columns), said, numbers)]
+
+
+def parted(name: str) -> tuple[str, str | None]:
+    """A name, and the unit in brackets at its end."""
+    name = name.strip().strip('"').strip()
+    found = _UNIT.search(name)
+    if not found:
+        return name, None
+    return name[: found.start()].strip(), found[1]
+
+
+def _key(text: str) -> str:
+    return "_".join(text.lower().split())
+
+
+def _decoded(path: Path) -> str:
+    data = path.read_bytes()
+    for encoding in ("utf-8-sig", "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8"):
+        try:
+            return data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    return data.decode("latin-1")
+
+
+def _delimiter(lines: list[str]) -> str | None:
+    """What parts the columns; None for blanks."""
+    last = lines[-1]
+    for mark in (";", "\t", ","):
+        if mark in last:
+            return mark
+    return None
+
+
+def _parts(line: str, mark: str | None) -> list[str]:
+    if mark is None:
+        return line.split()
+    return [cell.strip() for cell in next(csv.reader([line.strip("\r\n")], delimiter=mark))]
+
+
+def _number(cell: str, decimal: str) -> float | None:
+    if cell.strip().lower() in _ABSENT:
+        return float("nan")
+    try:
+        return float(cell.replace(",", ".") if decimal == "," else cell)
+    except ValueError:
+        return None
+
+
+def _is_data(cells: list[str], decimal: str) -> bool:
+    """Whether a line holds at least as many numbers as words, and one number."""
+    numbers = [_number(cell, decimal) for cell in cells if cell.lower() not in _ABSENT]
+    known = [number for number in numbers if number is not None]
+    return len(known) >= max(1, len(numbers) - 1 - len(known))
+
+
+def _values(
+    path: str, name: str, cells: list[str], lines: list[int], decimal: str
+) -> NDArray[np.float64] | NDArray[np.str_]:
+    found = [_number(cell, decimal) for cell in cells]
+    words = [i for i, number in enumerate(found) if number is None]
+    if not words:
+        return np.array(found, dtype=float)
+    if len(words) >= 0.5 * len(cells):
+        return np.array(cells)
+    i = words[0]
+    raise InputError(
+        f"measurement: {path!r}, line {lines[i]}, column {name!r}: {cells[i]!r} is no number; a "
+        "number, or nothing where it is missing, is accepted"
+    )

@@ -1,0 +1,99 @@
+"""Figures, features and spectra take measured data."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+from vibroimpact import figures
+from vibroimpact.measurement.features import in_words, measured_features, noise_of
+from vibroimpact.measurement.read import as_measured
+
+FREQUENCIES = np.round(np.arange(0.5, 5.01, 0.1), 10)
+
+
+@pytest.fixture(scope="module")
+def computed():
+    return vi.sweep(vi.laboratory.case("B2-G1-A3", "identified"), FREQUENCIES)
+
+
+@pytest.fixture(scope="module")
+def curves(computed):
+    """2 % of noise on both excursions."""
+    draw = np.random.default_rng(3)
+    names = ["displacement_excursion", "acceleration_excursion"]
+    noisy = xr.Dataset({n: computed[n] * (1.0 + 0.02 * draw.normal(size=(2, 46))) for n in names})
+    return as_measured(noisy)
+
+
+@pytest.fixture(scope="module")
+def history():
+    rig = vi.laboratory.case("B2-G1-A3", "identified")
+    motion = vi.simulate(rig, "2 Hz", 40, samples=64)
+    time = np.arange(15.0, 19.97, 0.004)
+    names = ("displacement", "acceleration", "base_acceleration")
+    known = {n: ("time", np.interp(time, motion.time, motion[n])) for n in names}
+    return as_measured(xr.Dataset(known, {"time": time})), motion
+
+
+def test_features_are_told_with_the_step(curves):
+    assert noise_of(curves) == pytest.approx(0.02, rel=0.4)
+    jumps = measured_features(curves).jumps
+    assert [(j.direction, j.before, j.after) for j in jumps] == [
+        ("forward", 2.6, 2.7),
+        ("backward", 1.8, 1.7),
+    ]
+    words = "\n".join(in_words(curves))
+    assert "in steps of 0.1 Hz" in words
+    assert "forward: jump down between 2.6 and 2.7 Hz" in words
+    assert "hysteresis, forward above: 1.8 to 2.6 Hz" in words
+
+
+def test_curves_alone_and_over_computed_ones(curves, computed):
+    upper, lower = figures.resonance_curves(curves)
+    assert upper.get_ylabel().endswith("$E_a$ (g)")
+    drawn = next(line for line in lower.lines if line.get_label() == "forward sweep, measured")
+    values = drawn.get_ydata()
+    expected = 1e3 * curves.displacement_excursion.sel(direction="forward").values
+    assert values[np.isfinite(values)] == pytest.approx(expected)
+    for physical in (False, True):
+        panels = figures.resonance_curves(computed, measured=curves, physical=physical)
+        labels = [line.get_label() for line in panels[0].lines]
+        assert "measured, forward sweep" in labels
+    points = figures.resonance_curves(computed, measured=curves)[1].lines[-1]
+    ratio = curves.displacement_excursion.sel(direction="backward") / float(
+        computed.largest_free_displacement_excursion
+    )
+    assert points.get_ydata() == pytest.approx(ratio.values)
+
+
+def test_histories_and_portraits_lie_over_computed_ones(history):
+    data, motion = history
+    panels = figures.time_history({"measured": data, "model": motion}, cycles=3)
+    curves = [line for line in panels[0].lines if len(line.get_xdata()) > 20]
+    at, u = curves[0].get_data()
+    x, y = curves[1].get_data()
+    assert np.interp(at, x, y) == pytest.approx(u, abs=0.15)
+    assert at[0] == pytest.approx(x[0], abs=0.02)
+    ax = figures.phase_portrait({"measured": data, "model": motion})
+    assert len(ax.lines) >= 2
+
+
+def test_the_velocity_is_the_slope_of_the_displacement(history):
+    data, motion = history
+    ax = figures.phase_portrait(data)
+    fastest = np.max(np.abs(ax.lines[0].get_ydata()))
+    assert fastest == pytest.approx(float(abs(motion.velocity[-640:]).max()), rel=0.03)
+
+
+def test_the_spectrum_of_a_history(history):
+    data, motion = history
+    lines = vi.spectrum(data, 5)
+    exact = vi.spectrum(vi.steady(vi.laboratory.case("B2-G1-A3", "identified"), "2 Hz",
+                                  start=motion), 5)  # fmt: skip
+    for order in (1, 3):
+        found = float(lines.displacement_amplitude.sel(order=order, method="nearest"))
+        assert found == pytest.approx(
+            float(exact.displacement_amplitude.sel(order=order)), rel=0.01
+        )
+    assert "velocity_amplitude" not in lines

@@ -1,0 +1,207 @@
+"""Files of tests become datasets; what is guessed is told, and nothing is lost."""
+
+import sys
+
+import h5py
+import numpy as np
+import pytest
+import scipy.io
+
+import vibroimpact as vi
+from measured import measured
+from vibroimpact.measurement.names import meaning
+
+
+def written(folder, text, name="test.csv"):
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("name", "variable", "direction", "unit"),
+    [
+        ("f (Hz)", "frequency", None, "hz"),
+        ("Ed", "displacement_excursion", None, None),
+        ("E_d forward", "displacement_excursion", "forward", None),
+        ("Ed_up_mm", "displacement_excursion", "forward", "mm"),
+        ("ea_g", "acceleration_excursion", None, "g"),
+        ("Ea (f)", "acceleration_excursion", "forward", None),
+        ("umin_mm", "displacement_min", None, "mm"),
+        ("η_d backward", "eta_d", "backward", None),
+        ("Table acceleration", "base_acceleration", None, None),
+        ("mass displacement", "mass_displacement", None, None),
+        ("peak-to-peak displacement", "displacement_excursion", None, None),
+        ("Time", "time", None, None),
+    ],
+)
+def test_what_a_name_says(name, variable, direction, unit):
+    found = meaning(name)
+    assert (found.variable, found.direction, found.unit) == (variable, direction, unit)
+
+
+def test_a_name_that_says_nothing():
+    assert meaning("Temperature") is None
+
+
+def test_units_repeats_gaps_and_rows_without_a_frequency_are_told(tmp_path):
+    path = written(
+        tmp_path,
+        "Test 3\nfreq,Ed,Ea,dir,remark\nHz,mm,g,,\n3,5,.2,up,1\n1,10,0.1,up,1\n2,20,nan,up,1\n"
+        "2,8,.3,down,1\n2,8.1,.3,down,1\n,3,2,up,1\n",
+    )
+    data = vi.read_measurement(path)
+    assert data.displacement_excursion.dims == ("direction", "frequency", "repeat")
+    assert data.displacement_excursion.sel(direction="forward")[:, 0].values == pytest.approx(
+        [0.010, 0.020, 0.005]
+    )
+    assert data.displacement_excursion.sel(direction="backward", frequency=2).values == (
+        pytest.approx([0.008, 0.0081])
+    )
+    assert data.acceleration_excursion.sel(direction="forward").values[0, 0] == pytest.approx(
+        0.980665
+    )
+    notes = data.attrs["notes"].splitlines()
+    assert "1 rows without a frequency are left out (line 9)" in notes
+    assert "1 values are missing" in notes
+    assert any("held up to 2 times" in note for note in notes)
+    assert data.attrs["left_out"] == "remark"
+
+
+def test_decimal_commas_and_an_amplitude_beside_the_numbers(tmp_path):
+    path = written(tmp_path, "# amplitude = 0.05 g\nf (Hz);Ed up [mm];Ed down [mm]\n1,5;2,5;3\n")
+    data = vi.read_measurement(path)
+    assert data.attrs["amplitude"] == 0.05 * 9.80665
+    assert data.displacement_excursion.values.ravel() == pytest.approx([0.0025, 0.003])
+
+
+@pytest.mark.parametrize(
+    ("rows", "directions", "told"),
+    [
+        ("1,10\n2,20\n3,5\n", ["forward"], "taken as forward"),
+        ("3,5\n2,20\n1,10\n", ["backward"], "taken as backward"),
+        ("1,10\n2,20\n3,5\n2,3\n1,2\n", ["forward", "backward"], "from line 5 on"),
+        ("1,10\n", ["forward"], "one frequency alone"),
+    ],
+)
+def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
+    data = vi.read_measurement(written(tmp_path, "f (Hz),Ed\n" + rows))
+    assert data.direction.values.tolist() == directions
+    assert told in data.attrs["notes"]
+    assert "millimetres" in data.attrs["notes"]
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("f,Ed\n1,2\n3,4\n2,3\n5,6\n", "direction='forward'"),
+        ("f,Ed\n1,2\n2,x\n3,4\n4,5\n", "line 3, column 'Ed': 'x' is no number"),
+        ("a,b\n1,2\n", "has the columns 'a', 'b'"),
+        ("", "is empty"),
+        ("1,2\n2,3\n", "does not name its 2 columns"),
+        ("f,Ed (kg)\n1,2\n", "is a mass"),
+        ("f,Ed,dir\n1,2,sideways\n", "the direction 'sideways'"),
+        ("f,Ed\n1,2\n2,3,4\n", "line 3: 3 values"),
+        ("f,Ed\n1,nan\n", "no value at any frequency"),
+        ("time,u\n1,2\n1,3\n", "stands there twice"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_with_its_place(tmp_path, text, told):
+    with pytest.raises(vi.InputError) as error:
+        vi.read_measurement(written(tmp_path, text))
+    assert told in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_columns_and_units_that_are_said(tmp_path):
+    path = written(tmp_path, "one,two,three\n1,5,2\n2,6,3\n")
+    data = vi.read_measurement(
+        path,
+        columns={"frequency": "one", "displacement_excursion_backward": "two"},
+        units={"two": "cm"},
+        amplitude="0.03 g",
+    )
+    assert data.displacement_excursion.sel(direction="backward").values.tolist() == [0.05, 0.06]
+    assert data.attrs["amplitude"] == pytest.approx(0.03 * 9.80665)
+    with pytest.raises(vi.InputError, match="is no column"):
+        vi.read_measurement(path, columns={"frequency": "four"})
+
+
+def channels():
+    time = np.linspace(0.0, 1.0, 11)
+    return time, 0.01 * time, 2.0 * time
+
+
+def test_matlab(tmp_path):
+    time, u, base = channels()
+    record = {"time": time, "u": u, "ag": base, "amplitude": "0.05 g"}
+    scipy.io.savemat(tmp_path / "a.mat", {"test1": record})
+    data = vi.read_measurement(tmp_path / "a.mat")
+    assert data.displacement.values == pytest.approx(u)
+    assert data.base_acceleration.values == pytest.approx(base)
+    assert data.attrs["amplitude"] == pytest.approx(0.4903325)
+
+
+def test_hdf5_with_units_and_absolute_displacements(tmp_path):
+    time, u, base = channels()
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["time"], file["table_acc"] = time, base
+        file["table_acc"].attrs["units"] = "g"
+        file["mass displacement"], file["base displacement"] = 3.0 * u, u
+    data = vi.read_measurement(tmp_path / "a.h5")
+    assert data.displacement.values == pytest.approx(2.0 * u)
+    assert data.base_acceleration.values == pytest.approx(9.80665 * base)
+
+
+def test_universal_file(tmp_path):
+    pyuff = pytest.importorskip("pyuff")
+    time, u, base = channels()
+    file = pyuff.UFF(str(tmp_path / "a.uff"))
+    for name, values, unit in (("displacement", u, "m"), ("table acc", base, "m/s^2")):
+        one = pyuff.prepare_58(
+            binary=0, func_type=1, rsp_node=1, rsp_dir=3, ref_dir=3, ref_node=0, data=values,
+            x=time, id1=name, rsp_ent_name="rsp", ref_ent_name="ref", abscissa_spacing=1,
+            abscissa_spec_data_type=17, ordinate_spec_data_type=8, orddenom_spec_data_type=0,
+            ordinate_axis_units_lab=unit,
+        )  # fmt: skip
+        file.write_sets(one, "add")
+    data = vi.read_measurement(tmp_path / "a.uff")
+    assert data.displacement.values == pytest.approx(u)
+    assert data.base_acceleration.values == pytest.approx(base)
+
+
+def test_tdms(tmp_path):
+    nptdms = pytest.importorskip("nptdms")
+    time, u, base = channels()
+    timed = {"wf_increment": 0.1, "wf_start_offset": 0.0, "wf_samples": len(time)}
+    some = [
+        nptdms.ChannelObject("run", "displacement", u, {**timed, "unit_string": "m"}),
+        nptdms.ChannelObject("run", "base acceleration", base, {**timed, "unit_string": "g"}),
+    ]
+    with nptdms.TdmsWriter(str(tmp_path / "a.tdms")) as writer:
+        writer.write_segment(some)
+    data = vi.read_measurement(tmp_path / "a.tdms")
+    assert data.time.values == pytest.approx(time)
+    assert data.displacement.values == pytest.approx(u)
+    assert data.base_acceleration.values == pytest.approx(9.80665 * base)
+
+
+def test_a_library_that_is_absent_is_named(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "nptdms", None)
+    with pytest.raises(vi.InputError, match=r"vibroimpact\[tdms\]"):
+        vi.read_measurement(written(tmp_path, "TDSm", "a.tdms"))
+
+
+@pytest.mark.parametrize("ending", ["mat", "h5", "tdms", "uff"])
+def test_a_damaged_file_is_refused(tmp_path, ending):
+    with pytest.raises(vi.InputError, match=r"damaged|holds no columns"):
+        vi.read_measurement(written(tmp_path, "no such file", f"a.{ending}"))
+
+
+def test_runs_of_one_file():
+    path = measured("pad_impacts/pad_40mm.csv")
+    with pytest.raises(vi.InputError, match="'Run 1', 'Run 2'"):
+        vi.read_measurement(path)
+    data = vi.read_measurement(path, group="Run 2")
+    assert data.contact_force.notnull().all()
+    assert "displacement is missing at 375 of 500 times" in data.attrs["notes"]
