@@ -1,51 +1,70 @@
-"""Tasks on threads: all run, progress counts up, and Ctrl-C stops them."""
+"""Tasks on threads: each item once, in order, progress counts up, and Ctrl-C stops them."""
 
 from __future__ import annotations
 
 import threading
 
-import numpy as np
 import pytest
 
-from vibroimpact.response.threads import available, run
+from vibroimpact.response.threads import available, each
 
 
 @pytest.mark.parametrize("threads", [1, 3, None])
-def test_each_task_runs_once(threads):
-    counter, done, told = np.zeros((20, 2), dtype=np.int64), [], []
-
-    def task(number: int) -> None:
-        done.append(number)
-        counter[number, 0] = 1
-
-    run(task, counter, 20, threads, lambda *at: told.append(at))
-    assert sorted(done) == list(range(20))
+def test_each_item_once_and_in_order(threads):
+    told = []
+    found = each(
+        lambda item, _: item**2,
+        range(20),
+        threads=threads,
+        progress=lambda *at: told.append(at),
+    )
+    assert found == [i**2 for i in range(20)]
     assert told == sorted(told)
     assert told[-1] == (20, 20)
     assert available() >= 1
+    assert each(lambda item, _: item, []) == []
+
+
+def test_tasks_count_steps_of_their_own():
+    told = []
+
+    def task(item, tally):
+        tally[0] += item
+
+    each(task, [1, 2, 3], steps=6, progress=lambda *at: told.append(at))
+    assert told[-1] == (6, 6)
 
 
 def test_a_stop_reaches_the_tasks_that_run():
-    counter = np.zeros((4, 2), dtype=np.int64)
-    begun = threading.Event()
+    begun, seen = threading.Event(), []
 
-    def task(number: int) -> None:
+    def task(item, tally):
         begun.set()
-        while not counter[number, 1]:
+        while not tally[1]:
             threading.Event().wait(0.01)
+        seen.append(item)
 
     def stop(done: int, total: int) -> None:
         begun.wait()
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run(task, counter, 4, 2, stop)
-    assert counter[:, 1].all()
+        each(task, range(4), threads=2, progress=stop)
+    assert seen
+    assert len(seen) <= 2  # the others never began
 
 
-def test_a_task_that_fails_is_told():
-    def task(number: int) -> None:
-        raise ValueError(number)
+@pytest.mark.parametrize("progress", [None, lambda done, total: None])
+def test_a_task_that_fails_is_told_and_ends_the_others(progress):
+    ended = []
 
-    with pytest.raises(ValueError, match="0"):
-        run(task, np.zeros((1, 2), dtype=np.int64), 1, 1, None)
+    def task(item, tally):
+        if item == 0:
+            raise ValueError("the first")
+        while not tally[1]:
+            threading.Event().wait(0.01)
+        ended.append(item)
+
+    with pytest.raises(ValueError, match="the first"):
+        each(task, [1, 0], threads=2, progress=progress)
+    assert ended == [1]

@@ -15,7 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Record
 from vibroimpact.model.units import shown
 from vibroimpact.response.accelerogram import record_parameters
-from vibroimpact.response.threads import Progress, available, run
+from vibroimpact.response.threads import Progress, Tally, available, each
 from vibroimpact.response.variables import describe
 
 DIRECTIONS = 180
@@ -106,11 +106,10 @@ def _found(
     # Periods are dealt out in turn: short ones take longer.
     parts = max(1, available() // len(records))
     tasks = [(n, slice(part, None, parts)) for n in range(len(records)) for part in range(parts)]
-    counter = np.zeros((len(tasks), 2), dtype=np.int64)
     spectra.respond.prepare()
 
-    def task(number: int) -> None:
-        n, some = tasks[number]
+    def task(part: tuple[int, slice], tally: Tally) -> _Array:
+        n, some = part
         mine = np.empty((omega[some].size, spectra.FOUND))
         one = records[n]
         spectra.respond(
@@ -118,12 +117,14 @@ def _found(
             one.step,
             np.ascontiguousarray(omega[some]),
             np.ascontiguousarray(zeta[some]),
-            counter[number],
+            tally,
             mine,
         )
-        out[n, some] = mine
+        return mine
 
-    run(task, counter, len(records) * omega.size, None, progress)
+    done = each(task, tasks, steps=len(records) * omega.size, progress=progress)
+    for (n, some), mine in zip(tasks, done, strict=True):
+        out[n, some] = mine
     return np.moveaxis(out, 2, 1)
 
 

@@ -38,7 +38,7 @@ from vibroimpact.response.held import held
 from vibroimpact.response.own_flight import swept_flight
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import as_state, engine_rig, engine_state
-from vibroimpact.response.threads import Progress, run
+from vibroimpact.response.threads import Progress, Tally, each
 from vibroimpact.response.variables import (
     COMPONENTS,
     describe,
@@ -205,15 +205,10 @@ def sweeps(
             )
         )
 
-    shape = (len(pairs), len(directions), len(grid))
-    results = np.empty((*shape, hold.RESULTS))
-    states = np.zeros((*shape, layout.STATE))
-    counter = np.zeros((len(pairs) * len(directions), 2), dtype=np.int64)
-
-    def one(task: int) -> None:
-        r, d = divmod(task, len(directions))
+    def one(item: tuple[int, str], tally: Tally) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        r, direction = item
         rig, levels, begin = prepared[r]
-        order = slice(None, None, 1 if directions[d] == "forward" else -1)
+        order = slice(None, None, 1 if direction == "forward" else -1)
         found = np.empty((len(grid), hold.RESULTS))
         reached = np.zeros((len(grid), layout.STATE))
         batch.sweep(
@@ -228,15 +223,18 @@ def sweeps(
             max_events,
             found,
             reached,
-            counter[task],
+            tally,
         )
-        results[r, d] = found[order]
-        states[r, d] = reached[order]
+        return found[order], reached[order]
 
     batch.sweep.prepare(
         *(rig for rig, _, _ in prepared)
     )  # once, before the threads would queue for it
-    run(one, counter, len(grid) * len(counter), threads, progress)
+    items = [(r, direction) for r in range(len(pairs)) for direction in directions]
+    done = each(one, items, steps=len(grid) * len(items), threads=threads, progress=progress)
+    shape = (len(pairs), len(directions), len(grid))
+    results = np.array([found for found, _ in done]).reshape(*shape, hold.RESULTS)
+    states = np.array([reached for _, reached in done]).reshape(*shape, layout.STATE)
     for r, (oscillator, _, _) in enumerate(pairs):
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
         ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)

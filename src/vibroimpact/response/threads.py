@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor, wait
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+_Item = TypeVar("_Item")
+_Found = TypeVar("_Found")
+
+Tally: TypeAlias = NDArray[np.int64]
+"""Two numbers of a task: [0] is what it has done so far, [1] becomes nonzero where it is to stop."""
 
 Progress = Callable[[int, int | None], None]
 """Called now and then with how much is done and how much there is to do, None if nobody knows."""
@@ -29,41 +36,70 @@ def available() -> int:
     return os.cpu_count() or 1
 
 
-def run(
-    task: Callable[[int], None],
-    counter: NDArray[np.int64],
-    total: int,
-    threads: int | None,
-    progress: Progress | None,
-) -> None:
-    """Run tasks 0, 1, … on threads; nothing that they compute may depend on their order.
+def each(
+    task: Callable[[_Item, Tally], _Found],
+    items: Sequence[_Item],
+    *,
+    steps: int | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> list[_Found]:
+    """Do a task for each item, many at once; all stop when one fails, or on Ctrl-C.
+
+    All that is computed for many rigs, records or values goes through here. A task is a function
+    of its item alone: it writes nowhere but to its tally, and returns what it has found.
 
     Parameters
     ----------
     task
-        Called with the number of each task; it frees the interpreter lock while it computes.
-    counter
-        A row a task: [0] is raised by the task as it goes on, [1] becomes nonzero where it is
-        to stop early.
-    total
-        What the sum of [0] will be.
+        Called with an item and the tally of its own; it frees the interpreter lock while it
+        computes.
+    items
+        What it is done for.
+    steps
+        What the tallies add up to, where tasks count steps of their own; None where an item is
+        one step, which is counted here.
     threads
-        How many run at once; None for one a processor.
+        How many run at once; None for one a processor. No result depends on it.
     progress
         Called from the calling thread.
+
+    Returns
+    -------
+    list
+        What was found, in the order of the items.
     """
-    with ThreadPoolExecutor(min(threads or available(), len(counter))) as pool:
-        futures = [pool.submit(task, number) for number in range(len(counter))]
+    if not items:
+        return []
+    tallies = np.zeros((len(items), 2), dtype=np.int64)
+    total = len(items) if steps is None else steps
+
+    def one(number: int) -> _Found:
+        tally = tallies[number]
+        if tally[1]:
+            raise Stopped
+        found = task(items[number], tally)
+        if steps is None:
+            tally[0] = 1
+        return found
+
+    with ThreadPoolExecutor(min(threads or available(), len(items))) as pool:
+        futures = [pool.submit(one, number) for number in range(len(items))]
         try:
             pending = set(futures)
             while pending:
-                pending = wait(pending, timeout=0.05 if progress else None).not_done
+                done, pending = wait(pending, 0.05 if progress else None, FIRST_EXCEPTION)
+                for future in done:
+                    future.result()  # raises what went wrong
                 if progress:
-                    progress(int(counter[:, 0].sum()), total)
+                    progress(int(tallies[:, 0].sum()), total)
         except BaseException:
-            counter[:, 1] = 1
+            tallies[:, 1] = 1
             for future in futures:
                 future.cancel()
             raise
-        for future in futures:
-            future.result()
+    return [future.result() for future in futures]
+
+
+class Stopped(Exception):  # noqa: N818 - nothing went wrong
+    """Raised in a task whose result is not wanted any more."""

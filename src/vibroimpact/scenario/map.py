@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,7 +14,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import from_dimensionless
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.rigs import AnyRig, as_rig
-from vibroimpact.response.threads import Progress, available
+from vibroimpact.response.threads import Progress, Stopped, Tally, available, each
 from vibroimpact.response.variables import excitation_parameters, oscillator_parameters
 from vibroimpact.scenario.axes import Axis, Base, Shaken, axis, check_pair, one_sine
 from vibroimpact.scenario.cell import classified
@@ -208,38 +206,22 @@ def _parallel(
     before: int,
     total: int,
 ) -> dict[str, NDArray[Any]]:
-    """Compute some rigs, a few at a time on each thread; all stop when one fails, or on Ctrl-C."""
+    """Compute some rigs, a few at a time on each thread."""
     few = max(1, min(_FEW, len(rigs) // (4 * workers)))
     parts = [rigs[i : i + few] for i in range(0, len(rigs), few)]
-    stopped = threading.Event()
 
-    def check(_done: int, _total: int | None) -> None:
-        if stopped.is_set():
-            raise _Stopped
+    def task(part: list[Shaken], tally: Tally) -> dict[str, NDArray[Any]]:
+        def check(_done: int, _total: int | None) -> None:
+            if tally[1]:
+                raise Stopped
 
-    with ThreadPoolExecutor(workers) as pool:
-        futures = [pool.submit(compute, part, check) for part in parts]
-        try:
-            pending = set(futures)
-            while pending:
-                pending = wait(pending, timeout=0.2, return_when=FIRST_EXCEPTION).not_done
-                failed = [f for f in futures if f.done() and not f.cancelled() and f.exception()]
-                if failed:
-                    break
-                if progress:
-                    ready = sum(len(p) for p, f in zip(parts, futures, strict=True) if f.done())
-                    progress(before + ready, total)
-            results = [future.result() for future in futures]
-        except BaseException:
-            stopped.set()
-            for future in futures:
-                future.cancel()
-            raise
+        found = compute(part, check)
+        tally[0] = len(part)
+        return found
+
+    told = progress and (lambda done, _: progress(before + done, total))
+    results = each(task, parts, steps=len(rigs), threads=workers, progress=told)
     return {name: np.concatenate([r[name] for r in results]) for name in results[0]}
-
-
-class _Stopped(Exception):  # noqa: N818 - nothing went wrong
-    """Raised in a thread whose result is not wanted any more."""
 
 
 def _refinement(given: object) -> int:

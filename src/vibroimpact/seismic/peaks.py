@@ -16,7 +16,7 @@ from vibroimpact.engine import earthquakes as found
 from vibroimpact.model import Oscillator, Record, equilibrium
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import Progress, available, run
+from vibroimpact.response.threads import Progress, Tally, available, each
 from vibroimpact.seismic.free import BLOCKS, SMALL, block, free_tail, settles
 
 _Array = NDArray[np.float64]
@@ -94,15 +94,14 @@ def peaks(
     rows = np.full((len(shaken), count, found.FOUND), np.nan)
     workers = threads or available()
     # Few rigs with many scales are dealt out, too.
-    each = max(1, min(_AT_ONCE, -(-count * len(shaken) // (4 * workers))))
-    parts = [(n, slice(i, i + each)) for n in range(len(shaken)) for i in range(0, count, each)]
-    counter = np.zeros((len(parts), 2), dtype=np.int64)
+    few = max(1, min(_AT_ONCE, -(-count * len(shaken) // (4 * workers))))
+    parts = [(n, slice(i, i + few)) for n in range(len(shaken)) for i in range(0, count, few)]
     vectors = [engine_rig(one.oscillator, one.record) for one in shaken]
     starts = [engine_state(one.oscillator, equilibrium(one.oscillator)) for one in shaken]
     found.respond.prepare(*vectors)
 
-    def task(number: int) -> None:
-        n, some = parts[number]
+    def task(part: tuple[int, slice], tally: Tally) -> _Array:
+        n, some = part
         rig, record, factors = shaken[n]
         chosen = np.ascontiguousarray(factors[some])
         mine = np.empty((len(chosen), found.FOUND))
@@ -119,13 +118,14 @@ def peaks(
             block(rig, record),
             BLOCKS if rests else 0,
             SMALL,
-            counter[number],
+            tally,
             mine,
         )
-        rows[n, some] = mine
+        return mine
 
-    if parts:
-        run(task, counter, len(shaken) * count, threads, progress)
+    done = each(task, parts, steps=len(shaken) * count, threads=threads, progress=progress)
+    for (n, some), mine in zip(parts, done, strict=True):
+        rows[n, some] = mine
     return _named(shaken, rows, energies, residuals)
 
 

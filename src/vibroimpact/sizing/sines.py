@@ -15,7 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, equilibrium
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import Progress, run
+from vibroimpact.response.threads import Progress, each
 from vibroimpact.scenario.frequencies import LOW, cycles, highest
 
 _Array = NDArray[np.float64]
@@ -90,18 +90,13 @@ class Sines(NamedTuple):
         """The worst that each rig does."""
         vectors = [engine_rig(rig, self.shaken) for rig in rigs]
         starts = [engine_state(rig, equilibrium(rig)) for rig in rigs]
-        found: list[Worst | None] = [None] * len(rigs)
-        counter = np.zeros((len(rigs), 2), dtype=np.int64)
         batch.sweep.prepare(*vectors)
-
-        def task(number: int) -> None:
-            if not counter[number, 1]:
-                found[number] = _Search(self, rigs[number], vectors[number], starts[number]).worst()
-            counter[number, 0] = 1
-
-        if rigs:
-            run(task, counter, len(rigs), threads, progress)
-        return [one for one in found if one is not None]
+        return each(
+            lambda one, _: _Search(self, *one).worst(),
+            list(zip(rigs, vectors, starts, strict=True)),
+            threads=threads,
+            progress=progress,
+        )
 
 
 class _Search:

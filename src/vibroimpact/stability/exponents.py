@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
+from vibroimpact.engine.status import Status
 from vibroimpact.model import State, equilibrium, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.quantities import ANGLE
@@ -17,12 +20,22 @@ from vibroimpact.response.follow import grown
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, engine_rig, engine_state
 from vibroimpact.response.sweep import check_frequencies, named_rigs
-from vibroimpact.response.threads import Progress, run
+from vibroimpact.response.threads import Progress, Tally, each
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.stability.kind import averages
 
 DISCARD = 100
 """Cycles in which the disturbances turn into their directions."""
+
+
+class _Grown(NamedTuple):
+    """What one motion shows, per second."""
+
+    exponents: NDArray[np.float64]
+    uncertainty: NDArray[np.float64]
+    damping: float
+    cycles: int
+    status: Status
 
 
 def lyapunov_exponents(
@@ -99,40 +112,35 @@ def lyapunov_exponents(
             )
         )
 
-    shape = (len(pairs), len(grid))
-    exponents = np.full((*shape, 2), np.nan)
-    uncertainty = np.full((*shape, 2), np.nan)
-    damping = np.full(shape, np.nan)
-    used = np.zeros(shape, dtype=np.int64)
-    outcomes = np.zeros(shape, dtype=np.int64)
-    counter = np.zeros((len(pairs) * len(grid), 2), dtype=np.int64)
-
-    def one(task: int) -> None:
-        r, i = divmod(task, len(grid))
+    def one(item: tuple[int, float], _: Tally) -> _Grown:
+        r, frequency = item
         rig, shaken, begin = prepared[r]
-        if counter[task, 1]:
-            return
-        here = shaken.replace(frequency=float(grid[i]), phase=angle)
-        outcomes[r, i], rows = grown(
+        here = shaken.replace(frequency=frequency, phase=angle)
+        status, rows = grown(
             rig, here, begin.copy(), cycles, max_events, transient=transient, discard=DISCARD
         )
-        used[r, i] = len(rows)
-        if len(rows):
-            mean, spread = averages(rows[:, : lyapunov.DISSIPATION])
-            exponents[r, i], uncertainty[r, i] = mean * grid[i], spread * grid[i]
-            damping[r, i] = rows[:, lyapunov.DISSIPATION].mean() * grid[i]
-        counter[task, 0] = 1
+        if not len(rows):
+            nothing = np.full(2, np.nan)
+            return _Grown(nothing, nothing, math.nan, 0, status)
+        mean, spread = averages(rows[:, : lyapunov.DISSIPATION])
+        lost = float(rows[:, lyapunov.DISSIPATION].mean())
+        return _Grown(mean * frequency, spread * frequency, lost * frequency, len(rows), status)
 
     lyapunov.growth.prepare(*(rig for rig, _, _ in prepared))  # once, before threads would queue
-    run(one, counter, len(counter), threads, progress)
+    items = [(r, float(frequency)) for r in range(len(pairs)) for frequency in grid]
+    found = each(one, items, threads=threads, progress=progress)
     dims = ("rig", "frequency")
+    shape = (len(pairs), len(grid))
     data = xr.Dataset(
         {
-            "exponents": ((*dims, "exponent"), exponents),
-            "exponents_uncertainty": ((*dims, "exponent"), uncertainty),
-            "effective_damping": (dims, damping),
-            "exponents_cycles": (dims, used),
-            "status": (dims, outcomes),
+            "exponents": ((*dims, "exponent"), np.reshape([f.exponents for f in found], (*shape, 2))),
+            "exponents_uncertainty": (
+                (*dims, "exponent"),
+                np.reshape([f.uncertainty for f in found], (*shape, 2)),
+            ),
+            "effective_damping": (dims, np.reshape([f.damping for f in found], shape)),
+            "exponents_cycles": (dims, np.reshape([f.cycles for f in found], shape)),
+            "status": (dims, np.reshape([int(f.status) for f in found], shape)),
         },
         coords={"rig": names, "frequency": grid},
     )
