@@ -38,6 +38,7 @@ _HOME = {
     "State": "model",
     "Thresholds": "scenario.thresholds",
     "bifurcation_curve": "stability.curves",
+    "bifurcation_diagram": "stability.bifurcation_diagram",
     "branch": "stability.branch",
     "classify": "scenario.classify",
     "coexisting": "stability.coexisting",
@@ -96,6 +97,7 @@ __all__ = [
     "Thresholds",
     "__version__",
     "bifurcation_curve",
+    "bifurcation_diagram",
     "branch",
     "classify",
     "coexisting",
@@ -178,6 +180,7 @@ if TYPE_CHECKING:
     from vibroimpact.sizing.best import least_acceleration
     from vibroimpact.sizing.chart import design
     from vibroimpact.sizing.gap import required_gap
+    from vibroimpact.stability.bifurcation_diagram import bifurcation_diagram
     from vibroimpact.stability.branch import branch
     from vibroimpact.stability.coexisting import coexisting
     from vibroimpact.stability.curves import bifurcation_curve

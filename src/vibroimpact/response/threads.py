@@ -15,7 +15,7 @@ _Item = TypeVar("_Item")
 _Found = TypeVar("_Found")
 
 Tally: TypeAlias = NDArray[np.int64]
-"""Two numbers of a task: [0] is what it has done so far, [1] becomes nonzero where it is to stop."""
+"""Of a task: [0] is what it has done so far, [1] becomes nonzero where it is to stop."""
 
 Progress = Callable[[int, int | None], None]
 """Called now and then with how much is done and how much there is to do, None if nobody knows."""

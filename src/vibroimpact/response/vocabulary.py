@@ -26,6 +26,9 @@ VARIABLES: dict[str, Variable] = {
     "rig": Variable("1", "rig"),
     "time": Variable("s", "time"),
     "cycle": Variable("1", "time in forcing cycles"),
+    "start": Variable(
+        "1", "where motions begin", "up and down: where that of the value before has ended"
+    ),
     "component": Variable("1", "component of the state"),
     # sweep
     "displacement_excursion": Variable(

@@ -131,13 +131,16 @@ def lyapunov_exponents(
     found = each(one, items, threads=threads, progress=progress)
     dims = ("rig", "frequency")
     shape = (len(pairs), len(grid))
+    rates = {
+        "exponents": [f.exponents for f in found],
+        "exponents_uncertainty": [f.uncertainty for f in found],
+    }
     data = xr.Dataset(
         {
-            "exponents": ((*dims, "exponent"), np.reshape([f.exponents for f in found], (*shape, 2))),
-            "exponents_uncertainty": (
-                (*dims, "exponent"),
-                np.reshape([f.uncertainty for f in found], (*shape, 2)),
-            ),
+            **{
+                name: ((*dims, "exponent"), np.reshape(values, (*shape, 2)))
+                for name, values in rates.items()
+            },
             "effective_damping": (dims, np.reshape([f.damping for f in found], shape)),
             "exponents_cycles": (dims, np.reshape([f.cycles for f in found], shape)),
             "status": (dims, np.reshape([int(f.status) for f in found], shape)),

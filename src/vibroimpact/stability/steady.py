@@ -122,7 +122,7 @@ def describe_motion(
         found = found._replace(state=state, period=kind.period, cycles=used)
         if status is not Status.DONE:
             return _given_up(found._replace(status=status), samples, max_events)
-        if kind.returns and (orbit := _approached(found, kind.returns)) is not None:
+        if kind.returns and (orbit := approached(found, kind.returns)) is not None:
             found = orbit._replace(cycles=used)
             slowly = "; it settles slowly, and was found by Newton's method"
     if found.period:
@@ -152,7 +152,7 @@ def describe_motion(
     return _measured(data, found, scalars)
 
 
-def _approached(found: Settled, period: int) -> Settled | None:
+def approached(found: Settled, period: int) -> Settled | None:
     """The stable orbit that a motion settles on slowly, by Newton's method."""
     along = family(found.oscillator, found.excitation, "frequency")
     here = state_from(found.state, found.excitation.phase)

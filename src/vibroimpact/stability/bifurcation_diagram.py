@@ -1,0 +1,299 @@
+"""The bifurcation diagram by brute force: where motions settle, over any parameter."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import batch, hold, lyapunov
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model.access import Setting
+from vibroimpact.model.counts import share, whole
+from vibroimpact.model.parameters import bounds
+from vibroimpact.model.parameters import parameter as registered
+from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.held import sizes
+from vibroimpact.response.start import as_state, components, engine_rig, engine_state
+from vibroimpact.response.threads import Progress, Tally, each
+from vibroimpact.response.variables import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
+from vibroimpact.stability.sectioned import POINT, Kind, Look, Seen, look_at
+from vibroimpact.stability.settled import reach_at_rest
+from vibroimpact.stability.stepped import Patience, settings, stepped
+
+_Array = NDArray[np.float64]
+
+CREATED_BY = "vibroimpact.bifurcation_diagram"
+DIRECTIONS = ("up", "down")
+_RANDOM_SIZE = 1.5
+_BLOCK = 32
+"""Values that one thread holds at a time where none is carried on to the next."""
+
+
+@takes_rig
+def bifurcation_diagram(
+    oscillator: Oscillator,
+    excitation: Repeated,
+    parameter: str,
+    low: float | str,
+    high: float | str,
+    steps: int = 200,
+    *,
+    directions: Sequence[str] = DIRECTIONS,
+    starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
+    random: int = 0,
+    seed: int = 0,
+    section: Kind = "stroboscopic",
+    log: bool = False,
+    points: int = 200,
+    exponent_cycles: int = 1000,
+    tolerance: float = 1e-12,
+    max_cycles: int = 2000,
+    max_events: int = 10_000,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Hold one value of a parameter after the other, and look at what each motion settles on.
+
+    It shows attractors only, periodic or not, as far as the starts lead to them; `branch` follows
+    orbits whether stable or not.
+
+    Parameters
+    ----------
+    oscillator, excitation
+        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency. The
+        excitation's phase is that of the section.
+    parameter
+        What is varied, as of `branch`.
+    low, high, steps
+        Range of the parameter, in SI units or as text, and how many values in it, both ends
+        included.
+    directions
+        ``"up"``, ``"down"`` or both: from rest at the first value, each of the others begins
+        where the one before has ended.
+    starts
+        States by name, from each of which every value begins.
+    random
+        How many random starts, besides: the same ones at every value, with displacements and
+        velocities up to 1.5 times the largest displacement that was met from the others.
+    seed
+        Of the random starts; the same one gives the same starts.
+    section
+        ``"stroboscopic"``, once a forcing cycle; or ``"impacts"``, as each contact begins.
+    log
+        Whether the values lie evenly on a logarithmic axis.
+    points
+        Forcing cycles whose section is kept of a motion that does not settle.
+    exponent_cycles
+        Forcing cycles over which the growth of disturbances is averaged of such a motion.
+    tolerance, max_cycles, max_events
+        As in `sweeps`.
+    threads
+        How many starts or blocks of values run at once; None for one a processor. No result
+        depends on it.
+    progress
+        Called from the calling thread with the holds done and all.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims ``start``, the parameter and ``section_point``. Of a stroboscopic section
+        ``section_displacement``, ``section_velocity`` and the bumpers' deformations, of one at
+        impacts ``contact_side``, ``contact_start_phase`` and ``contact_start_velocity``: of a
+        periodic motion the points of one period, the rest is NaN. ``motion`` and ``period`` name
+        it, ``exponents`` (1/s) are its two largest Lyapunov exponents, with
+        ``exponents_uncertainty``; extremes and forces are as of `sweep`, and ``section`` is the
+        state at the end of each hold, from which `branch` goes on.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    varied = registered(parameter, of=excitation.of).of(oscillator)
+    span = bounds(varied, low, high)
+    if log and span[0] <= 0.0:
+        raise InputError(f"low: {span[0]:g}; of a logarithmic axis a value above 0 is accepted")
+    count = whole(steps, "steps", 2)
+    values: _Array = np.geomspace(*span, count) if log else np.linspace(*span, count)
+    values[0], values[-1] = span
+    if section not in POINT:
+        raise InputError(f"section: {section!r}; one of {', '.join(POINT)} is accepted")
+    patience = Patience(
+        share(tolerance, "tolerance"),
+        whole(max_cycles, "max_cycles"),
+        whole(points, "points"),
+        whole(max_events, "max_events"),
+    )
+    look = Look(
+        section, patience.window, whole(exponent_cycles, "exponent_cycles"), patience.max_events
+    )
+    random, threads = (
+        whole(random, "random", 0),
+        None if threads is None else whole(threads, "threads"),
+    )
+    ways = _ways(directions, starts, random, oscillator)
+    every = settings(varied, oscillator, excitation, values)
+    vectors = [engine_rig(*one) for one in every]
+    for entry in (batch.sweep, lyapunov.growth, lyapunov.monodromy):
+        entry.prepare(*vectors)
+
+    def seen(part: _Part, tally: Tally) -> list[Seen]:
+        found: list[Seen] = []
+        order = slice(None, None, -1 if part.down else 1)
+        stepped(
+            every[part.values][order],
+            part.start,
+            patience,
+            lambda held: found.append(look_at(held, look)),
+            tally,
+            carry=part.start is None,
+        )
+        return found[order]
+
+    def done(parts: list[_Part], before: int) -> dict[str, list[Seen]]:
+        told = progress and (lambda ready, _: progress(before + ready, total))
+        held = sum(len(every[part.values]) for part in parts)
+        lists = each(seen, parts, steps=held, threads=threads, progress=told)
+        found: dict[str, list[Seen]] = {part.name: [] for part in parts}
+        for part, one in zip(parts, lists, strict=True):
+            found[part.name] += one
+        return found
+
+    total = count * (len(ways) + random)
+    found = done(_parts(ways, count), 0)
+    if random:
+        drawn = _random(found, every, random, seed)
+        found |= done(_parts(drawn, count), count * len(ways))
+    data = _dataset(oscillator, varied.name, values, found, section, excitation.phase)
+    data.attrs["parameter"] = varied.name
+    data = describe(
+        data,
+        CREATED_BY,
+        {
+            "oscillator": oscillator_parameters(oscillator),
+            **excitation_parameters(excitation),
+            "parameter": varied.name,
+            "low": span[0],
+            "high": span[1],
+            "seed": seed,
+            **patience._asdict(),
+            **look._asdict(),
+        },
+    )
+    data[varied.name].attrs.update(units=varied.units, long_name=varied.long_name)
+    return data
+
+
+class _Part(NamedTuple):
+    """Values that are held one after the other."""
+
+    name: str
+    start: _Array | None
+    """From which every value begins; None where each goes on from the one before."""
+    values: slice
+    down: bool = False
+
+
+def _ways(
+    directions: Sequence[str], starts: Mapping[str, Any] | None, random: int, rig: Oscillator
+) -> dict[str, _Array | None]:
+    """Where motions begin: None where they are carried on."""
+    given = (directions,) if isinstance(directions, str) else tuple(directions)
+    for direction in given:
+        if direction not in DIRECTIONS:
+            raise InputError(f"directions: {direction!r}; 'up' and 'down' are accepted")
+    named = dict(starts or {})
+    for name in named:
+        if name in DIRECTIONS:
+            raise InputError(f"starts: {name!r} is a direction; another name is accepted")
+    if not (given or named or random):
+        raise InputError("directions: none, and no starts; a direction or a start is accepted")
+    ways: dict[str, _Array | None] = dict.fromkeys(given)
+    return ways | {str(name): engine_state(rig, as_state(one)) for name, one in named.items()}
+
+
+def _parts(ways: Mapping[str, _Array | None], count: int) -> list[_Part]:
+    """The values of each way: at once where they are carried on, in blocks where they are not."""
+    blocks = [slice(i, i + _BLOCK) for i in range(0, count, _BLOCK)]
+    return [
+        _Part(name, start, values, down=start is None and name == "down")
+        for name, start in ways.items()
+        for values in (blocks if start is not None else [slice(None)])
+    ]
+
+
+def _random(
+    found: Mapping[str, list[Seen]], every: list[Setting], random: int, seed: int
+) -> dict[str, _Array]:
+    """Random states as large as what was met, or where nothing was, as the mass at rest moves."""
+    met = [
+        np.abs(one.held.measured[[hold.U_LEAST, hold.U_MOST]]).max()
+        for seen in found.values()
+        for one in seen
+        if one.status is Status.DONE
+    ]
+    size = max(met, default=0.0) or max(reach_at_rest(*one) for one in every)
+    omega = float(np.median([shaken.angular_frequency for _, shaken in every]))
+    generator = np.random.default_rng(seed)
+    states = {}
+    for number in range(random):
+        u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
+        state = np.zeros(layout.STATE)
+        state[layout.U], state[layout.V] = u, v * omega
+        states[f"random {number + 1}"] = state
+    return states
+
+
+def _dataset(
+    oscillator: Oscillator,
+    name: str,
+    values: _Array,
+    found: Mapping[str, list[Seen]],
+    section: Kind,
+    phase: float,
+) -> xr.Dataset:
+    """With names; the points of each value are filled up with NaN."""
+    seen = list(itertools.chain.from_iterable(found.values()))
+    shape, dims = (len(found), len(values)), ("start", name)
+    most = max((len(one.points) for one in seen), default=0)
+    padded = np.full((len(seen), most, len(POINT[section])), np.nan)
+    for row, one in zip(padded, seen, strict=True):
+        row[: len(one.points)] = one.points
+    measured = np.array([one.held.measured for one in seen])
+    measured[[one.status not in (Status.DONE, Status.NOT_SETTLED) for one in seen]] = np.nan
+    frequency = np.array([[one.held.found.excitation.frequency] for one in seen])
+    scalars = {
+        **sizes(oscillator, measured),
+        "motion": np.array([one.kind.motion for one in seen]),
+        "period": np.array([one.kind.period for one in seen], dtype=np.int64),
+        "cycles": np.array([one.held.found.cycles for one in seen], dtype=np.int64),
+        "status": np.array([int(one.status) for one in seen], dtype=np.int64),
+    }
+    rates = {
+        "exponents": frequency * np.array([one.kind.exponents for one in seen]),
+        "exponents_uncertainty": frequency * np.array([one.kind.uncertainty for one in seen]),
+    }
+    states = components(np.array([one.held.found.state for one in seen]), phase)
+    variables: dict[str, Any] = {
+        **{key: (dims, value.reshape(shape)) for key, value in scalars.items()},
+        **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
+        **{
+            key: ((*dims, "section_point"), padded[..., i].reshape(*shape, most))
+            for i, key in enumerate(POINT[section])
+        },
+        "section": ((*dims, "component"), states.reshape(*shape, -1)),
+    }
+    return xr.Dataset(variables, {"start": list(found), name: values, "component": COMPONENTS})
