@@ -7,11 +7,12 @@ A command's module imports what computes only when the command runs, so that
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
+from vibroimpact.cli.bifurcation import bifurcation
 from vibroimpact.cli.branch import branch
 from vibroimpact.cli.classify import classify
 from vibroimpact.cli.curve import curve
@@ -41,6 +42,7 @@ For example:
     vibroimpact sweep study.toml --gap 12mm --output results
     vibroimpact motion B2-G1-A3 --frequency 2.6Hz
     vibroimpact branch B2-G1-A3
+    vibroimpact bifurcation B3-10mm-A3 --from 0.9Hz --to 1.3Hz
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
     vibroimpact record quake.AT2
     vibroimpact earthquake B2-G1-A3 quake.AT2
@@ -53,6 +55,19 @@ More about a command: vibroimpact COMMAND --help
 
 Exit codes: 0 done, 1 what was found cannot be written, 2 wrong input, 130 interrupted.
 """
+
+_COMMANDS: tuple[Callable[..., int], ...] = (
+    sweep,
+    motion,
+    branch,
+    bifurcation,
+    curve,
+    simulate,
+    record,
+    earthquake,
+    design,
+    classify,
+)
 
 
 def main(arguments: Iterable[str] | None = None) -> int:
@@ -107,7 +122,7 @@ def _app() -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
-    for command in (sweep, motion, branch, curve, simulate, record, earthquake, design, classify):
+    for command in _COMMANDS:
         app.command(command)
     app.command(scenario_map, name="map")
     app.command(paper)

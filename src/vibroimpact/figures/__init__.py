@@ -26,6 +26,7 @@ from vibroimpact.figures.record import record_history
 from vibroimpact.figures.resonance import resonance_curves
 from vibroimpact.figures.response_spectra import response_spectra
 from vibroimpact.figures.scenarios import Mark, scenario_map
+from vibroimpact.figures.sections import section_diagram
 from vibroimpact.figures.style import save_figure
 
 __all__ = [
@@ -53,6 +54,7 @@ __all__ = [
     "save_figure",
     "scenario_cases",
     "scenario_map",
+    "section_diagram",
     "spectrum_lines",
     "time_history",
 ]

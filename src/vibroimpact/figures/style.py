@@ -116,9 +116,16 @@ def curve_style(look: Look, points: int, marks: int = 45) -> dict[str, Any]:
 
 
 def panels(
-    axes: Any, count: int, what: str, size: tuple[float, float], title: str | None
+    axes: Any,
+    count: int,
+    what: str,
+    size: tuple[float, float],
+    title: str | None,
+    heights: tuple[float, ...] | None = None,
 ) -> Panels:
     """Return the given axes, or those of a new figure: panels one below the other.
+
+    Their heights, one over the other, are equal unless they are given.
 
     Raises
     ------
@@ -126,7 +133,7 @@ def panels(
         If axes are given, but not as many as there are panels.
     """
     if axes is None:
-        made = new_axes(count, 1, size, sharex=True)
+        made = new_axes(count, 1, size, sharex=True, height_ratios=heights)
         figure = made[0, 0].figure
         figure.align_ylabels()
         if title:

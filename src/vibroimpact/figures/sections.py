@@ -1,0 +1,215 @@
+"""Bifurcation diagrams by brute force: sections, periods and the largest exponent."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.ticker import NullFormatter, NullLocator
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.branches import MARKS, axis_unit
+from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.style import LEGEND, SWEEPS, Look, panels
+
+_Array = NDArray[np.float64]
+
+_LABELS = {
+    "section_displacement": (1e3, "displacement\nat the section (mm)"),
+    "section_velocity": (1e3, "velocity\nat the section (mm/s)"),
+    "contact_start_phase": (1.0, "phase of the forcing\nat impacts (rad)"),
+    "contact_start_velocity": (1e3, "velocity\nat impacts (mm/s)"),
+}
+"""Factor and label."""
+
+_WAYS = {
+    "up": SWEEPS["forward"]._replace(label="up"),
+    "down": SWEEPS["backward"]._replace(label="down"),
+}
+_ELSE = Look("from other starts", "0.35", "-.", 0.8, "x", 4.0, True)
+
+_HEIGHTS = (3.2, 1.0, 1.4)
+_LOST = 0.5
+"""Where motions that are not periodic stand on the axis of periods: below a period of 1."""
+
+
+def section_diagram(
+    data: xr.Dataset,
+    axes: Any = None,
+    *,
+    quantity: str | None = None,
+    branches: xr.Dataset | None = None,
+    title: str | None = None,
+) -> Panels:
+    """Draw where motions settle over a parameter: sections, periods, the largest exponent.
+
+    Parameters
+    ----------
+    data
+        Dataset of `bifurcation_diagram`.
+    axes
+        Three axes to draw on, one below the other. None makes a new figure.
+    quantity
+        ``"section_displacement"`` (of a stroboscopic section) or ``"section_velocity"``;
+        ``"contact_start_velocity"`` (at impacts) or ``"contact_start_phase"``.
+    branches
+        Dataset of `branch` or `resonance_diagram` over the same parameter, whose bifurcations are
+        drawn as lines.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no such diagram, or has no such quantity, or branches are over another
+        parameter.
+    """
+    held = [name for name in _LABELS if name in data]
+    if "start" not in data.dims or not held:
+        raise InputError("data: this is no such diagram; one of bifurcation_diagram is accepted")
+    if quantity is None:
+        quantity = "contact_start_velocity" if "contact_side" in data else held[0]
+    if quantity not in held:
+        raise InputError(f"quantity: {quantity!r}; one of {', '.join(held)} is accepted")
+    name = data.attrs["parameter"]
+    if branches is not None and branches.attrs.get("parameter") != name:
+        raise InputError(
+            f"branches: they are along {branches.attrs.get('parameter')!r}; "
+            f"those along {name!r} are accepted"
+        )
+    drawn = panels(axes, 3, "section, periods and exponents", (7.2, 6.4), title, _HEIGHTS)
+    top, middle, bottom = drawn
+    scale, unit = axis_unit(data[name])
+    x = scale * data[name].values
+    factor, label = _LABELS[quantity]
+    # What is drawn last must leave the dots below it seen: those that go up come last.
+    for start in reversed(data["start"].values):
+        one, look = data.sel(start=start), _WAYS.get(str(start), _ELSE)
+        _points(top, x, factor * one[quantity].values, look)
+        period = one["period"].values
+        _line(middle, x, np.where(period > 0, period, _LOST), look)
+        _line(bottom, x, one["exponents"].values[:, 0], look, dots=False)
+    spacing = np.diff(x)
+    for ax in drawn:
+        if len(x) > 2 and not np.allclose(spacing, spacing[0], rtol=1e-6):
+            ax.set_xscale("log")
+        ax.set_xlim(x[0], x[-1])
+    handles = [
+        _handle(_WAYS.get(start, _ELSE))
+        for start in dict.fromkeys(s if s in _WAYS else "" for s in map(str, data["start"].values))
+    ]
+    if branches is not None:
+        handles += _lines(drawn, branches, scale)
+    # Above the marks of bifurcations, half of which stand above the panel.
+    above = {**LEGEND, "bbox_to_anchor": (0.5, 1.03)}
+    top.legend(handles=handles, ncols=4, **above)
+    top.set_ylabel(label)
+    _periods(middle, data["period"].values)
+    bottom.axhline(0.0, color="0.3", linewidth=0.7, zorder=1)
+    bottom.set_ylabel("largest\nexponent (1/s)")
+    bottom.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
+    top.figure.align_ylabels()
+    return drawn
+
+
+def _points(ax: Axes, x: _Array, points: _Array, look: Look) -> None:
+    """Points of a periodic motion as marks, the many of another as dots."""
+    count = np.isfinite(points).sum(axis=1)
+    for few in (True, False):
+        rows = (count <= _FEW) == few
+        at = np.broadcast_to(x[rows, np.newaxis], points[rows].shape)
+        ax.plot(
+            at.ravel(),
+            points[rows].ravel(),
+            linestyle="",
+            marker=look.marker if few else ".",
+            markersize=0.45 * look.size if few else 0.5,
+            markerfacecolor=look.colour if look.filled else "none",
+            markeredgecolor=look.colour,
+            markeredgewidth=0.4,
+            rasterized=not few,
+            zorder=3 if few else 2,
+        )
+
+
+_FEW = 16
+"""Points up to which they are marks."""
+
+
+def _line(ax: Axes, x: _Array, y: _Array, look: Look, dots: bool = True) -> None:
+    ax.plot(
+        x,
+        y,
+        color=look.colour,
+        linestyle="" if dots else look.dashes,
+        linewidth=0.8 * look.width,
+        marker=look.marker if dots else "",
+        markersize=0.5 * look.size,
+        markerfacecolor=look.colour if look.filled else "none",
+        markeredgewidth=0.5,
+    )
+
+
+def _handle(look: Look) -> Line2D:
+    return Line2D(
+        [],
+        [],
+        linestyle=look.dashes,
+        linewidth=0.8 * look.width,
+        color=look.colour,
+        marker=look.marker,
+        markersize=look.size,
+        markerfacecolor=look.colour if look.filled else "none",
+        label=look.label,
+    )
+
+
+def _periods(ax: Axes, periods: NDArray[np.int64]) -> None:
+    """An axis of periods on which each doubling is a step; below it what has none."""
+    ax.set_yscale("log", base=2)
+    most = max(int(periods.max()), 2)
+    powers = [2**k for k in range(most.bit_length())]
+    ticks: list[float] = [float(p) for p in (powers if len(powers) <= 5 else powers[::2])]
+    labels = [f"{tick:g}" for tick in ticks]
+    if (periods == 0).any():
+        ticks, labels = [_LOST, *ticks], ["none", *labels]
+    ax.set_yticks(ticks, labels)
+    ax.yaxis.set_minor_locator(NullLocator())
+    ax.yaxis.set_minor_formatter(NullFormatter())
+    ax.set_ylim(0.7 * ticks[0], 1.5 * most)
+    ax.set_ylabel("period\n(cycles)")
+
+
+def _lines(drawn: Panels, branches: xr.Dataset, scale: float) -> list[Line2D]:
+    """A line through all panels for each bifurcation, its mark at the top."""
+    handles = []
+    kinds = branches["bifurcation_kind"].values
+    for kind, mark in MARKS.items():
+        values = scale * branches["bifurcation_value"].values[kinds == kind]
+        for value in values:
+            for ax in drawn:
+                ax.axvline(value, color=mark.colour, linestyle=":", linewidth=0.8, zorder=1)
+        if not len(values):
+            continue
+        style: dict[str, Any] = {
+            "color": mark.colour,
+            "marker": mark.marker,
+            "markersize": mark.size,
+            "markerfacecolor": mark.colour if mark.filled else "none",
+        }
+        drawn[0].plot(
+            values,
+            np.ones(len(values)),
+            linestyle="",
+            transform=drawn[0].get_xaxis_transform(),
+            clip_on=False,
+            zorder=5,
+            **style,
+        )
+        label = kind.replace("-", "–")
+        handles.append(Line2D([], [], linestyle=":", linewidth=0.8, label=label, **style))
+    return handles

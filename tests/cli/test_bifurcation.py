@@ -1,0 +1,79 @@
+"""``vibroimpact bifurcation`` from the words typed to the files written."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.stability.bifurcation_diagram import CREATED_BY
+
+COMMAND = "bifurcation"
+GAPS = ("B3-10mm-A3", "--parameter", "gap", "--from", "4.8mm", "--to", "5mm")
+
+
+def test_over_the_gap(tmp_path, told):
+    code, out, errors = told(
+        tmp_path, *GAPS, *("--frequency", "1.12Hz", "--steps", "5", "--random", "1", "--branches")
+    )
+    assert (code, errors) == (0, "")
+    lines = [line.rstrip() for line in out.splitlines()]
+    for line in ("Up", "Down", "Random 1", "Files", "  out/B3-10mm-A3-gap-diagram.png"):
+        assert lines.count(line) == 1
+    ranges = [line.split() for line in lines]
+    assert [*["periodic,", "period", "2", "4.85", "to", "4.9", "2"]] in [
+        words[:7] for words in ranges
+    ]
+    data = vi.load(tmp_path / "out" / "B3-10mm-A3-gap-diagram.nc")
+    case = vi.laboratory.case("B3-10mm-A3")
+    same = vi.bifurcation_diagram(case, 1.12, "gap", 4.8e-3, 5e-3, 5, random=1)
+    assert data.attrs["created_by"] == CREATED_BY
+    for name in ("section_displacement", "exponents", "period"):
+        np.testing.assert_array_equal(data[name], same[name])
+
+
+def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
+    code, out, errors = told(
+        tmp_path,
+        *("B2-G1-A3", "--from", "2Hz", "--to", "2.4Hz", "--steps", "5", "--direction", "down"),
+        *("--quantity", "impact-velocity", "--phase", "90deg", "--json"),
+    )
+    assert (code, errors) == (0, "")
+    facts = json.loads(out)
+    assert list(facts["starts"]) == ["down"]
+    assert sum(one["values"] for one in facts["starts"]["down"]) == 5
+    assert facts["starts"]["down"][0]["from"] == 2.0
+    data = vi.load(tmp_path / facts["files"]["data"])
+    assert "contact_start_velocity" in data
+    assert float(data["section"].sel(component="phase")[0, 0]) == pytest.approx(np.pi / 2.0)
+
+
+def test_a_study_says_its_frequency(tmp_path, told):
+    (tmp_path / "rig.toml").write_text(
+        'case = "B2-Ginf-A3"\n[simulate]\nfrequency = "2 Hz"\n', encoding="utf-8"
+    )
+    words = ("--parameter", "damping", "--from", "1kN*s/m", "--to", "2kN*s/m", "--steps", "2")
+    code, out, errors = told(tmp_path, "rig.toml", *words, "--json")
+    assert (code, errors) == (0, "")
+    (ranges,) = {tuple(one["period"] for one in r) for r in json.loads(out)["starts"].values()}
+    assert ranges == (1,)
+
+
+@pytest.mark.parametrize(
+    ("words", "told_of"),
+    [
+        (GAPS, "--frequency: missing"),
+        ((*GAPS, "--frequency", "0Hz"), "--frequency"),
+        ((*GAPS, "--frequency", "1Hz", "--steps", "1"), "--steps: 1"),
+        ((*GAPS, "--frequency", "1Hz", "--random", "-1"), "--random: -1"),
+        ((*GAPS, "--frequency", "1Hz", "--direction", "none"), "--direction: none"),
+        (("B2-G1-A3", "--parameter", "colour"), "--parameter: 'colour'"),
+        (("B2-G1-A3", "--from", "3Hz", "--to", "2Hz"), "--to: 2"),
+    ],
+)
+def test_refused(run, words, told_of):
+    code, out, errors = run(*words)
+    assert (code, out) == (2, "")
+    assert errors.startswith(f"vibroimpact: error: {told_of}")

@@ -1,0 +1,91 @@
+"""Figures of bifurcation diagrams: what is drawn is what the dataset holds."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+from vibroimpact.figures import section_diagram
+
+CASE = vi.laboratory.case("B3-10mm-A3")
+
+
+@cache
+def diagram(section: str = "stroboscopic") -> xr.Dataset:
+    return vi.bifurcation_diagram(CASE, 1.12, "gap", 4.7e-3, 5e-3, 7, random=1, section=section)
+
+
+@cache
+def branch() -> xr.Dataset:
+    return vi.branch(CASE, 1.12, parameter="gap", low=4.7e-3, high=5.1e-3)
+
+
+def points(ax) -> np.ndarray:
+    """All points of the panel but those of lines across it, sorted."""
+    drawn = [np.column_stack(line.get_data()) for line in ax.lines if len(line.get_xdata()) != 2]
+    every = np.concatenate(drawn)
+    every = every[np.isfinite(every).all(axis=1)]
+    return every[np.lexsort(every.T)]
+
+
+@pytest.mark.parametrize(
+    ("section", "quantity", "factor"),
+    [
+        ("stroboscopic", "section_displacement", 1e3),
+        ("stroboscopic", "section_velocity", 1e3),
+        ("impacts", "contact_start_velocity", 1e3),
+        ("impacts", "contact_start_phase", 1.0),
+    ],
+)
+def test_points_are_those_of_the_data(section, quantity, factor):
+    data = diagram(section)
+    top, middle, bottom = section_diagram(data, quantity=quantity)
+    x = 1e3 * data["gap"].broadcast_like(data[quantity]).transpose(*data[quantity].dims).values
+    known = np.column_stack([x.ravel(), factor * data[quantity].values.ravel()])
+    known = known[np.isfinite(known).all(axis=1)]
+    np.testing.assert_allclose(points(top), known[np.lexsort(known.T)])
+    periods = points(middle)[:, 1]
+    assert {*periods[periods >= 1.0]} == {*map(float, data["period"].values[data["period"] > 0])}
+    largest = points(bottom)[:, 1]
+    np.testing.assert_allclose(
+        np.sort(largest), np.sort(data["exponents"].values[..., 0], axis=None)
+    )
+    assert "(mm)" in bottom.get_xlabel()
+    labels = [text.get_text() for text in top.get_legend().get_texts()]
+    assert labels == ["up", "down", "from other starts"]
+
+
+def test_bifurcations_of_branches_are_marked():
+    top, _, _ = section_diagram(diagram(), branches=branch(), title="B3-10mm-A3")
+    kinds = branch()["bifurcation_kind"].values
+    lines = [line.get_xdata()[0] for line in top.lines if line.get_linestyle() == ":"]
+    doublings = 1e3 * branch()["bifurcation_value"].values[kinds == "period doubling"]
+    assert len(doublings)
+    assert {*doublings} <= {*lines}
+    assert "period doubling" in [t.get_text() for t in top.get_legend().get_texts()]
+
+
+def test_a_logarithmic_axis():
+    data = vi.bifurcation_diagram(
+        CASE, 3.5, "bumper_stiffness", 1e4, 1e6, 5, log=True, directions="up"
+    )
+    top, _, _ = section_diagram(data)
+    assert top.get_xscale() == "log"
+
+
+@pytest.mark.parametrize(
+    ("data", "options", "told"),
+    [
+        (lambda: branch(), {}, "data: "),
+        (lambda: diagram(), {"quantity": "contact_start_phase"}, "quantity: "),
+        (lambda: diagram(), {"branches": diagram().assign_attrs(parameter="mass")}, "branches: "),
+        (lambda: diagram(), {"axes": [None]}, "axes: 1 given"),
+    ],
+)
+def test_refused(data, options, told):
+    with pytest.raises(vi.InputError, match=told):
+        section_diagram(data(), **options)
