@@ -45,6 +45,7 @@ _HOME = {
     "contacts": "response.contacts",
     "demands": "seismic.demands",
     "design": "sizing.chart",
+    "ensemble": "uncertainty.ensemble",
     "exceedance": "seismic.suites",
     "floor_record": "seismic.floor",
     "fractiles": "seismic.suites",
@@ -55,6 +56,7 @@ _HOME = {
     "least_acceleration": "sizing.best",
     "load": "response.files",
     "lyapunov_exponents": "stability.exponents",
+    "one_by_one": "uncertainty.ensemble",
     "orbit": "stability.orbit",
     "progress_bar": "response.progress",
     "read_measurement": "measurement.read",
@@ -64,6 +66,7 @@ _HOME = {
     "save": "response.files",
     "scenario_map": "scenario.map",
     "seismic_response": "seismic.response",
+    "sensitivity": "uncertainty.sensitivity",
     "simulate": "response.simulate",
     "spectrum": "response.spectrum",
     "steady": "stability.steady",
@@ -104,6 +107,7 @@ __all__ = [
     "contacts",
     "demands",
     "design",
+    "ensemble",
     "exceedance",
     "floor_record",
     "fractiles",
@@ -114,6 +118,7 @@ __all__ = [
     "least_acceleration",
     "load",
     "lyapunov_exponents",
+    "one_by_one",
     "orbit",
     "progress_bar",
     "read_measurement",
@@ -123,6 +128,7 @@ __all__ = [
     "save",
     "scenario_map",
     "seismic_response",
+    "sensitivity",
     "simulate",
     "spectrum",
     "steady",
@@ -188,6 +194,8 @@ if TYPE_CHECKING:
     from vibroimpact.stability.exponents import lyapunov_exponents
     from vibroimpact.stability.orbit import orbit
     from vibroimpact.stability.steady import steady
+    from vibroimpact.uncertainty.ensemble import ensemble, one_by_one
+    from vibroimpact.uncertainty.sensitivity import sensitivity
 
 
 def __getattr__(name: str) -> Any:

@@ -18,6 +18,7 @@ from vibroimpact.cli.classify import classify
 from vibroimpact.cli.curve import curve
 from vibroimpact.cli.design import design
 from vibroimpact.cli.earthquake import earthquake
+from vibroimpact.cli.ensemble import ensemble
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
 from vibroimpact.cli.paper import paper
@@ -47,6 +48,7 @@ For example:
     vibroimpact record quake.AT2
     vibroimpact earthquake B2-G1-A3 quake.AT2
     vibroimpact design B2-G1-A3
+    vibroimpact ensemble B2-G1-A3 --uncertain gap normal:5%
     vibroimpact classify B2-G1-A3
     vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
     vibroimpact paper
@@ -66,6 +68,7 @@ _COMMANDS: tuple[Callable[..., int], ...] = (
     record,
     earthquake,
     design,
+    ensemble,
     classify,
 )
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.errors import InputError
+from vibroimpact.stability.labels import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -73,16 +74,7 @@ def branch(
         Parameter(help="Excitation frequency where another parameter is varied, such as 2Hz."),
     ] = None,
     quantity: Annotated[
-        Literal[
-            "eta_d",
-            "eta_a",
-            "displacement_excursion",
-            "eccentricity",
-            "peak_displacement",
-            "peak_acceleration",
-            "peak_force_right",
-            "peak_force_left",
-        ],
+        Quantity,
         Parameter(group=_BRANCH, help="What the figure shows."),
     ] = "eta_d",
     physical: Annotated[

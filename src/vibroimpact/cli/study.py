@@ -146,6 +146,18 @@ class DesignTable(Model):
     ] = None
 
 
+class EnsembleTable(Model):
+    """``[ensemble]``: what of the rig is uncertain, and how many rigs are drawn.
+
+    A distribution is a text such as ``"normal:5%"`` or ``"uniform:5 mm:8 mm"``.
+    """
+
+    uncertain: dict[str, str] | None = None
+    samples: Annotated[int | None, Field(ge=1)] = None
+    method: Literal["sobol", "latin", "random"] | None = None
+    seed: Annotated[int | None, Field(ge=0)] = None
+
+
 class Study(Model):
     """A study file: ``case`` or ``[oscillator]``, and tables for the commands."""
 
@@ -157,6 +169,7 @@ class Study(Model):
     sweep: SweepTable = SweepTable()
     simulate: SimulateTable = SimulateTable()
     design: DesignTable = DesignTable()
+    ensemble: EnsembleTable = EnsembleTable()
 
     @model_validator(mode="after")
     def _one_rig(self) -> Self:

@@ -14,6 +14,7 @@ from vibroimpact.figures.cycle import hysteresis_cycle
 from vibroimpact.figures.demands import fragility_curves, incremental_curves
 from vibroimpact.figures.design import design_chart, pareto_front
 from vibroimpact.figures.earthquake import earthquake_page
+from vibroimpact.figures.ensembles import resonance_bands, sensitivity_bars
 from vibroimpact.figures.family import family_legend, resonance_family
 from vibroimpact.figures.feature import feature_map
 from vibroimpact.figures.history import time_history
@@ -48,6 +49,7 @@ __all__ = [
     "pareto_front",
     "phase_portrait",
     "record_history",
+    "resonance_bands",
     "resonance_curves",
     "resonance_family",
     "response_spectra",
@@ -55,6 +57,7 @@ __all__ = [
     "scenario_cases",
     "scenario_map",
     "section_diagram",
+    "sensitivity_bars",
     "spectrum_lines",
     "time_history",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -14,35 +14,12 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.labels import Names
 from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.quantities import axis_label
 from vibroimpact.figures.style import LEGEND, SWEEPS
 from vibroimpact.model.parameters import in_units
-from vibroimpact.model.quantities import FORCE, GRAVITY
+from vibroimpact.stability.labels import QUANTITIES, Quantity
 
 _Array = NDArray[np.float64]
-
-Quantity = Literal[
-    "eta_d",
-    "eta_a",
-    "displacement_excursion",
-    "eccentricity",
-    "peak_displacement",
-    "peak_acceleration",
-    "peak_force_right",
-    "peak_force_left",
-]
-
-_LABELS = {
-    "eta_d": (1.0, "$\\eta_d$ (–)"),
-    "eta_a": (1.0, "$\\eta_a$ (–)"),
-    "displacement_excursion": (1e3, "excursion of displacement (mm)"),
-    "eccentricity": (1e3, "eccentricity (mm)"),
-    "peak_displacement": (1e3, "largest displacement (mm)"),
-    "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration (g)"),
-    "peak_force_right": (0.0, "largest force of the right stop ({})"),
-    "peak_force_left": (0.0, "largest force of the left stop ({})"),
-}
-"""Factor and label; a force is in the unit that fits it."""
-
 
 _NORMALISED = {"eta_d": "displacement_excursion", "eta_a": "acceleration_excursion"}
 
@@ -106,8 +83,8 @@ def bifurcation_diagram(
         raise InputError(
             "data: this is no branch; a dataset of branch or resonance_diagram is accepted"
         )
-    if quantity not in _LABELS:
-        raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
+    if quantity not in QUANTITIES:
+        raise InputError(f"quantity: {quantity!r}; one of {', '.join(QUANTITIES)} is accepted")
     name = data.attrs["parameter"]
     if sweep is not None and name != "frequency":
         raise InputError(
@@ -115,10 +92,7 @@ def bifurcation_diagram(
         )
     if sweep is not None and "direction" not in sweep.coords:
         raise InputError("sweep: this is no sweep; a dataset of sweep is accepted")
-    factor, label = _LABELS[quantity]
-    if factor == 0.0:
-        fits = FORCE.unit(*data[quantity].values)
-        factor, label = 1.0 / fits.size, label.format(fits.symbol)
+    factor, label = axis_label(data[quantity], quantity)
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])
     x, y = scale * data[name].values, factor * data[quantity].values

@@ -42,13 +42,17 @@ def describe(
     if "status" in dataset.variables:
         dataset["status"].attrs["flag_values"] = [int(status) for status in Status]
         dataset["status"].attrs["flag_meanings"] = " ".join(s.name.lower() for s in Status)
-    dataset.attrs = {
+    dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
+    return dataset
+
+
+def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:
+    """What a dataset says of where it comes from."""
+    return {
         "created_by": created_by,
         "vibroimpact_version": __version__,
         **({} if parameters is None else {"parameters": json.dumps(parameters)}),
-        **dataset.attrs,
     }
-    return dataset
 
 
 def motion_parameters(motion: xr.Dataset) -> dict[str, Any]:

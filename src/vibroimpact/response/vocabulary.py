@@ -283,6 +283,18 @@ VARIABLES: dict[str, Variable] = {
         for side, which in (("", "each"), ("_right", "the right"), ("_left", "the left"))
     },
     "evaluations": Variable("1", "number of designs that were tried"),
+    # ensembles
+    "uncertain_parameter": Variable("1", "uncertain parameter"),
+    "first_order": Variable(
+        "1", "share of the variance that a parameter makes by itself", "Sobol's first-order index"
+    ),
+    "total_order": Variable(
+        "1", "share of the variance that a parameter takes part in", "Sobol's total-order index"
+    ),
+    "first_order_interval": Variable("1", "95 % interval of the first-order index"),
+    "total_order_interval": Variable("1", "95 % interval of the total-order index"),
+    "mean": Variable("1", "mean of the response"),
+    "variance": Variable("1", "variance of the response"),
     # response spectra
     "natural_period": Variable("s", "natural period", "0: the mass moves with the base"),
     "orientation": Variable(

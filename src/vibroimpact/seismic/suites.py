@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -22,6 +23,7 @@ from vibroimpact.model.quantities import (
 )
 from vibroimpact.model.units import shown
 from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.response.vocabulary import VARIABLES
 
 _Array = NDArray[np.float64]
 
@@ -37,25 +39,25 @@ def fractiles(
     quantity: str = "peak_displacement",
     shares: Sequence[float] = (0.16, 0.5, 0.84),
 ) -> xr.Dataset:
-    """Return the curves of incremental dynamic analysis: fractiles over the records at each scale.
+    """Return fractiles over the records at each scale, or over the rigs of an ensemble.
 
-    Quantiles of a sample are interpolated between its sorted values (Hyndman and Fan's seventh
-    definition). A run that went beyond all limits counts as infinite (Vamvatsikos and Cornell,
-    2002).
+    Those over records are the curves of incremental dynamic analysis. Quantiles of a sample are
+    interpolated between its sorted values (Hyndman and Fan's seventh definition). A run that went
+    beyond all limits counts as infinite (Vamvatsikos and Cornell, 2002).
 
     Parameters
     ----------
     demands
-        Dataset of `demands`.
+        Dataset of `demands`; or of `ensemble`, of whatever response.
     quantity
-        One of its peaks, such as ``"peak_acceleration"``.
+        One of its peaks, such as ``"peak_acceleration"``, or a variable of the response.
     shares
-        Shares of the records below, from 0 to 1.
+        Shares of the records or rigs below, from 0 to 1.
 
     Returns
     -------
     xarray.Dataset
-        The quantity, with dim ``fractile`` in the place of ``record``.
+        The quantity, with dim ``fractile`` in the place of ``record``, or of ``sample``.
 
     Raises
     ------
@@ -63,24 +65,49 @@ def fractiles(
         If it is no such dataset, a value cannot be used, or runs were given up for their number of
         events or of steps.
     """
-    values = known(demands, quantity)
+    over = "sample" if "sample" in getattr(demands, "dims", ()) else "record"
+    values = (_drawn if over == "sample" else known)(demands, quantity)
     chosen = [
         to_si(share, DIMENSIONLESS, f"shares[{i}]", minimum=0.0, maximum=1.0)
         for i, share in enumerate(shares)
     ]
     if not chosen:
         raise InputError("shares: none given; one or more from 0 to 1 are accepted")
-    found = quantiles(values.values, chosen, values.dims.index("record"))
-    dims = ("fractile", *(dim for dim in values.dims if dim != "record"))
+    found = quantiles(values.values, chosen, values.dims.index(over))
+    dims = ("fractile", *(dim for dim in values.dims if dim != over))
     data = xr.Dataset({quantity: (dims, found)}, {"fractile": chosen, **_coords(values)})
     return described(data, "vibroimpact.fractiles", demands, {"quantity": quantity})
 
 
 def quantiles(values: _Array, shares: Sequence[float], axis: int) -> _Array:
-    """Quantiles along an axis, which comes first; values may be infinite."""
-    found: _Array = np.quantile(np.minimum(values, _VAST), shares, axis=axis)
+    """Quantiles along an axis, which comes first; values may be infinite, NaN is left out."""
+    known = np.minimum(values, _VAST)
+    # Where nothing is known the quantile is NaN as well, which is no surprise.
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "All-NaN slice", RuntimeWarning)
+        pick = np.nanquantile if np.isnan(known).any() else np.quantile
+        found: _Array = pick(known, shares, axis=axis)
     found[found > 1e-3 * _VAST] = np.inf
     return found
+
+
+def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
+    """A variable of an ensemble, infinite where a motion went beyond all limits."""
+    names = [str(name) for name, one in data.data_vars.items() if "sample" in one.dims]
+    if quantity not in names:
+        raise InputError(f"quantity: {shown(quantity)}; one of {', '.join(names)} is accepted")
+    values: xr.DataArray = data[quantity]
+    if "status" in data and data["status"].dims == values.dims:
+        values = values.where(~np.isin(data["status"].values, UNSTABLE), math.inf)
+    unknown = int(values.isnull().sum())
+    if unknown:
+        warnings.warn(
+            f"fractiles: {unknown} of {values.size} values of {quantity} are not known, and are "
+            "left out",
+            RuntimeWarning,
+            stacklevel=3,
+        )
+    return values
 
 
 def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = None) -> xr.Dataset:
@@ -164,7 +191,11 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
 
 
 def _coords(values: xr.DataArray) -> dict[str, Any]:
-    return {str(dim): values[dim] for dim in values.dims if dim != "record"}
+    return {
+        str(dim): values[dim]
+        for dim in values.dims
+        if dim in values.coords and dim not in ("record", "sample")
+    }
 
 
 def described(
@@ -172,7 +203,10 @@ def described(
 ) -> xr.Dataset:
     """With units and meanings, those of the scale and of what is varied as they were."""
     kept = {name: dict(demands[name].attrs) for name in data.coords if name in demands.coords}
-    made = describe(data, created_by, {**about, "demands": motion_parameters(demands)})
+    # A response of an ensemble may have names of its own.
+    own = [name for name in data.data_vars if name not in VARIABLES]
+    parameters = {**about, "of": motion_parameters(demands)}
+    made = describe(data.drop_vars(own), created_by, parameters)
     for name, attributes in kept.items():
         made[name].attrs.update(attributes)
-    return made
+    return made.assign({name: data[name].assign_attrs(demands[name].attrs) for name in own})

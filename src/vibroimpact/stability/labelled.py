@@ -25,6 +25,7 @@ from vibroimpact.stability import bifurcations
 from vibroimpact.stability.bifurcations import Bifurcation
 from vibroimpact.stability.family import Family
 from vibroimpact.stability.fixed_points import MAX_EVENTS, Orbit
+from vibroimpact.stability.labels import QUANTITIES
 from vibroimpact.stability.trace import Station
 
 _Array = NDArray[np.float64]
@@ -96,15 +97,13 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
     found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
     multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, fam.states)
     sizes = _sizes(fam.oscillator, [b.orbit for _, b in found])
-    peaks = ("peak_displacement", "peak_acceleration", "peak_force_right", "peak_force_left")
-    told = ("displacement_excursion", "eta_d", "eta_a", "eccentricity", *peaks)
     values: dict[str, Any] = {
         "kind": np.array([b.kind for _, b in found], dtype=str),
         "value": [b.orbit.value for _, b in found],
         "arclength": [b.arclength for _, b in found],
         "turns": np.array([int(b.turns) for _, b in found], dtype=np.int64),
         "branch": np.array([i for i, _ in found], dtype=np.int64),
-        **{name: sizes[name] for name in told},
+        **{name: sizes[name] for name in QUANTITIES},
         "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
         "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
         "contacts": np.array([_contacts(b) for _, b in found], dtype=str),

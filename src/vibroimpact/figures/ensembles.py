@@ -1,0 +1,204 @@
+"""Resonance curves of uncertain rigs as bands, and which parameter makes their width."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.patches import Patch
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.quantities import axis_label
+from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, panels
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.seismic.suites import fractiles
+
+_HATCHES = {"forward": "", "backward": "////"}
+_LIGHT = {"forward": 0.25, "backward": 0.0}
+
+
+def resonance_bands(
+    data: xr.Dataset,
+    axes: Any = None,
+    *,
+    quantities: Sequence[str] = ("eta_a", "eta_d"),
+    shares: tuple[float, float] = (0.05, 0.95),
+    nominal: xr.Dataset | None = None,
+    title: str | None = None,
+) -> Panels:
+    """Draw fractiles of the resonance curves of an ensemble: the median, and a band about it.
+
+    Parameters
+    ----------
+    data
+        Dataset of `ensemble` of sweeps.
+    axes
+        As many axes as quantities. None makes a new figure.
+    quantities
+        Variables of the sweeps, a panel each.
+    shares
+        Shares of the rigs below the lower and the upper end of the band.
+    nominal
+        Dataset of `sweep` of the rig itself, drawn thin.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no ensemble of sweeps, or has no such quantity.
+    """
+    if not {"sample", "direction", "frequency"} <= set(data.dims):
+        raise InputError(
+            f"data: a dataset with the dims {dict(data.sizes)} is no ensemble of sweeps; one of "
+            "ensemble is accepted, whose response are sweeps"
+        )
+    low, high = shares
+    if not 0.0 <= low < 0.5 < high <= 1.0:
+        raise InputError(f"shares: {shares}; one below and one above 0.5 are accepted")
+    count = len(quantities)
+    drawn = panels(axes, count, "a panel a quantity", (7.2, 1.4 + 2.5 * count), title)
+    frequency = data["frequency"].values
+    handles: list[Any] = []
+    for ax, quantity in zip(drawn, quantities, strict=True):
+        found = fractiles(data, quantity, (low, 0.5, high))[quantity]
+        factor, label = axis_label(found, quantity)
+        handles = []
+        for direction in data["direction"].values:
+            look = SWEEPS[str(direction)]
+            lower, middle, upper = factor * found.sel(direction=direction).values
+            style: dict[str, Any] = {
+                "facecolor": (look.colour, _LIGHT[str(direction)]),
+                "edgecolor": (look.colour, 0.6),
+                "hatch": _HATCHES[str(direction)],
+                "linewidth": 0.6,
+            }
+            ax.fill_between(frequency, lower, upper, zorder=2, **style)
+            handles += ax.plot(
+                frequency,
+                middle,
+                color=look.colour,
+                linestyle=look.dashes,
+                linewidth=look.width,
+                label=f"{look.label}, median",
+                zorder=3,
+            )
+            handles.append(Patch(label=f"{100 * low:g} to {100 * high:g} %", **style))
+            if nominal is not None:
+                line = ax.plot(
+                    nominal["frequency"].values,
+                    factor * nominal[quantity].sel(direction=direction).values,
+                    color="black",
+                    linestyle=":",
+                    linewidth=0.9,
+                    label="the rig itself",
+                    zorder=4,
+                )
+        if nominal is not None:
+            handles += line
+        ax.set_ylabel(label)
+        ax.set_xlim(frequency[0], frequency[-1])
+        ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+    drawn[0].legend(handles=handles, ncols=3, **LEGEND)
+    drawn[-1].set_xlabel("excitation frequency (Hz)")
+    return drawn
+
+
+def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
+    """Draw Sobol's indices: what each parameter makes alone, and together with others.
+
+    Of one number as bars, with their intervals if the dataset has them; of a curve, such as that
+    over the frequency, as lines of the total order.
+
+    Parameters
+    ----------
+    data
+        Dataset of `sensitivity` of one number or of one curve: choose one by ``isel``.
+    ax
+        Axes to draw on. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is none of `sensitivity`, or holds more than a curve.
+    """
+    if "total_order" not in data:
+        raise InputError("data: this holds no indices; a dataset of sensitivity is accepted")
+    others = [dim for dim in data["total_order"].dims if dim != "uncertain_parameter"]
+    if len(others) > 1:
+        raise InputError(
+            f"data: it is over {', '.join(map(str, others))}; one number or one curve is accepted, "
+            "such as data.isel(direction=0)"
+        )
+    ax = axes_or_new(ax, (6.4, 3.8), title)
+    if others:
+        _curves(ax, data, str(others[0]))
+    else:
+        _bars(ax, data)
+    _, label = axis_label(data["mean"], str(data.attrs["quantity"]))
+    ax.set_ylabel(f"share of the variance of\n{label.rsplit(' (', 1)[0]} (–)")
+    ax.legend(ncols=2, **LEGEND)
+    return ax
+
+
+def _bars(ax: Axes, data: xr.Dataset) -> None:
+    names = [str(name) for name in data["uncertain_parameter"].values]
+    at = np.arange(len(names))
+    for shift, name, label, colour, hatch in (
+        (-0.18, "first_order", "by itself", "#1f4fbf", ""),
+        (0.18, "total_order", "with all that it does together with others", "white", "////"),
+    ):
+        values = data[name].values
+        errors = None
+        if f"{name}_interval" in data:
+            ends = data[f"{name}_interval"].transpose("bound", "uncertain_parameter").values
+            errors = np.abs(ends - values)
+        ax.bar(
+            at + shift,
+            values,
+            0.34,
+            yerr=errors,
+            capsize=3,
+            color=colour,
+            edgecolor="#1f4fbf",
+            hatch=hatch,
+            label=label,
+        )
+    ax.axhline(0.0, color="black", linewidth=0.8)
+    # In two lines: some are long.
+    ax.set_xticks(at, [_words(name).replace(" of ", "\nof ", 1) for name in names])
+
+
+def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
+    x = data[over].values if over in data.coords else np.arange(data.sizes[over])
+    for i, name in enumerate(data["uncertain_parameter"].values):
+        look = MOTIONS[i % len(MOTIONS)]
+        ax.plot(
+            x,
+            data["total_order"].sel(uncertain_parameter=name).values,
+            color=look.colour,
+            linestyle=look.dashes,
+            linewidth=look.width,
+            marker=look.marker,
+            markersize=look.size,
+            markevery=max(1, len(x) // 20),
+            markerfacecolor=look.colour if look.filled else "none",
+            label=_words(str(name)),
+        )
+    ax.set_xlim(x[0], x[-1])
+    # Beyond 0 and 1 an estimate is nothing but its error.
+    ax.set_ylim(-0.1, 1.1)
+    meaning = data[over].attrs if over in data.coords else {}
+    unit = {"1": "–"}.get(str(meaning.get("units", "1")), meaning.get("units"))
+    ax.set_xlabel(f"{meaning.get('long_name', over.replace('_', ' '))} ({unit})")
+
+
+def _words(name: str) -> str:
+    return PARAMETERS[name].long_name

@@ -1,0 +1,34 @@
+"""How the quantities of sweeps, branches and ensembles are written on an axis."""
+
+from __future__ import annotations
+
+import xarray as xr
+
+from vibroimpact.model.quantities import FORCE, GRAVITY
+
+_LABELS = {
+    "eta_d": (1.0, "$\\eta_d$ (–)"),
+    "eta_a": (1.0, "$\\eta_a$ (–)"),
+    "displacement_excursion": (1e3, "excursion of displacement (mm)"),
+    "eccentricity": (1e3, "eccentricity (mm)"),
+    "peak_displacement": (1e3, "largest displacement (mm)"),
+    "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration (g)"),
+    "peak_force_right": (0.0, "largest force of the right stop ({})"),
+    "peak_force_left": (0.0, "largest force of the left stop ({})"),
+    "peak_force": (0.0, "largest contact force ({})"),
+}
+"""Factor and label; a force is in the unit that fits it."""
+
+
+def axis_label(values: xr.DataArray, quantity: str) -> tuple[float, str]:
+    """Factor and label of a quantity; of one that has none of its own, by its meaning."""
+    if quantity not in _LABELS:
+        units = {"m": "mm", "m s-2": "m/s²", "1": "–"}
+        unit = str(values.attrs.get("units", "1"))
+        name = values.attrs.get("long_name", quantity.replace("_", " "))
+        return 1e3 if unit == "m" else 1.0, f"{name} ({units.get(unit, unit)})"
+    factor, label = _LABELS[quantity]
+    if factor == 0.0:
+        fits = FORCE.unit(*values.values.ravel())
+        return 1.0 / fits.size, label.format(fits.symbol)
+    return factor, label

@@ -1,0 +1,1 @@
+"""What uncertain parameters of a rig make of its response."""

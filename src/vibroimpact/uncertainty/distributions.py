@@ -1,0 +1,176 @@
+"""Distributions of uncertain parameters: frozen ones of scipy.stats, or texts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.parameters import Parameter
+from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model.units import shown, to_si
+
+_Array = NDArray[np.float64]
+
+
+class Distribution(Protocol):
+    """What is asked of a distribution: any frozen one of `scipy.stats` has it."""
+
+    def ppf(self, q: _Array) -> _Array:
+        """Values below which the shares q lie (the inverse of the distribution function)."""
+
+
+KINDS = (
+    "normal:MEAN:DEVIATION[:LOW:HIGH], lognormal:MEDIAN:SIGMA, uniform:LOW:HIGH, "
+    "triangular:LOW:MODE:HIGH; or normal:SHARE, lognormal:SHARE, uniform:SHARE of the rig's value"
+)
+
+
+def distribution(
+    given: Any, varied: Parameter, own: Callable[[], float], field: str
+) -> Distribution:
+    """Read a distribution.
+
+    Parameters
+    ----------
+    given
+        A frozen distribution of `scipy.stats`, in SI units; or a text as in `KINDS`, such as
+        ``"normal:7.5 mm:0.5 mm"`` or ``"uniform:5%"``. A sigma is that of the logarithm.
+    varied
+        The parameter.
+    own
+        Tells the rig's own value, from which shares are taken.
+    field
+        Names it in messages.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    if not isinstance(given, str):
+        if not callable(getattr(given, "ppf", None)) or not hasattr(given, "args"):
+            raise InputError(
+                f"{field}: {shown(given)} is no distribution; a frozen one of scipy.stats or a "
+                f"text is accepted, {KINDS}"
+            )
+        frozen: Distribution = given
+        return frozen
+    kind, *texts = (part.strip() for part in given.split(":"))
+    try:
+        return _made(kind.lower(), texts, varied, own, field)
+    except _Unknown:
+        raise InputError(f"{field}: {given!r}; {KINDS} are accepted") from None
+
+
+class _Unknown(Exception):  # noqa: N818 - turned into words
+    """No such kind, or not so many numbers."""
+
+
+def _made(
+    kind: str, texts: list[str], varied: Parameter, own: Callable[[], float], field: str
+) -> Distribution:
+    def value(text: str) -> float:
+        return to_si(text, varied.quantity, field)
+
+    def number(text: str) -> float:
+        return to_si(text, DIMENSIONLESS, field, above=0.0)
+
+    def pair(low: str, high: str) -> tuple[float, float]:
+        ends = value(low), value(high)
+        if not ends[0] < ends[1]:
+            raise InputError(f"{field}: {low!r} is not below {high!r}; rising values are accepted")
+        return ends
+
+    made: Distribution
+    match kind, texts:
+        case "normal", [share]:
+            made = stats.norm(own(), number(share) * abs(own()))
+        case "normal", [mean, deviation]:
+            made = stats.norm(value(mean), to_si(deviation, varied.quantity, field, above=0.0))
+        case "normal", [mean, deviation, *bounds] if len(bounds) == 2:
+            at = value(mean)
+            wide = to_si(deviation, varied.quantity, field, above=0.0)
+            low, high = pair(*bounds)
+            made = stats.truncnorm((low - at) / wide, (high - at) / wide, at, wide)
+        case "lognormal", [share]:
+            made = stats.lognorm(number(share), scale=_positive(own(), field))
+        case "lognormal", [median, sigma]:
+            made = stats.lognorm(number(sigma), scale=_positive(value(median), field))
+        case "uniform", [share]:
+            half = number(share) * abs(own())
+            made = stats.uniform(own() - half, 2.0 * half)
+        case "uniform", [low, high]:
+            first, last = pair(low, high)
+            made = stats.uniform(first, last - first)
+        case "triangular", [low, mode, high]:
+            first, last = pair(low, high)
+            middle = value(mode)
+            if not first <= middle <= last:
+                raise InputError(f"{field}: the mode {mode!r} lies outside; one within is accepted")
+            made = stats.triang((middle - first) / (last - first), first, last - first)
+        case _:
+            raise _Unknown
+    return made
+
+
+def _positive(value: float, field: str) -> float:
+    if not value > 0.0:
+        raise InputError(f"{field}: a median of {value:g}; one above 0 is accepted")
+    return value
+
+
+def told(given: Any) -> str:
+    """A distribution as text, for a dataset's attributes."""
+    if isinstance(given, str):
+        return given
+    kept = [f"{number:.12g}" for number in given.args]
+    kept += [f"{name}={number:.12g}" for name, number in given.kwds.items()]
+    return f"{given.dist.name}({', '.join(kept)})"
+
+
+def check_values(values: _Array, varied: Parameter, field: str) -> None:
+    """Refuse draws that the parameter cannot have.
+
+    Raises
+    ------
+    InputError
+        With the worst of them.
+    """
+    least, most = varied.least, varied.most
+    short = np.zeros(values.shape, dtype=bool) if least is None else values < least
+    if not varied.zero:
+        short |= values <= 0.0
+    wrong = short | ~np.isfinite(values)
+    if most is not None:
+        wrong |= values > most
+    if not wrong.any():
+        return
+    low = f"at least {least:g}" if varied.zero and least is not None else "more than 0"
+    accepted = "finite values" if varied.zero and least is None else f"values of {low}"
+    if most is not None:
+        accepted += f" and at most {most:g}"
+    raise InputError(
+        f"{field}: a draw is {values[wrong][0]:g} {varied.units}; one with {accepted} is accepted, "
+        "such as a lognormal, or a normal between bounds"
+    )
+
+
+def check_names(distributions: Any) -> dict[str, Any]:
+    """The distributions by parameter.
+
+    Raises
+    ------
+    InputError
+        If it is no mapping, or empty.
+    """
+    if not isinstance(distributions, Mapping) or not distributions:
+        raise InputError(
+            f"distributions: {shown(distributions)}; distributions by parameter are accepted, such "
+            'as {"gap": "normal:5%"}'
+        )
+    return {str(name): one for name, one in distributions.items()}

@@ -1,0 +1,167 @@
+"""Ensembles: the response of a rig whose parameters are uncertain."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator
+from vibroimpact.model.counts import whole
+from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.units import shown
+from vibroimpact.response.threads import Progress, each
+from vibroimpact.response.variables import origin
+from vibroimpact.uncertainty.distributions import Distribution
+from vibroimpact.uncertainty.rigs import Drawn, Method, Uncertain, shares, uncertain
+
+_Array = NDArray[np.float64]
+
+Response = Callable[[list[Any]], xr.Dataset]
+"""A function of a list of rigs that gives a dataset with the dim ``rig``, such as `sweeps`."""
+
+CREATED_BY = "vibroimpact.ensemble"
+
+
+def ensemble(
+    rig: AnyRig | Oscillator,
+    distributions: Mapping[str, Distribution | str],
+    response: Response,
+    samples: int = 128,
+    *,
+    method: Method = "sobol",
+    seed: int = 0,
+    block: int = 64,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Draw rigs from the distributions of their parameters, and ask what each responds.
+
+    The response is any function of a list of rigs that returns a dataset with the dim ``rig``:
+    `sweeps`, `demands` and `lyapunov_exponents` are such functions, their other arguments given
+    beforehand, and `one_by_one` makes one of a function of a single rig::
+
+        vi.ensemble(case, {"gap": "normal:5%"}, functools.partial(vi.sweeps, frequencies=grid))
+
+    Parameters
+    ----------
+    rig
+        A laboratory case or its code, a `Rig` or a pair (oscillator, what shakes it); or an
+        oscillator alone, for a response to records.
+    distributions
+        By parameter, as of `branch`: frozen distributions of `scipy.stats` in SI units, or texts
+        such as ``"normal:7.5 mm:0.5 mm"``, ``"lognormal:0.2"`` or ``"uniform:10%"`` (of the rig's
+        own value). They are independent of each other.
+    response
+        Called with up to `block` rigs at a time: pairs (oscillator, what shakes it), or
+        oscillators if one was given.
+    samples
+        How many rigs are drawn; of Sobol's points a power of 2.
+    method
+        ``"sobol"`` (scrambled), ``"latin"`` (hypercube) or ``"random"``.
+    seed
+        The same one gives the same rigs.
+    block
+        How many rigs the response is asked for at a time.
+    progress
+        Called with the rigs done and all.
+
+    Returns
+    -------
+    xarray.Dataset
+        What the response is, with dim ``sample`` in the place of ``rig``, along which the drawn
+        values of each parameter stand by its name.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, a draw is one that the parameter cannot have, or the response
+        gives no dataset over rigs.
+    """
+    drawn = uncertain(rig, distributions)
+    size = whole(block, "block")
+    values = drawn.values(shares(samples, len(drawn.names), method, whole(seed, "seed", 0)))
+    data = responded(drawn, values, response, size, progress)
+    about = {**drawn.about(), "samples": len(values), "method": method, "seed": seed}
+    # It says of itself something else than the response of its first rigs.
+    data.attrs = {**data.attrs, **origin(CREATED_BY, about)}
+    return labelled(data, drawn, values)
+
+
+def responded(
+    drawn: Uncertain, values: _Array, response: Response, block: int, progress: Progress | None
+) -> xr.Dataset:
+    """The response of the rigs at rows of values, block by block, along ``sample``."""
+    if not callable(response):
+        raise InputError(
+            f"response: {shown(response)} is no function; one of a list of rigs is accepted, such "
+            "as functools.partial(vibroimpact.sweeps, frequencies=...)"
+        )
+    rigs = drawn.rigs(values)
+    parts = []
+    for first in range(0, len(rigs), block):
+        some = rigs[first : first + block]
+        parts.append(_part(response(some), len(some), drawn.names))
+        if progress:
+            progress(first + len(some), len(rigs))
+    return xr.concat(
+        parts,
+        "sample",
+        data_vars="minimal",
+        coords="minimal",
+        compat="override",
+        join="exact",
+        combine_attrs="override",
+    )
+
+
+def _part(data: Any, count: int, names: list[str]) -> xr.Dataset:
+    """What a response gives of some rigs, checked."""
+    if not isinstance(data, xr.Dataset) or data.sizes.get("rig") != count:
+        got = dict(data.sizes) if isinstance(data, xr.Dataset) else shown(data)
+        raise InputError(
+            f"response: it gives {got} for {count} rigs; a dataset with the dim rig, one for each "
+            "of them, is accepted"
+        )
+    for name in names:
+        if name in data.variables:
+            raise InputError(
+                f"distributions: {name!r} is a variable of the response itself; other parameters "
+                "are accepted beside it"
+            )
+    return data.drop_vars("rig", errors="ignore").rename_dims(rig="sample")
+
+
+def labelled(data: xr.Dataset, drawn: Uncertain, values: _Array) -> xr.Dataset:
+    """With the drawn values of each parameter, and their units."""
+    for i, varied in enumerate(drawn.parameters):
+        meaning = {"units": varied.units, "long_name": varied.long_name}
+        data = data.assign_coords({varied.name: ("sample", values[:, i], meaning)})
+    return data
+
+
+def one_by_one(
+    function: Callable[..., xr.Dataset], threads: int | None = None
+) -> Callable[[list[Drawn]], xr.Dataset]:
+    """Make a function of many rigs of one of a single rig, for `ensemble` and `sensitivity`.
+
+    Parameters
+    ----------
+    function
+        Called with an oscillator and what shakes it (or with an oscillator alone, if the rig of
+        the ensemble is one); it returns a dataset whose dims have the same sizes for all rigs. For
+        example ``lambda rig, shaking: vi.steady(rig, shaking)[["displacement_max", "period"]]``.
+    threads
+        How many run at once; None for one a processor.
+    """
+
+    def responses(rigs: list[Drawn]) -> xr.Dataset:
+        def one(rig: Drawn, _: Any) -> xr.Dataset:
+            return function(rig) if isinstance(rig, Oscillator) else function(*rig)
+
+        return xr.concat(each(one, rigs, threads=threads), "rig", combine_attrs="override")
+
+    return responses
