@@ -47,10 +47,12 @@ _HOME = {
     "design": "sizing.chart",
     "ensemble": "uncertainty.ensemble",
     "exceedance": "seismic.suites",
+    "fitted": "identification.identify",
     "floor_record": "seismic.floor",
     "fractiles": "seismic.suites",
     "fragility": "seismic.fragility",
     "from_dimensionless": "model",
+    "identify": "identification.identify",
     "impact_section": "response.section",
     "laboratory": "model",
     "least_acceleration": "sizing.best",
@@ -109,10 +111,12 @@ __all__ = [
     "design",
     "ensemble",
     "exceedance",
+    "fitted",
     "floor_record",
     "fractiles",
     "fragility",
     "from_dimensionless",
+    "identify",
     "impact_section",
     "laboratory",
     "least_acceleration",
@@ -142,6 +146,7 @@ __all__ = [
 
 if TYPE_CHECKING:
     from vibroimpact.errors import InputError
+    from vibroimpact.identification.identify import fitted, identify
     from vibroimpact.measurement.read import read_measurement
     from vibroimpact.model import (
         BilinearIsolator,

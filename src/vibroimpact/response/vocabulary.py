@@ -18,6 +18,8 @@ class Variable(NamedTuple):
 _OVER = "over that of the largest free flight of the same isolator and amplitude at any frequency"
 _RIGID = "infinite where a rigid stop was struck"
 
+_OWN = "in the parameter's own SI unit"
+
 VARIABLES: dict[str, Variable] = {
     # what may be varied
     **{p.name: Variable(p.units, p.long_name, p.comment) for p in PARAMETERS.values()},
@@ -128,6 +130,42 @@ VARIABLES: dict[str, Variable] = {
     "mass_displacement": Variable("m", "absolute displacement of the mass"),
     "base_displacement": Variable("m", "displacement of the base"),
     "contact_force": Variable("N", "force of the contact, as a sensor has it"),
+    # fits
+    "parameter": Variable("1", "what is fitted"),
+    "other_parameter": Variable("1", "what is fitted"),
+    "test": Variable("1", "name of the test"),
+    "test_kind": Variable("1", "curves or history"),
+    "fitted_value": Variable("1", "fitted value", _OWN),
+    "start_value": Variable("1", "where the fit began", _OWN),
+    "standard_error": Variable("1", "standard error", _OWN),
+    "parameter_units": Variable("1", "unit of the parameter"),
+    "covariance": Variable("1", "covariance of the parameters", _OWN),
+    "correlation": Variable("1", "correlation of the parameters"),
+    "interval": Variable("1", "confidence interval", _OWN),
+    "interval_open": Variable("1", "whether a bound, not the data, ends the interval"),
+    "profile_value": Variable("1", "value at which a parameter was held", _OWN),
+    "profile_rise": Variable("1", "rise of the deviance as all others are fitted"),
+    "bootstrap_value": Variable("1", "fitted value of a bootstrap sample", _OWN),
+    "posterior_value": Variable("1", "sample of the posterior", _OWN),
+    "point_test": Variable("1", "test of the point"),
+    "point_direction": Variable("1", "sweep direction of the point"),
+    "point_variable": Variable("1", "what was measured"),
+    "point_place": Variable("1", "frequency (Hz) or time (s) of the point"),
+    "measured_value": Variable("1", "measured value", "in the SI unit of what was measured"),
+    "modelled_value": Variable("1", "value of the fit", "in the SI unit of what was measured"),
+    "fit_residual": Variable("1", "residual", "of curves, a share of the value"),
+    "noise": Variable("1", "standard deviation of the residuals"),
+    "data_noise": Variable("1", "standard deviation of the measurement itself", "0: not known"),
+    "residual_correlation": Variable("1", "correlation of neighbouring residuals"),
+    "residual_chance": Variable("1", "probability that noise correlates so much"),
+    "residual_excess": Variable("1", "residuals over the noise of the measurement"),
+    "residual_excess_chance": Variable("1", "probability that noise is so much larger"),
+    "log_likelihood": Variable("1", "logarithm of the likelihood"),
+    "akaike": Variable("1", "Akaike's criterion, corrected for few points"),
+    "bayes": Variable("1", "Bayesian information criterion"),
+    "candidate_amplitude": Variable("m s-2", "peak base acceleration of a test to come"),
+    "information": Variable("1", "what a test would tell of all parameters", "in nats"),
+    "remaining_error": Variable("1", "standard error behind a test over that before it"),
     # contacts
     "contact_side": Variable("1", "stop of the contact: -1 left, 1 right"),
     "contact_start": Variable("s", "time at which the contact begins"),

@@ -1,0 +1,190 @@
+"""Parameters of rigs from measurements, with what is known of them and how well."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.errors import InputError
+from vibroimpact.identification import results
+from vibroimpact.identification.free import frees
+from vibroimpact.identification.given import tests_of, ties_of
+from vibroimpact.identification.problem import Problem
+from vibroimpact.identification.robust import noises
+from vibroimpact.identification.search import local, search
+from vibroimpact.identification.uncertainty import Profile, bootstrap, profile, spread
+from vibroimpact.model import Rig
+from vibroimpact.model.counts import share, whole
+from vibroimpact.model.excitation import Harmonic
+from vibroimpact.response.threads import Progress
+
+_TAIL = 3.0
+"""Standard deviations from which on a point counts less than its square."""
+_COARSE = 0.02
+"""Noise while searching is taken as no smaller."""
+_ROUNDS = 2
+"""How often noise and fit are found one after the other."""
+
+
+def identify(
+    data: Any,
+    oscillator: Any,
+    free: Mapping[str, Any] | Sequence[str] | str,
+    *,
+    amplitude: Any = None,
+    each: Sequence[str] = (),
+    ties: Mapping[str, str] | None = None,
+    priors: Mapping[str, tuple[Any, Any]] | None = None,
+    noise: Any = None,
+    robust: bool = True,
+    confidence: float = 0.95,
+    starts: int = 6,
+    tried: int = 64,
+    profiles: bool = True,
+    draws: int = 0,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Find parameters of rigs from measurements, and how well these determine them.
+
+    Parameters
+    ----------
+    data
+        A dataset of `read_measurement`, or of `sweep` or `simulate`, or the path of a file; or
+        several, as a list or by name.
+    oscillator
+        What was tested, with the values that are known and a guess of the others: an `Oscillator`,
+        a case or a `Rig`; or one for each test, as a list or by name.
+    free
+        What is sought: names of parameters, such as ``"stiffness,bumper_damping"``; or a mapping
+        from names to a start, to bounds (low, high), to both (``{"start": ..., "low": ...}``), or
+        to None for the rig's own value. Of sensors there are ``displacement_scale``,
+        ``acceleration_scale``, ``displacement_offset`` and ``acceleration_offset``.
+    amplitude
+        Peak base acceleration, where neither the data nor the rig say it; by test if they differ.
+    each
+        Names of those of which each test has its own; the others are shared.
+    ties
+        Parameters that follow others, such as ``{"left_gap": "right_gap"}``.
+    priors
+        Mean and standard deviation of what is known beforehand, by name.
+    noise
+        Standard deviation of a measured value as a share of it; None to find it from the fit.
+    robust
+        Whether points that lie far off count less than their squares.
+    confidence
+        Of the intervals.
+    starts, tried
+        Local fits, and places over the ranges of what is free among which their starts are chosen.
+    profiles
+        Whether intervals come from profiles of the likelihood, which may be asymmetric and end at
+        a bound; otherwise they are those of the covariance.
+    draws
+        Bootstrap samples over the points.
+    seed
+        Of the starts and the bootstrap.
+    threads
+        How many fits run at once; None for one a processor.
+    progress
+        Called with the steps done, and all of them.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``parameter``: ``fitted_value``, ``standard_error``, ``interval`` (``bound``: low, high)
+        and whether it is open there, ``covariance``, ``correlation``, the profiles, the bootstrap's
+        values. Dim ``point``: what was measured, what the fit has there, and the residual as a
+        share. Dim ``test``: noise, and whether the residuals have a shape. The attribute
+        ``findings`` says it in words, a line each; `fitted` makes the rig of it.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or there are fewer points than unknowns.
+    """
+    starts, tried = whole(starts, "starts"), whole(tried, "tried", least=0)
+    draws, seed = whole(draws, "draws", least=0), whole(seed, "seed", least=0)
+    confidence = share(confidence, "confidence")
+    threads = (os.cpu_count() or 1) if threads is None else whole(threads, "threads")
+    tests = tests_of(data, oscillator, amplitude, noise)
+    given = frees(free, {t.name: t.setting for t in tests}, each, dict(priors or {}))
+    problem = Problem(tests, given, ties_of(ties), [max(t.noise, _COARSE) for t in tests], _TAIL)
+    _enough(problem)
+    steps = 3 + (len(given) if profiles else 0) + (1 if draws else 0)
+    done = 0
+
+    def tell() -> None:
+        nonlocal done
+        done += 1
+        if progress:
+            progress(done, steps)
+
+    found = search(problem, tried, starts, seed, threads)
+    tell()
+    x = found.x
+    fixed = [noise is not None] * len(tests)
+    tail = _TAIL if robust else np.inf
+    for _ in range(_ROUNDS):
+        problem = problem.replaced(sigma=noises(problem, x, fixed), tail=tail)
+        x = local(problem, x, precise=True).x
+    problem = problem.replaced(sigma=noises(problem, x, fixed))
+    tell()
+    around = spread(problem, x)
+    tell()
+    curves: list[Profile] = []
+    if profiles:
+        for number in range(len(given)):
+            curves.append(profile(problem, x, number, around, confidence))
+            tell()
+    samples = bootstrap(problem, x, around, draws, seed, threads) if draws else None
+    return results.labelled(problem, x, found, around, curves, samples, confidence)
+
+
+def fitted(result: xr.Dataset, test: str | None = None) -> Rig:
+    """Return the rig that a fit has found, with the shaking of a test.
+
+    Parameters
+    ----------
+    result
+        Dataset of `identify`.
+    test
+        Whose rig; None where there is one test.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no fit, or the test is not among its own.
+    """
+    if "fitted_value" not in result:
+        raise InputError("result: this is no fit; a dataset of identify is accepted")
+    rigs = json.loads(result.attrs["rigs"])
+    if (
+        test is None
+        and len(rigs) > 1
+        and len({json.dumps(r["oscillator"]) for r in rigs.values()}) > 1
+    ):
+        raise InputError(f"test: missing, and their rigs differ; one of {list(rigs)} is accepted")
+    name = next(iter(rigs)) if test is None else test
+    if name not in rigs:
+        raise InputError(f"test: {name!r}; one of {list(rigs)} is accepted")
+    oscillator, shaken = results.setting_of(rigs[name])
+    assert isinstance(shaken, Harmonic)
+    return Rig(oscillator, shaken.amplitude)
+
+
+def _enough(problem: Problem) -> None:
+    points = sum(t.points_count for t in problem.tests)
+    unknowns = len(problem.start)
+    priors = sum(one.prior is not None for one in problem.free)
+    if points + priors < unknowns:
+        names = ", ".join(one.key for one in problem.free)
+        raise InputError(
+            f"free: {unknowns} unknowns ({names}) and {points} measured values; as many values as "
+            "unknowns are accepted, or fewer that are free"
+        )

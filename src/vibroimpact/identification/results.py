@@ -1,0 +1,169 @@
+"""A fit as a labelled dataset."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy.stats import t as student
+
+from vibroimpact.identification import words
+from vibroimpact.identification.problem import Array, Problem
+from vibroimpact.identification.search import Found
+from vibroimpact.identification.shown import Shown
+from vibroimpact.identification.structure import Structure, structure
+from vibroimpact.identification.uncertainty import Profile, Spread
+from vibroimpact.model import Oscillator
+from vibroimpact.model.access import Setting
+from vibroimpact.response.variables import (
+    describe,
+    excitation_from,
+    excitation_parameters,
+    oscillator_parameters,
+)
+
+_SILENT = 1e-6
+"""Residuals that are smaller are those of made-up data without noise."""
+
+
+def labelled(
+    problem: Problem,
+    x: Array,
+    found: Found,
+    around: Spread,
+    curves: list[Profile],
+    samples: Array | None,
+    confidence: float,
+) -> xr.Dataset:
+    """Put a fit into a dataset."""
+    count = len(problem.free)
+    values = x[:count] * problem.scale[:count]
+    keys = [one.key for one in problem.free]
+    data = xr.Dataset(coords={"parameter": keys, "test": [t.name for t in problem.tests]})
+    data["fitted_value"] = ("parameter", values)
+    data["standard_error"] = ("parameter", around.error)
+    data["start_value"] = ("parameter", [one.start for one in problem.free])
+    data["parameter_units"] = ("parameter", [one.quantity.symbol for one in problem.free])
+    twice = ("parameter", "other_parameter")
+    data = data.assign_coords(other_parameter=keys)
+    data["covariance"] = (twice, around.covariance)
+    data["correlation"] = (twice, around.correlation)
+    interval, is_open = _intervals(problem, values, around, curves, confidence)
+    data = data.assign_coords(bound=["low", "high"])
+    data["interval"] = (("parameter", "bound"), interval)
+    data["interval_open"] = (("parameter", "bound"), is_open)
+    if curves:
+        longest = max(len(c.value) for c in curves)
+        for name, of in (("profile_value", "value"), ("profile_rise", "rise")):
+            table = np.full((count, longest), np.nan)
+            for row, curve in zip(table, curves, strict=True):
+                row[: len(curve.value)] = getattr(curve, of)
+            data[name] = (("parameter", "profile_point"), table)
+    if samples is not None:
+        data["bootstrap_value"] = (("draw", "parameter"), samples)
+    judged = _points(data, problem, x)
+    cost = problem.cost(x)
+    # Of normal residuals whose deviation was found, too, up to what all models have in common.
+    number = int(problem.measured.sum())
+    plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf).values(x).residuals
+    begin, likelihood = 0, 0.0
+    for test in problem.tests:
+        part = plain[begin : begin + test.points_count]
+        begin += test.count
+        size = max(float(np.mean(part**2)), _SILENT**2 * 1e-6)
+        likelihood -= 0.5 * test.points_count * (np.log(2.0 * np.pi * size) + 1.0)
+    known = len(x) + len(problem.tests)
+    data["log_likelihood"] = likelihood
+    data["akaike"] = (
+        2.0 * known - 2.0 * likelihood + 2.0 * known * (known + 1) / max(number - known - 1, 1)
+    )
+    data["bayes"] = known * np.log(number) - 2.0 * likelihood
+    rigs = {}
+    for test in problem.tests:
+        (oscillator, shaken), sensors = problem.setting(x, test)
+        rigs[test.name] = {
+            "oscillator": oscillator_parameters(oscillator),
+            "excitation": excitation_parameters(shaken),
+            "sensors": sensors,
+        }
+    data.attrs = {
+        "rigs": json.dumps(rigs),
+        "names": json.dumps([one.name for one in problem.free]),
+        "confidence": confidence,
+        "cost": cost,
+        "starts": found.starts,
+        "starts_alike": found.alike,
+        "evaluations": found.evaluations,
+        "robust": int(np.isfinite(problem.tail)),
+    }
+    data.attrs["findings"] = "\n".join(words.findings(data, problem, found, judged))
+    return describe(
+        data,
+        "vibroimpact.identify",
+        {"free": keys, "ties": dict(problem.ties), "tests": [t.name for t in problem.tests]},
+    )
+
+
+def setting_of(rig: dict[str, Any]) -> Setting:
+    """A rig and its shaking from a fit's attributes."""
+    return Oscillator.model_validate(rig["oscillator"]), excitation_from(rig["excitation"])
+
+
+def _intervals(
+    problem: Problem, values: Array, around: Spread, curves: list[Profile], confidence: float
+) -> tuple[Array, Array]:
+    if curves:
+        ends = np.array([(c.low, c.high) for c in curves])
+        return ends, np.array([(c.open_low, c.open_high) for c in curves], dtype=np.int64)
+    wide = float(student.ppf(0.5 + 0.5 * confidence, around.freedom)) * around.error
+    low = np.array([one.low for one in problem.free])
+    high = np.array([one.high for one in problem.free])
+    ends = np.stack([np.maximum(values - wide, low), np.minimum(values + wide, high)], axis=1)
+    return ends, np.stack([ends[:, 0] == low, ends[:, 1] == high], axis=1).astype(np.int64)
+
+
+def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
+    """Enter all points, and judge each test's residuals."""
+    rows: dict[str, list[Any]] = {
+        name: []
+        for name in (
+            "point_test", "point_direction", "point_variable", "point_place", "measured_value",
+            "modelled_value", "fit_residual",
+        )
+    }  # fmt: skip
+    judged = []
+    used = sum(t.points_count for t in problem.tests)
+    for number, test in enumerate(problem.tests):
+        setting, sensors = problem.setting(x, test)
+        shown = test.shown(setting, sensors, problem.of_test(x, number))
+        rows["point_test"] += [test.name] * len(shown.place)
+        rows["point_direction"] += shown.direction
+        rows["point_variable"] += shown.variable
+        rows["point_place"] += shown.place.tolist()
+        rows["measured_value"] += shown.measured.tolist()
+        rows["modelled_value"] += shown.modelled.tolist()
+        rows["fit_residual"] += shown.residual.tolist()
+        known = test.noise if test.noise > 0.0 else None
+        share = max(1.0 - len(x) / used, 0.1)
+        judged.append(structure(_sequences(shown), known, share * len(shown.place), _SILENT))
+    for name, values in rows.items():
+        data[name] = ("point", np.array(values))
+    data["noise"] = ("test", np.array(problem.sigma))
+    data["data_noise"] = ("test", np.array([t.noise for t in problem.tests]))
+    for name in ("correlation", "chance", "excess", "excess_chance"):
+        data[f"residual_{name}"] = ("test", np.array([getattr(j, name) for j in judged]))
+    data["test_kind"] = ("test", [t.kind for t in problem.tests])
+    return judged
+
+
+def _sequences(shown: Shown) -> list[tuple[Array, Array]]:
+    """Residuals of each direction and quantity in the order of their places."""
+    found = []
+    keys = list(zip(shown.direction, shown.variable, strict=True))
+    for key in dict.fromkeys(keys):
+        here = np.array([k == key for k in keys])
+        order = np.argsort(shown.place[here], kind="stable")
+        found.append((shown.place[here][order], shown.residual[here][order]))
+    return found

@@ -1,0 +1,78 @@
+"""What a fit says, in words."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.identification.problem import Problem
+from vibroimpact.identification.search import Found
+from vibroimpact.identification.structure import CERTAIN, Structure
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.units import pretty
+
+_WEAK = 0.25
+"""Of a value: an interval whose half is wider leaves a parameter all but undetermined."""
+_BOUND = 0.95
+"""Correlation from which on two parameters are said to stand for each other."""
+_FEW = 2
+
+
+def findings(
+    data: xr.Dataset, problem: Problem, found: Found, judged: list[Structure]
+) -> list[str]:
+    """Lines about how well a fit is known, what is not determined, and what the model lacks."""
+    lines = [
+        f"{found.alike} of {found.starts} starts came to this fit"
+        + ("" if found.alike >= _FEW else "; more starts may find a better one")
+    ]
+    lines += [line for number in range(len(problem.free)) if (line := _of(data, problem, number))]
+    correlation = data["correlation"].values
+    for i in range(len(correlation)):
+        for j in range(i):
+            if abs(correlation[i, j]) > _BOUND:
+                one, other = problem.free[j].key, problem.free[i].key
+                both = "ratio" if correlation[i, j] > 0 else "product"
+                lines.append(
+                    f"{one} and {other} can hardly be told apart (correlation "
+                    f"{correlation[i, j]:.3f}): their {both} is known better than either"
+                )
+    for test, what in zip(problem.tests, judged, strict=True):
+        lines += _shape(test.name, test.kind, what)
+    return lines
+
+
+def _of(data: xr.Dataset, problem: Problem, number: int) -> str:
+    one = problem.free[number]
+    value = float(data["fitted_value"][number])
+    low, high = data["interval"][number].values.tolist()
+    open_low, open_high = (bool(v) for v in data["interval_open"][number].values)
+    meaning = PARAMETERS[one.name].long_name if one.name in PARAMETERS else one.name
+    named = f"{one.key} ({meaning.replace('_', ' ')})"
+    weak = abs(high - low) > 2.0 * _WEAK * abs(value) and one.quantity.symbol != ""
+    if not (open_low or open_high or weak):
+        return ""
+    ends = f"{pretty(low, one.quantity, 3)} to {pretty(high, one.quantity, 3)}"
+    if open_low and open_high:
+        return f"{named} is not determined: all of {ends} fits as well"
+    if open_low:
+        return f"{named} is known from above only: {ends} fits as well"
+    if open_high:
+        return f"{named} is known from below only: {ends} and more fits as well"
+    return f"{named} is poorly determined: {ends} fits as well"
+
+
+def _shape(name: str, kind: str, what: Structure) -> list[str]:
+    unit = "Hz" if kind == "curves" else "s"
+    lines = []
+    if what.chance < CERTAIN:
+        lines.append(
+            f"{name}: the residuals are not noise: neighbours agree (correlation "
+            f"{what.correlation:.2f}), most between {what.worst[0]:.4g} and {what.worst[1]:.4g} "
+            f"{unit}; the model lacks something there"
+        )
+    if what.excess_chance < CERTAIN and np.isfinite(what.excess):
+        lines.append(
+            f"{name}: the residuals are {what.excess:.3g} times the noise of the measurement"
+        )
+    return lines

@@ -1,0 +1,165 @@
+"""Twins of the published sets are found again."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from identification.twins import FREE, curves, off, truth
+
+CASES = ("B2-G1-A3", "B2-G2-A2")
+
+
+def errors(result, rig):
+    return result.fitted_value.values / truth(rig) - 1.0
+
+
+@pytest.mark.parametrize("code", CASES)
+def test_without_noise_to_rounding_from_half_as_much_again(code):
+    case = vi.laboratory.case(code, "identified")
+    start = off(case.oscillator, (1.5, 0.5, 1.5, 0.5, 1.5))
+    found = vi.identify(
+        curves(case.oscillator, case.amplitude), start, FREE, profiles=False, tried=32, starts=3,
+        threads=2,
+    )  # fmt: skip
+    assert np.abs(errors(found, case.oscillator)).max() < 1e-6
+    assert found.attrs["starts_alike"] >= 1
+
+
+@pytest.mark.parametrize("code", CASES)
+def test_with_noise_within_its_own_errors(code):
+    case = vi.laboratory.case(code, "identified")
+    start = off(case.oscillator, (0.5, 1.5, 0.5, 1.5, 1.2))
+    data = curves(case.oscillator, case.amplitude, 0.02, seed=4)
+    found = vi.identify(data, start, FREE, profiles=False, tried=32, starts=3, threads=2)
+    away = (found.fitted_value.values - truth(case.oscillator)) / found.standard_error.values
+    assert np.abs(away).max() < 3.0
+    assert float(found.noise[0]) == pytest.approx(0.02, rel=0.25)
+    assert np.abs(errors(found, case.oscillator))[[0, 1, 2, 4]].max() < 0.03
+    rig = vi.fitted(found)
+    assert rig.oscillator.right.gap == pytest.approx(found.fitted_value.values[4])
+    assert rig.amplitude == case.amplitude
+
+
+def test_profiles_and_bootstrap_agree_with_the_covariance_where_it_is_normal(tmp_path):
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    data = curves(case.oscillator, case.amplitude, 0.02, seed=5)
+    found = vi.identify(data, case.oscillator, FREE[:3], draws=60, tried=0, starts=1, threads=2)
+    half = 0.5 * np.diff(found.interval.values, axis=1)[:, 0]
+    assert half == pytest.approx(1.97 * found.standard_error.values, rel=0.1)
+    drawn = found.bootstrap_value.std("draw").values
+    assert drawn == pytest.approx(found.standard_error.values, rel=0.35)
+    vi.save(found, tmp_path / "fit.nc")
+    assert vi.fitted(vi.load(tmp_path / "fit.nc")) == vi.fitted(found)
+
+
+def test_two_tests_share_a_bumper_and_have_their_own_isolator():
+    one = vi.laboratory.case("B2-G1-A3", "identified")
+    other = vi.laboratory.case("B2-G2-A2", "identified")
+    tests = {
+        "A3": curves(one.oscillator, one.amplitude, 0.01, seed=1),
+        "A2": curves(other.oscillator, other.amplitude, 0.01, seed=2),
+    }
+    free = {"stiffness": "29 kN/m", "bumper_stiffness": "450 kN/m"}
+    rigs = {"A3": one.oscillator, "A2": other.oscillator}
+    found = vi.identify(tests, rigs, free, each=["stiffness"], tried=0, starts=1, profiles=False)
+    assert found.parameter.values.tolist() == ["stiffness[A3]", "stiffness[A2]", "bumper_stiffness"]
+    assert found.fitted_value.values == pytest.approx([26800.0, 31900.0, 510000.0], rel=0.02)
+    assert vi.fitted(found, "A2").oscillator.isolator.stiffness == found.fitted_value.values[1]
+    with pytest.raises(vi.InputError, match="test: missing"):
+        vi.fitted(found)
+
+
+def test_an_outlier_does_little():
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    data = curves(case.oscillator, case.amplitude, 0.01, seed=6)
+    data.displacement_excursion[0, 30] *= 1.6
+    data.acceleration_excursion[1, 5] *= 0.5
+    shift = []
+    for robust in (True, False):
+        found = vi.identify(
+            data, case.oscillator, "stiffness,damping,gap", robust=robust, tried=0, starts=1,
+            profiles=False,
+        )  # fmt: skip
+        true = truth(case.oscillator)[[0, 1, 4]]
+        shift.append(np.abs(found.fitted_value.values / true - 1.0).max())
+    assert shift[0] < 0.01 < 0.02 < shift[1] + 0.012
+
+
+def test_priors_ties_and_bounds():
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    data = curves(case.oscillator, case.amplitude, 0.02, seed=7)
+    wide = vi.identify(data, case.oscillator, "bumper_damping", tried=0, starts=1)
+    tight = vi.identify(
+        data, case.oscillator, "bumper_damping", tried=0, starts=1,
+        priors={"bumper_damping": ("0.9 kN s/m", 20.0)},
+    )  # fmt: skip
+    assert float(tight.standard_error[0]) < 20.0 < float(wide.standard_error[0])
+    tied = vi.identify(
+        data, case.oscillator, "right_gap", ties={"left_gap": "right_gap"}, tried=0, starts=1,
+        profiles=False,
+    )  # fmt: skip
+    rig = vi.fitted(tied).oscillator
+    assert rig.left.gap == rig.right.gap == tied.fitted_value.values[0]
+    held = vi.identify(
+        data, case.oscillator, {"bumper_damping": (0, 800)}, tried=0, starts=1
+    )  # fmt: skip
+    low, high = held.interval.values[0]
+    assert 0.0 <= low < high <= 800.0
+    assert held.interval_open.values[0].any()
+    assert "bumper_damping (damping of both bumpers)" in held.attrs["findings"]
+
+
+def test_maxima_minima_and_eta_with_a_sensor_that_is_off():
+    stiff = vi.Bumper("510 kN/m", "0.9 kN s/m", "9 mm")
+    soft = vi.Bumper("300 kN/m", "0.6 kN s/m", "12 mm")
+    rig = vi.Oscillator("550 kg", vi.Isolator("31.9 kN/m", "1.1 kN s/m"), stiff, soft)
+    data = curves(rig, "0.04 g", names=("displacement_max", "displacement_min", "eta_a"))
+    data["displacement_max"] = 1.03 * data.displacement_max + 4e-4
+    data["displacement_min"] = 1.03 * data.displacement_min + 4e-4
+    start = rig.replace(right=stiff.replace(gap="10 mm"), left=soft.replace(gap="10 mm"))
+    free = ["right_gap", "left_gap", "displacement_scale", "displacement_offset"]
+    found = vi.identify(data, start, free, tried=0, starts=1, profiles=False)
+    assert found.fitted_value.values == pytest.approx([0.009, 0.012, 1.03, 4e-4], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"free": "stifness"}, "free: 'stifness'"),
+        ({"free": ""}, "free: ''"),
+        ({"free": {"gap": (0.02, 0.01)}}, "low 0.02 is not below high 0.01"),
+        ({"free": {"gap": "3 kg"}}, "is a mass"),
+        ({"each": ["damping"]}, "each: 'damping' is not free"),
+        ({"priors": {"damping": (1, 2)}}, "priors: 'damping' is not free"),
+        ({"ties": {"left_gap": "nothing"}}, "ties: 'nothing'"),
+        ({"noise": -1}, "noise"),
+        ({"data": {}}, "there is none"),
+        ({"data": 3}, "int is no measurement"),
+    ],
+)
+def test_what_cannot_be_fitted_is_refused(change, told):
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    asked = {"data": curves(case.oscillator, case.amplitude), "free": "gap", **change}
+    with pytest.raises(vi.InputError) as error:
+        vi.identify(asked.pop("data"), case.oscillator, asked.pop("free"), **asked)
+    assert told in str(error.value)
+
+
+def test_millimetres_taken_as_metres_are_noticed():
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    data = curves(case.oscillator, case.amplitude)
+    data["displacement_excursion"] = 1e3 * data.displacement_excursion
+    with pytest.raises(vi.InputError, match="units wrong"):
+        vi.identify(data, case.oscillator, "gap")
+
+
+def test_too_few_points_and_no_amplitude():
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    data = curves(case.oscillator, case.amplitude).isel(frequency=[3], direction=[0])
+    with pytest.raises(vi.InputError, match="5 unknowns"):
+        vi.identify(data, case.oscillator, FREE)
+    found = vi.identify(data, case.oscillator, "gap", tried=0, starts=1, profiles=False)
+    assert found.fitted_value.values[0] == pytest.approx(0.01, rel=1e-5)
+    del data.attrs["amplitude"]
+    with pytest.raises(vi.InputError, match="amplitude: missing"):
+        vi.identify(data, case.oscillator, "gap")
