@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 
 from rich.console import Console
 
+from benchmarks.basins import basins
 from benchmarks.branches import branches
 from benchmarks.campaign import campaign
 from benchmarks.designs import designs
@@ -34,6 +35,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "campaign": lambda: (campaign(),),
         "motions": lambda: (motions(),),
         "branches": lambda: (branches(),),
+        "basins": lambda: (basins(),),
         "scenarios": lambda: (scenarios(),),
         "designs": lambda: (designs(),),
         "startup": lambda: (startup(compiling()), memory(), size()),

@@ -37,6 +37,7 @@ _HOME = {
     "RigidStop": "model",
     "State": "model",
     "Thresholds": "scenario.thresholds",
+    "basins": "attraction.grid",
     "bifurcation_curve": "stability.curves",
     "bifurcation_diagram": "stability.bifurcation_diagram",
     "branch": "stability.branch",
@@ -101,6 +102,7 @@ __all__ = [
     "State",
     "Thresholds",
     "__version__",
+    "basins",
     "bifurcation_curve",
     "bifurcation_diagram",
     "branch",
@@ -145,6 +147,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
+    from vibroimpact.attraction.grid import basins
     from vibroimpact.errors import InputError
     from vibroimpact.identification.identify import fitted, identify
     from vibroimpact.measurement.read import read_measurement

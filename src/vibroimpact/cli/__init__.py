@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable
 from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
+from vibroimpact.cli.basins import basins
 from vibroimpact.cli.bifurcation import bifurcation
 from vibroimpact.cli.branch import branch
 from vibroimpact.cli.classify import classify
@@ -44,6 +45,7 @@ For example:
     vibroimpact motion B2-G1-A3 --frequency 2.6Hz
     vibroimpact branch B2-G1-A3
     vibroimpact bifurcation B3-10mm-A3 --from 0.9Hz --to 1.3Hz
+    vibroimpact basins B3-10mm-A3 --frequency 0.7Hz
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
     vibroimpact record quake.AT2
     vibroimpact earthquake B2-G1-A3 quake.AT2
@@ -64,6 +66,7 @@ _COMMANDS: tuple[Callable[..., int], ...] = (
     branch,
     bifurcation,
     curve,
+    basins,
     simulate,
     record,
     earthquake,

@@ -75,7 +75,7 @@ def motion(
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
-    shaken = _excitations(what, frequency)
+    shaken = excitations(what, frequency)
     _check(random, window, samples)
 
     with output_folder(out.output) as folder:
@@ -118,7 +118,7 @@ def motion(
     return 0
 
 
-def _excitations(what: Subject, frequency: str | None) -> list[Repeated]:
+def excitations(what: Subject, frequency: str | None) -> list[Repeated]:
     """The excitations asked for, from the option or the study.
 
     Raises

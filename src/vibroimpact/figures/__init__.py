@@ -6,6 +6,7 @@ A notebook shows what is returned; `save_figure` writes it to a file.
 """
 
 from vibroimpact.figures.accelerogram import accelerogram
+from vibroimpact.figures.basins import basin_portrait
 from vibroimpact.figures.branches import bifurcation_diagram
 from vibroimpact.figures.cases import scenario_cases
 from vibroimpact.figures.clearance import clearances
@@ -33,6 +34,7 @@ from vibroimpact.figures.style import save_figure
 __all__ = [
     "Mark",
     "accelerogram",
+    "basin_portrait",
     "bifurcation_curves",
     "bifurcation_diagram",
     "clearances",

@@ -347,6 +347,44 @@ VARIABLES: dict[str, Variable] = {
     "pseudo_acceleration": Variable(
         "m s-2", "pseudo-acceleration", "angular frequency squared times displacement"
     ),
+    # basins
+    "attractor": Variable("1", "number of the steady motion", "the largest first"),
+    "basin": Variable(
+        "1",
+        "steady motion that the state leads to",
+        "its number; -1 of a state that was given up, -2 of one behind a rigid stop",
+    ),
+    "capture_cycles": Variable(
+        "1", "forcing cycles until it was sure where the state leads", "-1 where not followed"
+    ),
+    "mirror_image": Variable("1", "number of the mirror image", "-1 where it is not among them"),
+    "section_attractor": Variable("1", "number of the motion whose point it is"),
+    "states": Variable("1", "number of states that lead there"),
+    "share": Variable("1", "share of the states that lead there"),
+    **{
+        f"share_{end}": Variable(
+            "1",
+            f"{which} end of the 95% interval of the share",
+            "as of states that are drawn at random; those of a grid know it better",
+        )
+        for end, which in (("low", "lower"), ("high", "upper"))
+    },
+    "border_distance": Variable(
+        "m",
+        "distance of the motion from the border of its basin",
+        "at the section, velocities over the angular frequency of the forcing; infinite if no "
+        "state leads elsewhere",
+    ),
+    "basin_entropy": Variable("1", "basin entropy of boxes of 5 × 5 states"),
+    "border_entropy": Variable(
+        "1", "basin entropy of the boxes on a border", "above ln 2 the border is fractal"
+    ),
+    "uncertainty_exponent": Variable(
+        "1",
+        "exponent of the share of uncertain states",
+        "1 of a smooth border; 2 less this is the border's dimension",
+    ),
+    "uncertainty_exponent_error": Variable("1", "standard error of the uncertainty exponent"),
     # maps
     "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
     "confidence": Variable(

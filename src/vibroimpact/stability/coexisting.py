@@ -10,20 +10,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import lyapunov
-from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, RigidStop, State, Stop
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.arrivals import arrivals
-from vibroimpact.response.follow import grown
-from vibroimpact.response.start import as_state, engine_rig, state_from
+from vibroimpact.response.start import as_state, state_from
 from vibroimpact.response.variables import describe
+from vibroimpact.stability.same import image_of, mirrors, same
 from vibroimpact.stability.settled import (
     Settled,
-    apart,
     approach,
     later,
     reach,
@@ -31,14 +28,7 @@ from vibroimpact.stability.settled import (
 )
 from vibroimpact.stability.steady import describe_motion, steady
 
-SAME = 1e-6
-"""Two orbits are one if their points agree to this share of their size."""
-ALIKE = 0.1
-"""Two motions that did not settle are one if the distributions of their displacements at the
-section differ nowhere by more than this (the Kolmogorov–Smirnov distance)."""
-
 _RANDOM_SIZE = 1.5
-_SEEN = 5000  # cycles over which motions that did not settle are compared
 
 
 class _Kept(NamedTuple):
@@ -141,7 +131,7 @@ def coexisting(
     if oscillator.symmetric and excitation.half_wave:
         for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
-                image = _image(one.found, max_events)
+                image = image_of(one.found, max_events)
                 if image is not None:
                     go("mirror image", image.state)
     kept.sort(key=lambda one: -float(one.motion["displacement_excursion"]))
@@ -171,7 +161,7 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     pair = (
         one.found.symmetric
         and not bool(one.motion["antisymmetric"])
-        and not _mirrors(one.found, one.found, max_events)
+        and not mirrors(one.found, one.found, max_events)
     )
     data = one.motion.assign(mirror_pair=pair)
     data.attrs["starts"] = ", ".join(one.starts)
@@ -196,50 +186,10 @@ def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int,
     for one in kept:
         if one.found.period != found.period or one.found.status is not found.status:
             continue
-        if _same(one.found, found, options[3]):
+        if same(one.found, found, options[3]):
             one.starts.append(name)
             return
-        if found.symmetric and _mirrors(one.found, found, options[3]):
+        if found.symmetric and mirrors(one.found, found, options[3]):
             one.mirrored_starts.append(name)
             return
     kept.append(_Kept(found, describe_motion(found, *options), [name], []))
-
-
-def _image(found: Settled, max_events: int) -> Settled | None:
-    """The mirror image, half a cycle later; None if a limit is met on the way."""
-    status, state = later(found, found.state, 0.5, max_events)
-    return found._replace(state=mirror_image(state)) if status is Status.DONE else None
-
-
-def _mirrors(one: Settled, other: Settled, max_events: int) -> bool:
-    """Whether a motion is the mirror image of another."""
-    image = _image(other, max_events)
-    return image is not None and _same(one, image, max_events)
-
-
-def _same(one: Settled, other: Settled, max_events: int) -> bool:
-    """Whether two motions are one, up to whole cycles."""
-    if one.period:
-        size = reach(one, one.state)
-        state = other.state
-        for _ in range(one.period):
-            if apart(one, one.state, state, size) <= SAME:
-                return True
-            status, state = later(one, state, 1.0, max_events)
-            if status is not Status.DONE:
-                return False
-        return False
-    mine, others = _displacements(one, max_events), _displacements(other, max_events)
-    if not (len(mine) and len(others)):
-        return False
-    at = np.concatenate([mine, others])
-    shares = [np.searchsorted(values, at, side="right") / len(values) for values in (mine, others)]
-    return bool(np.abs(shares[0] - shares[1]).max() <= ALIKE)
-
-
-def _displacements(found: Settled, max_events: int) -> NDArray[np.float64]:
-    """Displacements at the section over many cycles, sorted."""
-    rig, state = engine_rig(found.oscillator, found.excitation), found.state.copy()
-    status, rows = grown(rig, found.excitation, state, _SEEN, max_events)
-    # Fewer if it is given up: then it is another motion than one that goes on.
-    return np.sort(rows[:, lyapunov.SECTION]) if status is Status.DONE else np.empty(0)

@@ -1,0 +1,113 @@
+"""A motion that others lead to: what it is, where it is at the section, and what catches others."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.attraction.ellipsoids import ellipsoids
+from vibroimpact.attraction.followed import PLACES, Stage
+from vibroimpact.engine import lyapunov
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.response.follow import grown
+from vibroimpact.response.start import as_state, engine_rig, engine_state
+from vibroimpact.stability.settled import Settled, approach, later, reach
+from vibroimpact.stability.steady import describe_motion
+
+_Array = NDArray[np.float64]
+
+_SAMPLES = 64
+_WINDOW = 200
+_EXPONENTS = 20_000
+_VISITS = 20_000
+"""Cycles of a motion that wanders, by which the cells that it visits are known."""
+_LOSES = 1e-9
+"""Least share of an area that dies out in a cycle."""
+
+
+class Attractor(NamedTuple):
+    """A steady motion that states of its own lead to."""
+
+    found: Settled
+    motion: xr.Dataset
+    """What `steady` says of it."""
+    points: _Array
+    """u, u̇, u_R, u_L, z at the sections of one period, or of many cycles; the deformations away
+    from the mass."""
+    traps: _Array
+    """Rows of `engine.capture`; none of a motion that wanders."""
+
+    @property
+    def visited(self) -> _Array:
+        """Displacements at the section, sorted (m)."""
+        return np.sort(self.points[:, 0])
+
+    @property
+    def size(self) -> float:
+        """As a displacement (m)."""
+        return reach(self.found, self.found.state)
+
+
+def attractor(stage: Stage, state: _Array, max_cycles: int, owner: int) -> Attractor | Status:
+    """Follow a state of the engine to the end; why it is given up if it has none.
+
+    Raises
+    ------
+    InputError
+        If nothing dies out there, so that there is no end.
+    """
+    oscillator, excitation, max_events = stage
+    found = approach(oscillator, excitation, state, max_cycles=max_cycles, max_events=max_events)
+    if found.status not in (Status.DONE, Status.NOT_SETTLED):
+        return found.status
+    motion = describe_motion(found, _SAMPLES, _WINDOW, _EXPONENTS, max_events)
+    period = int(motion["period"])
+    if str(motion["motion"].values) == "undecided" and not math.isfinite(
+        float(motion["effective_damping"])
+    ):
+        return Status.TOO_MANY_EVENTS
+    _check_loses(motion, stage, state)
+    if period and not found.period:  # it settles slowly, and was found by Newton's method
+        there = engine_state(oscillator, as_state(motion["final_state"]))
+        found = found._replace(state=there, period=period, status=Status.DONE)
+    points = _points(found, stage)
+    if points is None:
+        return Status.TOO_MANY_EVENTS
+    size = reach(found, found.state)
+    rows = ellipsoids(stage, points if found.period else points[:0], size, owner)
+    return Attractor(found, motion, points, rows)
+
+
+def _check_loses(motion: xr.Dataset, stage: Stage, state: _Array) -> None:
+    lost = float(motion["effective_damping"]) / stage.excitation.frequency
+    if abs(lost) < _LOSES:
+        raise InputError(
+            f"oscillator: nothing dies out of the motion from {state[2]:.6g} m and "
+            f"{state[3]:.6g} m/s, so that each state near it has a motion of its own and none has "
+            "a basin; an isolator with damping is accepted"
+        )
+
+
+def _points(found: Settled, stage: Stage) -> _Array | None:
+    """Where it is at the section; None if a limit is met."""
+    if not found.period:
+        state = found.state.copy()
+        rig = engine_rig(stage.oscillator, stage.excitation)
+        status, rows = grown(rig, stage.excitation, state, _VISITS, stage.max_events)
+        if status is not Status.DONE:
+            return None
+        points = rows[:, lyapunov.SECTION : lyapunov.SECTION + 5].copy()
+        points[:, 3] *= -1.0
+        return points
+    passed, state = [], found.state
+    for _ in range(found.period):
+        passed.append(state[[*PLACES]])
+        status, state = later(found, state, 1.0, stage.max_events)
+        if status is not Status.DONE:
+            return None
+    return np.array(passed)

@@ -1,0 +1,153 @@
+"""Many states followed at once until each is caught.
+
+A `Region` is all that its computation needs, and `follow_region` a pure function of it: regions may
+be followed on threads, or wherever else they are sent.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import capture
+from vibroimpact.engine import motion as layout
+from vibroimpact.model import Oscillator, Repeated
+from vibroimpact.response.start import engine_rig
+from vibroimpact.response.threads import Progress, run
+
+_Array = NDArray[np.float64]
+_Whole = NDArray[np.int64]
+
+_REGION = 2000
+"""States that a thread follows at a time."""
+
+
+class Stage(NamedTuple):
+    """What vibrates and what shakes it; the section is at the phase of the shaking."""
+
+    oscillator: Oscillator
+    excitation: Repeated
+    max_events: int = 10_000
+
+
+class Traps(NamedTuple):
+    """What catches states; see `engine.capture`."""
+
+    rows: _Array
+    cells: _Whole
+    grid: _Array
+
+
+NO_TRAPS = Traps(
+    np.empty((0, capture.TRAP)), np.empty((0, 0), dtype=np.int64), np.zeros(capture.GRID)
+)
+
+
+class Region(NamedTuple):
+    """States to be followed, and how far."""
+
+    stage: Stage
+    points: _Array
+    """u, u̇, u_R, u_L, z as the engine counts, where the motions begin; empty where they go on."""
+    states: _Array
+    """Of the engine, where they go on; of as many rows in any case."""
+    traps: Traps
+    cycles: int
+
+
+class Followed(NamedTuple):
+    """Where states were caught."""
+
+    states: _Array
+    """Of the engine, at the section where each was caught or given up."""
+    owner: _Whole
+    """Whose trap it was; -1 if none."""
+    cycles: _Whole
+    outcome: _Whole
+    """`Status`: done where it was caught, not settled where it may yet be."""
+
+
+def follow_region(region: Region, progress: _Whole | None = None) -> Followed:
+    """Follow the states of one region."""
+    stage, points, states, traps, cycles = region
+    states = np.ascontiguousarray(states).copy()
+    results = np.zeros((len(states), capture.RESULT), dtype=np.int64)
+    capture.caught(
+        engine_rig(stage.oscillator, stage.excitation),
+        stage.excitation.amplitude,
+        stage.excitation.frequency,
+        stage.excitation.phase,
+        cycles,
+        stage.max_events,
+        len(points) > 0,
+        np.ascontiguousarray(points),
+        *traps,
+        states,
+        results,
+        np.zeros(2, dtype=np.int64) if progress is None else progress,
+    )
+    return Followed(
+        states,
+        results[:, capture.CAUGHT],
+        results[:, capture.CYCLES],
+        results[:, capture.OUTCOME],
+    )
+
+
+def follow(
+    stage: Stage,
+    points: _Array | None,
+    states: _Array | None,
+    traps: Traps,
+    cycles: int,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Followed:
+    """Follow states in regions, over threads; no result depends on their number.
+
+    Parameters
+    ----------
+    points, states
+        Where the motions begin, or where they go on: one of the two is None.
+    """
+    begun = np.empty((0, 5)) if points is None else points
+    held = np.zeros((len(begun), layout.STATE)) if states is None else states
+    number = len(held)
+    if not number:
+        none = np.empty(0, dtype=np.int64)
+        return Followed(np.empty((0, layout.STATE)), none, none, none)
+    where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
+    regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
+    found: list[Followed | None] = [None] * len(regions)
+    counter = np.zeros((len(where), 2), dtype=np.int64)
+
+    def one(task: int) -> None:
+        if not counter[task, 1]:
+            found[task] = follow_region(regions[task], counter[task])
+
+    capture.caught.prepare(engine_rig(stage.oscillator, stage.excitation))
+    run(one, counter, number, threads, progress)
+    done = [one for one in found if one is not None]
+    return Followed(*(np.concatenate(column) for column in zip(*done, strict=True)))
+
+
+def images(
+    stage: Stage, points: _Array, cycles: int = 1, threads: int | None = None
+) -> tuple[_Array, NDArray[np.bool_]]:
+    """Where points of the section are some cycles later, and which of them are known.
+
+    Points are u, u̇, u_R, u_L, z, the deformations away from the mass.
+    """
+    found = follow(stage, points, None, NO_TRAPS, cycles, threads)
+    return parts(found.states), found.cycles == cycles
+
+
+def parts(states: _Array) -> _Array:
+    """u, u̇, u_R, u_L, z of states of the engine."""
+    return states[:, [*PLACES]]
+
+
+PLACES = (layout.U, layout.V, layout.RIGHT_BUMPER, layout.LEFT_BUMPER, layout.ISOLATOR)
+"""Where u, u̇, u_R, u_L and z stand in a state of the engine."""

@@ -1,0 +1,201 @@
+"""States labelled by the motion that they lead to, motions being found as states lead to them.
+
+1. All states are followed until a trap of a known motion catches them, for so many cycles.
+2. The first that none has caught is followed to its end. Where that is a new motion, traps are made
+   for it; where it is a known one, its trap is small or the way long.
+3. The rest goes on from where it is, for twice as many cycles, until none is left.
+
+So a motion is known as soon as one state that is looked at leads to it, whatever its period, and no
+state is given a motion that it does not lead to. What wanders and has no closed set of cells is
+told by the distribution of its displacements, state by state, as `coexisting` does.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.attraction.attractors import Attractor, attractor
+from vibroimpact.attraction.cover import Cells, cells_around, closed
+from vibroimpact.attraction.followed import NO_TRAPS, Stage, Traps, follow
+from vibroimpact.attraction.memory import forgets
+from vibroimpact.engine.capture import GRID, LOW_U, LOW_V, STEP_U, STEP_V
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.response.threads import Progress
+from vibroimpact.stability.same import ALIKE, distance, same
+
+_Array = NDArray[np.float64]
+_Whole = NDArray[np.int64]
+
+MOST = 64
+"""Motions that are told apart."""
+_PILOT = 500
+"""States that are looked at first."""
+_FIRST = 100
+"""Cycles in which most states are caught."""
+_SETTLED = 200
+"""Cycles behind which what is not caught within a set of cells wanders as it always will."""
+_WATCHED = 1000
+"""Cycles by which a motion that no trap has caught is told."""
+_LOOKS = 20
+"""Cycles over which it is then watched."""
+
+
+class Labelled(NamedTuple):
+    """Where states lead."""
+
+    owner: _Whole
+    """Number of the motion; -1 where none is known."""
+    cycles: _Whole
+    """Until they were caught, or in all."""
+    outcome: _Whole
+    """`Status`."""
+
+
+class Search:
+    """The motions that are known so far, and their traps."""
+
+    def __init__(self, stage: Stage, max_cycles: int = 2000, threads: int | None = None) -> None:
+        self.stage = stage
+        self.max_cycles = max_cycles
+        self.threads = threads
+        self.known: list[Attractor] = []
+        self._traps = NO_TRAPS
+
+    def label(self, points: _Array, progress: Progress | None = None) -> Labelled:
+        """Find where states lead; what they lead to is known afterwards.
+
+        Parameters
+        ----------
+        points
+            u, u̇, u_R, u_L, z of each, the deformations away from the mass.
+        progress
+            Called with the states done and all.
+
+        Raises
+        ------
+        InputError
+            If nothing dies out, or there are too many motions.
+        """
+        total = len(points)
+        if not self.known and total > 2 * _PILOT:
+            # Few states find nearly all motions, and the many then meet their traps.
+            self.label(points[np.random.default_rng(0).choice(total, _PILOT, replace=False)])
+        owner = np.full(total, -1, dtype=np.int64)
+        cycles = np.zeros(total, dtype=np.int64)
+        outcome = np.full(total, int(Status.NOT_SETTLED), dtype=np.int64)
+        states = np.empty((total, 0))
+        left, ahead = np.arange(total), _FIRST
+        while len(left):
+            done = total - len(left)
+            told = None if progress is None else lambda n, _, done=done: progress(done + n, total)
+            followed = follow(
+                self.stage,
+                None if states.size else points,
+                states[left] if states.size else None,
+                self._traps,
+                ahead,
+                self.threads,
+                told if ahead == _FIRST else None,
+            )
+            if not states.size:
+                states = np.empty((total, followed.states.shape[1]))
+            states[left] = followed.states
+            owner[left], outcome[left] = followed.owner, followed.outcome
+            cycles[left] += followed.cycles
+            left = left[followed.outcome == Status.NOT_SETTLED]
+            if not len(left):
+                break
+            if cycles[left[0]] >= self.max_cycles:
+                self._rest(left, states, owner, outcome)
+                break
+            new = len(self.known)
+            owner[left[0]], outcome[left[0]] = self._end_of(states[left[0]])
+            left = left[1:]
+            ahead = _FIRST if len(self.known) > new else 2 * ahead
+        if progress is not None:
+            progress(total, total)
+        return Labelled(owner, cycles, outcome)
+
+    def _end_of(self, state: _Array) -> tuple[int, int]:
+        """The motion that a state leads to, entered if it is new; -1 and why if there is none."""
+        met = attractor(self.stage, state, self.max_cycles, len(self.known))
+        if isinstance(met, Status):
+            return -1, int(met)
+        for number, one in enumerate(self.known):
+            if one.found.period == met.found.period and same(
+                one.found, met.found, self.stage.max_events
+            ):
+                return number, int(Status.DONE)
+        if len(self.known) == MOST:
+            raise InputError(
+                f"oscillator: more than {MOST} motions were found, each of which may be a motion "
+                "of its own state; more damping, a smaller range of states or a larger max_cycles "
+                "is accepted"
+            )
+        self.known.append(met)
+        self._set_traps()
+        return len(self.known) - 1, int(Status.DONE)
+
+    def _rest(self, left: _Whole, states: _Array, owner: _Whole, outcome: _Whole) -> None:
+        """Tell what no trap has caught by what it visits, or by following it to its end."""
+        if any(not one.found.period for one in self.known):
+            states = states.copy()
+            seen = np.empty((_WATCHED, len(left)))
+            for row in seen:
+                went = follow(self.stage, None, states[left], NO_TRAPS, 1, self.threads)
+                states[left] = went.states
+                row[:] = went.states[:, 2]
+            seen.sort(axis=0)
+            for column, i in enumerate(left):
+                apart = [
+                    1.0 if one.found.period else distance(one.visited, seen[:, column])
+                    for one in self.known
+                ]
+                if min(apart) <= ALIKE:
+                    owner[i], outcome[i] = int(np.argmin(apart)), int(Status.DONE)
+        for i in left[owner[left] < 0]:
+            owner[i], outcome[i] = self._end_of(states[i])
+
+    def _set_traps(self) -> None:
+        rows = np.vstack([one.traps for one in self.known])
+        self._traps = NO_TRAPS._replace(rows=rows)
+        wandering = [i for i, one in enumerate(self.known) if not one.found.period]
+        if not wandering or not forgets(self.stage):
+            return
+        cells = cells_around(np.vstack([self.known[i].points[:, :2] for i in wandering]))
+        whose: _Whole | None = None
+        for i in wandering:
+            mask = closed(self.stage, cells, self.known[i].points[:, :2], self.threads)
+            if mask is None or not self._one_motion(cells, mask, i):
+                continue
+            if whose is None:
+                whose = np.full(mask.shape, -1, dtype=np.int64)
+            if (whose[mask] >= 0).any():
+                whose[mask & (whose >= 0)] = -1
+                continue
+            whose[mask] = i
+        if whose is None:
+            return
+        grid = np.empty(GRID)
+        grid[[LOW_U, LOW_V]], grid[[STEP_U, STEP_V]] = cells.corner, cells.side
+        self._traps = Traps(rows, whose, grid)
+
+    def _one_motion(self, cells: Cells, mask: NDArray[np.bool_], number: int) -> bool:
+        """Whether all that begins in closed cells ends as one motion, as far as samples tell."""
+        rows, columns = np.nonzero(mask)
+        centres = np.zeros((len(rows), 5))
+        centres[:, :2] = cells.corner + cells.side * (np.column_stack([columns, rows]) + 0.5)
+        went = follow(self.stage, centres, None, self._traps, _SETTLED, self.threads)
+        if not (went.outcome == Status.NOT_SETTLED).all():
+            return False
+        states, seen = went.states, []
+        for _ in range(_LOOKS):
+            went = follow(self.stage, None, states, NO_TRAPS, 1, self.threads)
+            states = went.states
+            seen.append(states[:, 2])
+        theirs = np.sort(np.concatenate(seen))
+        return distance(self.known[number].visited, theirs) <= ALIKE

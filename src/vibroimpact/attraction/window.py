@@ -1,0 +1,70 @@
+"""Which states are looked at where none are given: those that steady motions reach, and more."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vibroimpact.attraction.followed import Stage
+from vibroimpact.attraction.search import Search
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import RigidStop, State
+from vibroimpact.stability.settled import approach, reach, reach_at_rest
+
+Window = tuple[tuple[float, float], tuple[float, float]]
+"""Ranges of displacement (m) and velocity (m/s)."""
+
+_WIDER = 1.6
+"""Over what the steady motions take."""
+_FIRST = 2.0
+"""Over the size of the motion from rest, and the gaps: where other motions are sought."""
+_LATTICE = 20
+"""Starts along each axis."""
+
+
+def walls(stage: Stage) -> tuple[float, float]:
+    """Least and largest displacement that can be (m)."""
+    left, right = stage.oscillator.left, stage.oscillator.right
+    return (
+        -left.gap if isinstance(left, RigidStop) else -np.inf,
+        right.gap if isinstance(right, RigidStop) else np.inf,
+    )
+
+
+def window(search: Search) -> Window:
+    """A window around all motions that starts in a larger one lead to.
+
+    Raises
+    ------
+    InputError
+        If nothing moves.
+    """
+    stage = search.stage
+    excitation = stage.excitation
+    rest = approach(stage.oscillator, excitation, State(phase=excitation.phase))
+    size = reach_at_rest(stage.oscillator, excitation)
+    if rest.status in (Status.DONE, Status.NOT_SETTLED):
+        size = max(size, reach(rest, rest.state))
+    size = _FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops), 0.0)
+    if not size > 0.0:
+        raise InputError("displacement: missing, and nothing moves; a range is accepted")
+    low, high = walls(stage)
+    fast = size * excitation.angular_frequency
+    search.label(lattice((max(-size, low), min(size, high)), (-fast, fast), (_LATTICE, _LATTICE)))
+    if not search.known:
+        return (max(-size, low), min(size, high)), (-fast, fast)
+    most = max(float(one.motion["displacement_max"]) for one in search.known)
+    least = min(float(one.motion["displacement_min"]) for one in search.known)
+    fast = _WIDER * max(float(np.abs(one.motion["velocity"]).max()) for one in search.known)
+    middle, half = 0.5 * (most + least), 0.5 * _WIDER * (most - least)
+    return (max(middle - half, low), min(middle + half, high)), (-fast, fast)
+
+
+def lattice(
+    displacement: tuple[float, float], velocity: tuple[float, float], nodes: tuple[int, int]
+) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
+    """States on a grid, rows of velocities one after the other, bumpers relaxed."""
+    u, v = np.meshgrid(np.linspace(*displacement, nodes[0]), np.linspace(*velocity, nodes[1]))
+    points = np.zeros((u.size, 5))
+    points[:, 0], points[:, 1] = u.ravel(), v.ravel()
+    return points

@@ -1,0 +1,150 @@
+"""Many states followed from section to section until each is caught where no motion leaves again.
+
+A trap is an ellipsoid around a point of the section, or a set of cells of the plane of u and u̇.
+That nothing leaves it is for others to show (`vibroimpact.attraction.traps`).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from numpy import int64
+from numpy.typing import NDArray
+
+from vibroimpact.engine.dispatch import build, too_much_work
+from vibroimpact.engine.entry import entry
+from vibroimpact.engine.fixed_point import PARTS, parts_of
+from vibroimpact.engine.flows import planned
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.loop import cycle
+from vibroimpact.engine.motion import MODE, Motion, finite, pack, unpacked
+from vibroimpact.engine.observe import UNOBSERVED
+from vibroimpact.engine.section_map import placed
+from vibroimpact.engine.status import (
+    DONE,
+    NOT_FINITE,
+    NOT_SETTLED,
+    STOPPED,
+    TOO_MANY_EVENTS,
+    TOO_MUCH_WORK,
+)
+
+OWNER, REACH, CENTRE = 0, 1, 2
+"""Of a trap: whose it is, its half width in u (m), its centre (u, u̇, u_R, u_L, z), and the matrix
+of the form that is at most 1 within."""
+FORM = CENTRE + PARTS
+TRAP = FORM + PARTS * PARTS
+
+LOW_U, LOW_V, STEP_U, STEP_V = range(4)
+"""Of the cells: corner of the first one, and their sides (m, m/s)."""
+GRID = 4
+
+CAUGHT, CYCLES, OUTCOME = range(3)
+"""Of a result: whose trap (−1: none), forcing cycles followed, a `Status`."""
+RESULT = 3
+
+
+@kernel
+def holds(trap: Vector, motion: Motion) -> bool:
+    """Whether a motion at the section lies in a trap."""
+    if not abs(motion.u - trap[CENTRE]) <= trap[REACH]:
+        return False
+    form = 0.0
+    for i in range(PARTS):
+        row = 0.0
+        for j in range(PARTS):
+            row += trap[FORM + PARTS * i + j] * (parts_of(motion, j) - trap[CENTRE + j])
+        form += row * (parts_of(motion, i) - trap[CENTRE + i])
+    return form <= 1.0
+
+
+@entry(
+    "void(f8[::1], f8, f8, f8, i8, i8, boolean, f8[:, ::1], f8[:, ::1], i8[:, ::1], f8[::1],"
+    " f8[:, ::1], i8[:, ::1], i8[::1])"
+)
+def caught(
+    given: Any,
+    rig: Vector,
+    amplitude: float,
+    frequency: float,
+    phase: float,
+    max_cycles: int,
+    max_events: int,
+    anew: bool,
+    points: Vector,
+    traps: Vector,
+    cells: NDArray[int64],
+    grid: Vector,
+    states: Vector,
+    results: NDArray[int64],
+    progress: NDArray[int64],
+) -> None:
+    """Follow states, each until it is caught or for so many forcing cycles.
+
+    Parameters
+    ----------
+    rig, amplitude, frequency, phase
+        As in `batch.sweep`.
+    max_cycles, max_events
+        Forcing cycles for each state; contacts and detachments in one at which it is given up.
+    anew : bool
+        Whether the states are those of `points`, put where they can be, rather than `states`.
+    points : ndarray, shape (n, 5) or (0, 5)
+        u, u̇, u_R, u_L, z, the deformations away from the mass.
+    traps : ndarray, shape (k, TRAP)
+    cells : ndarray of int, shape (rows, columns)
+        Whose each cell is, −1 if nobody's: rows along u̇, columns along u.
+    grid : ndarray, shape (GRID,)
+        Where the cells are.
+    states : ndarray, shape (n, motion.STATE)
+        Carried on in place.
+    results : ndarray of int, shape (n, RESULT)
+        Written.
+    progress : ndarray of int, shape (2,)
+        [0] is raised by one a state; all stops when [1] becomes nonzero.
+    """
+    plan = planned(given, rig)
+    period = 1.0 / frequency
+    build(plan, amplitude, 2.0 * math.pi * frequency)
+    clock = (math.sin(phase), math.cos(phase))
+    slow = too_much_work(plan, period)
+    for n in range(len(states)):
+        if anew:
+            mode, point = int(states[n, MODE]), points[n]
+            motion = placed(plan, mode, point[0], point[1], point[2], point[3], point[4], clock)
+        else:
+            motion = unpacked(states[n], clock)
+        owner, k = -1, 0
+        outcome = TOO_MUCH_WORK if slow else NOT_SETTLED
+        while not slow:
+            if progress[1] != 0:
+                outcome = STOPPED
+                break
+            for i in range(len(traps)):
+                if holds(traps[i], motion):
+                    owner = int(traps[i, OWNER])
+                    break
+            if owner < 0 and len(cells):
+                column = math.floor((motion.u - grid[LOW_U]) / grid[STEP_U])
+                row = math.floor((motion.v - grid[LOW_V]) / grid[STEP_V])
+                if 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1]:
+                    owner = cells[row, column]
+            if owner >= 0:
+                outcome = DONE
+                break
+            if k >= max_cycles:
+                break
+            section = motion
+            events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
+            k += 1
+            if events > max_events:
+                outcome = TOO_MANY_EVENTS
+                motion = section
+                break
+            if not finite(motion):
+                outcome = NOT_FINITE
+                break
+        pack(motion, states[n])
+        results[n, CAUGHT], results[n, CYCLES], results[n, OUTCOME] = owner, k, outcome
+        progress[0] += 1

@@ -1,0 +1,209 @@
+"""Basins of attraction in the plane of displacement and velocity."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib import patheffects
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.motions import axes_or_new
+
+COLOURS = (
+    "#f6e7bd",
+    "#233a6b",
+    "#dd6b4a",
+    "#86c1ae",
+    "#6f1d3f",
+    "#c3b3e0",
+    "#43803c",
+    "#eab63c",
+)
+"""In turn; neighbours differ in brightness, so that they are told apart in grey, too."""
+
+_SHADE = 0.3
+"""How far a colour goes to the dark where a state is caught late."""
+_LISTED = 10
+"""Motions in the legend; the rest is counted."""
+_LOOKED_AT = 200
+"""Points of a motion, beside one of which its number stands."""
+_ASIDE = np.array([0.024, 0.024])
+_BEHIND, _GIVEN_UP = "0.82", "white"
+
+
+def basin_portrait(
+    data: xr.Dataset,
+    ax: Axes | None = None,
+    *,
+    shade: bool = True,
+    title: str | None = None,
+) -> Axes:
+    """Draw which states lead to which motion: an area a motion, its section as numbered points.
+
+    Parameters
+    ----------
+    data
+        Dataset of `vibroimpact.basins`.
+    ax
+        Axes to draw on. None makes a new figure.
+    shade
+        Whether colours are darker where it takes more cycles until it is sure where a state leads.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset has no basins.
+    """
+    if "basin" not in data or data["basin"].ndim != 2:
+        raise InputError("data: it has no basins; a dataset of basins is accepted")
+    ax = axes_or_new(ax, (6.6, 6.4), title)
+    u, v = 1e3 * data["displacement"].values, data["velocity"].values
+    half = 0.5 * (u[1] - u[0]), 0.5 * (v[1] - v[0])
+    ax.imshow(
+        _image(data, shade),
+        origin="lower",
+        aspect="auto",
+        extent=(u[0] - half[0], u[-1] + half[0], v[0] - half[1], v[-1] + half[1]),
+        interpolation="nearest",
+        zorder=1,
+    )
+    handles = [
+        Patch(facecolor=colour_of(number), edgecolor="black", linewidth=0.5, label=_label(one))
+        for number, one in enumerate(_motions(data)[:_LISTED])
+    ]
+    more = data.sizes["attractor"] - _LISTED
+    if more > 0:
+        handles.append(Patch(facecolor="none", label=f"and {more} more"))
+    labels = data["basin"].values
+    for code, colour, text in ((-1, _GIVEN_UP, "given up"), (-2, _BEHIND, "behind a stop")):
+        if (labels == code).any():
+            handles.append(Patch(facecolor=colour, edgecolor="0.4", linewidth=0.5, label=text))
+    for number, one in enumerate(_motions(data)):
+        _mark(ax, one, number)
+    ax.set(
+        xlim=(u[0], u[-1]),
+        ylim=(v[0], v[-1]),
+        xlabel="relative displacement $u$ (mm)",
+        ylabel="relative velocity $\\dot u$ (m/s)",
+    )
+    _name(ax, _motions(data))
+    ax.legend(
+        handles=handles,
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.11),
+        ncols=1 if len(handles) < 4 else 2,
+        frameon=False,
+        fontsize="small",
+        borderaxespad=0.0,
+        handlelength=1.6,
+        handleheight=1.2,
+    )
+    return ax
+
+
+def colour_of(number: int) -> str:
+    """The colour of a motion."""
+    return COLOURS[number % len(COLOURS)]
+
+
+def _image(data: xr.Dataset, shade: bool) -> NDArray[np.float64]:
+    labels = data["basin"].values
+    palette = np.array(
+        [to_rgb(_BEHIND), to_rgb(_GIVEN_UP)]
+        + [to_rgb(colour_of(i)) for i in range(data.sizes["attractor"])]
+    )
+    image: NDArray[np.float64] = palette[labels + 2]
+    cycles = data["capture_cycles"].values
+    if shade and (cycles > 0).any():
+        late = np.log1p(np.where(cycles > 0, cycles, 0))
+        # The few that are caught first or last set no scale.
+        soon, full = np.quantile(late[cycles > 0], [0.02, 0.995])
+        share = np.clip((late - soon) / max(full - soon, 1e-9), 0.0, 1.0)
+        dark = _SHADE * share * (cycles > 0) * (labels >= 0)
+        image = image * (1.0 - dark[..., None])
+    return image
+
+
+def _motions(data: xr.Dataset) -> list[xr.Dataset]:
+    """The motions one by one, each with its points."""
+    return [
+        data.isel(attractor=number, point=data["section_attractor"].values == number)
+        for number in range(data.sizes["attractor"])
+    ]
+
+
+def _label(one: xr.Dataset) -> str:
+    period = int(one["period"])
+    what = str(one["motion"].values)
+    if period:
+        what = f"period {period}"
+    size = 1e3 * float(one["displacement_excursion"])
+    low, high = 100.0 * float(one["share_low"]), 100.0 * float(one["share_high"])
+    return (
+        f"{int(one['attractor']) + 1}: {what}, {size:.3g} mm wide, "
+        f"{100.0 * float(one['share']):.1f} % ({low:.1f}–{high:.1f})"
+    )
+
+
+def _mark(ax: Axes, one: xr.Dataset, number: int) -> None:
+    """Points of a motion at the section."""
+    u, v = 1e3 * one["section_displacement"].values, one["section_velocity"].values
+    if not int(one["period"]):
+        ax.plot(u, v, linestyle="", marker=".", markersize=2.6, color="white", zorder=4)
+        ax.plot(u, v, linestyle="", marker=".", markersize=1.2, color="black", zorder=5)
+    else:
+        ax.plot(
+            u,
+            v,
+            linestyle="",
+            marker="o",
+            markersize=6.0,
+            markerfacecolor=colour_of(number),
+            markeredgecolor="black",
+            markeredgewidth=1.3,
+            path_effects=[patheffects.withStroke(linewidth=2.6, foreground="white")],
+            zorder=6,
+        )
+
+
+def _name(ax: Axes, motions: list[xr.Dataset]) -> None:
+    """Write each motion's number beside that of its points that has most room."""
+    (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+    places = [
+        np.column_stack(
+            [
+                (1e3 * one["section_displacement"].values - left) / (right - left),
+                (one["section_velocity"].values - low) / (high - low),
+            ]
+        )
+        for one in motions
+    ]
+    every = np.vstack([*places, np.empty((0, 2))])
+    for number, mine in enumerate(places):
+        inside = mine[((mine >= 0.0) & (mine <= 1.0)).all(axis=1)][:_LOOKED_AT]
+        if not len(inside):
+            continue
+        text = inside + _ASIDE  # where the number would stand
+        away = np.linalg.norm(text[:, None] - every[None], axis=2).min(axis=1)
+        edge = np.minimum(text, 1.0 - text).min(axis=1)
+        best = int(np.argmax(np.minimum(away, edge)))
+        made = ax.text(
+            float(text[best, 0]),
+            float(text[best, 1]),
+            str(number + 1),
+            transform=ax.transAxes,
+            ha="center",
+            va="center",
+            fontsize="medium",
+            fontweight="bold",
+            clip_on=True,
+            zorder=7,
+        )
+        made.set_path_effects([patheffects.withStroke(linewidth=2.4, foreground="white")])
+        every = np.vstack([every, text[best]])

@@ -1,0 +1,106 @@
+"""What traps hold leads to the motion that they are made for."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+import vibroimpact as vi
+from samples import sample
+from vibroimpact.attraction.followed import NO_TRAPS, Stage, Traps, follow, parts
+from vibroimpact.attraction.search import Search
+from vibroimpact.engine.capture import CENTRE, FORM, REACH, TRAP
+
+CASE = vi.laboratory.case("B3-10mm-A3")
+
+
+@cache
+def searched(hertz: float) -> Search:
+    search = Search(Stage(CASE.oscillator, vi.Harmonic(CASE.amplitude, hertz)))
+    generator = np.random.default_rng(0)
+    points = np.zeros((60, 5))
+    points[:, :2] = generator.uniform(-1.0, 1.0, (60, 2)) * [0.012, 0.1]
+    search.label(points)
+    return search
+
+
+def inside(trap: np.ndarray, count: int) -> np.ndarray:
+    """Random points in an ellipse of u and u̇, its rim among them."""
+    form = trap[FORM:].reshape(5, 5)[:2, :2]
+    generator = np.random.default_rng(1)
+    angles = generator.uniform(0.0, 2.0 * np.pi, count)
+    radii = np.where(np.arange(count) % 2, 1.0, np.sqrt(generator.uniform(0.0, 1.0, count)))
+    ball = radii[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+    points = np.zeros((count, 5))
+    points[:, :2] = trap[CENTRE : CENTRE + 2] + ball @ np.linalg.inv(np.linalg.cholesky(form))
+    return points
+
+
+def test_what_is_in_an_ellipse_stays_and_is_drawn_in():
+    search = searched(0.7)
+    assert len(search.known) == 2
+    for one in search.known:
+        (trap,) = one.traps
+        points = inside(trap, sample(2000, 300))
+        assert np.abs(points[:, 0] - trap[CENTRE]).max() <= trap[REACH]
+        assert np.abs(points[:, 0] - trap[CENTRE]).max() > 0.95 * trap[REACH]
+        held = Traps(trap[None], NO_TRAPS.cells, NO_TRAPS.grid)
+        states = follow(search.stage, points, None, NO_TRAPS, 1).states
+        for _ in range(4):
+            again = follow(search.stage, None, states, held, 0)
+            assert (again.owner >= 0).all()
+            states = follow(search.stage, None, states, NO_TRAPS, 1).states
+        ends = follow(search.stage, None, states, NO_TRAPS, 150).states
+        np.testing.assert_allclose(parts(ends)[:, 0], one.points[0, 0], atol=1e-12)
+
+
+def test_an_ellipse_is_no_smaller_than_it_need_be():
+    search = searched(0.7)
+    border = 0.0014  # from the nearer motion to the border of its basin
+    for one in search.known:
+        assert one.traps[0, REACH] > 0.3 * border
+
+
+def test_chaotic_motions_are_held_by_cells():
+    search = searched(1.06)
+    assert [one.found.period for one in search.known] == [0, 0]
+    assert all(one.traps.shape == (0, TRAP) for one in search.known)
+    cells, grid = search._traps.cells, search._traps.grid
+    generator = np.random.default_rng(2)
+    for number, one in enumerate(search.known):
+        rows, columns = np.nonzero(cells == number)
+        assert len(rows) > 100
+        pick = generator.integers(0, len(rows), sample(3000, 500))
+        share = generator.uniform(0.0, 1.0, (len(pick), 2))
+        points = np.zeros((len(pick), 5))
+        points[:, 0] = grid[0] + grid[2] * (columns[pick] + share[:, 0])
+        points[:, 1] = grid[1] + grid[3] * (rows[pick] + share[:, 1])
+        states = follow(search.stage, points, None, NO_TRAPS, 1).states
+        for _ in range(3):
+            again = follow(search.stage, None, states, search._traps, 0)
+            np.testing.assert_array_equal(again.owner, number)
+            states = follow(search.stage, None, states, NO_TRAPS, 7).states
+        # The motion itself never leaves them.
+        first = np.zeros((200, 5))
+        first[:] = one.points[:200]
+        assert (follow(search.stage, first, None, search._traps, 0).owner == number).all()
+
+
+def test_motions_of_long_periods_have_a_trap_a_point():
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), vi.RigidStop(0.9, 0.0), None)
+    search = Search(Stage(rig, vi.Harmonic(1.0, 3.3 / (2.0 * np.pi))))
+    points = np.zeros((sample(400, 40), 5))
+    generator = np.random.default_rng(3)
+    points[:, :2] = generator.uniform([-1.0, -1.2], [0.0, 1.2], (len(points), 2))
+    found = search.label(points)
+    assert (found.owner >= 0).all()
+    assert {8, 12} <= {one.found.period for one in search.known}
+    for one in search.known:
+        assert len(one.traps) == one.found.period
+    # The same without any trap.
+    ends = follow(search.stage, points, None, NO_TRAPS, 3000).states[:, 2:4]
+    for number, one in enumerate(search.known):
+        mine = ends[found.owner == number]
+        away = np.abs(mine[:, None] - one.points[None, :, :2]).max(axis=2).min(axis=1)
+        assert (away < 1e-6).all()

@@ -1,0 +1,98 @@
+"""States that are followed until they are caught."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.attraction.followed import NO_TRAPS, Region, Stage, Traps, follow_region
+from vibroimpact.engine.capture import CENTRE, FORM, OWNER, REACH, TRAP
+from vibroimpact.engine.status import Status
+from vibroimpact.response.follow import moved_on
+from vibroimpact.response.start import engine_rig, engine_state
+
+CASE = vi.laboratory.case("B3-10mm-A3")
+EXCITATION = vi.Harmonic(CASE.amplitude, 0.7, 0.4)
+STAGE = Stage(CASE.oscillator, EXCITATION)
+STARTS = np.array([[0.0, 0.0], [0.01, 0.05], [-0.004, 0.08], [0.007, -0.02]])
+
+
+def points() -> np.ndarray:
+    found = np.zeros((len(STARTS), 5))
+    found[:, :2] = STARTS
+    return found
+
+
+def begun(traps: Traps, cycles: int, stage: Stage = STAGE) -> object:
+    return follow_region(Region(stage, points(), np.zeros((len(STARTS), 8)), traps, cycles))
+
+
+def ball(owner: int, centre: np.ndarray, radius: float) -> np.ndarray:
+    row = np.zeros(TRAP)
+    row[OWNER], row[REACH], row[CENTRE : CENTRE + 5] = owner, radius, centre
+    row[FORM:] = (np.diag([1.0, 1.0, 0.0, 0.0, 0.0]) / radius**2).ravel()
+    return row
+
+
+def states_after(cycles: int) -> np.ndarray:
+    rig = engine_rig(CASE.oscillator, EXCITATION)
+    begin = [engine_state(CASE.oscillator, vi.State(u, v)) for u, v in STARTS]
+    if not cycles:
+        return np.array(begin)
+    return np.array([moved_on(rig, EXCITATION, one, cycles)[1] for one in begin])
+
+
+@pytest.mark.parametrize("cycles", [0, 1, 5])
+def test_without_traps_states_are_where_they_lead(cycles):
+    found = begun(NO_TRAPS, cycles)
+    np.testing.assert_allclose(found.states[:, 2:7], states_after(cycles)[:, 2:7], atol=1e-15)
+    np.testing.assert_array_equal(found.states[:, 0], states_after(cycles)[:, 0])
+    assert (found.owner == -1).all()
+    assert (found.cycles == cycles).all()
+    assert (found.outcome == Status.NOT_SETTLED).all()
+
+
+def test_a_ball_catches_the_first_that_comes():
+    where = states_after(3)[1, 2:4]
+    centre = np.array([*where, 0.0, 0.0, 0.0])
+    rows = np.array([ball(7, centre + 1.0, 1e-3), ball(4, centre, 1e-9)])
+    found = begun(Traps(rows, NO_TRAPS.cells, NO_TRAPS.grid), 10)
+    assert list(found.owner) == [-1, 4, -1, -1]
+    assert list(found.cycles) == [10, 3, 10, 10]
+    assert found.outcome[1] == Status.DONE
+    np.testing.assert_allclose(found.states[1, 2:4], where, atol=1e-15)
+
+
+def test_cells_catch_as_well():
+    where = states_after(2)[2, 2:4]
+    side = np.array([1e-5, 1e-4])
+    cells = np.full((3, 5), -1, dtype=np.int64)
+    cells[2, 1] = 9  # row along the velocity, column along the displacement
+    corner = where - side * [1.5, 2.5]
+    found = begun(Traps(NO_TRAPS.rows, cells, np.array([*corner, *side])), 10)
+    assert list(found.owner) == [-1, -1, 9, -1]
+    assert found.cycles[2] == 2
+
+
+def test_a_limit_is_told():
+    found = begun(NO_TRAPS, 10, STAGE._replace(max_events=1))
+    assert Status.TOO_MANY_EVENTS in found.outcome
+    given_up = found.outcome == Status.TOO_MANY_EVENTS
+    assert (found.cycles[given_up] < 10).all()
+
+
+def test_it_stops_when_told():
+    progress = np.array([0, 1], dtype=np.int64)
+    region = Region(STAGE, points(), np.zeros((len(STARTS), 8)), NO_TRAPS, 10)
+    found = follow_region(region, progress)
+    assert (found.outcome == Status.STOPPED).all()
+    assert (found.cycles == 0).all()
+
+
+def test_a_region_is_all_that_is_needed_elsewhere():
+    import pickle
+
+    region = Region(STAGE, points(), np.zeros((len(STARTS), 8)), NO_TRAPS, 10)
+    there = pickle.loads(pickle.dumps(follow_region(pickle.loads(pickle.dumps(region)))))
+    np.testing.assert_array_equal(there.states, follow_region(region).states)
