@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.attraction.followed import NO_TRAPS, Region, Stage, Traps, follow_region
+from vibroimpact.attraction.followed import NO_TRAPS, Followed, Region, Stage, Traps, follow_region
 from vibroimpact.engine.capture import CENTRE, FORM, OWNER, REACH, TRAP
 from vibroimpact.engine.status import Status
 from vibroimpact.response.follow import moved_on
@@ -24,8 +24,12 @@ def points() -> np.ndarray:
     return found
 
 
-def begun(traps: Traps, cycles: int, stage: Stage = STAGE) -> object:
-    return follow_region(Region(stage, points(), np.zeros((len(STARTS), 8)), traps, cycles))
+def followed(region: Region) -> Followed:
+    return follow_region(region, np.zeros(2, dtype=np.int64))
+
+
+def begun(traps: Traps, cycles: int, stage: Stage = STAGE) -> Followed:
+    return followed(Region(stage, points(), np.zeros((len(STARTS), 8)), traps, cycles))
 
 
 def ball(owner: int, centre: np.ndarray, radius: float) -> np.ndarray:
@@ -94,5 +98,5 @@ def test_a_region_is_all_that_is_needed_elsewhere():
     import pickle
 
     region = Region(STAGE, points(), np.zeros((len(STARTS), 8)), NO_TRAPS, 10)
-    there = pickle.loads(pickle.dumps(follow_region(pickle.loads(pickle.dumps(region)))))
-    np.testing.assert_array_equal(there.states, follow_region(region).states)
+    there = pickle.loads(pickle.dumps(followed(pickle.loads(pickle.dumps(region)))))
+    np.testing.assert_array_equal(there.states, followed(region).states)

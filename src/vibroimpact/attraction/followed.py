@@ -15,7 +15,7 @@ from vibroimpact.engine import capture
 from vibroimpact.engine import motion as layout
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.response.start import engine_rig
-from vibroimpact.response.threads import Progress, run
+from vibroimpact.response.threads import Progress, Tally, each
 
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.int64]
@@ -69,7 +69,7 @@ class Followed(NamedTuple):
     """`Status`: done where it was caught, not settled where it may yet be."""
 
 
-def follow_region(region: Region, progress: _Whole | None = None) -> Followed:
+def follow_region(region: Region, tally: Tally) -> Followed:
     """Follow the states of one region."""
     stage, points, states, traps, cycles = region
     states = np.ascontiguousarray(states).copy()
@@ -86,7 +86,7 @@ def follow_region(region: Region, progress: _Whole | None = None) -> Followed:
         *traps,
         states,
         results,
-        np.zeros(2, dtype=np.int64) if progress is None else progress,
+        tally,
     )
     return Followed(
         states,
@@ -120,17 +120,9 @@ def follow(
         return Followed(np.empty((0, layout.STATE)), none, none, none)
     where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
-    found: list[Followed | None] = [None] * len(regions)
-    counter = np.zeros((len(where), 2), dtype=np.int64)
-
-    def one(task: int) -> None:
-        if not counter[task, 1]:
-            found[task] = follow_region(regions[task], counter[task])
-
     capture.caught.prepare(engine_rig(stage.oscillator, stage.excitation))
-    run(one, counter, number, threads, progress)
-    done = [one for one in found if one is not None]
-    return Followed(*(np.concatenate(column) for column in zip(*done, strict=True)))
+    found = each(follow_region, regions, steps=number, threads=threads, progress=progress)
+    return Followed(*(np.concatenate(column) for column in zip(*found, strict=True)))
 
 
 def images(
