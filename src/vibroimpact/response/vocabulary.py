@@ -2,18 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from vibroimpact.model.parameters import PARAMETERS
-
-
-class Variable(NamedTuple):
-    """What a variable is measured in, and what it means."""
-
-    units: str
-    long_name: str
-    comment: str = ""
-
+from vibroimpact.response.many import MANY_MOTIONS
+from vibroimpact.response.variable import Variable
 
 _OVER = "over that of the largest free flight of the same isolator and amplitude at any frequency"
 _RIGID = "infinite where a rigid stop was struck"
@@ -347,77 +338,5 @@ VARIABLES: dict[str, Variable] = {
     "pseudo_acceleration": Variable(
         "m s-2", "pseudo-acceleration", "angular frequency squared times displacement"
     ),
-    # basins
-    "attractor": Variable("1", "number of the steady motion", "the largest first"),
-    "basin": Variable(
-        "1",
-        "steady motion that the state leads to",
-        "its number; -1 of a state that was given up, -2 of one behind a rigid stop",
-    ),
-    "capture_cycles": Variable(
-        "1", "forcing cycles until it was sure where the state leads", "-1 where not followed"
-    ),
-    "mirror_image": Variable("1", "number of the mirror image", "-1 where it is not among them"),
-    "section_attractor": Variable("1", "number of the motion whose point it is"),
-    "states": Variable("1", "number of states that lead there"),
-    "share": Variable("1", "share of the states that lead there"),
-    **{
-        f"share_{end}": Variable(
-            "1",
-            f"{which} end of the 95% interval of the share",
-            "as of states that are drawn at random; those of a grid know it better",
-        )
-        for end, which in (("low", "lower"), ("high", "upper"))
-    },
-    "border_distance": Variable(
-        "m",
-        "distance of the motion from the border of its basin",
-        "at the section, velocities over the angular frequency of the forcing; infinite if no "
-        "state leads elsewhere",
-    ),
-    "basin_entropy": Variable("1", "basin entropy of boxes of 5 × 5 states"),
-    "border_entropy": Variable(
-        "1", "basin entropy of the boxes on a border", "above ln 2 the border is fractal"
-    ),
-    "uncertainty_exponent": Variable(
-        "1",
-        "exponent of the share of uncertain states",
-        "1 of a smooth border; 2 less this is the border's dimension",
-    ),
-    "uncertainty_exponent_error": Variable("1", "standard error of the uncertainty exponent"),
-    # maps
-    "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
-    "confidence": Variable(
-        "1",
-        "confidence in the scenario",
-        "share of the variations of the thresholds, halved and doubled, that leave it the same",
-    ),
-    "level": Variable(
-        "1",
-        "level of refinement at which the node was computed",
-        "-1: it was not, it has the scenario of the square around it",
-    ),
-    "extent": Variable(
-        "1",
-        "width of secondary left hystereses and non-regular resonances over natural frequency",
-    ),
-    "penetration_ratio": Variable("1", "largest penetration over gap"),
-    "resonance_ratio": Variable(
-        "1", "frequency of the primary resonance over that of free flight", "of η_d, forward"
-    ),
-    "peak_eta_a_forward": Variable("1", "largest η_a, forward"),
-    "peak_eta_a_backward": Variable("1", "largest η_a, backward"),
-    "peak_eta_d_forward": Variable("1", "largest η_d, forward"),
-    "peak_eta_d_backward": Variable("1", "largest η_d, backward"),
-    "jump_down_ratio": Variable("1", "frequency of the downward jump over natural frequency"),
-    "jump_up_ratio": Variable("1", "frequency of the upward jump over natural frequency"),
-    "contact_low_ratio": Variable("1", "lowest frequency with contact over natural frequency"),
-    "contact_high_ratio": Variable("1", "highest frequency with contact over natural frequency"),
-    "left_hysteresis_count": Variable("1", "number of left hystereses"),
-    "secondary_count": Variable("1", "number of regular secondary resonances"),
-    "irregular_count": Variable("1", "number of ranges that are not regular"),
-    "chaotic_count": Variable("1", "number of ranges with chaotic motions"),
-    "quasi_periodic_count": Variable("1", "number of ranges with quasi-periodic motions"),
-    "subharmonic_count": Variable("1", "number of ranges with subharmonic motions"),
-    "mirrored_pair_count": Variable("1", "number of ranges with mirrored pairs of motions"),
+    **MANY_MOTIONS,
 }
