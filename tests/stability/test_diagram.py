@@ -1,8 +1,23 @@
-"""The resonance diagram: what its dataset says of its branches."""
+"""Resonance diagrams: all branches, over any parameter, isolated ones among them, each once."""
 
 from __future__ import annotations
 
+from functools import cache
+
+import numpy as np
+import pytest
+import xarray as xr
+
 import vibroimpact as vi
+
+STOP = vi.Bumper(10.0, 0.1, 1.0)
+ONE_STOP = vi.Oscillator(1.0, vi.Isolator(1.0, 0.05), STOP, None)
+HARD = vi.Bumper(40.0, 0.4, 1.0)
+TWO_STOPS = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), HARD, HARD)
+
+
+def hertz(omega: float) -> float:
+    return omega / (2.0 * np.pi)
 
 
 def test_one_branch_has_the_attributes_of_any():
@@ -14,3 +29,95 @@ def test_one_branch_has_the_attributes_of_any():
         "the range ends at 3",
         "the range ends at 4",
     }
+
+
+@cache
+def isolated() -> xr.Dataset:
+    return vi.resonance_diagram(TWO_STOPS, 2.0, hertz(1.5), hertz(8.0))
+
+
+def test_isolated_branches_are_found_once():
+    """Symmetric subharmonics of period 3 lie on a closed branch, which nothing else leads to."""
+    data = isolated()
+    first = [int(np.flatnonzero(data["branch"] == b)[0]) for b in np.unique(data["branch"])]
+    kinds = [(int(data["period"][k]), bool(data["antisymmetric"][k])) for k in first]
+    assert kinds == [(1, True), (3, True), (3, False)]
+    assert [data.attrs[f"branch_{b}_closed"] for b in range(3)] == [0, 1, 1]
+    alone = vi.resonance_diagram(TWO_STOPS, 2.0, hertz(1.5), hertz(8.0), random=0)
+    assert int(alone["branch"].max()) == 0
+    xr.testing.assert_equal(
+        isolated(), vi.resonance_diagram(TWO_STOPS, 2.0, hertz(1.5), hertz(8.0))
+    )
+
+
+def excursions(data: xr.Dataset, value: float) -> list[float]:
+    """Of all orbits at a value of the parameter, from a straight line through their neighbours."""
+    x, y = data[data.attrs["parameter"]].values, data["displacement_excursion"].values
+    same = (data["branch"].values[1:] == data["branch"].values[:-1]) & (
+        data["period"].values[1:] == data["period"].values[:-1]
+    )
+    at = np.flatnonzero(same & ((x[1:] - value) * (x[:-1] - value) < 0.0))
+    share = (value - x[at]) / (x[at + 1] - x[at])
+    return sorted(y[at] + share * (y[at + 1] - y[at]))
+
+
+def test_two_parameters_meet_in_the_same_orbits():
+    """Where a diagram over the frequency and one over the gap cross, orbits are the same."""
+    shaking = vi.Harmonic(2.0, hertz(4.6))
+    over_gap = vi.resonance_diagram(TWO_STOPS, shaking, 0.9, 3.0, parameter="gap")
+    one, other = excursions(isolated(), hertz(4.6)), excursions(over_gap, 1.0)
+    # Free flight, and the stable and the unstable orbit of period 3.
+    assert len(one) == len(other) == 3
+    np.testing.assert_allclose(one, other, rtol=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "low", "high"),
+    [("amplitude", 1.0, 4.0), ("bumper_stiffness", 2.0, 50.0), ("damping_ratio", 0.01, 0.2)],
+)
+def test_what_settles_lies_on_a_branch(parameter, low, high):
+    """Each motion of a bifurcation diagram of period 1 to 4 is near an orbit of its period."""
+    shaking = vi.Harmonic(2.0, hertz(2.4))
+    data = vi.resonance_diagram(ONE_STOP, shaking, low, high, parameter=parameter)
+    found = vi.bifurcation_diagram(ONE_STOP, shaking, parameter, low, high, 9, random=2, seed=5)
+    x, y = data[parameter].values, data["displacement_excursion"].values
+    for i, value in enumerate(found[parameter].values[1:-1], start=1):
+        known = excursions(data, float(value))
+        for start in range(found.sizes["start"]):
+            one = found.isel({"start": start, parameter: i})
+            if 0 < int(one["period"]) <= 4:
+                size = float(one["displacement_excursion"])
+                near = np.abs(np.array(known) - size).min(initial=np.inf)
+                assert near < 0.02 * size, (value, int(one["period"]), x.shape, y.shape)
+
+
+def test_the_bifurcations_of_a_branch_are_among_them():
+    case = vi.laboratory.case("B3-10mm-A3")
+    shaking = vi.Harmonic(case.amplitude, 1.12)
+    every = vi.resonance_diagram(case, 4.8e-3, 6e-3, parameter="gap", frequency=1.12, random=0)
+    one = vi.branch(case.oscillator, shaking, parameter="gap", low=4.8e-3, high=6e-3)
+    for kind in np.unique(one["bifurcation_kind"]):
+        mine, theirs = (
+            d["bifurcation_value"].values[d["bifurcation_kind"].values == kind]
+            for d in (one, every)
+        )
+        for value in mine:
+            assert np.abs(theirs - value).min() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        ({"parameter": "gap"}, "frequency: missing"),
+        ({"frequency": 2.0}, "frequency: 2.0, but it is varied"),
+        ({"parameter": "colour", "frequency": 2.0}, "parameter: 'colour'"),
+        ({"amplitude": [0.1, 0.2]}, "amplitude: a list"),
+        ({"random": -1}, "random: -1"),
+        ({"starts": 0}, "starts: 0"),
+        ({"high": 0.5}, "high: 0.5"),
+    ],
+)
+def test_refused(wrong, told):
+    given = {"oscillator": ONE_STOP, "amplitude": 1.0, "low": 1.0, "high": 2.0}
+    with pytest.raises(vi.InputError, match=told):
+        vi.resonance_diagram(**{**given, **wrong})

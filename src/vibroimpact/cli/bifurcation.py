@@ -206,10 +206,6 @@ def _excitation(what: Subject, along: str, frequency: str | None, phase: str | N
 
 def _branches(what: Subject, shaken: Repeated, along: str, span: tuple[float, float]) -> xr.Dataset:
     """The branches whose bifurcations are marked."""
-    from vibroimpact.stability.branch import branch
     from vibroimpact.stability.diagram import resonance_diagram
 
-    options: dict[str, Any] = {"low": span[0], "high": span[1]}
-    if along == "frequency":
-        return resonance_diagram(what.oscillator, shaken, **options)
-    return branch(what.oscillator, shaken, parameter=along, **options)
+    return resonance_diagram(what.oscillator, shaken, *span, parameter=along, phase=shaken.phase)

@@ -89,6 +89,12 @@ def branch(
     longest: Annotated[
         Whole, Parameter(group=_BRANCH, help="Longest period, in cycles, that is followed.")
     ] = 4,
+    random: Annotated[
+        Whole,
+        Parameter(
+            group=_BRANCH, help="Random starts at each of 40 values, which find isolated branches."
+        ),
+    ] = 8,
     begin: Annotated[
         str | None,
         _WITH_UNITS,
@@ -112,11 +118,11 @@ def branch(
 ) -> int:
     """Follow the branches of periodic orbits along a parameter, through folds and grazings.
 
-    Along the frequency all branches are followed that sweeps, free flight, symmetry breakings
-    and period doublings lead to; along another parameter, or with --start or --period, the one
-    that begins near the start or where the motion from rest settles. Prints the bifurcations;
-    writes NAME-PARAMETER-branches.nc and NAME-PARAMETER-branches.png, in the figure with a
-    stepped sweep.
+    All branches are followed that motions carried up and down, random starts, free flight,
+    symmetry breakings and period doublings lead to; with --start or --period the one that begins
+    near the start or where the motion from rest settles. Prints the bifurcations; writes
+    NAME-PARAMETER-branches.nc and NAME-PARAMETER-branches.png, along the frequency with a
+    stepped sweep in the figure.
 
     For example:
 
@@ -143,6 +149,12 @@ def branch(
     )
 
     first = _first(begin, period)
+    hertz = _hertz(along, frequency, first)
+    if first is not None and hertz is not None:
+        _check(what, along, span, hertz)
+    for option, number, least in (("--longest", longest, 1), ("--random", random, 0)):
+        if number < least:
+            raise InputError(f"{option}: {number}; a whole number of at least {least} is accepted")
 
     with output_folder(out.output) as folder:
         import warnings
@@ -156,11 +168,13 @@ def branch(
 
         with warnings.catch_warnings(record=True) as caught, progress_bar("following") as progress:
             warnings.simplefilter("always", RuntimeWarning)
-            if along == "frequency" and first is None:
-                data, swept = _over_frequency(what, span, longest, progress)
+            swept = None
+            if first is None:
+                data = _all_branches(what, along, span, hertz, longest, random, progress)
+                if along == "frequency":
+                    swept = _sweep(what, data)
             else:
-                data = _one_branch(what, along, span, frequency, first or First(), progress)
-                swept = None
+                data = _one_branch(what, along, span, hertz, first, progress)
         for message in dict.fromkeys(str(warning.message) for warning in caught):
             warn(message)
         data.attrs["title"] = what.name
@@ -224,27 +238,41 @@ def option_range(
     return ends[0], ends[1]
 
 
-def _over_frequency(
-    what: Subject, span: tuple[float, float], longest: int, progress: Any
-) -> tuple[xr.Dataset, xr.Dataset]:
-    """Branches along the frequency, and a stepped sweep to lay over them."""
-    import numpy as np
-
-    from vibroimpact.response.sweep import sweep
+def _all_branches(
+    what: Subject,
+    parameter: str,
+    span: tuple[float, float],
+    hertz: float | None,
+    longest: int,
+    random: int,
+    progress: Any,
+) -> xr.Dataset:
+    """All branches along a parameter."""
     from vibroimpact.stability.diagram import resonance_diagram
 
     phase = what.study.excitation.phase if what.study else 0.0
-    data = resonance_diagram(
+    return resonance_diagram(
         what.oscillator,
         what.repeated,
         *span,
+        parameter=parameter,
+        frequency=None if parameter == "frequency" else hertz,
         phase=phase,
         longest=longest,
+        random=random,
         progress=progress,
     )
+
+
+def _sweep(what: Subject, data: xr.Dataset) -> xr.Dataset:
+    """A stepped sweep to lay over branches along the frequency."""
+    import numpy as np
+
+    from vibroimpact.response.sweep import sweep
+
     frequency = data["frequency"].values
     grid = np.linspace(frequency.min(), frequency.max(), 120)
-    return data, sweep(what.oscillator, what.repeated, grid)
+    return sweep(what.oscillator, what.repeated, grid)
 
 
 class First(NamedTuple):
@@ -281,32 +309,58 @@ def _first(start: str | None, period: int | None) -> First | None:
     return First(State(u, v), period)
 
 
+def _hertz(parameter: str, frequency: str | None, first: First | None) -> float | None:
+    """The excitation frequency (Hz); None where it is varied and nothing asks for one.
+
+    Raises
+    ------
+    InputError
+        If it is missing, or cannot be used.
+    """
+    from vibroimpact.model import to_si
+    from vibroimpact.model.quantities import FREQUENCY
+
+    if frequency is not None:
+        return to_si(frequency, FREQUENCY, "--frequency", above=0.0)
+    if parameter == "frequency" and first is None:
+        return None
+    raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
+
+
+def _check(what: Subject, parameter: str, span: tuple[float, float], hertz: float) -> None:
+    """Refuse what leaves the first orbit out.
+
+    Raises
+    ------
+    InputError
+        If the range leaves out the rig's own value.
+    """
+    from vibroimpact.model.parameters import parameter as varied
+    from vibroimpact.model.units import pretty
+
+    known = varied(parameter, of=what.repeated.of).of(what.oscillator)
+    here = known.read(what.oscillator, what.at(hertz))
+    if not span[0] <= here <= span[1]:
+        low, high, own = (pretty(value, known.quantity) for value in (*span, here))
+        raise InputError(
+            f"--from: {low} to {high} leaves out the rig's {parameter}, {own}; a range that holds "
+            "it is accepted"
+        )
+
+
 def _one_branch(
     what: Subject,
     parameter: str,
     span: tuple[float, float],
-    frequency: str | None,
+    hertz: float | None,
     first: First,
     progress: Any,
 ) -> xr.Dataset:
     """The branch along a parameter from one orbit."""
-    from vibroimpact.model import to_si
-    from vibroimpact.model.parameters import parameter as varied
-    from vibroimpact.model.quantities import FREQUENCY
-    from vibroimpact.model.units import pretty
     from vibroimpact.stability.branch import branch as follow
 
-    if frequency is None:
-        raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
-    hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
+    assert hertz is not None
     phase = what.study.excitation.phase if what.study else 0.0
-    kind = varied(parameter, of=what.repeated.of).of(what.oscillator).quantity
-    here = varied(parameter).read(what.oscillator, what.at(hertz, phase))
-    if not span[0] <= here <= span[1]:
-        raise InputError(
-            f"--from: {pretty(span[0], kind)} to {pretty(span[1], kind)} leaves out the rig's "
-            f"{parameter}, {pretty(here, kind)}; a range that holds it is accepted"
-        )
     return follow(
         what.oscillator,
         what.at(hertz, phase),

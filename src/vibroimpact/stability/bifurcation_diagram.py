@@ -10,12 +10,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold, lyapunov
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
-from vibroimpact.model.access import Setting
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.parameters import parameter as registered
@@ -30,14 +28,12 @@ from vibroimpact.response.variables import (
     oscillator_parameters,
 )
 from vibroimpact.stability.sectioned import POINT, Kind, Look, Seen, look_at
-from vibroimpact.stability.settled import reach_at_rest
-from vibroimpact.stability.stepped import Patience, settings, stepped
+from vibroimpact.stability.stepped import Patience, random_states, settings, stepped
 
 _Array = NDArray[np.float64]
 
 CREATED_BY = "vibroimpact.bifurcation_diagram"
 DIRECTIONS = ("up", "down")
-_RANDOM_SIZE = 1.5
 _BLOCK = 32
 """Values that one thread holds at a time where none is carried on to the next."""
 
@@ -87,7 +83,8 @@ def bifurcation_diagram(
         States by name, from each of which every value begins.
     random
         How many random starts, besides: the same ones at every value, with displacements and
-        velocities up to 1.5 times the largest displacement that was met from the others.
+        velocities up to 1.5 times the largest displacement that was met from the others, or the
+        widest gap.
     seed
         Of the random starts; the same one gives the same starts.
     section
@@ -175,7 +172,9 @@ def bifurcation_diagram(
     total = count * (len(ways) + random)
     found = done(_parts(ways, count), 0)
     if random:
-        drawn = _random(found, every, random, seed)
+        met = [one.held for seen in found.values() for one in seen]
+        states = random_states(met, every, random, seed)
+        drawn = {f"random {i}": state for i, state in enumerate(states, start=1)}
         found |= done(_parts(drawn, count), count * len(ways))
     data = _dataset(oscillator, varied.name, values, found, section, excitation.phase)
     data.attrs["parameter"] = varied.name
@@ -233,28 +232,6 @@ def _parts(ways: Mapping[str, _Array | None], count: int) -> list[_Part]:
         for name, start in ways.items()
         for values in (blocks if start is not None else [slice(None)])
     ]
-
-
-def _random(
-    found: Mapping[str, list[Seen]], every: list[Setting], random: int, seed: int
-) -> dict[str, _Array]:
-    """Random states as large as what was met, or where nothing was, as the mass at rest moves."""
-    met = [
-        np.abs(one.held.measured[[hold.U_LEAST, hold.U_MOST]]).max()
-        for seen in found.values()
-        for one in seen
-        if one.status is Status.DONE
-    ]
-    size = max(met, default=0.0) or max(reach_at_rest(*one) for one in every)
-    omega = float(np.median([shaken.angular_frequency for _, shaken in every]))
-    generator = np.random.default_rng(seed)
-    states = {}
-    for number in range(random):
-        u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
-        state = np.zeros(layout.STATE)
-        state[layout.U], state[layout.V] = u, v * omega
-        states[f"random {number + 1}"] = state
-    return states
 
 
 def _dataset(

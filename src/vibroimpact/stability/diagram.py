@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
@@ -12,17 +11,15 @@ from numpy.typing import NDArray
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, State
+from vibroimpact.model import Harmonic, Oscillator, Periodic
 from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import AnyShaking, as_shaking, takes_rig
-from vibroimpact.response.free_flight import extremes, harmonics
-from vibroimpact.response.sweep import DIRECTIONS, sweep
 from vibroimpact.response.threads import Progress
+from vibroimpact.stability.begun import free, settled, values
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
 from vibroimpact.stability.branch import follow_both_ways
-from vibroimpact.stability.family import Family, family
-from vibroimpact.stability.first import first_orbit
+from vibroimpact.stability.family import family
 from vibroimpact.stability.fixed_points import SEEN, Orbit, at_phase, corrected, images
 from vibroimpact.stability.labelled import Followed, as_dataset
 
@@ -39,26 +36,37 @@ def resonance_diagram(
     low: float | str,
     high: float | str,
     *,
+    parameter: str = "frequency",
+    frequency: float | str | None = None,
     phase: float = 0.0,
     longest: int = 4,
     most_branches: int = 30,
     most_points: int = 5000,
     starts: int = 40,
+    random: int = 8,
+    seed: int = 0,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Follow all branches of periodic orbits over a range of frequencies.
+    """Follow all branches of periodic orbits over a range of the frequency or another parameter.
 
-    Branches are begun from where a forward and a backward sweep settle, free flight among them,
-    and from every symmetry breaking and period doubling that is found on the way.
+    Branches are begun from where motions settle that are carried on up and down the range, from
+    free flight, and from every symmetry breaking and period doubling that is found on the way. A
+    branch that none of these leads to is isolated: `random` starts at each value find it where
+    some of its orbits are stable.
 
     Parameters
     ----------
     oscillator
         What vibrates; or a laboratory case or its code, and then the amplitude may be left out.
     amplitude
-        As in `sweep`, the same at all frequencies.
+        As in `sweep`, the same all along.
     low, high
-        Range of the frequency in Hz.
+        Range of the parameter, in SI units or as text.
+    parameter
+        What is varied, as of `branch`.
+    frequency
+        Excitation frequency in Hz where another parameter is varied; that of a `Harmonic` or a
+        `Periodic` may be left out.
     phase
         Forcing phase of the sections, rad.
     longest
@@ -66,7 +74,9 @@ def resonance_diagram(
     most_branches, most_points
         Branches, and orbits in each direction of one, after which it is given up.
     starts
-        Frequencies of the sweeps.
+        Values at which motions are held.
+    random, seed
+        Random starts at each of these, as of `bifurcation_diagram`.
     progress
         Called with the branches done and those known.
 
@@ -83,16 +93,30 @@ def resonance_diagram(
     """
     shaken, several = as_shaking(amplitude, "amplitude")
     if several:
-        raise InputError("amplitude: a list; one amplitude for all frequencies is accepted")
-    fam = family(oscillator, shaken.replace(frequency=high, phase=phase), "frequency")
+        raise InputError("amplitude: a list; one amplitude all along is accepted")
+    if parameter == "frequency":
+        if frequency is not None:
+            raise InputError(
+                f"frequency: {frequency!r}, but it is varied; it is accepted beside another one"
+            )
+        frequency = high
+    elif frequency is None:
+        if not isinstance(amplitude, Harmonic | Periodic):
+            raise InputError(
+                "frequency: missing; one is accepted where another parameter is varied"
+            )
+        frequency = shaken.frequency
+    fam = family(oscillator, shaken.replace(frequency=frequency, phase=phase), parameter)
     span = bounds(fam.parameter, low, high)
     longest, starts = whole(longest, "longest"), whole(starts, "starts")
     most_branches = whole(most_branches, "most_branches")
     most_points = whole(most_points, "most_points")
+    random, seed = whole(random, "random", 0), whole(seed, "seed", 0)
+    begin = values(fam, span, starts)
     followed: list[Followed] = []
     waiting: list[tuple[Orbit, Bifurcation | None]] = [
         (first, None)
-        for first in itertools.chain(_free(fam, span, starts), _settled(fam, span, starts, longest))
+        for first in itertools.chain(free(begin), settled(begin, longest, random, seed))
     ]
     complete = True
     while waiting:
@@ -118,55 +142,6 @@ def resonance_diagram(
     data = as_dataset(followed, fam, span, "resonance_diagram")
     data.attrs["complete"] = int(complete)
     return data
-
-
-def _at(fam: Family, frequency: float) -> Family:
-    """The family along the frequency, made at another one."""
-    return fam._replace(value=frequency, excitation=fam.excitation.replace(frequency=frequency))
-
-
-def _free(fam: Family, span: tuple[float, float], starts: int) -> Iterator[Orbit]:
-    """Steady free flight where it reaches no bumper: at the ends of each such range."""
-    rig, shaken = fam.oscillator, fam.excitation
-    if rig.isolator.initial_stiffness == 0.0 or not rig.isolator.linear:
-        return  # the sweeps find what other laws do
-    grid, rest = np.linspace(*span, starts), rig.force / rig.isolator.initial_stiffness
-    with np.errstate(divide="ignore", invalid="ignore"):
-        swings, _ = harmonics(rig, shaken, grid)
-    low, high = extremes(swings) + rest
-    right, left = (np.inf if stop is None else stop.gap for stop in (rig.right, rig.left))
-    flies = (high < right) & (-low < left)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], flies, [False]]).astype(int)))
-    for i in sorted({int(k) for a, b in edges.reshape(-1, 2) for k in (a, b - 1)}):
-        order = np.arange(1, swings.shape[1] + 1)
-        turned = swings[i] * np.exp(1j * order * fam.phase)
-        u = rest + turned.imag.sum()
-        v = 2.0 * np.pi * grid[i] * (order * turned).real.sum()
-        here = _at(fam, float(grid[i]))
-        try:
-            yield first_orbit(here, span, State(float(u), float(v), phase=fam.phase), 1)
-        except InputError:
-            continue  # undamped, at resonance
-
-
-def _settled(fam: Family, span: tuple[float, float], starts: int, longest: int) -> Iterator[Orbit]:
-    """Orbits on which forward and backward sweeps settle."""
-    grid = np.linspace(*span, starts)
-    grid[0], grid[-1] = span
-    for direction in DIRECTIONS:
-        data = sweep(fam.oscillator, fam.excitation, grid, direction, phase=fam.phase).isel(
-            direction=0
-        )
-        # From the far end of the sweep: there free flight and the large motions are simple.
-        for i in range(starts)[:: 1 if direction == "backward" else -1]:
-            period = int(data["period"][i])
-            if not 0 < period <= longest:
-                continue
-            here = _at(fam, float(grid[i]))
-            try:
-                yield first_orbit(here, span, data["section"].isel(frequency=i, drop=True), period)
-            except InputError:
-                continue  # settled to within the sweep's tolerance, but on the edge of a basin
 
 
 def _used(origin: Bifurcation | None, followed: list[Followed], span: tuple[float, float]) -> bool:

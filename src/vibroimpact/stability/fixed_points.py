@@ -340,15 +340,15 @@ def at_phase(found: Orbit, phase: float) -> Orbit | None:
 def images(found: Orbit, *, mirrored: bool) -> Iterator[tuple[_Array, float]]:
     """Points and modes of an orbit's sections a cycle apart; if `mirrored`, its mirror image's too.
 
-    Of an orbit that is its own mirror image there is one.
+    Those of an orbit that is its own mirror image are half a cycle apart, each mirrored: as many as
+    its period has cycles, an odd number.
     """
     section = found.section
     point, mode = found.point, float(found.facts[section_map.MODE])
     yield point, mode
-    if section.mirror:
-        return
-    one = Section(section.family, 1, mirrored, section.scale)
-    for _ in range((2 if mirrored else 1) * section.count - 1):
+    halves = mirrored or section.mirror
+    one = Section(section.family, 1, halves, section.scale)
+    for _ in range((2 if mirrored and not section.mirror else 1) * section.count - 1):
         status, evaluation, point = evaluated(one, point, mode)
         if status is not Status.DONE:
             return

@@ -24,10 +24,11 @@ from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
 from vibroimpact.response.threads import Stopped, Tally
-from vibroimpact.stability.settled import Settled
+from vibroimpact.stability.settled import Settled, reach_at_rest
 
 _Array = NDArray[np.float64]
 
+_RANDOM_SIZE = 1.5
 _SOUND = (Status.DONE, Status.NOT_SETTLED)
 
 
@@ -150,3 +151,29 @@ def placed(rig: Oscillator, shaken: Repeated, state: _Array) -> _Array:
     most = engine_rig(rig, shaken)[par.YIELD]
     memory = min(max(float(state[layout.ISOLATOR]), -most), most)
     return engine_state(rig, State(u, v, right, left, isolator=memory))
+
+
+def random_states(
+    met: Iterable[Held], every: Sequence[Setting], count: int, seed: int
+) -> list[_Array]:
+    """Random states up to 1.5 times as large as what was met, or as the widest gap if that is more.
+
+    Vectors of the engine. Where there is neither, they are as large as the mass is moved by what
+    shakes it slowly.
+    """
+    sizes = [
+        np.abs(one.measured[[hold.U_LEAST, hold.U_MOST]]).max()
+        for one in met
+        if one.found.status in _SOUND
+    ]
+    gaps = [stop.gap for rig, _ in every for stop in rig.stops]
+    size = max([0.0, *sizes, *gaps]) or max(reach_at_rest(*one) for one in every)
+    omega = float(np.median([shaken.angular_frequency for _, shaken in every]))
+    generator = np.random.default_rng(seed)
+    states = []
+    for _ in range(count):
+        u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
+        state = np.zeros(layout.STATE)
+        state[layout.U], state[layout.V] = u, v * omega
+        states.append(state)
+    return states
