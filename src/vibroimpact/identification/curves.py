@@ -134,6 +134,16 @@ class CurveTest:
         return len(self.points.value)
 
     @property
+    def shares(self) -> Array:
+        """Residuals are shares of the values themselves."""
+        return np.ones(len(self.points.value))
+
+    @property
+    def groups(self) -> list[list[tuple[int, NDArray[np.bool_]]]]:
+        """None, for there are no unknowns."""
+        return []
+
+    @property
     def unknowns(self) -> tuple[Array, Array]:
         """None: a steady motion has forgotten how it began."""
         return np.empty(0), np.empty(0)

@@ -10,6 +10,7 @@ import xarray as xr
 
 from vibroimpact.errors import InputError
 from vibroimpact.identification.curves import CurveTest
+from vibroimpact.identification.history import HistoryTest
 from vibroimpact.identification.problem import Test
 from vibroimpact.measurement.read import as_measured
 from vibroimpact.model import Oscillator
@@ -21,7 +22,9 @@ from vibroimpact.model.rigs import as_rig, as_shaking
 from vibroimpact.model.units import to_si
 
 
-def tests_of(data: Any, oscillator: Any, amplitude: Any, noise: Any) -> list[Test]:
+def tests_of(
+    data: Any, oscillator: Any, amplitude: Any, noise: Any, window: int | None, steady: bool
+) -> list[Test]:
     """Read the tests, each with the rig and shaking that it begins from.
 
     Raises
@@ -39,9 +42,10 @@ def tests_of(data: Any, oscillator: Any, amplitude: Any, noise: Any) -> list[Tes
         share = _of(noise, name, list(named), "noise")
         share = None if share is None else to_si(share, DIMENSIONLESS, "noise", above=0.0)
         setting = _setting(rig, given, measured, where)
-        if measured.attrs["kind"] != "curves":
-            raise InputError(f"{where}: a time history; curves of a stepped sine are accepted")
-        found.append(CurveTest(name, measured, setting, share))
+        if measured.attrs["kind"] == "curves":
+            found.append(CurveTest(name, measured, setting, share))
+        else:
+            found.append(HistoryTest(name, measured, setting, share, window, steady))
     return found
 
 

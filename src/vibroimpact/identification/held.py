@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import DONE
-from vibroimpact.model import equilibrium
+from vibroimpact.model import State, equilibrium
 from vibroimpact.model.access import Setting
 from vibroimpact.response.start import engine_rig, engine_state
 
@@ -80,6 +80,7 @@ class Rig:
 
     def __init__(self, setting: Setting) -> None:
         oscillator, shaken = setting
+        self.oscillator = oscillator
         self.vector = engine_rig(oscillator, shaken)
         self.amplitude = float(shaken.amplitude)
         self.rest = engine_state(oscillator, equilibrium(oscillator))
@@ -109,6 +110,24 @@ class Rig:
             np.zeros(2, dtype=np.int64),
         )
         return rows, states
+
+    def settled(self, start: State, frequency: float, phase: float) -> Array | None:
+        """Where a state settles at a frequency (Hz), seen at a phase; None if it does not."""
+        rows = np.empty((1, hold.RESULTS))
+        states = np.zeros((1, layout.STATE))
+        batch.sweep(
+            self.vector,
+            np.array([self.amplitude]),
+            np.array([frequency]),
+            phase,
+            engine_state(self.oscillator, start),
+            *_EXACT,
+            _MAX_EVENTS,
+            rows,
+            states,
+            np.zeros(2, dtype=np.int64),
+        )
+        return states[0] if rows[0, hold.PERIOD] > 0 else None
 
 
 def sizes(rows: Array) -> Array:

@@ -47,6 +47,8 @@ def identify(
     tried: int = 64,
     profiles: bool = True,
     draws: int = 0,
+    window: int | None = None,
+    steady: bool = False,
     seed: int = 0,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -87,6 +89,13 @@ def identify(
         a bound; otherwise they are those of the covariance.
     draws
         Bootstrap samples over the points.
+    window
+        Cycles of a time history that are followed at a stretch, each from an initial state that is
+        found with the parameters; 5 unless said. More where the motion is regular, fewer where it
+        is chaotic.
+    steady
+        Whether time histories are those of steady motions: they are then compared with the motion
+        on which the measured state settles, without initial states.
     seed
         Of the starts and the bootstrap.
     threads
@@ -112,7 +121,7 @@ def identify(
     draws, seed = whole(draws, "draws", least=0), whole(seed, "seed", least=0)
     confidence = share(confidence, "confidence")
     threads = (os.cpu_count() or 1) if threads is None else whole(threads, "threads")
-    tests = tests_of(data, oscillator, amplitude, noise)
+    tests = tests_of(data, oscillator, amplitude, noise, window, steady)
     given = frees(free, {t.name: t.setting for t in tests}, each, dict(priors or {}))
     problem = Problem(tests, given, ties_of(ties), [max(t.noise, _COARSE) for t in tests], _TAIL)
     _enough(problem)

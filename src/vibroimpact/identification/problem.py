@@ -47,6 +47,14 @@ class Test(Protocol):
         """Number of those that are measured values, which come first."""
 
     @property
+    def shares(self) -> Array:
+        """What a residual of 1 is of a point, as a share of what was measured."""
+
+    @property
+    def groups(self) -> list[list[tuple[int, Flags]]]:
+        """Unknowns that can be varied at once, each with the residuals that depend on it."""
+
+    @property
     def unknowns(self) -> tuple[Array, Array]:
         """Numbers of the test itself that have to be found, such as initial states; their sizes."""
 
@@ -119,10 +127,11 @@ class Problem:
     @property
     def _shares(self) -> Array:
         """What a standard deviation of each residual is as a share of a value; 0 of no value."""
-        parts = [
-            np.where(np.arange(t.count) < t.points_count, s, 0.0)
-            for t, s in zip(self.tests, self.sigma, strict=True)
-        ]
+        parts = []
+        for test, sigma in zip(self.tests, self.sigma, strict=True):
+            part = np.zeros(test.count)
+            part[: test.points_count] = sigma * test.shares
+            parts.append(part)
         shares: Array = np.concatenate([*parts, np.zeros(self._priors)])
         return shares
 
@@ -203,20 +212,42 @@ class Problem:
         none, and gets 0.
         """
         here = self.values(x) if at is None else at
-        columns = np.arange(len(x)) if only is None else np.flatnonzero(only)
-        found = [self._slope(x, int(column), here, fine=fine) for column in columns]
-        return np.stack(found, axis=1)
+        matrix = np.zeros((len(here.residuals), len(x)))
+        for group in self._columns(only):
+            slopes = self._slope(x, [column for column, _ in group], here, fine=fine)
+            for column, rows in group:
+                matrix[rows, column] = slopes[rows]
+        return matrix if only is None else matrix[:, only]
 
-    def _slope(self, x: Array, column: int, here: Values, *, fine: bool) -> Array:
-        """A column of the derivatives, on the side without a break where there is one."""
+    def _columns(self, only: Flags | None) -> list[list[tuple[int, Flags]]]:
+        """Columns that are found at once, each with the rows in which it is not 0."""
+        whole = np.ones(len(self.measured), dtype=bool)
+        groups = [[(column, whole)] for column in range(len(self.free))]
+        column, row = len(self.free), 0
+        for test in self.tests:
+            for group in test.groups:
+                here = []
+                for number, rows in group:
+                    wide = np.zeros(len(whole), dtype=bool)
+                    wide[row : row + test.count] = rows
+                    here.append((column + number, wide))
+                groups.append(here)
+            column += len(test.unknowns[0])
+            row += test.count
+        if only is None:
+            return groups
+        return [kept for group in groups if (kept := [one for one in group if only[one[0]]])]
+
+    def _slope(self, x: Array, columns: list[int], here: Values, *, fine: bool) -> Array:
+        """Columns of the derivatives, on the side without a break where there is one."""
         size = _FINE if fine else _STEP
         shares = self._shares
         slopes: list[Array] = []
         known = here.smooth
         for sign in (1.0, -1.0):
             other = x.copy()
-            other[column] += sign * size
-            if not self.low[column] <= other[column] <= self.high[column]:
+            other[columns] += sign * size
+            if (other < self.low).any() or (other > self.high).any():
                 continue
             there = self.values(other)
             slopes.append((there.residuals - here.residuals) / (sign * size))
