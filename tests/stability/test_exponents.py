@@ -140,3 +140,38 @@ def test_the_sum_rule_where_contraction_is_strong():
     data = vi.lyapunov_exponents([(rig, 1.0)], [0.2 / 6.2832], 64, transient=50)
     total = float(data["exponents"].sum()) + float(data["effective_damping"][0, 0])
     assert abs(total) < 1e-8
+
+
+def test_over_any_parameters():
+    """Combined; of free flight −ξω0, whatever the frequency, and each as it is by itself."""
+    case = vi.laboratory.case("B2-Ginf-A3")
+    rig = case.oscillator
+    ratios, springs = [0.05, 0.2], [20e3, 30e3, 40e3]
+    data = vi.lyapunov_exponents(
+        [case], [2.0, 3.0], 640, vary={"damping_ratio": ratios, "stiffness": springs}
+    )
+    assert data["exponents"].dims == ("rig", "frequency", "damping_ratio", "stiffness", "exponent")
+    known = -np.outer(ratios, np.sqrt(np.array(springs) / rig.mass))
+    for k in range(2):
+        np.testing.assert_allclose(data["exponents"][0, k].mean("exponent"), known, rtol=1e-12)
+    assert data["stiffness"].attrs["units"] == "N m-1"
+    case = vi.laboratory.case("B3-10mm-A3")
+    data = vi.lyapunov_exponents([case], [1.06], 200, vary={"gap": ["4 mm", "5 mm"]})
+    alone = vi.lyapunov_exponents([case], [1.06], 200)
+    np.testing.assert_array_equal(data["exponents"].sel(gap=5e-3), alone["exponents"])
+    assert float(np.abs(data["exponents"].sel(gap=4e-3) - alone["exponents"]).max()) > 1e-3
+
+
+@pytest.mark.parametrize(
+    ("vary", "told"),
+    [
+        ({"frequency": [1.0]}, "vary: 'frequency' has an argument of its own"),
+        ({"colour": [1.0]}, "vary: 'colour'"),
+        ({"gap": 3e-3}, "is no list of values"),
+        ({"gap": [1e-3, 1e-3]}, "given twice"),
+        ({"cubic": [1.0]}, "cubic"),
+    ],
+)
+def test_values_that_are_refused(vary, told):
+    with pytest.raises(vi.InputError, match=told):
+        vi.lyapunov_exponents(["B2-G1-A3"], [2.0], 10, vary=vary)

@@ -16,6 +16,7 @@ from vibroimpact.figures.demands import fragility_curves, incremental_curves
 from vibroimpact.figures.design import design_chart, pareto_front
 from vibroimpact.figures.earthquake import earthquake_page
 from vibroimpact.figures.ensembles import resonance_bands, sensitivity_bars
+from vibroimpact.figures.exponents import exponent_curves
 from vibroimpact.figures.family import family_legend, resonance_family
 from vibroimpact.figures.feature import feature_map
 from vibroimpact.figures.history import time_history
@@ -40,6 +41,7 @@ __all__ = [
     "clearances",
     "design_chart",
     "earthquake_page",
+    "exponent_curves",
     "family_legend",
     "feature_map",
     "force_loop",

@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, Record, to_si
-from vibroimpact.model.parameters import parameter
+from vibroimpact.model import Harmonic, Oscillator, Record
+from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.rigs import as_rig, rig_name
 from vibroimpact.model.units import shown
+from vibroimpact.model.varied import Varied, varied, written
 
 _Array = NDArray[np.float64]
 
@@ -24,15 +25,6 @@ NOT_VARIED = ("frequency", "amplitude", "gap_ratio")
 
 _ANY = Harmonic(1.0, 1.0)
 """What the registry of parameters asks for beside a rig."""
-
-
-class Varied(NamedTuple):
-    """Values of one parameter."""
-
-    name: str
-    values: _Array
-    units: str
-    long_name: str
 
 
 class Runs(NamedTuple):
@@ -67,13 +59,8 @@ class Runs(NamedTuple):
         names = list(self.rigs)
         rig = self.rigs[names[at[0] if self.several else 0]]
         values = dict(zip((one.name for one in self.varied), at[self.several :], strict=True))
-        # The relaxation time sets the damping last.
-        for one in sorted(self.varied, key=lambda one: one.name == "relaxation_time"):
-            value = float(one.values[values[one.name]])
-            known = parameter(one.name)
-            rig, _ = known.write(rig, _ANY, value)
-            known.read(rig, _ANY)  # refuses what the rig does not have
-        return rig
+        pairs = [(PARAMETERS[v.name], float(v.values[values[v.name]])) for v in self.varied]
+        return written(rig, _ANY, pairs)[0]
 
 
 def runs(oscillator: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None) -> Runs:
@@ -101,8 +88,18 @@ def runs(oscillator: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] 
             raise InputError("gaps: given beside vary['gap']; one of the two is accepted")
         given = {"gap": gaps, **given}
     one = next(iter(rigs.values()))
-    varied = tuple(_varied(name, values, one) for name, values in given.items())
-    found = Runs(rigs, varied, isinstance(oscillator, Mapping | list))
+    every = tuple(
+        varied(
+            name,
+            values,
+            one,
+            "gaps" if name == "gap" else f"vary[{name!r}]",
+            NOT_VARIED,
+            "is that of a sine",
+        )
+        for name, values in given.items()
+    )
+    found = Runs(rigs, every, isinstance(oscillator, Mapping | list))
     for at in itertools.product(*((0, n - 1) for n in found.shape)):
         found.oscillator(at)  # refused before anything is computed
     return found
@@ -110,25 +107,6 @@ def runs(oscillator: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] 
 
 def _rig(given: Any, where: str) -> Oscillator:
     return given if isinstance(given, Oscillator) else as_rig(given, where, "an oscillator, ")[0]
-
-
-def _varied(name: str, values: Any, rig: Oscillator) -> Varied:
-    field = "gaps" if name == "gap" else f"vary[{name!r}]"
-    known = parameter(name, "vary").of(rig)
-    if known.name in NOT_VARIED:
-        raise InputError(f"vary: {name!r} is that of a sine; a parameter of the rig is accepted")
-    if isinstance(values, str) or not isinstance(values, Iterable):
-        raise InputError(f"{field}: {shown(values)} is no list of values; one or more are accepted")
-    limits: dict[str, Any] = {"minimum": known.least} if known.zero else {"above": 0.0}
-    numbers = [
-        to_si(value, known.quantity, f"{field}[{i}]", **limits, maximum=known.most)
-        for i, value in enumerate(values)
-    ]
-    if not numbers:
-        raise InputError(f"{field}: no values; one or more are accepted")
-    if len(set(numbers)) < len(numbers):
-        raise InputError(f"{field}: a value is given twice; different ones are accepted")
-    return Varied(known.name, np.array(numbers), known.units, known.long_name)
 
 
 def suite(records: Any) -> dict[str, Record]:

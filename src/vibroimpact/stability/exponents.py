@@ -8,14 +8,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.model import State, equilibrium, to_si
+from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
+from vibroimpact.model.access import Setting
 from vibroimpact.model.counts import whole
+from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.varied import Varied, varied, written
 from vibroimpact.response.follow import grown
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, engine_rig, engine_state
@@ -45,6 +48,7 @@ def lyapunov_exponents(
     *,
     transient: int = 500,
     start: State | xr.DataArray | xr.Dataset | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
     phase: float | str = 0.0,
     max_events: int = 10_000,
     threads: int | None = None,
@@ -70,6 +74,8 @@ def lyapunov_exponents(
         Forcing cycles before that; another 100 are used to turn the disturbances.
     start
         Where every motion starts; None is rest.
+    vary
+        Values of parameters by name, as of `branch`, all combined: ``{"gap": [5e-3, 6e-3]}``.
     phase
         Phase φ of the base acceleration A sin(ωt + φ) at the start, in rad.
     max_events
@@ -82,7 +88,8 @@ def lyapunov_exponents(
     Returns
     -------
     xarray.Dataset
-        Dims ``rig``, ``frequency`` and ``exponent`` (the largest first): ``exponents`` in 1/s,
+        Dims ``rig``, ``frequency``, one for each parameter that is varied, and ``exponent`` (the
+        largest first): ``exponents`` in 1/s,
         their ``exponents_uncertainty`` (of the mean, from 32 blocks of cycles; infinite with
         fewer cycles), ``effective_damping``, ``exponents_cycles`` and ``status``.
 
@@ -100,24 +107,24 @@ def lyapunov_exponents(
     cycles, transient = whole(cycles, "cycles"), whole(transient, "transient", 0)
     max_events = whole(max_events, "max_events")
     threads = None if threads is None else whole(threads, "threads")
-    prepared = []
-    for oscillator, shaken, _ in pairs:
-        for i, frequency in enumerate(grid):
-            check_bounded(oscillator, shaken.replace(frequency=frequency), f"frequencies[{i}]")
-        prepared.append(
-            (
-                engine_rig(oscillator, shaken),
-                shaken,
-                engine_state(oscillator, state or equilibrium(oscillator)),
-            )
-        )
+    first = pairs[0][0]
+    every = tuple(
+        varied(name, values, first, f"vary[{name!r}]", ("frequency",), "has an argument of its own")
+        for name, values in (vary or {}).items()
+    )
+    shape = (len(pairs), len(grid), *(len(one.values) for one in every))
+    items = [
+        _setting(pairs[r], grid, i, angle, zip(every, at, strict=True))
+        for r, i, *at in np.ndindex(shape)
+    ]
+    vectors = [engine_rig(*item) for item in items]
 
-    def one(item: tuple[int, float], _: Tally) -> _Grown:
-        r, frequency = item
-        rig, shaken, begin = prepared[r]
-        here = shaken.replace(frequency=frequency, phase=angle)
+    def grow(item: tuple[Setting, NDArray[np.float64]], _: Tally) -> _Grown:
+        (rig, here), vector = item
+        frequency = here.frequency
+        begin = engine_state(rig, state or equilibrium(rig))
         status, rows = grown(
-            rig, here, begin.copy(), cycles, max_events, transient=transient, discard=DISCARD
+            vector, here, begin, cycles, max_events, transient=transient, discard=DISCARD
         )
         if not len(rows):
             nothing = np.full(2, np.nan)
@@ -126,11 +133,9 @@ def lyapunov_exponents(
         lost = float(rows[:, lyapunov.DISSIPATION].mean())
         return _Grown(mean * frequency, spread * frequency, lost * frequency, len(rows), status)
 
-    lyapunov.growth.prepare(*(rig for rig, _, _ in prepared))  # once, before threads would queue
-    items = [(r, float(frequency)) for r in range(len(pairs)) for frequency in grid]
-    found = each(one, items, threads=threads, progress=progress)
-    dims = ("rig", "frequency")
-    shape = (len(pairs), len(grid))
+    lyapunov.growth.prepare(*vectors)  # once, before threads would queue
+    found = each(grow, list(zip(items, vectors, strict=True)), threads=threads, progress=progress)
+    dims = ("rig", "frequency", *(one.name for one in every))
     rates = {
         "exponents": [f.exponents for f in found],
         "exponents_uncertainty": [f.uncertainty for f in found],
@@ -145,7 +150,7 @@ def lyapunov_exponents(
             "exponents_cycles": (dims, np.reshape([f.cycles for f in found], shape)),
             "status": (dims, np.reshape([int(f.status) for f in found], shape)),
         },
-        coords={"rig": names, "frequency": grid},
+        coords={"rig": names, "frequency": grid, **{one.name: one.values for one in every}},
     )
     parameters: dict[str, Any] = {
         "rigs": [
@@ -155,9 +160,29 @@ def lyapunov_exponents(
             }
             for oscillator, shaken, _ in pairs
         ],
+        "varied": {one.name: one.values.tolist() for one in every},
         "phase": angle,
         "cycles": cycles,
         "transient": transient,
         "max_events": max_events,
     }
-    return describe(data, "vibroimpact.lyapunov_exponents", parameters)
+    data = describe(data, "vibroimpact.lyapunov_exponents", parameters)
+    for one in every:
+        data[one.name].attrs.update(units=one.units, long_name=one.long_name)
+    return data
+
+
+def _setting(
+    pair: tuple[Oscillator, Repeated, object],
+    grid: NDArray[np.float64],
+    i: int,
+    phase: float,
+    values: Iterable[tuple[Varied, int]],
+) -> Setting:
+    """A rig and its forcing at one of the frequencies and a value of each parameter."""
+    oscillator, shaken, _ = pair
+    numbers = [(PARAMETERS[one.name], float(one.values[k])) for one, k in values]
+    here = shaken.replace(frequency=float(grid[i]), phase=phase)
+    setting = written(oscillator, here, numbers)
+    check_bounded(*setting, f"frequencies[{i}]")
+    return setting

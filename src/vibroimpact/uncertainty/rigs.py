@@ -14,6 +14,7 @@ from vibroimpact.model import Harmonic, Oscillator, Repeated
 from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.rigs import AnyRig, as_rig, as_shaking
+from vibroimpact.model.varied import written
 from vibroimpact.response.variables import excitation_parameters, oscillator_parameters
 from vibroimpact.uncertainty.distributions import (
     Distribution,
@@ -34,15 +35,7 @@ Drawn: TypeAlias = Oscillator | tuple[Oscillator, Repeated]
 _ANY = Harmonic(1.0, 1.0)
 """What the registry of parameters asks for beside a rig without one."""
 
-_LAST = ("stiffness_ratio", "damping_ratio", "gap_ratio", "relaxation_time")
-"""Parameters that are made of others, which are set before; the last is made of the first."""
-
 _ROUNDING = 1e-9
-
-
-def _turn(varied: Parameter) -> int:
-    """When a parameter is set."""
-    return _LAST.index(varied.name) + 1 if varied.name in _LAST else 0
 
 
 class Uncertain(NamedTuple):
@@ -82,10 +75,10 @@ class Uncertain(NamedTuple):
         InputError
             If it cannot have these values together.
         """
-        rig, shaken = self.oscillator, self.shaken or _ANY
-        order = sorted(zip(self.parameters, values, strict=True), key=lambda one: _turn(one[0]))
-        for varied, value in order:
-            rig, shaken = varied.write(rig, shaken, float(value))
+        pairs = [
+            (varied, float(value)) for varied, value in zip(self.parameters, values, strict=True)
+        ]
+        rig, shaken = written(self.oscillator, self.shaken or _ANY, pairs)
         return rig if self.shaken is None else (rig, shaken)
 
     def rigs(self, values: _Array) -> list[Drawn]:

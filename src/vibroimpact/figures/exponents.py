@@ -1,0 +1,90 @@
+"""Lyapunov exponents over the frequency or another parameter."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.branches import axis_unit
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.style import LEGEND, MOTIONS
+
+_WIDE = 2.0
+"""Standard uncertainties to both sides that the band shows."""
+
+
+def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
+    """Draw the largest exponents of one or several rigs, with a band of two uncertainties.
+
+    Parameters
+    ----------
+    data
+        Dataset of `lyapunov_exponents` over the frequency or over one parameter that was varied;
+        or one start of `bifurcation_diagram`.
+    ax
+        Axes to draw on. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset has no exponents, or has them over several parameters or over none.
+    """
+    if "exponents" not in data or "exponent" not in data["exponents"].dims:
+        raise InputError(
+            "data: there are no exponents; a dataset of lyapunov_exponents is accepted"
+        )
+    found = data[["exponents", "exponents_uncertainty"]]
+    if "rig" not in found.dims:
+        found = found.expand_dims("rig")
+    over = [str(dim) for dim in found["exponents"].dims if dim not in ("rig", "exponent")]
+    wide = [dim for dim in over if found.sizes[dim] > 1]
+    if len(wide) != 1:
+        raise InputError(
+            f"data: exponents over {', '.join(wide) or 'a single value'}; those over one parameter "
+            "are accepted, such as data.isel(frequency=0)"
+        )
+    (name,) = wide
+    found = found.squeeze([dim for dim in over if dim != name], drop=True)
+    scale, unit = axis_unit(found[name])
+    x = scale * found[name].values
+    ax = axes_or_new(ax, (6.4, 3.8), title)
+    several = found.sizes["rig"] > 1
+    for r in range(found.sizes["rig"]):
+        one, look = found.isel(rig=r).transpose(name, "exponent"), MOTIONS[r % len(MOTIONS)]
+        rig = f"{one['rig'].item()}, " if several else ""
+        for k, words in enumerate(("largest", "second")):
+            y, error = (one[key].values[:, k] for key in ("exponents", "exponents_uncertainty"))
+            style: dict[str, Any] = {"color": look.colour, "linestyle": "-" if k == 0 else ":"}
+            ax.plot(
+                x,
+                y,
+                linewidth=look.width if k == 0 else 0.8,
+                marker=look.marker if several and k == 0 else "",
+                markersize=look.size,
+                markevery=max(1, len(x) // 20),
+                markerfacecolor=look.colour if look.filled else "none",
+                label=f"{rig}{words}",
+                **style,
+            )
+            known = np.isfinite(error)
+            ax.fill_between(
+                x,
+                y - _WIDE * error,
+                y + _WIDE * error,
+                where=known,
+                color=look.colour,
+                alpha=0.2,
+                linewidth=0,
+            )
+    ax.axhline(0.0, color="0.3", linewidth=0.7, zorder=1)
+    ax.set_xlim(x[0], x[-1])
+    ax.set_xlabel(f"{found[name].attrs['long_name']} ({unit})")
+    ax.set_ylabel("Lyapunov exponents (1/s)")
+    ax.legend(ncols=2, **LEGEND)
+    return ax

@@ -1,0 +1,87 @@
+"""Several parameters of a rig at once: values that are varied, and the rig that has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.access import Setting
+from vibroimpact.model.excitation import Repeated
+from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.units import shown, to_si
+
+_LAST = ("stiffness_ratio", "damping_ratio", "gap_ratio", "relaxation_time")
+"""Parameters that are made of others, which are set before; the last is made of the first."""
+
+
+class Varied(NamedTuple):
+    """Values of one parameter."""
+
+    name: str
+    values: NDArray[np.float64]
+    units: str
+    long_name: str
+
+
+def varied(
+    name: str, values: Any, rig: Oscillator, field: str, but: tuple[str, ...], why: str
+) -> Varied:
+    """Read values of a parameter.
+
+    Parameters
+    ----------
+    name, values
+        Of the registry; in SI units or as text.
+    rig
+        Whose units it has.
+    field
+        Names the values in messages.
+    but
+        Parameters that are not accepted here, and in words `why`.
+
+    Raises
+    ------
+    InputError
+        If there is no such parameter, or a value cannot be used or is given twice.
+    """
+    known = parameter(name, "vary").of(rig)
+    if known.name in but:
+        raise InputError(f"vary: {name!r} {why}; a parameter of the rig is accepted")
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise InputError(f"{field}: {shown(values)} is no list of values; one or more are accepted")
+    limits: dict[str, Any] = {"minimum": known.least} if known.zero else {"above": 0.0}
+    numbers = [
+        to_si(value, known.quantity, f"{field}[{i}]", **limits, maximum=known.most)
+        for i, value in enumerate(values)
+    ]
+    if not numbers:
+        raise InputError(f"{field}: no values; one or more are accepted")
+    if len(set(numbers)) < len(numbers):
+        raise InputError(f"{field}: a value is given twice; different ones are accepted")
+    return Varied(known.name, np.array(numbers), known.units, known.long_name)
+
+
+def written(
+    rig: Oscillator, shaken: Repeated, values: Iterable[tuple[Parameter, float]]
+) -> Setting:
+    """The rig and its forcing with values of several parameters, in whatever order.
+
+    Raises
+    ------
+    InputError
+        If it cannot have one, or has no such parameter.
+    """
+    for one, value in sorted(values, key=lambda pair: _turn(pair[0].name)):
+        rig, shaken = one.write(rig, shaken, value)
+        one.read(rig, shaken)  # refuses what the rig does not have
+    return rig, shaken
+
+
+def _turn(name: str) -> int:
+    """When a parameter is set."""
+    return _LAST.index(name) + 1 if name in _LAST else 0
