@@ -6,7 +6,9 @@ import pytest
 from hypothesis import settings
 
 import samples
+from vibroimpact.engine import jit
 
+jit.WITHIN["no_cpython_wrapper"] = False  # tests call kernels
 settings.register_profile("small", max_examples=30)
 
 

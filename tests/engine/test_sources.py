@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import ast
+import importlib
+import inspect
+import pkgutil
 from pathlib import Path
 
 import pytest
+from numba.core.dispatcher import Dispatcher
 
 import vibroimpact.engine
 
@@ -65,3 +69,20 @@ def test_no_kernel_allocates() -> None:
 def test_the_search_finds_what_it_is_for(line: str, decorator: str) -> None:
     assert forbidden(f"@{decorator}\ndef f(a):\n    {line}\n")
     assert not forbidden(f"def f(a):\n    {line}\n")
+
+
+def test_python_calls_no_kernel():
+    """Above the engine only entries are used: kernels cannot be called from Python."""
+    wrong = []
+    for found in pkgutil.walk_packages(vibroimpact.__path__, "vibroimpact."):
+        if found.name.startswith("vibroimpact.engine.") or found.name == "vibroimpact.__main__":
+            continue
+        module = importlib.import_module(found.name)
+        values = list(vars(module).values())
+        for node in ast.walk(ast.parse(inspect.getsource(module))):
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+                owner = vars(module).get(node.value.id)
+                if inspect.ismodule(owner) and owner.__name__.startswith("vibroimpact.engine"):
+                    values.append(getattr(owner, node.attr, None))
+        wrong += [(found.name, one.__name__) for one in values if isinstance(one, Dispatcher)]
+    assert not wrong

@@ -92,6 +92,64 @@ def test_rigs_on_which_it_once_failed(seed: int, which: int) -> None:
     assert not wrong, wrong
 
 
+@pytest.mark.parametrize(
+    ("rig", "shaken"),
+    [
+        pytest.param(
+            vi.Oscillator(
+                1.0,
+                vi.BoucWenIsolator(
+                    27.9671,
+                    0.0662,
+                    0.67983,
+                    0.9965,
+                    beta=0.69521,
+                    gamma=-0.42564,
+                    damping_exponent=0.38179,
+                ),
+                vi.PowerBumper(7753.61, 0.1145, 2.8786, dissipation=1.0533),
+                vi.Bumper(11.6223, 0.0, 0.0),
+            ),
+            vi.Harmonic(0.304125, 0.24798, phase=1.41992),
+            id="drag that is infinitely stiff where forces change their sign",
+        ),
+        pytest.param(
+            vi.Oscillator(
+                1.0,
+                vi.FrictionIsolator(
+                    1.0, 2.9474373332371724, 0.09169911355787265, damping_exponent=0.5
+                ),
+                vi.PowerBumper(
+                    0.4547570824748289,
+                    0.0,
+                    restitution=0.6126384735293243,
+                    relation="lankarani-nikravesh",
+                ),
+                vi.PowerBumper(
+                    4384.459350720129, 0.0, restitution=0.646102211427594, relation="gonthier"
+                ),
+            ),
+            vi.Harmonic(0.7450148451445732, 0.4363343660061145, phase=2.8506304431622063),
+            id="friction while a stop does not push",
+        ),
+        pytest.param(
+            vi.Oscillator(
+                1.0,
+                vi.PolynomialIsolator(1.0, 0.01, 0.16593, 5.47543),
+                vi.Bumper(33469.2, 0.0, 0.0),
+                vi.RigidStop(0.93764, 0.0),
+            ),
+            vi.Harmonic(0.058792, 0.107772, phase=2.05548),
+            id="chatters beside which little else happens",
+        ),
+    ],
+)
+def test_rigs_whose_energies_once_did_not_balance(rig, shaken) -> None:
+    status, wrong = looked_at(rig, shaken)
+    assert status == "done"
+    assert not wrong, wrong
+
+
 if __name__ == "__main__":
     totals, bad = survey(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 1)
     print(dict(totals))

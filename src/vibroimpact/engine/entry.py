@@ -11,7 +11,7 @@ from filelock import FileLock
 from numba.core import config
 from numba.core.sigutils import normalize_signature
 
-from vibroimpact.engine import jit
+from vibroimpact.engine import emission, jit
 from vibroimpact.engine.flows import flow_of
 from vibroimpact.engine.parameters import free_rig
 
@@ -86,13 +86,15 @@ class Entry:
             dispatcher = numba.njit(cache=True, **jit.OPTIONS)(self.function)
         finally:
             config.CACHE_DIR = before  # type: ignore[attr-defined]
-        dispatcher.compile(signature)
+        with emission.only(self.function.__qualname__):
+            dispatcher.compile(signature)
         return dispatcher  # type: ignore[no-any-return]
 
     def _for_this_process(self, signature: Any) -> Callable[..., Any]:
         jit.say()
         dispatcher = numba.njit(**jit.OPTIONS)(self.function)
-        dispatcher.compile(signature)
+        with emission.only(self.function.__qualname__):
+            dispatcher.compile(signature)
         return dispatcher  # type: ignore[no-any-return]
 
 

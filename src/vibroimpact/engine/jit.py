@@ -38,8 +38,9 @@ OPTIONS: dict[str, Any] = {
     "nogil": True,
 }
 
-_WITHIN: dict[str, Any] = {**OPTIONS, "no_cfunc_wrapper": True}
-"""Of what only compiled code and tests call: nothing calls it as a function of C."""
+WITHIN: dict[str, Any] = {**OPTIONS, "no_cfunc_wrapper": True, "no_cpython_wrapper": True}
+"""Of kernels, which only compiled code calls. Tests, which call them, ask for the second wrapper
+before the engine is imported."""
 
 announce: Callable[[str], None] = lambda text: print(text, file=sys.stderr, flush=True)  # noqa: E731
 """Called with one line before the first compilation of a process, which takes seconds."""
@@ -50,12 +51,23 @@ _announced = threading.Event()
 
 def kernel(function: F) -> F:
     """Compile a function that only other compiled functions call."""
-    return numba.njit(**_WITHIN)(function)  # type: ignore[no-any-return]
+    return _within(numba.njit(**WITHIN)(function))
 
 
 def inlined(function: F) -> F:
     """As `kernel`, merged into each function that calls it: for what a hot loop consists of."""
-    return numba.njit(**_WITHIN, forceinline=True)(function)  # type: ignore[no-any-return]
+    return _within(numba.njit(**WITHIN, forceinline=True)(function))
+
+
+def _within(dispatcher: Any) -> Any:
+    """Refuse calls from Python, which without a wrapper would crash it."""
+    if WITHIN["no_cpython_wrapper"]:
+        dispatcher._compile_for_args = _refused
+    return dispatcher
+
+
+def _refused(*args: Any, **kwargs: Any) -> Any:
+    raise TypeError("a kernel was called from Python; only entries may be")
 
 
 def cache_directory() -> Path:

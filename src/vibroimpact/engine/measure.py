@@ -32,7 +32,7 @@ from vibroimpact.engine.dispatch import (
 )
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
-from vibroimpact.engine.forcing.dispatch import pull_series
+from vibroimpact.engine.forcing.dispatch import pace, pull_series
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import RATE, H
@@ -61,7 +61,10 @@ MEASURES = 11
 _HALT = 1e-5
 """Of what is left of a phase: a step that comes no farther."""
 _HALTS = 16
-"""Such steps in a row, behind which a phase is taken as one piece: it is as short as rounding."""
+"""Such steps in a row, behind which a phase as short as rounding is taken as one piece."""
+_SHORT = 1e-9  # rad of the forcing
+_TURNS = 1000
+"""As `_HALTS`, for a longer one."""
 
 
 @kernel
@@ -139,7 +142,8 @@ def measure_phase(plan: Vector, before: Motion, length: float, side: int, out: V
     while t < length:
         step, behind = smooth(plan, here, length - t)
         halts = halts + 1 if step <= _HALT * (length - t) else 0
-        if halts > _HALTS:
+        left = (length - t) * pace(plan)
+        if halts > (_HALTS if left < _SHORT else _TURNS):
             step, behind = length - t, here
         measure_stretch(plan, here, step, t, side, out)
         out[LOST_RIGHT] += unkept(plan, here, behind, RIGHT)

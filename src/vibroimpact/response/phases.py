@@ -58,8 +58,8 @@ class Recorded(NamedTuple, Generic[_Shaking]):
         return rests
 
 
-def touches(contact: NDArray[np.int64], side: int) -> NDArray[np.bool_]:
-    """Whether the stop of a side is touched."""
+def touches(contact: NDArray[np.int64], side: int | NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Whether the stop of a side, or of each phase's own side, is touched."""
     touched: NDArray[np.bool_] = (contact == side) | (contact == 2)
     return touched
 
@@ -346,7 +346,18 @@ def relaxation_loss(origin: Recorded[Any], parts: Phases) -> _Array:
     return lost
 
 
+def chattered(parts: Phases) -> NDArray[np.bool_]:
+    """Which phases are the rest of a chatter: from an impact to rest on the same wall.
+
+    The engine completes it at once, so that the phase is no flight.
+    """
+    rests = (parts.struck[1:] == 0) & touches(parts.contact[1:], parts.struck[:-1])
+    ends = rests & (parts.struck[:-1] != 0) & (parts.last[:-1, 1] == 0.0)
+    return np.append(ends, False)
+
+
 def impact_loss(origin: Recorded[Any], parts: Phases) -> _Array:
-    """Energy (J) lost in the impact with which each phase begins; elsewhere nothing is."""
-    arrival = np.append(parts.first[0, 1], parts.last[:-1, 1])
+    """Energy (J) lost in the impact, or the rest of a chatter, with which each phase begins."""
+    arrival = np.where(chattered(parts), parts.first[:, 1], parts.last[:, 1])
+    arrival = np.append(parts.first[0, 1], arrival[:-1])
     return 0.5 * origin.oscillator.mass * (arrival**2 - parts.first[:, 1] ** 2)

@@ -14,6 +14,7 @@ from vibroimpact.response.phases import (
     Phases,
     Recorded,
     any_recorded,
+    chattered,
     cut,
     impact_loss,
     relaxation_loss,
@@ -80,6 +81,7 @@ def energies(
 ) -> tuple[float, float, float]:
     """Energy (J) supplied, and lost in the isolator and in the stops, over the whole motion."""
     mass = origin.oscillator.mass
+    rows = rows[~chattered(every)]
     stops = rows[:, [measure.LOST_RIGHT, measure.LOST_LEFT]].sum()
     lost = relaxation_loss(origin, every).sum() + impact_loss(origin, every).sum()
     return (

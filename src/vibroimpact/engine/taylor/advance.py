@@ -41,7 +41,9 @@ from vibroimpact.engine.motion import (
 from vibroimpact.engine.taylor.frame import (
     Frame,
     balanced,
+    creeps,
     curved_stop,
+    grip,
     push_of,
     stuck,
     way_of,
@@ -235,7 +237,8 @@ def turns(plan: Vector, found: Found, motion: Motion, frame: Frame) -> Found:
     velocity_series(plan, 1.0)
     if motion.v == 0.0:
         plan[ASKED] = 0.0
-        if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED) or balanced(plan, motion):
+        slips = motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED)
+        if (slips and plan[par.DRAG] >= 1.0) or balanced(plan, motion):
             plan[ASKED + 1] = 0.0
     clearance = Clearance(0.0, ways, 0.0, 0.0, False)
     found = watch(plan, found, TURNED, ASKED, spread(plan, ASKED), clearance, False, False)
@@ -262,10 +265,11 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
     # `still` − A_t is what friction holds against.
     still = without_friction(plan, motion) + value(plan, s, c)
     event, t, slips = LIMIT, limit, 0
+    most = grip(plan)
     after = turned(plan, s, c, limit)
     for way in range(2):
         sign = -1.0 if way == 0 else 1.0  # to the right where −A_t exceeds a level
-        free, s1, c1 = let_go(plan, sign, plan[par.FRICTION] + sign * still, s, c, t)
+        free, s1, c1 = let_go(plan, sign, most + sign * still, s, c, t)
         if free < t:
             event, t, after = TURNED, free, (s1, c1)
             slips = SLIPS_RIGHT if way == 0 else SLIPS_LEFT
@@ -350,6 +354,8 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     here = motion
     hint = math.inf
     for _ in range(_MOST):
+        if creeps(plan, here):
+            return happened(plan, TURNED, here, t)
         pressing = presses(plan, here)
         if pressing or leaps(plan, here):
             if pressing:

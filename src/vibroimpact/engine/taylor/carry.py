@@ -277,10 +277,10 @@ def _event(
         if curved_stop(plan, side):
             q[at + 1 + side] = 0.0
     elif event == TURNED:
-        if plan[par.FRICTION] != 0.0 and after.v == 0.0 and not stuck(plan, before):
+        if after.v == 0.0 and not stuck(plan, before):
             if stuck(plan, after):
                 q[at + 1] = 0.0
-            else:
+            elif plan[par.FRICTION] != 0.0:
                 a = without_friction(plan, after)
                 way = math.copysign(plan[par.FRICTION], a)
                 q[at + 1] *= (a - way) / (a + way)

@@ -23,6 +23,10 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     Motion,
 )
+from vibroimpact.engine.taylor.plan import stiff_rate
+
+_CREEP = 2.0**-44
+"""Of a velocity: what a strong drag leaves of it where the forces on the mass change their sign."""
 
 _ROUNDING = 1e-15
 """Of forces that balance, as a share of what shakes the mass."""
@@ -169,23 +173,54 @@ def without_friction(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
+def creep(plan: Vector) -> float:
+    """A velocity that leaves no trace: a share of those that the shaking makes (m/s)."""
+    return _CREEP * plan[MOST] / (stiff_rate(plan) + pace(plan) + 1e-300)  # type: ignore[no-any-return]
+
+
+@kernel
+def grip(plan: Vector) -> float:
+    """Up to which force a mass that stands is held, per unit mass (m/s²).
+
+    That of friction. A drag of an exponent below 1 is infinitely stiff where the mass stands: under
+    less than what it pulls with at `creep` the mass would never be faster than that.
+    """
+    held: float = plan[par.FRICTION]
+    if plan[par.DRAG] < 1.0:
+        held += plan[par.DAMPING] * creep(plan) ** plan[par.DRAG]
+    return held
+
+
+@kernel
 def stuck(plan: Vector, motion: Motion) -> bool:
-    """Whether friction holds the mass."""
-    if motion.v != 0.0 or plan[par.FRICTION] == 0.0:
+    """Whether friction holds the mass, or a drag that no force overcomes."""
+    if motion.v != 0.0 or motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT):
         return False
-    if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT):
+    if plan[par.FRICTION] == 0.0 and plan[par.DRAG] >= 1.0:
         return False
-    return bool(abs(without_friction(plan, motion)) <= plan[par.FRICTION])
+    return bool(abs(without_friction(plan, motion)) <= grip(plan))
+
+
+@kernel
+def creeps(plan: Vector, motion: Motion) -> bool:
+    """Whether a drag is about to hold a mass that is slower than leaves a trace."""
+    if plan[par.DRAG] >= 1.0 or motion.v == 0.0 or abs(motion.v) > creep(plan):
+        return False
+    mode, _, u, _, right, left, z, age, clock = motion
+    standing = Motion(mode, 0, u, 0.0, right, left, z, age, clock)
+    # By half of the drag's grip, or rounding would hold again what was just let go of.
+    most = 0.5 * (plan[par.FRICTION] + grip(plan))
+    return bool(abs(without_friction(plan, standing)) <= most)
 
 
 @kernel
 def acceleration_of(plan: Vector, motion: Motion) -> float:
     """Acceleration ü relative to the base, from all forces."""
+    if stuck(plan, motion):
+        return 0.0
     a = without_friction(plan, motion)
     if plan[par.FRICTION] == 0.0:
         return a
-    if stuck(plan, motion):
-        return 0.0
     return a - plan[par.FRICTION] * way_of(plan, motion)  # type: ignore[no-any-return]
 
 

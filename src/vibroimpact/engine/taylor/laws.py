@@ -23,13 +23,15 @@ from vibroimpact.engine.taylor.frame import (
     face,
     push_of,
     springs,
-    without_friction,
 )
 from vibroimpact.engine.taylor.plan import stiff_rate
 from vibroimpact.engine.taylor.step import Laws
 
 _NOTHING = 2.0**-60
 """A share of the motion's energy or force that leaves no trace in it."""
+
+_STABLE = 5.0
+"""Times that in which a drag decays: a series of a step's degree grows with a longer one."""
 
 _ROUNDING = 2.0**-53
 """Of a number, as a share of it."""
@@ -117,7 +119,8 @@ def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float]:
     # The velocity grows with the acceleration or, where that vanishes, with its rate.
     if v <= little:
         return little, 2.0 * little / (a + math.sqrt(little * force / unit))
-    return little, 0.5 * v / (a + math.sqrt(v * force / unit))
+    longest = 0.5 * v / (a + math.sqrt(v * force / unit))
+    return little, min(longest, _STABLE / (drag * exponent * v ** (exponent - 1.0)))
 
 
 @kernel
@@ -135,13 +138,13 @@ def laws_of(
         memory = motion.left if mode == LEFT else motion.right
         if curved_stop(plan, side):
             push = push_of(plan, side, branch.way if v == 0.0 else v, memory)
-            gains = frame.sign * without_friction(plan, motion)
+            gains = frame.sign * acceleration_of(plan, motion)
             push = pressing(push, v, gains)
             push, longest = shallow(push, x, v, gains, plan[STEEPEST], grain, longest)
         if mode == BOTH and curved_stop(plan, LEFT):
             apart = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
             other = push_of(plan, LEFT, -(branch.way if v == 0.0 else v), motion.left)
-            gains = -frame.sign * without_friction(plan, motion)
+            gains = -frame.sign * acceleration_of(plan, motion)
             other = pressing(other, -v, gains)
             other, longest = shallow(other, apart - x, -v, gains, plan[STEEPEST], grain, longest)
     drag = 0.0
@@ -165,7 +168,7 @@ def unkept(plan: Vector, before: Motion, after: Motion, side: int) -> float:
     memory = before.right if side == RIGHT else before.left
     closing = sign * before.v
     push = push_of(plan, side, closing, memory)
-    if pressing(push, closing, sign * without_friction(plan, before)).stiffness != 0.0:
+    if pressing(push, closing, sign * acceleration_of(plan, before)).stiffness != 0.0:
         return 0.0
     power = push.exponent + 1.0
     begun, ended = face(plan, before, side), face(plan, after, side)

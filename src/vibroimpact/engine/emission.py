@@ -1,0 +1,62 @@
+"""Kernels are linked into the entries that call them; only entries become machine code.
+
+numba makes machine code of every function that it compiles, also of one that nothing calls: that is
+a third of the time in which the engine compiles. It has no option to leave it out, so its code
+generator is told while an entry is compiled, in the versions whose inside is known to be of this
+shape; any other compiles the same code in a longer time.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numba
+from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
+
+from vibroimpact.engine import jit
+
+KNOWN = "0.68."
+"""Versions of numba whose code generator these four methods are those of."""
+
+
+@contextmanager
+def only(name: str) -> Iterator[None]:
+    """While this lasts, only the function of this name becomes machine code on this thread.
+
+    Kernels that Python may call, those of tests, are left as they are.
+    """
+    if not (numba.__version__.startswith(KNOWN) and jit.WITHIN["no_cpython_wrapper"]):
+        yield
+        return
+    add, finish = JITCPUCodegen._add_module, JITCodeLibrary._finalize_specific
+    pointer, place = JITCodeLibrary.get_pointer_to_function, JITCPUCodegen.set_env
+    here = threading.get_ident()
+
+    def linked(library: str) -> bool:
+        return library != name and threading.get_ident() == here
+
+    def add_module(self: Any, module: Any) -> Any:
+        return None if linked(module.name) else add(self, module)
+
+    def finalize(self: Any) -> None:
+        if not linked(self.name):
+            finish(self)
+
+    def get_pointer(self: Any, symbol: str) -> Any:
+        self._ensure_finalized()
+        return 0 if linked(self.name) else pointer(self, symbol)
+
+    def set_env(self: Any, symbol: str, env: Any) -> None:
+        if self._engine.is_symbol_defined(symbol):
+            place(self, symbol, env)
+
+    try:
+        JITCPUCodegen._add_module, JITCodeLibrary._finalize_specific = add_module, finalize
+        JITCodeLibrary.get_pointer_to_function, JITCPUCodegen.set_env = get_pointer, set_env
+        yield
+    finally:
+        JITCPUCodegen._add_module, JITCodeLibrary._finalize_specific = add, finish
+        JITCodeLibrary.get_pointer_to_function, JITCPUCodegen.set_env = pointer, place

@@ -1,0 +1,64 @@
+"""Only entries become machine code, and it is what it would be if their kernels did, too."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import numba
+import pytest
+
+from vibroimpact.engine import emission
+
+_SCRIPT = """
+import sys
+import numba
+from numba.core.codegen import JITCPUCodegen
+
+made = []
+add = JITCPUCodegen._add_module
+JITCPUCodegen._add_module = lambda self, module: (made.append(module.name), add(self, module))[1]
+
+from vibroimpact.engine import emission
+from vibroimpact.engine.entry import Entry
+from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.parameters import free_rig
+
+emission.KNOWN = sys.argv[1]
+
+@kernel
+def cubed(x):
+    return x * x * x + 1.0 / (x + 3.0)
+
+def first(given, rig, x):
+    return cubed(x) + cubed(x + 1.0)
+
+made.clear()
+print(Entry(first, "f8(f8[::1], f8)")(free_rig(), 0.3).hex())
+print(sum("cubed" in one for one in made), sum("first" in one for one in made))
+own = numba.njit(lambda x: x + 1.0)  # of a user of the package
+print(own(2.0))
+"""
+
+
+def _ran(tmp_path, known: str) -> list[str]:
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", _SCRIPT, known],
+        env={"VIBROIMPACT_CACHE_DIR": str(tmp_path), "PYTHONPATH": ":".join(sys.path)},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+def test_only_the_entry_becomes_machine_code(tmp_path):
+    if not numba.__version__.startswith(emission.KNOWN):
+        pytest.skip(f"numba {numba.__version__} compiles all of it")
+    number, kernels, entries, own = _ran(tmp_path / "one", emission.KNOWN)
+    assert (kernels, entries, own) == ("0", "1", "3.0")
+    # The second time it comes from the cache.
+    assert _ran(tmp_path / "one", emission.KNOWN)[0] == number
+    same, kernels, entries, own = _ran(tmp_path / "all", "no such version")
+    assert (kernels, entries, own) == ("1", "1", "3.0")
+    assert same == number
