@@ -43,11 +43,13 @@ _HOME = {
     "branch": "stability.branch",
     "classify": "scenario.classify",
     "coexisting": "stability.coexisting",
+    "compare_fits": "identification.comparison",
     "contacts": "response.contacts",
     "demands": "seismic.demands",
     "design": "sizing.chart",
     "ensemble": "uncertainty.ensemble",
     "exceedance": "seismic.suites",
+    "fit_report": "reporting.identification",
     "fitted": "identification.identify",
     "floor_record": "seismic.floor",
     "fractiles": "seismic.suites",
@@ -60,6 +62,7 @@ _HOME = {
     "load": "response.files",
     "lyapunov_exponents": "stability.exponents",
     "one_by_one": "uncertainty.ensemble",
+    "next_test": "identification.advice",
     "orbit": "stability.orbit",
     "progress_bar": "response.progress",
     "read_measurement": "measurement.read",
@@ -108,11 +111,13 @@ __all__ = [
     "branch",
     "classify",
     "coexisting",
+    "compare_fits",
     "contacts",
     "demands",
     "design",
     "ensemble",
     "exceedance",
+    "fit_report",
     "fitted",
     "floor_record",
     "fractiles",
@@ -124,6 +129,7 @@ __all__ = [
     "least_acceleration",
     "load",
     "lyapunov_exponents",
+    "next_test",
     "one_by_one",
     "orbit",
     "progress_bar",
@@ -149,6 +155,8 @@ __all__ = [
 if TYPE_CHECKING:
     from vibroimpact.attraction.grid import basins
     from vibroimpact.errors import InputError
+    from vibroimpact.identification.advice import next_test
+    from vibroimpact.identification.comparison import compare_fits
     from vibroimpact.identification.identify import fitted, identify
     from vibroimpact.measurement.read import read_measurement
     from vibroimpact.model import (
@@ -173,6 +181,7 @@ if TYPE_CHECKING:
         laboratory,
         to_dimensionless,
     )
+    from vibroimpact.reporting.identification import fit_report
     from vibroimpact.response.contacts import contacts
     from vibroimpact.response.files import load, save
     from vibroimpact.response.progress import progress_bar

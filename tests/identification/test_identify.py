@@ -46,7 +46,7 @@ def test_profiles_and_bootstrap_agree_with_the_covariance_where_it_is_normal(tmp
     found = vi.identify(data, case.oscillator, FREE[:3], draws=60, tried=0, starts=1, threads=2)
     half = 0.5 * np.diff(found.interval.values, axis=1)[:, 0]
     assert half == pytest.approx(1.97 * found.standard_error.values, rel=0.1)
-    drawn = found.bootstrap_value.std("draw").values
+    drawn = found.bootstrap_value.std("bootstrap_draw").values
     assert drawn == pytest.approx(found.standard_error.values, rel=0.35)
     vi.save(found, tmp_path / "fit.nc")
     assert vi.fitted(vi.load(tmp_path / "fit.nc")) == vi.fitted(found)

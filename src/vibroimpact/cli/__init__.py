@@ -20,6 +20,7 @@ from vibroimpact.cli.curve import curve
 from vibroimpact.cli.design import design
 from vibroimpact.cli.earthquake import earthquake
 from vibroimpact.cli.ensemble import ensemble
+from vibroimpact.cli.identify import identify
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
 from vibroimpact.cli.paper import paper
@@ -50,6 +51,7 @@ For example:
     vibroimpact record quake.AT2
     vibroimpact earthquake B2-G1-A3 quake.AT2
     vibroimpact design B2-G1-A3
+    vibroimpact identify test.csv --rig B2-G1-A3 --free stiffness,damping
     vibroimpact ensemble B2-G1-A3 --uncertain gap normal:5%
     vibroimpact classify B2-G1-A3
     vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
@@ -130,6 +132,7 @@ def _app() -> App:
     )
     for command in _COMMANDS:
         app.command(command)
+    app.command(identify)
     app.command(scenario_map, name="map")
     app.command(paper)
     app.register_install_completion_command(

@@ -19,6 +19,7 @@ from vibroimpact.figures.ensembles import resonance_bands, sensitivity_bars
 from vibroimpact.figures.exponents import exponent_curves
 from vibroimpact.figures.family import family_legend, resonance_family
 from vibroimpact.figures.feature import feature_map
+from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
 from vibroimpact.figures.history import time_history
 from vibroimpact.figures.lines import spectrum_lines
 from vibroimpact.figures.loops import force_loop
@@ -44,6 +45,9 @@ __all__ = [
     "exponent_curves",
     "family_legend",
     "feature_map",
+    "fit_history",
+    "fit_profiles",
+    "fit_residuals",
     "force_loop",
     "fragility_curves",
     "frequency_marks",

@@ -14,6 +14,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.identification import results
 from vibroimpact.identification.free import frees
 from vibroimpact.identification.given import tests_of, ties_of
+from vibroimpact.identification.posterior import posterior as sampled
 from vibroimpact.identification.problem import Problem
 from vibroimpact.identification.robust import noises
 from vibroimpact.identification.search import local, search
@@ -47,6 +48,7 @@ def identify(
     tried: int = 64,
     profiles: bool = True,
     draws: int = 0,
+    posterior: int = 0,
     window: int | None = None,
     steady: bool = False,
     seed: int = 0,
@@ -89,6 +91,8 @@ def identify(
         a bound; otherwise they are those of the covariance.
     draws
         Bootstrap samples over the points.
+    posterior
+        Samples of the posterior, of curves, by emcee (``vibroimpact[posterior]``).
     window
         Cycles of a time history that are followed at a stretch, each from an initial state that is
         found with the parameters; 5 unless said. More where the motion is regular, fewer where it
@@ -118,6 +122,7 @@ def identify(
         If a value cannot be used, or there are fewer points than unknowns.
     """
     starts, tried = whole(starts, "starts"), whole(tried, "tried", least=0)
+    posterior = whole(posterior, "posterior", least=0)
     draws, seed = whole(draws, "draws", least=0), whole(seed, "seed", least=0)
     confidence = share(confidence, "confidence")
     threads = (os.cpu_count() or 1) if threads is None else whole(threads, "threads")
@@ -151,7 +156,10 @@ def identify(
         for number in range(len(given)):
             curves.append(profile(problem, x, number, around, confidence))
             tell()
-    samples = bootstrap(problem, x, around, draws, seed, threads) if draws else None
+    samples = {
+        "bootstrap_value": bootstrap(problem, x, around, draws, seed, threads) if draws else None,
+        "posterior_value": (sampled(problem, x, around, posterior, seed) if posterior else None),
+    }
     return results.labelled(problem, x, found, around, curves, samples, confidence)
 
 

@@ -56,10 +56,11 @@ def under_sine(
         )  # fmt: skip
     if outcome != DONE:
         return None
-    grid: Array = np.minimum(np.arange(out.shape[1]) / _SAMPLES, length)
+    grid = np.minimum(np.arange(out.shape[1]) / _SAMPLES, length)
     base = shaken.at(2.0 * np.pi * grid + shaken.phase) if shaken.moves_base else 0.0 * grid
-    seconds: Array = grid / shaken.frequency
-    return _between(out, seconds, at / shaken.frequency, base)
+    seconds = np.asarray(grid / shaken.frequency, dtype=np.float64)
+    wanted: Array = at / shaken.frequency
+    return _between(out, seconds, wanted, base)
 
 
 def under_record(oscillator: Oscillator, record: Record, start: State, time: Array) -> Moved | None:
@@ -80,7 +81,7 @@ def under_record(oscillator: Oscillator, record: Record, start: State, time: Arr
         )  # fmt: skip
     if outcome != DONE:
         return None
-    grid = np.arange(out.shape[1]) * record.step
+    grid: Array = np.arange(out.shape[1], dtype=np.float64) * record.step
     return _between(out, grid, time, record.at(grid))
 
 

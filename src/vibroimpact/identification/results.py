@@ -34,7 +34,7 @@ def labelled(
     found: Found,
     around: Spread,
     curves: list[Profile],
-    samples: Array | None,
+    samples: dict[str, Array | None],
     confidence: float,
 ) -> xr.Dataset:
     """Put a fit into a dataset."""
@@ -61,8 +61,9 @@ def labelled(
             for row, curve in zip(table, curves, strict=True):
                 row[: len(curve.value)] = getattr(curve, of)
             data[name] = (("parameter", "profile_point"), table)
-    if samples is not None:
-        data["bootstrap_value"] = (("draw", "parameter"), samples)
+    for name, drawn in samples.items():
+        if drawn is not None:
+            data[name] = ((name.replace("_value", "_draw"), "parameter"), drawn)
     judged = _points(data, problem, x)
     cost = problem.cost(x)
     # Of normal residuals whose deviation was found, too, up to what all models have in common.

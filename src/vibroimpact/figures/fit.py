@@ -1,0 +1,178 @@
+"""Figures of a fit: what it leaves, how well each parameter is known, histories beside it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.ticker import MaxNLocator
+from scipy.stats import chi2
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.response.vocabulary import VARIABLES
+
+_LOOKS = {"forward": ("o", "#c8102e"), "backward": ("s", "#1f4fbf"), "": (".", "black")}
+_COLUMNS = 3
+_UNITS = {"m": (1e3, "mm"), "m s-1": (1.0, "m/s"), "m s-2": (1.0, "m/s²"), "1": (1.0, "–")}
+
+
+def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
+    """Draw what a fit leaves of each test, against frequency or time, in standard deviations.
+
+    Displacements are open, accelerations full marks; the band is two standard deviations.
+
+    Parameters
+    ----------
+    result
+        Dataset of `vibroimpact.identify`.
+    axes
+        As many Axes as there are tests. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no fit, or there are not as many axes.
+    """
+    _check(result)
+    tests = [str(t) for t in result["test"].values]
+    given = panels(axes, len(tests), "a panel a test", (7.2, 0.4 + 2.6 * len(tests)), title)
+    for ax, test in zip(given, tests, strict=True):
+        mine = result.isel(point=np.flatnonzero(result["point_test"].values == test))
+        size = float(result["noise"].sel(test=test)) or 1.0
+        ax.axhspan(-2.0, 2.0, color=SHADE, zorder=0)
+        ax.axhline(0.0, color=EDGE, linewidth=0.8, zorder=1)
+        for key in dict.fromkeys(zip(mine["point_direction"].values, mine["point_variable"].values,
+                                     strict=True)):  # fmt: skip
+            direction, variable = (str(part) for part in key)
+            here = (mine["point_direction"].values == direction) & (
+                mine["point_variable"].values == variable
+            )
+            mark, colour = _LOOKS[direction]
+            full = variable.startswith(("acceleration", "eta_a"))
+            named = VARIABLES[variable].long_name
+            ax.plot(
+                mine["point_place"].values[here],
+                mine["fit_residual"].values[here] / size,
+                linestyle="none",
+                marker=mark,
+                markersize=4.0 if full else 5.5,
+                markerfacecolor=colour if full or not direction else "none",
+                markeredgecolor=colour,
+                label=f"{named}, {direction}" if direction else named,
+                zorder=3,
+            )
+        curves = str(result["test_kind"].sel(test=test).values) == "curves"
+        ax.set_xlabel("excitation frequency $f$ (Hz)" if curves else "time $t$ (s)")
+        ax.set_ylabel(f"{test}\nresidual over noise (–)")
+    given[0].legend(ncols=2, **LEGEND)
+    return given
+
+
+def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
+    """Draw how the fit worsens as each parameter is held away from its best value.
+
+    The dotted line is the limit of the confidence interval, the grey range the interval itself.
+
+    Parameters
+    ----------
+    result
+        Dataset of `vibroimpact.identify` with profiles.
+    title
+        Title.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no fit, or has no profiles.
+    """
+    _check(result)
+    if "profile_rise" not in result:
+        raise InputError("result: it has no profiles; a fit with profiles=True is accepted")
+    keys = [str(key) for key in result["parameter"].values]
+    columns = min(_COLUMNS, len(keys))
+    rows = -(-len(keys) // columns)
+    made = new_axes(rows, columns, (2.9 * columns, 0.3 + 2.5 * rows))
+    limit = float(chi2.ppf(float(result.attrs["confidence"]), 1))
+    for ax in made.ravel()[len(keys) :]:
+        ax.set_axis_off()
+    for ax, key in zip(made.ravel(), keys, strict=False):
+        one = result.sel(parameter=key)
+        bare = key.partition("[")[0]
+        quantity = PARAMETERS[bare].quantity if bare in PARAMETERS else None
+        value = one["profile_value"].values
+        unit = quantity.unit(float(one["fitted_value"])) if quantity else None
+        factor = unit.size if unit else 1.0
+        low, high = one["interval"].values / factor
+        ax.axvspan(low, high, color=SHADE, zorder=0)
+        ax.axhline(limit, color="black", linestyle=":", linewidth=0.9)
+        shown = np.isfinite(value) & (one["profile_rise"].values < 3.0 * limit)
+        x, y = value[shown], one["profile_rise"].values[shown]
+        # The root of the rise is nearly straight to both sides of the fit.
+        root = np.sign(x - float(one["fitted_value"])) * np.sqrt(y)
+        fine = np.linspace(x[0], x[-1], 200)
+        ax.plot(fine / factor, np.interp(fine, x, root) ** 2, color="black", linewidth=1.0)
+        ax.plot(x / factor, y, "ko", markersize=3.5)
+        ax.xaxis.set_major_locator(MaxNLocator(4))
+        ax.set_xlabel(f"{key.replace('_', ' ')} ({unit.symbol if unit and unit.symbol else '–'})")
+        ax.set_ylim(-0.1, 2.2 * limit)
+    for row in made:
+        row[0].set_ylabel("rise of the deviance (–)")
+    if title:
+        made[0, 0].figure.suptitle(title)
+    return Panels(made.ravel()[: len(keys)])
+
+
+def fit_history(
+    result: xr.Dataset, test: str | None = None, axes: Any = None, *, title: str | None = None
+) -> Panels:
+    """Draw a measured history, dots, and the fitted motion, a line.
+
+    Parameters
+    ----------
+    result
+        Dataset of `vibroimpact.identify`.
+    test
+        Which; None for the first history.
+    axes
+        As many Axes as there are channels. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no fit, or has no such history.
+    """
+    _check(result)
+    histories = [str(t) for t, k in zip(result["test"].values, result["test_kind"].values,
+                                        strict=True) if k == "history"]  # fmt: skip
+    name = test if test is not None else next(iter(histories), None)
+    if name not in histories:
+        raise InputError(f"test: {test!r} is no history of this fit; {histories} are accepted")
+    mine = result.isel(point=np.flatnonzero(result["point_test"].values == name))
+    variables = list(dict.fromkeys(str(v) for v in mine["point_variable"].values))
+    given = panels(axes, len(variables), "a panel a channel", (7.2, 0.4 + 2.4 * len(variables)),
+                   title)  # fmt: skip
+    for ax, variable in zip(given, variables, strict=True):
+        here = mine["point_variable"].values == variable
+        factor, unit = _UNITS[VARIABLES[variable].units]
+        at = mine["point_place"].values[here]
+        ax.plot(at, factor * mine["measured_value"].values[here], "k.", markersize=2.5,
+                label="measured", zorder=2)  # fmt: skip
+        ax.plot(at, factor * mine["modelled_value"].values[here], color="#c05a00", linewidth=1.0,
+                label="fitted", zorder=3)  # fmt: skip
+        ax.set_ylabel(f"{VARIABLES[variable].long_name}\n({unit})")
+    given[-1].set_xlabel("time $t$ (s)")
+    given[0].legend(ncols=2, **LEGEND)
+    return given
+
+
+def _check(result: xr.Dataset) -> None:
+    if "fit_residual" not in result:
+        raise InputError("result: this is no fit; a dataset of identify is accepted")

@@ -1,0 +1,183 @@
+"""Which next test would tell most: the information of holds at candidate frequencies.
+
+To first order, a hold at which excursions have the derivatives R (in standard deviations of the
+measurement) takes the covariance C of a fit to C − C Rᵀ (1 + R C Rᵀ)⁻¹ R C.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import hold
+from vibroimpact.errors import InputError
+from vibroimpact.identification.free import SENSORS
+from vibroimpact.identification.held import Rig, sizes
+from vibroimpact.identification.results import setting_of
+from vibroimpact.model.access import Setting
+from vibroimpact.model.excitation import sized
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.units import pretty
+from vibroimpact.response.sweep import check_frequencies
+from vibroimpact.response.variables import describe
+
+Array = NDArray[np.float64]
+
+_STEP = 1e-3
+"""Of a parameter, for the differences."""
+_FACTORS = (0.5, 0.75, 1.0, 1.5, 2.0)
+"""Of the amplitude."""
+_POINTS = 61
+_WILD = 30.0
+"""Derivatives of logarithms from which on a hold lies so near to a jump that it may miss it."""
+_NOISE = 0.02
+"""Of a hold to come, where the fit's tests were no curves."""
+
+
+def next_test(
+    result: xr.Dataset,
+    frequencies: Iterable[float | str] | None = None,
+    amplitudes: Iterable[float | str] | None = None,
+    *,
+    test: str | None = None,
+    noise: float | None = None,
+) -> xr.Dataset:
+    """Say which hold of a stepped sine would reduce the uncertainty of a fit most.
+
+    Parameters
+    ----------
+    result
+        Dataset of `identify`.
+    frequencies
+        Candidates in Hz; None for 61 from half the natural frequency to five times it.
+    amplitudes
+        Candidates, peak base accelerations (m/s², or text); None for half to twice that of the
+        test.
+    test
+        Whose rig would be tested; None for the first.
+    noise
+        Of the test to come, a share of a value; None for that of the fit.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims ``candidate_amplitude``, ``direction``, ``frequency`` and ``parameter``:
+        ``remaining_error``, each standard error behind the hold over that before it, and
+        ``information`` about all parameters together (nats). NaN where the motion does not settle,
+        or lies next to a jump. The attribute ``findings`` says the best holds in words.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no fit, or a candidate cannot be used.
+    """
+    if "covariance" not in result:
+        raise InputError("result: this is no fit; a dataset of identify is accepted")
+    rigs = json.loads(result.attrs["rigs"])
+    name = next(iter(rigs)) if test is None else test
+    if name not in rigs:
+        raise InputError(f"test: {name!r}; one of {list(rigs)} is accepted")
+    oscillator, shaken = setting_of(rigs[name])
+    natural = oscillator.angular_frequency / (2.0 * np.pi) or float(shaken.frequency)
+    grid = (
+        np.linspace(0.5 * natural, 5.0 * natural, _POINTS)
+        if frequencies is None
+        else check_frequencies(frequencies)
+    )
+    levels = (
+        shaken.amplitude * np.array(_FACTORS)
+        if amplitudes is None
+        else np.array([sized(a, shaken.of, "amplitudes", positive=True)[0] for a in amplitudes])
+    )
+    own = float(result["noise"].sel(test=name))
+    curves = str(result["test_kind"].sel(test=name).values) == "curves"
+    share = noise if noise is not None else max(own, 1e-4) if curves else _NOISE
+    keys = [str(key) for key in result["parameter"].values]
+    covariance = result["covariance"].values
+    shape = (len(levels), 2, len(grid))
+    error = np.full((*shape, len(keys)), np.nan)
+    gain = np.full(shape, np.nan)
+    for a, level in enumerate(levels):
+        slopes, known = _slopes((oscillator, shaken.replace(amplitude=level)), keys, name, grid)
+        for d, k in np.argwhere(known):
+            rows = slopes[d, k] / share
+            seen = rows @ covariance @ rows.T
+            if not np.isfinite(seen).all():
+                continue
+            lower = np.linalg.solve(np.eye(2) + seen, rows @ covariance)
+            after = np.diag(covariance) - np.sum((covariance @ rows.T) * lower.T, axis=1)
+            error[a, d, k] = np.sqrt(np.maximum(after, 0.0) / np.diag(covariance))
+            gain[a, d, k] = 0.5 * np.linalg.slogdet(np.eye(2) + seen)[1]
+    dims = ("candidate_amplitude", "direction", "frequency")
+    data = xr.Dataset(
+        {"information": (dims, gain), "remaining_error": ((*dims, "parameter"), error)},
+        {
+            "candidate_amplitude": levels,
+            "direction": ["forward", "backward"],
+            "frequency": grid,
+            "parameter": keys,
+        },
+    )
+    data.attrs["findings"] = "\n".join(_told(data, result, shaken))
+    return describe(data, "vibroimpact.next_test", {"test": name, "noise": share})
+
+
+def _slopes(
+    setting: Setting, keys: list[str], test: str, grid: Array
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Derivatives of both excursions' logarithms, by direction, frequency, excursion, parameter."""
+    slopes = np.zeros((2, len(grid), 2, len(keys)))
+    known = np.ones((2, len(grid)), dtype=bool)
+    for column, key in enumerate(keys):
+        bare, _, whose = key.partition("[")
+        if bare in SENSORS or (whose and whose != f"{test}]"):
+            continue
+        of = PARAMETERS[bare]
+        now = of.read(*setting)
+        step = _STEP * (abs(now) or 1.0)
+        ends = []
+        for value in (
+            now + step,
+            max(now - step, of.least) if of.least is not None else now - step,
+        ):
+            rig = Rig(of.write(*setting, value))
+            ways = [rig.sweep(grid)[0], rig.sweep(grid[::-1])[0][::-1]]
+            ends.append((value, np.stack(ways)))
+        (high, above), (low, below) = ends
+        slopes[:, :, :, column] = (sizes(above) - sizes(below)) / (high - low)
+        known &= (above[..., hold.PERIOD] > 0) & (below[..., hold.PERIOD] > 0)
+        known &= np.abs(slopes[:, :, :, column] * (abs(now) or 1.0)).max(axis=-1) < _WILD
+    return slopes, known
+
+
+def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
+    """The best hold for each parameter that is known worst, and for all."""
+    lines = []
+    relative = result["standard_error"].values / np.maximum(
+        np.abs(result["fitted_value"].values), 1e-300
+    )
+    worst = int(np.argmax(relative))
+    key = str(result["parameter"].values[worst])
+    for what, of in (
+        (key, data["remaining_error"].isel(parameter=worst)),
+        ("", -data["information"]),
+    ):
+        if not np.isfinite(of.values).any():
+            continue
+        best = of.isel(of.argmin(...))
+        amplitude = pretty(float(best["candidate_amplitude"]), PARAMETERS["amplitude"].quantity, 3)
+        where = (
+            f"a hold at {float(best['frequency']):.3g} Hz ({best['direction'].item()}), {amplitude}"
+        )
+        if what:
+            lines.append(
+                f"next test: {where}, would take the standard error of {what} to "
+                f"{100.0 * float(best):.0f} % of what it is"
+            )
+        else:
+            lines.append(f"next test: {where}, would tell most of all parameters together")
+    return lines

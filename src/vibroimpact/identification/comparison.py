@@ -1,0 +1,119 @@
+"""Models beside each other: which one the data ask for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.errors import InputError
+from vibroimpact.identification.structure import CERTAIN
+from vibroimpact.model import Bumper, Isolator, Oscillator, PolynomialIsolator, PowerBumper
+from vibroimpact.response.variables import describe
+
+_CLEAR = 10.0
+"""Difference of Akaike's criterion from which on a model has no support (Burnham and Anderson)."""
+
+
+def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    """Compare fits of several models to the same data, by information and by what they leave.
+
+    Parameters
+    ----------
+    fits
+        Datasets of `identify` by the name of their model.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``model``, the best first: ``akaike`` (corrected for few points), ``bayes``,
+        ``akaike_weight``, how many parameters it has, its noise and whether its residuals have a
+        shape. The attribute ``findings`` says it in words.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two, one is no fit, or they were fitted to other data.
+    """
+    if len(fits) < 2:
+        raise InputError(f"fits: {len(fits)} given; at least two models are accepted")
+    first = next(iter(fits.values()))
+    for name, fit in fits.items():
+        if "akaike" not in fit:
+            raise InputError(f"fits[{name!r}]: this is no fit; a dataset of identify is accepted")
+        same = fit.sizes["point"] == first.sizes["point"] and np.array_equal(
+            fit["measured_value"].values, first["measured_value"].values, equal_nan=True
+        )
+        if not same:
+            raise InputError(f"fits[{name!r}]: fitted to other data; fits of the same are accepted")
+    order = sorted(fits, key=lambda name: float(fits[name]["akaike"]))
+    akaike = np.array([float(fits[n]["akaike"]) for n in order])
+    weight = np.exp(-0.5 * np.minimum(akaike - akaike[0], 1400.0))
+    data = xr.Dataset(coords={"model": order})
+    data["akaike"] = ("model", akaike)
+    data["akaike_weight"] = ("model", weight / weight.sum())
+    data["bayes"] = ("model", [float(fits[n]["bayes"]) for n in order])
+    data["parameter_count"] = ("model", [fits[n].sizes["parameter"] for n in order])
+    data["noise"] = ("model", [float(fits[n]["noise"].max()) for n in order])
+    chance = [float(fits[n]["residual_chance"].min()) for n in order]
+    data["residual_chance"] = ("model", chance)
+    best = order[0]
+    lines = []
+    for i, name in enumerate(order[1:], 1):
+        less = akaike[i] - akaike[0]
+        how = (
+            "has no support beside it"
+            if less > _CLEAR
+            else "cannot be told from it by these data"
+            if less < 2.0
+            else "is less likely"
+        )
+        lines.append(f"{name}: Akaike's criterion is {less:.1f} above that of {best}: it {how}")
+    for name, one in zip(order, chance, strict=True):
+        if one < CERTAIN:
+            lines.append(f"{name}: its residuals are not noise; it lacks something")
+    if chance[0] < CERTAIN:
+        lines.append("none of these models is right: the best one leaves a shape, too")
+    data.attrs["findings"] = "\n".join(lines)
+    return describe(data, "vibroimpact.compare_fits")
+
+
+def hertzian(oscillator: Oscillator, depth: float) -> Oscillator:
+    """The rig with contacts of Hertz in the place of its bumpers.
+
+    Their forces, of spring and dashpot, are those of the bumper at a depth (m).
+
+    Raises
+    ------
+    InputError
+        If it has no `Bumper`.
+    """
+    sides = {}
+    for side in ("right", "left"):
+        stop = getattr(oscillator, side)
+        if isinstance(stop, Bumper):
+            made = stop.stiffness / math.sqrt(depth)
+            # c δ' against k δ: so is χ δ' against 1.
+            lost = stop.damping / (stop.stiffness * depth)
+            sides[side] = PowerBumper(made, stop.gap, 1.5, dissipation=lost)
+    if not sides:
+        raise InputError("oscillator: it has no linear bumper; one is accepted")
+    return oscillator.replace(**sides)
+
+
+def softening(oscillator: Oscillator) -> Oscillator:
+    """The rig on an isolator with a cubic term, 0 to begin with.
+
+    Raises
+    ------
+    InputError
+        If its isolator is not linear.
+    """
+    isolator = oscillator.isolator
+    if not isinstance(isolator, Isolator):
+        raise InputError(f"oscillator: its isolator is {isolator}; a linear one is accepted")
+    return oscillator.replace(
+        isolator=PolynomialIsolator(isolator.stiffness, isolator.damping, cubic=0.0, quintic=0.0)
+    )

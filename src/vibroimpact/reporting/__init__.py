@@ -1,0 +1,1 @@
+"""Reports of what was found: figures, tables and words, in files."""

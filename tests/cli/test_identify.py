@@ -1,0 +1,54 @@
+"""One command from a file to a report and a rig."""
+
+import json
+
+import pytest
+
+import vibroimpact as vi
+from identification.twins import curves
+from vibroimpact.cli import main
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    data = curves(case.oscillator, case.amplitude, 0.02, seed=2)
+    rows = ["# amplitude = 0.04 g", "f (Hz),sweep,Ed [mm],Ea [g]"]
+    for way in ("forward", "backward"):
+        one = data.sel(direction=way)
+        for f, d, a in zip(one.frequency.values, one.displacement_excursion.values,
+                           one.acceleration_excursion.values, strict=True):  # fmt: skip
+            rows.append(f"{f},{way},{1e3 * d:.5f},{a / 9.80665:.6f}")
+    path = tmp_path_factory.mktemp("test") / "test.csv"
+    path.write_text("\n".join(rows))
+    return path
+
+
+def test_one_command_makes_a_report_and_a_rig_that_sweep_takes(file, tmp_path, capsys):
+    words = ["identify", str(file), "--rig", "B2-G2-A2", "--free", "stiffness,damping,gap",
+             "--starts", "1", "--output", str(tmp_path), "--json"]  # fmt: skip
+    assert main(words) == 0
+    told = json.loads(capsys.readouterr().out)
+    found = told["parameters"]["stiffness"]
+    assert abs(found["value"] - 31900.0) < 4.0 * found["standard_error"]
+    low, high = found["interval"]
+    assert low < found["value"] < high
+    assert {"report", "markdown", "data"} < set(told["files"])
+    assert any("next test" in line for line in told["next"])
+    study = tmp_path / "B2-G2-A2-fit.toml"
+    assert main(["sweep", str(study), "--step", "0.5Hz", "-o", str(tmp_path), "--json"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--free", "gap", "--compare", "plastic"], "--compare"),
+        (["--free", "gap", "--bounds", "stiffness", "1:2"], "is not free"),
+        (["--free", "gap", "--bounds", "gap", "2"], "two values with a colon"),
+        (["--free", "nothing"], "free: 'nothing'"),
+    ],
+)
+def test_wrong_words_are_told(file, tmp_path, capsys, words, told):
+    given = ["identify", str(file), "--rig", "B2-G2-A2", "-o", str(tmp_path), *words]
+    assert main(given) == 2
+    assert told in capsys.readouterr().err
