@@ -51,6 +51,7 @@ _HOME = {
     "exceedance": "seismic.suites",
     "fit_report": "reporting.identification",
     "fitted": "identification.identify",
+    "explore": "explorer.run",
     "floor_record": "seismic.floor",
     "fractiles": "seismic.suites",
     "fragility": "seismic.fragility",
@@ -117,6 +118,7 @@ __all__ = [
     "design",
     "ensemble",
     "exceedance",
+    "explore",
     "fit_report",
     "fitted",
     "floor_record",
@@ -155,6 +157,7 @@ __all__ = [
 if TYPE_CHECKING:
     from vibroimpact.attraction.grid import basins
     from vibroimpact.errors import InputError
+    from vibroimpact.explorer.run import explore
     from vibroimpact.identification.advice import next_test
     from vibroimpact.identification.comparison import compare_fits
     from vibroimpact.identification.identify import fitted, identify

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
-from vibroimpact.cli import largest
+from vibroimpact.facts import largest
 from vibroimpact.model import GRAVITY
 
 COMMAND = "sweep"

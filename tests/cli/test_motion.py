@@ -13,7 +13,7 @@ import pytest
 from rich.console import Console
 
 import vibroimpact as vi
-from vibroimpact.cli import verdict
+from vibroimpact.facts import motions as verdict
 
 COMMAND = "motion"
 CASE = vi.laboratory.case("B2-G1-A3")

@@ -10,8 +10,8 @@ import pytest
 import xarray as xr
 from rich.console import Console
 
-from vibroimpact.cli import verdict
 from vibroimpact.cli.numbers import ENERGIES, FORCES, LENGTHS, fitting, plain
+from vibroimpact.facts import motions as verdict
 
 
 @pytest.mark.parametrize(

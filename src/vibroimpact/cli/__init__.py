@@ -20,6 +20,7 @@ from vibroimpact.cli.curve import curve
 from vibroimpact.cli.design import design
 from vibroimpact.cli.earthquake import earthquake
 from vibroimpact.cli.ensemble import ensemble
+from vibroimpact.cli.explore import explore
 from vibroimpact.cli.identify import identify
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
@@ -55,6 +56,7 @@ For example:
     vibroimpact ensemble B2-G1-A3 --uncertain gap normal:5%
     vibroimpact classify B2-G1-A3
     vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
+    vibroimpact explore B2-G1-A3
     vibroimpact paper
 
 More about a command: vibroimpact COMMAND --help
@@ -75,6 +77,7 @@ _COMMANDS: tuple[Callable[..., int], ...] = (
     design,
     ensemble,
     classify,
+    explore,
 )
 
 

@@ -74,14 +74,13 @@ def classify(
 
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
-        from rich.table import Table
         from rich.text import Text
 
         from vibroimpact.cli import summary
+        from vibroimpact.facts import scenario as told
         from vibroimpact.figures import resonance_curves, save_figure
         from vibroimpact.response.files import save
         from vibroimpact.scenario.classify import classify as run
-        from vibroimpact.scenario.kinds import Scenario
 
         with progress_bar("sweeping") as progress:
             found = run(
@@ -92,46 +91,18 @@ def classify(
                 threads=threads,
                 progress=progress,
             )
-        meaning = next(s.meaning for s in Scenario if s.label == found.scenario)
         data = found.sweep
         data.attrs["title"] = what.name
-        axes = resonance_curves(data, title=f"{what.title}: {found.scenario}, {meaning}")
+        axes = resonance_curves(
+            data, title=f"{what.title}: {found.scenario}, {told.meaning(found.scenario)}"
+        )
         stem = folder / f"{what.slug}-scenario"
         files = {
             "data": save(data, f"{stem}.nc"),
             "figure": save_figure(axes[0], f"{stem}.{out.figure}"),
         }
-    facts = {
-        **summary.rig_facts(what),
-        "scenario": found.scenario,
-        "meaning": meaning,
-        "confidence": found.confidence,
-        "evidence": found.evidence.split("; "),
-        "alternatives": [
-            {"threshold": name, "value": value, "scenario": other}
-            for (name, value), other in found.alternatives.items()
-        ],
-        "thresholds": {name: getattr(used, name) for name in used.names()},
-        "features": found.features,
-    }
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
-    for line in found.evidence.split("; "):
-        table.add_row("", line)
-    others = [
-        Text(f"  with --{name} {value:g}: {other}")
-        for (name, value), other in found.alternatives.items()
-    ]
-    text = Together(
-        summary.rig_text(what),
-        Text(),
-        Text(f"{found.scenario}: {meaning}", style="bold"),
-        table,
-        Text(
-            f"Confidence {found.confidence:.0%}: share of the thresholds' variations, each halved "
-            "and each doubled, that leave the scenario the same (over these frequencies)"
-        ),
-        *others,
-    )
+    facts = {**summary.rig_facts(what), **told.facts(found)}
+    text = Together(summary.rig_text(what), Text(), told.text(found))
     tell(text, facts, folder, files, out.json)
     return 0
 

@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.cli.numbers import ENERGIES, FORCES, IMPULSES, LENGTHS, Scale, fitting, plain
-from vibroimpact.cli.summary import plain_table
+from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import GRAVITY, Oscillator, Record
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty

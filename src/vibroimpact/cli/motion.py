@@ -83,7 +83,8 @@ def motion(
 
         from rich.console import Group as Together
 
-        from vibroimpact.cli import summary, verdict
+        from vibroimpact.cli import summary
+        from vibroimpact.facts import motions as verdict
         from vibroimpact.figures import motion_page, save_figure
         from vibroimpact.response.files import save
 

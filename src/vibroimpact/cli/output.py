@@ -149,12 +149,9 @@ def _wide_enough(summary: RenderableType, width: int) -> int:
 
 def write_text(path: Path, summary: RenderableType) -> None:
     """Write a summary to a file as plain text of `WIDTH` columns."""
-    from rich.console import Console
+    from vibroimpact.facts.tables import as_text
 
-    console = Console(record=True, file=io.StringIO(), width=WIDTH, highlight=False)
-    console.print(summary)
-    lines = console.export_text(styles=False).splitlines()
-    path.write_text("".join(f"{line.rstrip()}\n" for line in lines), encoding="utf-8")
+    path.write_text(as_text(summary, WIDTH), encoding="utf-8")
 
 
 def warn(message: str) -> None:

@@ -149,7 +149,7 @@ def _text(found: Record, facts: dict[str, Any]) -> RenderableType:
     from rich.text import Text
 
     from vibroimpact.cli.numbers import plain
-    from vibroimpact.cli.summary import plain_table
+    from vibroimpact.facts.tables import plain_table
     from vibroimpact.model import GRAVITY
     from vibroimpact.model.quantities import TIME
     from vibroimpact.model.units import pretty

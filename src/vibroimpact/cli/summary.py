@@ -8,14 +8,13 @@ from typing import Any
 
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
 from vibroimpact._version import __version__
-from vibroimpact.cli import largest
 from vibroimpact.cli.numbers import plain
 from vibroimpact.cli.rig import Subject
 from vibroimpact.errors import InputError
+from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import (
     Bumper,
     Dimensionless,
@@ -39,10 +38,8 @@ from vibroimpact.model.quantities import (
     VELOCITY,
 )
 from vibroimpact.model.units import pretty
-from vibroimpact.response.resonance import Features, Range
 from vibroimpact.response.variables import excitation_parameters
 
-_CURVES = {"eta_a": "η_a", "eta_d": "η_d"}
 _LATELY = 10.0
 """Cycles at the end over which contacts are counted."""
 
@@ -116,55 +113,6 @@ def _law(part: Model) -> str:
     rows = dict(part.rows())
     kind = rows.pop("kind", "linear")
     return ", ".join([kind, *(f"{name.replace('_', ' ')} {text}" for name, text in rows.items())])
-
-
-def sweep_facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[str, Any]:
-    """Return what a sweep shows as nested plain values, frequencies in Hz."""
-    frequency = data["frequency"].values
-    return {
-        "frequencies": {
-            "from": float(frequency[0]),
-            "to": float(frequency[-1]),
-            "count": len(frequency),
-        },
-        "directions": [str(direction) for direction in data["direction"].values],
-        "peaks": [peak._asdict() for peak in found.peaks],
-        "jumps": [
-            {**jump._asdict(), "frequency": jump.frequency, "upward": jump.upward}
-            for jump in found.jumps
-        ],
-        "hysteresis": [item._asdict() for item in found.hysteresis],
-        "unsettled": [item._asdict() for item in found.unsettled],
-        "contact": [item._asdict() for item in found.contact],
-        "largest": largest.facts(data),
-        "advice": advice,
-    }
-
-
-def sweep_text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType:
-    """Return what a sweep shows as tables."""
-    frequency = data["frequency"].values
-    directions = " and ".join(str(d) for d in data["direction"].values)
-    parts: list[RenderableType] = [
-        Text(
-            f"{len(frequency)} frequencies from "
-            f"{_span(frequency[0], frequency[-1])} Hz, {directions}"
-            if len(frequency) > 1
-            else f"1 frequency, {plain(frequency[0])} Hz, {directions}"
-        ),
-        Text(),
-        largest.text(data),
-        Text(),
-        _peaks(found),
-        Text(),
-        _jumps(found),
-        Text(),
-        _hysteresis(data, found),
-        _ranges("Contact with a bumper", found.contact, "nowhere"),
-        _ranges("Not settled", found.unsettled, "nowhere"),
-    ]
-    parts += [Text(f"Advice: {line}", style="yellow") for line in advice]
-    return Group(*parts)
 
 
 def motion_facts(data: xr.Dataset) -> dict[str, Any]:
@@ -269,91 +217,3 @@ def _dimensionless(subject: Subject) -> Dimensionless | None:
         return to_dimensionless(subject.oscillator, scale_of(subject.oscillator, subject.repeated))
     except InputError:  # nothing to scale a gap by, or another kind of shaking
         return None
-
-
-def _peaks(found: Features) -> RenderableType:
-    table = _table("Resonances", "curve", "sweep", "kind")
-    for name in ("frequency (Hz)", "value", "prominence"):
-        table.add_column(name, justify="right")
-    for curve, symbol in _CURVES.items():
-        for peak in found.peaks:
-            if peak.curve == curve:
-                kind = "primary" if peak.primary else "secondary"
-                table.add_row(
-                    symbol,
-                    peak.direction,
-                    f"{kind}, at the end" if peak.at_end else kind,
-                    f"{plain(peak.frequency)}",
-                    f"{plain(peak.value, 4)}",
-                    f"{plain(peak.prominence, 3)}",
-                )
-    return table
-
-
-def _jumps(found: Features) -> RenderableType:
-    if not found.jumps:
-        return Text("Jumps: none")
-    table = _table("Jumps", "sweep", "jump", "between (Hz)", "η_a", "η_d", "")
-    for jump in found.jumps:
-        table.add_row(
-            jump.direction,
-            "upward" if jump.upward else "downward",
-            f"{plain(jump.before)} and {plain(jump.after)}",
-            f"{plain(jump.eta_a[0], 4)} → {plain(jump.eta_a[1], 4)}",
-            f"{plain(jump.eta_d[0], 4)} → {plain(jump.eta_d[1], 4)}",
-            "" if jump.settled else "not settled",
-        )
-    return table
-
-
-def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
-    if data.sizes["direction"] < 2:
-        return Text("Hysteresis: not sought, needs both directions")
-    if not found.hysteresis:
-        return Text("Hysteresis: none")
-    lines = []
-    for item in found.hysteresis:
-        above = "forward above backward" if item.side == "right" else "backward above forward"
-        notes = [f"{item.side} ({above})"]
-        if item.below is None or item.above is None:
-            notes.append("goes on beyond the range")
-        if not item.settled:
-            notes.append("not settled")
-        lines.append(f"  {_span(item.low, item.high)} Hz: {', '.join(notes)}")
-    return Text("\n".join(["Hysteresis", *lines]))
-
-
-def _ranges(title: str, ranges: tuple[Range, ...], none: str) -> RenderableType:
-    if not ranges:
-        return Text(f"{title}: {none}")
-    lines = []
-    for direction in dict.fromkeys(item.direction for item in ranges):
-        spans = [_span(item.low, item.high) for item in ranges if item.direction == direction]
-        lines.append(f"  {direction}: {', '.join(spans)} Hz")
-    return Text("\n".join([title, *lines]))
-
-
-def _span(low: float, high: float) -> str:
-    return f"{plain(low)}" if low == high else f"{plain(low)} to {plain(high)}"
-
-
-def plain_table() -> Table:
-    """Return an empty table of names, values and remarks, without lines."""
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
-    for style in ("bold", "", "dim"):
-        table.add_column(style=style)
-    return table
-
-
-def _table(title: str, *columns: str) -> Table:
-    table = Table(
-        *columns,
-        title=title,
-        title_justify="left",
-        title_style="",
-        box=None,
-        pad_edge=False,
-        padding=(0, 2, 0, 2),
-        header_style="dim",
-    )
-    return table

@@ -92,6 +92,7 @@ def sweep(
     from vibroimpact.cli import grid, summary
     from vibroimpact.cli.output import output_folder, progress_bar, tell, write_text
     from vibroimpact.cli.rig import subject
+    from vibroimpact.facts import sweeps
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
@@ -125,7 +126,7 @@ def sweep(
         data.attrs["title"] = what.name
         found = resonance.features(data)
         hints = advice(data)
-        text = Together(summary.rig_text(what), summary.sweep_text(data, found, hints))
+        text = Together(summary.rig_text(what), sweeps.text(data, found, hints))
 
         # Imported late: whoever waits for numbers need not wait for matplotlib.
         from vibroimpact.figures import resonance_curves, save_figure
@@ -137,6 +138,6 @@ def sweep(
             "figure": save_figure(axes[0], f"{stem}.{out.figure}"),
             "summary": write_whole(f"{stem}.txt", lambda path: write_text(path, text)),
         }
-    facts = {**summary.rig_facts(what), **summary.sweep_facts(data, found, hints)}
+    facts = {**summary.rig_facts(what), **sweeps.facts(data, found, hints)}
     tell(text, facts, folder, files, out.json)
     return 0

@@ -1,4 +1,4 @@
-"""What ``vibroimpact motion`` found, for people and for programs."""
+"""What motions are: kind, evidence, extremes, energies and contacts."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.cli.numbers import (
-    ACCELERATIONS,
-    ENERGIES,
-    FORCES,
-    IMPULSES,
-    LENGTHS,
-    SPEEDS,
+from vibroimpact.model.quantities import (
+    ACCELERATION,
+    ENERGY,
+    FORCE,
+    IMPULSE,
+    LENGTH,
+    VELOCITY,
     fitting,
-    plain,
 )
+from vibroimpact.model.units import plain
 
 _MOST_CONTACTS = 12
 """Contacts that are printed of a motion; the file has them all."""
@@ -91,24 +91,33 @@ def _facts(data: xr.Dataset) -> dict[str, Any]:
     return values
 
 
-def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
+def words(data: xr.Dataset) -> str:
+    """Return in one line what kind of motion it is, and why it is called so."""
+    return f"{', '.join(_kind(data))}: {data.attrs['evidence']}"
+
+
+def _kind(data: xr.Dataset) -> list[str]:
     kind = data["motion"].item()
-    words = [f"{kind}, period {int(data['period'])}" if kind == "periodic" else kind]
+    said = [f"{kind}, period {int(data['period'])}" if kind == "periodic" else kind]
     if kind == "periodic":
-        words.append(_STABILITY[int(data["stable"])])
-    words.append("antisymmetric" if bool(data["antisymmetric"]) else "not antisymmetric")
+        said.append(_STABILITY[int(data["stable"])])
+    said.append("antisymmetric" if bool(data["antisymmetric"]) else "not antisymmetric")
     if "mirror_pair" in data and bool(data["mirror_pair"]):
-        words.append("its mirror image is another motion")
+        said.append("its mirror image is another motion")
+    return said
+
+
+def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
     table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
     table.add_column(style="bold")
     table.add_column()
     low, high = data["displacement_min"].item(), data["displacement_max"].item()
     middle = _rounded(data["eccentricity"].item(), high - low)
-    _, size, metres = fitting((low, high), LENGTHS)
+    _, size, metres = fitting((low, high), LENGTH.scales)
     supplied, lost = data["energy_supplied"].item(), data["energy_bumpers"].item()
-    _, joule, joules = fitting((supplied, lost), ENERGIES)
+    _, joule, joules = fitting((supplied, lost), ENERGY.scales)
     floor, ceiling = data["acceleration_min"].item(), data["acceleration_max"].item()
-    _, g, gravity = fitting((floor, ceiling), ACCELERATIONS)
+    _, g, gravity = fitting((floor, ceiling), ACCELERATION.scales)
     rows = [
         ("evidence", data.attrs["evidence"]),
         ("exponents", _exponents(data)),
@@ -132,7 +141,7 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         rows.append(("mirror image", f"found from {data.attrs['mirrored_starts']}"))
     for row in rows:
         table.add_row(*row)
-    return [Text(f"{name}: {', '.join(words)}", style="bold"), table, *contact_tables(data)]
+    return [Text(f"{name}: {', '.join(_kind(data))}", style="bold"), table, *contact_tables(data)]
 
 
 def _exponents(data: xr.Dataset) -> str:
@@ -175,15 +184,15 @@ def contact_tables(data: xr.Dataset) -> list[RenderableType]:
         ("phase (°)", [f"{math.degrees(value):.1f}" for value in values("start_phase")]),
         ("length/T", [f"{value:.4f}" for value in values("duration_share")]),
     ]
-    speeds = fitting(values("start_velocity") + values("end_velocity"), SPEEDS)
+    speeds = fitting(values("start_velocity") + values("end_velocity"), VELOCITY.scales)
     for heading, name in (("u̇ in", "start_velocity"), ("u̇ out", "end_velocity")):
         texts = [f"{value / speeds.size:.2f}" for value in values(name)]
         columns.append((f"{heading} ({speeds.symbol})", texts))
     for heading, name, scales in (
-        ("force", "peak_force", FORCES),
-        ("J", "impulse", IMPULSES),
-        ("depth", "penetration", LENGTHS),
-        ("lost", "dissipated", ENERGIES),
+        ("force", "peak_force", FORCE.scales),
+        ("J", "impulse", IMPULSE.scales),
+        ("depth", "penetration", LENGTH.scales),
+        ("lost", "dissipated", ENERGY.scales),
     ):
         found = values(name)
         _, unit, symbol = fitting(found, scales)

@@ -10,9 +10,8 @@ import xarray as xr
 from rich.console import RenderableType
 from rich.table import Table
 
-from vibroimpact.cli.numbers import plain
 from vibroimpact.model.quantities import ACCELERATION, FORCE, IMPULSE, LENGTH, Quantity
-from vibroimpact.model.units import pretty
+from vibroimpact.model.units import plain, pretty
 
 _DIGITS = 4
 _SAME = 1e-9

@@ -1,0 +1,207 @@
+"""The knobs that a state has: every number of the rig, in physical and in dimensionless form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+from vibroimpact.errors import InputError
+from vibroimpact.explorer.change import DIMENSIONLESS, OF_RIG, SIDES, one_sided
+from vibroimpact.explorer.laws import free_displacement
+from vibroimpact.explorer.state import State
+from vibroimpact.model import Bumper, Model, Oscillator
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.quantities import (
+    DAMPING,
+    DISSIPATION,
+    FORCE,
+    LENGTH,
+    Quantity,
+    power_stiffness,
+)
+from vibroimpact.model.quantities import (
+    DIMENSIONLESS as NUMBER,
+)
+from vibroimpact.model.units import pretty
+from vibroimpact.model.validation import in_order
+
+_TENFOLD = 10.0
+_WIDE = 60.0
+"""Reach of a knob that turns by factors: to either side of where it began; of stops more."""
+_RANGES = {
+    "stiffness_ratio": (0.2, 500.0, True),
+    "gap_ratio": (0.0, 1.5, False),
+    "relaxation_time": (1e-4, 10.0, True),
+    "damping_ratio": (0.01, 0.7, True),
+    "exponent": (1.0, 3.0, False),
+    "damping_exponent": (0.2, 2.0, False),
+    "restitution": (0.0, 1.0, False),
+    "beta": (0.0, 1.0, False),
+    "gamma": (-1.0, 1.0, False),
+}
+"""Ends, and whether it turns by factors; of numbers without a unit."""
+_SYMBOLS = {
+    "mass": "M",
+    "isolator.stiffness": "K",
+    "isolator.damping": "C",
+    "stiffness": "K_j",
+    "damping": "C_j",
+    "gap": "G",
+    "amplitude": "A",
+    "damping_ratio": "ξ",
+    "isolator_period": "T",
+    "stiffness_ratio": "λ",
+    "gap_ratio": "δ0",
+    "relaxation_time": "τ",
+    "restitution": "e",
+}
+
+
+class Control(NamedTuple):
+    """One knob."""
+
+    path: str
+    group: str
+    label: str
+    symbol: str
+    value: float
+    text: str
+    """The value with its unit."""
+    low: float
+    high: float
+    log: bool
+    """Whether it turns by factors."""
+
+
+def controls(state: State, first: State) -> list[Control]:
+    """Return the knobs of a state; their ranges lie around where the page began."""
+    return [*_physical(state, first), *_dimensionless(state)]
+
+
+def _physical(state: State, first: State) -> Iterator[Control]:
+    rig, old = state.oscillator, first.oscillator
+    shaken = state.shaking
+    sizes = _Sizes(state)
+    begun = first.shaking.amplitude if first.shaking.of == shaken.of else shaken.amplitude
+    ends = (begun / _TENFOLD, begun * _TENFOLD, True)
+    yield _control("amplitude", "shaking", "amplitude", shaken.amplitude, shaken.quantity, ends)
+    yield from _fields(rig, old, "", "mass and isolator", sizes)
+    yield from _fields(rig.isolator, old.isolator, "isolator", "mass and isolator", sizes)
+    if rig.right == rig.left and state.together:
+        if rig.right is not None:
+            yield from _fields(rig.right, old.right, "stops", "both stops", sizes)
+        return
+    for side in SIDES:
+        if (stop := getattr(rig, side)) is not None:
+            yield from _fields(stop, getattr(old, side), side, f"{side} stop", sizes)
+
+
+def _fields(
+    part: Model, old: Model | None, name: str, group: str, sizes: _Sizes
+) -> Iterator[Control]:
+    """The numbers of a part of the rig."""
+    for field in in_order(type(part)):
+        accepts = part.accepts(field)
+        value = getattr(part, field)
+        if accepts is None or value is None:
+            continue
+        begun = getattr(old, field) if type(old) is type(part) else value
+        stop = name not in ("", "isolator")
+        ends = _ends(field, accepts.quantity, begun or 0.0, accepts, sizes, _WIDE if stop else None)
+        path = f"{name}.{field}" if name else field
+        yield _control(path, group, field.replace("_", " "), value, accepts.quantity, ends)
+
+
+class _Sizes:
+    """What is a large value of a quantity where a knob stands at 0: by the free resonance."""
+
+    def __init__(self, state: State) -> None:
+        rig = state.oscillator
+        u, k = free_displacement(state), rig.isolator.initial_stiffness
+        self._known: dict[Quantity, float] = {
+            FORCE: k * u,
+            LENGTH: 1.2 * u,
+            DAMPING: (k * rig.mass) ** 0.5,
+            DISSIPATION: 1.0 / (rig.angular_frequency * u),
+            power_stiffness(3.0): k / u**2,
+            power_stiffness(5.0): k / u**4,
+            NUMBER: 1.0,
+        }
+
+    def of(self, quantity: Quantity, value: float) -> float:
+        """A large value, also where the knob began elsewhere."""
+        return max(self._known.get(quantity, 1.0), 2.0 * abs(value))
+
+
+def _ends(
+    field: str, quantity: Quantity, begun: float, accepts: Any, sizes: _Sizes, wide: float | None
+) -> tuple[float, float, bool]:
+    """Range of a knob, and whether it turns by factors."""
+    if field in _RANGES:
+        return _RANGES[field]
+    factor = wide if wide and field != "mass" else _TENFOLD
+    if begun > 0.0 and quantity is not LENGTH:
+        return begun / factor, begun * factor, True
+    large = sizes.of(quantity, begun)
+    below = accepts.minimum is None and accepts.above is None and field != "gap"
+    return (-large if below else 0.0), large, False
+
+
+def _dimensionless(state: State) -> Iterator[Control]:
+    """The numbers of the paper's Section 7, where the rig has them."""
+    rig, group = state.oscillator, "dimensionless"
+    for name in OF_RIG:
+        found = _read(rig, state, name)
+        if found is not None:
+            ends = _RANGES.get(name, (found / _TENFOLD, found * _TENFOLD, True))
+            yield _control(
+                name, group, name.replace("_", " "), found, PARAMETERS[name].quantity, ends
+            )
+    both = rig.right == rig.left and state.together
+    for side in ("stops",) if both else SIDES:
+        alone = rig if both else one_sided_or_none(rig, side)
+        for name in DIMENSIONLESS:
+            found = None if alone is None else _read(alone, state, name)
+            if found is None:
+                continue
+            words = name.replace("_", " ")
+            label = words if both else f"{words}, {side}"
+            yield _control(f"{side}.{name}", group, label, found, NUMBER, _RANGES[name])
+
+
+def one_sided_or_none(rig: Oscillator, side: str) -> Oscillator | None:
+    """The rig with one stop only; None where there is none, or nothing then holds the mass."""
+    try:
+        return one_sided(rig, side) if getattr(rig, side) is not None else None
+    except InputError:
+        return None
+
+
+def _read(rig: Oscillator, state: State, name: str) -> float | None:
+    """A dimensionless number of the rig, if it has it."""
+    bumpers = all(isinstance(stop, Bumper) for stop in rig.stops)
+    if name in ("stiffness_ratio", "relaxation_time") and not bumpers:
+        return None
+    read: Callable[..., float] = PARAMETERS[name].read
+    try:
+        return float(read(rig, state.shaking))
+    except InputError:
+        return None
+
+
+def _control(
+    path: str,
+    group: str,
+    label: str,
+    value: float,
+    quantity: Quantity,
+    ends: tuple[float, float, bool],
+) -> Control:
+    """A knob, its range wide enough for the value."""
+    low, high, log = ends
+    low, high = min(low, value) if value > 0.0 or not log else low, max(high, value)
+    symbol = _SYMBOLS.get(path) or _SYMBOLS.get(path.rpartition(".")[2], "")
+    if path.startswith("isolator.") and path not in _SYMBOLS:
+        symbol = ""
+    text = pretty(value, quantity, 4)
+    return Control(path, group, label, symbol, value, text, low, high, log)

@@ -1,0 +1,119 @@
+"""Another law in the place of the one that is there, about as strong.
+
+Who chooses a law wants to see what it changes, and so the new one takes over what it shares with
+the old one: its force at the largest displacement of free flight, and its gap.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from vibroimpact.errors import InputError
+from vibroimpact.explorer.state import State
+from vibroimpact.model import (
+    AnyIsolator,
+    BilinearIsolator,
+    BoucWenIsolator,
+    Bumper,
+    ExponentialIsolator,
+    FrictionIsolator,
+    Isolator,
+    JankowskiBumper,
+    PolynomialIsolator,
+    PowerBumper,
+    RigidStop,
+    Stop,
+)
+from vibroimpact.model.dimensionless import largest_free_flight
+from vibroimpact.model.isolators import ISOLATORS
+from vibroimpact.model.stops import STOPS
+from vibroimpact.model.units import shown
+
+NONE = "none"
+"""The law of a stop that is not there."""
+_RESTITUTION, _RELAXATION, _STIFFER = 0.6, 0.01, 20.0
+"""Of a stop where none was; τ and λ those of the published rig, nearly."""
+_PRESSED = 0.2
+"""Depth over free flight's displacement at which stops of two laws are equally strong."""
+
+
+def isolator_laws() -> list[str]:
+    """Kinds of isolators, by the names that a study file gives them."""
+    return list(ISOLATORS.classes)
+
+
+def stop_laws() -> list[str]:
+    """Kinds of stops, by the names that a study file gives them."""
+    return [NONE, *STOPS.classes]
+
+
+def free_displacement(state: State) -> float:
+    """Displacement amplitude (m) about which the laws are compared: that of free flight."""
+    rig = state.oscillator
+    omega = rig.angular_frequency
+    isolator = rig.isolator
+    ratio = isolator.damping / (2.0 * rig.mass * omega) if isolator.damping_exponent == 1.0 else 0.1
+    acceleration = float(state.shaking.acceleration(rig.mass, omega))
+    swing, _ = largest_free_flight(omega, min(max(ratio, 0.05), 0.7), acceleration)
+    return swing
+
+
+def isolator_of(kind: str, state: State) -> AnyIsolator:
+    """Return an isolator of a kind, with the stiffness and the damping of the one that is there.
+
+    Raises
+    ------
+    InputError
+        If there is no such kind.
+    """
+    old = state.oscillator.isolator
+    if kind == old.kind:
+        return old
+    u = free_displacement(state)
+    k, c = old.static_force(u) / u, old.damping
+    if old.damping_exponent != 1.0:
+        c = 0.3 * (k * state.oscillator.mass) ** 0.5
+    made: dict[str, Callable[[], AnyIsolator]] = {
+        "linear": lambda: Isolator(k, c),
+        "friction": lambda: FrictionIsolator(k, c, 0.1 * k * u),
+        "bilinear": lambda: BilinearIsolator(1.6 * k, 0.9 * k, 0.18 * k * u, 0.5 * c),
+        "polynomial": lambda: PolynomialIsolator(k, c, 0.3 * k / u**2, 0.0),
+        "bouc-wen": lambda: BoucWenIsolator(1.8 * k, 0.9 * k, 0.18 * k * u, 0.5 * c),
+        "exponential": lambda: ExponentialIsolator(2.4 * k, 0.83 * k, 3.5 / u, 0.3 * c),
+    }
+    if kind not in made:
+        raise InputError(f"isolator.kind: {shown(kind)}; one of {', '.join(made)} is accepted")
+    return made[kind]()
+
+
+def stop_of(kind: str, state: State, side: str) -> Stop | None:
+    """Return a stop of a kind, where the one of that side is and about as strong.
+
+    Raises
+    ------
+    InputError
+        If there is no such kind.
+    """
+    rig = state.oscillator
+    old: Stop | None = getattr(rig, side)
+    if old is not None and kind == old.kind:
+        return old
+    if kind == NONE:
+        return None
+    u = free_displacement(state)
+    gap = 0.5 * u if old is None else old.gap
+    depth = _PRESSED * u
+    force = _STIFFER * rig.isolator.initial_stiffness * depth
+    if old is not None and not isinstance(old, RigidStop):
+        force = old.static_force(depth)
+    restitution = getattr(old, "restitution", None) or _RESTITUTION
+    k = force / depth
+    made: dict[str, Callable[[], Stop]] = {
+        "kelvin-voigt": lambda: Bumper(k, _RELAXATION * k / rig.angular_frequency, gap),
+        "rigid": lambda: RigidStop(restitution, gap),
+        "power": lambda: PowerBumper(force / depth**1.5, gap, restitution=restitution),
+        "jankowski": lambda: JankowskiBumper(force / depth**1.5, gap, restitution, rig.mass),
+    }
+    if kind not in made:
+        raise InputError(f"{side}.kind: {shown(kind)}; one of {', '.join(made)} is accepted")
+    return made[kind]()

@@ -1,0 +1,128 @@
+// The page: what is done is sent, what comes back is drawn. Nothing is computed here.
+
+import { Curves } from "./curves.js";
+import { Knobs } from "./knobs.js";
+import { Link } from "./link.js";
+import { Motion } from "./motion.js";
+import { asPicture, copy, keep } from "./save.js";
+
+const PATIENCE = 1200; // ms after which a page that waits says so
+const id = (name) => document.getElementById(name);
+const status = id("status");
+let state = null;
+let choices = { presets: [], isolators: [], stops: [] };
+let resting = true;
+let waiting = 0;
+
+const link = new Link({
+  told,
+  changed(how, why) {
+    document.body.dataset.link = how;
+    if (how === "lost") say(`Connection lost: ${why}. Trying again …`, true);
+    else say("");
+  },
+  address: () => state?.address ?? location.hash.slice(1),
+});
+const send = (message) => {
+  resting = !message.dragging;
+  clearTimeout(waiting);
+  waiting = setTimeout(() => say("computing …"), PATIENCE);
+  return link.send(message);
+};
+const knobs = new Knobs(send);
+const curves = new Curves((direction, frequency) => send({ do: "choose", direction, frequency }));
+const motion = new Motion();
+
+function say(text, lost = false) {
+  if (status.textContent !== text) status.textContent = text;
+  status.classList.toggle("lost", lost);
+}
+
+function told(message) {
+  if (message.hello) begin(message);
+  if (message.state) show(message.state);
+  if (message.refused) refused(message);
+  if (message.picture) drawn(message);
+  if (message.file) keep(message.file, message.mime, message.bytes);
+  if (message.settled) {
+    clearTimeout(waiting);
+    say("");
+    document.body.dataset.settled = message.n ?? "";
+  }
+}
+
+function begin(message) {
+  choices = message;
+  const select = id("presets");
+  select.replaceChildren(new Option("choose …", ""));
+  for (const [group, names] of message.presets) {
+    const box = document.createElement("optgroup");
+    box.label = group;
+    for (const name of names) box.append(new Option(name, name));
+    select.append(box);
+  }
+}
+
+function show(next) {
+  state = next;
+  knobs.show(state, choices);
+  const select = id("presets");
+  if (document.activeElement !== select) select.value = [...select.options].some((one) => one.value === state.name) ? state.name : "";
+  id("undo").disabled = !state.undo;
+  id("redo").disabled = !state.redo;
+  id("physical").checked = state.physical;
+  id("branch").checked = state.shown.includes("branch");
+  if (!state.shown.includes("branch")) curves.orbits(null);
+  if (document.activeElement !== id("frequency")) id("frequency").value = state.frequency_text;
+  id("direction").value = state.direction;
+  document.title = `${state.name} – vibroimpact explorer`;
+  history.replaceState(null, "", `#${state.address}`);
+}
+
+function refused({ refused: why, path }) {
+  clearTimeout(waiting);
+  if (path === "frequency") {
+    id("frequency-why").textContent = why;
+    id("frequency").setAttribute("aria-invalid", "true");
+  } else if (!path || !knobs.refuse(path, why)) say(why, true);
+}
+
+function drawn(message) {
+  if (message.none) {
+    say(message.none, true);
+    return;
+  }
+  if (message.picture === "curves") {
+    curves.show(message, resting);
+    requestAnimationFrame(() => {
+      document.body.dataset.drawn = message.n ?? "";
+      document.body.dataset.fine = message.fine;
+    });
+  } else if (message.picture === "motion") {
+    id("frequency-why").textContent = "";
+    id("frequency").setAttribute("aria-invalid", "false");
+    motion.show(message);
+    curves.mark({ direction: message.direction, frequency: message.frequency });
+  } else if (message.picture === "scenario") {
+    id("scenario-name").textContent = message.scenario;
+    id("scenario-meaning").textContent = message.meaning + (message.confidence === null ? "" : ` (confidence ${Math.round(100 * message.confidence)} %)`);
+    id("evidence").replaceChildren(...message.evidence.map((text) => Object.assign(document.createElement("li"), { textContent: text })));
+  } else if (message.picture === "branch") curves.orbits(message);
+}
+
+id("presets").addEventListener("change", (event) => event.target.value && send({ do: "preset", name: event.target.value }));
+for (const what of ["undo", "redo", "reset"]) id(what).addEventListener("click", () => send({ do: what }));
+for (const what of ["physical", "branch"]) id(what).addEventListener("change", (event) => send({ do: "look", what, on: event.target.checked }));
+id("frequency").addEventListener("change", (event) => send({ do: "choose", path: "frequency", direction: state.direction, frequency: event.target.value }));
+id("direction").addEventListener("change", (event) => send({ do: "choose", direction: event.target.value, frequency: state.frequency }));
+for (const button of document.querySelectorAll("[data-file]")) button.addEventListener("click", () => link.send({ do: "file", kind: button.dataset.file }));
+id("link").addEventListener("click", async () => say((await copy(location.href)) ? "The address is copied." : "Copy the address from the address bar."));
+id("svg").addEventListener("click", () => asPicture(id("panels"), state.name, "svg"));
+id("png").addEventListener("click", () => asPicture(id("panels"), state.name, "png"));
+addEventListener("keydown", (event) => {
+  if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || event.target.type === "text") return;
+  event.preventDefault();
+  send({ do: event.shiftKey ? "redo" : "undo" });
+});
+// Another address in the address bar is another state.
+addEventListener("hashchange", () => location.hash.slice(1) !== state?.address && send({ do: "open", address: location.hash.slice(1) }));

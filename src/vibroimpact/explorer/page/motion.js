@@ -1,0 +1,121 @@
+// One motion: over time, in the phase plane, its force, its spectrum, and the mass that moves.
+
+import { Chart, element, range } from "./plot.js";
+
+const SLOW = 0.25; // of a second of the rig in a second of the page, so that impacts can be seen
+
+export class Motion {
+  constructor() {
+    const views = document.getElementById("views");
+    this.time = new Chart(views, { name: "Displacement over time, with the faces of the stops", x: "time (s)", y: "displacement (mm)", wide: true });
+    this.phase = new Chart(views, { name: "Phase portrait between the stops", x: "displacement (mm)", y: "velocity (mm/s)" });
+    this.force = new Chart(views, { name: "Force loop", x: "displacement (mm)", y: "force (kN)" });
+    this.lines = new Chart(views, { name: "Spectrum", x: "frequency (Hz)", y: "displacement (mm)", ylog: true, wide: true });
+    for (const chart of [this.time, this.phase, this.force, this.lines]) chart.redraw = () => this.draw();
+    this.verdict = document.getElementById("verdict");
+    this.rig = element("svg", { role: "img", "aria-label": "The mass between its stops, in slow motion", viewBox: "0 0 400 84", preserveAspectRatio: "none" }, document.getElementById("stage"));
+    this.parts = Object.fromEntries(
+      [["left", "stop"], ["right", "stop"], ["mass", "mass"], ["spark", "hit"], ["ground", "axis"]].map(([name, kind]) => [name, element("path", { class: kind }, this.rig)]),
+    );
+    this.play = document.getElementById("play");
+    this.play.checked = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.sound = document.getElementById("sound");
+    this.begun = performance.now();
+    requestAnimationFrame((now) => this.frame(now));
+  }
+
+  show(picture) {
+    this.picture = picture;
+    if (picture.words) this.verdict.textContent = picture.words;
+    this.draw();
+  }
+
+  draw() {
+    const { picture } = this;
+    if (!picture || picture.none) return;
+    const { time, displacement: u, velocity, right, left, contact, gaps } = picture;
+    const faces = [right, left].filter(Boolean);
+    this.time.axes([time[0], time.at(-1)], range([u, ...faces]));
+    for (const [name, face] of [["right", right], ["left", left]])
+      if (face) this.time.line(name, "wall", time, face);
+      else this.time.drop(name);
+    this.time.line("u", "plain", time, u);
+    this.time.line("touch", "touch", time, u.map((value, i) => (contact[i] ? value : null)));
+    const across = range([u, Object.values(gaps).filter((gap) => gap !== null)]);
+    this.across = across;
+    this.phase.axes(across, range([velocity], { even: true }));
+    for (const side of ["right", "left"])
+      if (gaps[side] === null) this.phase.drop(side);
+      else this.phase.upright(side, "wall", gaps[side]);
+    this.phase.line("orbit", "plain", u, velocity);
+    this.phase.line("touch", "touch", u, velocity.map((value, i) => (contact[i] ? value : null)));
+    const force = picture.force.map((value) => (value === null ? null : value / picture.force_unit.size));
+    this.force.axes(across, range([force]), `force (${picture.force_unit.symbol})`);
+    this.force.line("loop", "plain", u, force);
+    if (picture.spectrum) this.spectrum(picture.spectrum);
+  }
+
+  spectrum({ frequency, displacement }) {
+    const most = Math.max(...displacement.filter((value) => value !== null));
+    if (!(most > 0)) return;
+    const low = most * 1e-5;
+    this.lines.axes([0, frequency.at(-1) * 1.03], [low, most * 2]);
+    let d = "";
+    frequency.forEach((f, i) => {
+      if (displacement[i] > low) d += `M${this.lines.toX(f)} ${this.lines.toY(low)}V${this.lines.toY(displacement[i])}`;
+    });
+    this.lines.path("lines", "line plain", d);
+  }
+
+  // The mass where it is now; time goes on while it is looked at.
+  frame(now) {
+    requestAnimationFrame((next) => this.frame(next));
+    const { picture } = this;
+    if (!picture || !this.across || document.hidden) return;
+    const { time, displacement, right, left, contact } = picture;
+    const length = time.at(-1) - time[0];
+    if (!(length > 0)) return;
+    const passed = this.play.checked ? ((now - this.begun) / 1000) * SLOW : (this.halted ?? 0);
+    this.halted = passed;
+    if (!this.play.checked) this.begun = now - (passed / SLOW) * 1000;
+    const share = (passed / length) % 1;
+    const i = Math.min(Math.floor(share * (time.length - 1)), time.length - 1);
+    const [low, high] = this.across;
+    const half = 26;
+    const x = (value) => half + 24 + ((value - low) / (high - low)) * (400 - 2 * (half + 24));
+    const at = x(displacement[i] ?? 0);
+    this.parts.ground.setAttribute("d", "M0 70H400");
+    this.parts.mass.setAttribute("d", `M${at - half} 28h${2 * half}v42h${-2 * half}z`);
+    this.parts.right.setAttribute("d", right ? `M${x(right[i]) + half} 34h400v30h-400z` : "");
+    this.parts.left.setAttribute("d", left ? `M${x(left[i]) - half} 34h-400v30h400z` : "");
+    const side = contact[i];
+    this.parts.spark.setAttribute("d", side ? `M${at + (side === -1 ? -half - 5 : half - 1)} 28h6v42h-6z` : "");
+    this.beat(share * length, length);
+  }
+
+  // A short tone for each contact that has begun since the last frame, louder for a faster one.
+  beat(now, length) {
+    const before = this.heard ?? now;
+    this.heard = now;
+    if (!this.sound.checked || !this.play.checked || !this.picture.hits) return;
+    const [first] = this.picture.time;
+    const fastest = Math.max(...this.picture.hits.map((hit) => Math.abs(hit.speed)), 1e-9);
+    for (const hit of this.picture.hits) {
+      const when = (((hit.time - first) % length) + length) % length;
+      const passed = before <= now ? when > before && when <= now : when > before || when <= now;
+      if (passed) this.knock(hit.side, Math.abs(hit.speed) / fastest);
+    }
+  }
+
+  knock(side, loudness) {
+    this.audio ??= new AudioContext();
+    const { currentTime } = this.audio;
+    const [tone, gain] = [this.audio.createOscillator(), this.audio.createGain()];
+    tone.frequency.value = side > 0 ? 330 : 220;
+    gain.gain.setValueAtTime(0.25 * Math.max(loudness, 0.05), currentTime);
+    gain.gain.exponentialRampToValueAtTime(1e-4, currentTime + 0.12);
+    tone.connect(gain).connect(this.audio.destination);
+    tone.start();
+    tone.stop(currentTime + 0.13);
+  }
+}

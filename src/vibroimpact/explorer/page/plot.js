@@ -1,0 +1,163 @@
+// A chart in SVG: axes, curves, bands and marks, redrawn in place. It knows no physics.
+
+const NS = "http://www.w3.org/2000/svg";
+const MARGIN = { left: 62, right: 10, top: 8, bottom: 34 };
+
+export function element(name, attributes = {}, parent = null, text = "") {
+  const made = document.createElementNS(NS, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  if (text) made.textContent = text;
+  if (parent) parent.append(made);
+  return made;
+}
+
+// Round steps of 1, 2 or 5 times a power of ten.
+export function ticks(low, high, about) {
+  const raw = (high - low) / Math.max(about, 1);
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].map((digit) => digit * power).find((one) => one >= raw * 0.999);
+  const found = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) found.push(k * step);
+  return found;
+}
+
+function decades(low, high) {
+  const found = [];
+  for (let k = Math.floor(Math.log10(low)); 10 ** k <= high * 1.001; k++)
+    for (const digit of high / low > 100 ? [1] : [1, 2, 5]) if (digit * 10 ** k >= low * 0.999 && digit * 10 ** k <= high * 1.001) found.push(digit * 10 ** k);
+  return found;
+}
+
+export const label = (value) => Number(value.toPrecision(6)).toString();
+
+export class Chart {
+  constructor(parent, { name, x, y, xlog = false, ylog = false, wide = false }) {
+    this.box = document.createElement("div");
+    this.box.className = wide ? "chart wide" : "chart";
+    parent.append(this.box);
+    this.svg = element("svg", { role: "img", "aria-label": name }, this.box);
+    this.layers = Object.fromEntries(["bands", "axes", "lines", "marks", "over"].map((id) => [id, element("g", { class: id }, this.svg)]));
+    Object.assign(this, { name, xlabel: x, ylabel: y, xlog, ylog, x: [0, 1], y: [0, 1], paths: new Map() });
+    new ResizeObserver(() => this.redraw && this.redraw()).observe(this.box);
+  }
+
+  get size() {
+    return [this.box.clientWidth || 400, this.box.clientHeight || 200];
+  }
+
+  toX(value) {
+    const [low, high] = this.xlog ? this.x.map(Math.log10) : this.x;
+    return MARGIN.left + (((this.xlog ? Math.log10(value) : value) - low) / (high - low)) * (this.size[0] - MARGIN.left - MARGIN.right);
+  }
+
+  toY(value) {
+    const [low, high] = this.ylog ? this.y.map(Math.log10) : this.y;
+    return this.size[1] - MARGIN.bottom - (((this.ylog ? Math.log10(value) : value) - low) / (high - low)) * (this.size[1] - MARGIN.top - MARGIN.bottom);
+  }
+
+  // Values under a point of the page.
+  at(clientX, clientY) {
+    const box = this.box.getBoundingClientRect();
+    const across = (clientX - box.left - MARGIN.left) / (box.width - MARGIN.left - MARGIN.right);
+    const up = (box.bottom - MARGIN.bottom - clientY) / (box.height - MARGIN.top - MARGIN.bottom);
+    const along = ([low, high], share, log) => (log ? low * (high / low) ** share : low + share * (high - low));
+    return [along(this.x, across, this.xlog), along(this.y, up, this.ylog)];
+  }
+
+  // Axes for these ranges; what was drawn before is redrawn by whoever calls.
+  axes(x, y, ylabel = this.ylabel) {
+    Object.assign(this, { x, y, ylabel });
+    const [width, height] = this.size;
+    const group = this.layers.axes;
+    group.replaceChildren();
+    const [left, right, top, bottom] = [MARGIN.left, width - MARGIN.right, MARGIN.top, height - MARGIN.bottom];
+    const xs = this.xlog ? decades(...x) : ticks(...x, width / 75);
+    const ys = this.ylog ? decades(...y) : ticks(...y, height / 45);
+    for (const value of xs) {
+      element("path", { class: "grid", d: `M${this.toX(value)} ${top}V${bottom}` }, group);
+      element("text", { x: this.toX(value), y: bottom + 13, "text-anchor": "middle" }, group, label(value));
+    }
+    for (const value of ys) {
+      element("path", { class: "grid", d: `M${left} ${this.toY(value)}H${right}` }, group);
+      element("text", { x: left - 5, y: this.toY(value) + 4, "text-anchor": "end" }, group, label(value));
+    }
+    element("path", { class: "axis", d: `M${left} ${top}V${bottom}H${right}` }, group);
+    element("text", { x: (left + right) / 2, y: height - 6, "text-anchor": "middle", class: "soft" }, group, this.xlabel);
+    [ylabel].flat().forEach((words, i, all) => {
+      const place = `translate(${(all.length > 1 ? 11 : 20) + 13 * i} ${(top + bottom) / 2}) rotate(-90)`;
+      element("text", { transform: place, "text-anchor": "middle", class: "soft" }, group, words);
+    });
+  }
+
+  path(name, kind, d, layer = "lines") {
+    let path = this.paths.get(name);
+    if (!path) this.paths.set(name, (path = element("path", { "data-name": name }, this.layers[layer])));
+    path.setAttribute("class", kind);
+    path.setAttribute("d", d);
+    return path;
+  }
+
+  // A curve; it is interrupted where there is no number.
+  line(name, kind, xs, ys) {
+    let d = "";
+    let pen = "M";
+    for (let i = 0; i < xs.length; i++) {
+      if (ys[i] === null || xs[i] === null || (this.ylog && !(ys[i] > 0))) {
+        pen = "M";
+        continue;
+      }
+      d += `${pen}${this.toX(xs[i]).toFixed(1)} ${this.toY(ys[i]).toFixed(1)}`;
+      pen = "L";
+    }
+    return this.path(name, `line ${kind}`, d);
+  }
+
+  // Dots or open squares at every so manieth point.
+  marks(name, kind, xs, ys, every = 1) {
+    let d = "";
+    for (let i = 0; i < xs.length; i += every) {
+      if (ys[i] === null) continue;
+      const [x, y] = [this.toX(xs[i]), this.toY(ys[i])];
+      d += kind.includes("forward") ? `M${(x - 2).toFixed(1)} ${y.toFixed(1)}a2 2 0 1 0 4 0a2 2 0 1 0 -4 0` : `M${(x - 3).toFixed(1)} ${(y - 3).toFixed(1)}h6v6h-6z`;
+    }
+    return this.path(`${name} marks`, `mark ${kind}`, d, "marks");
+  }
+
+  upright(name, kind, x) {
+    return this.path(name, kind, `M${this.toX(x)} ${MARGIN.top}V${this.size[1] - MARGIN.bottom}`);
+  }
+
+  level(name, kind, y) {
+    return this.path(name, kind, `M${MARGIN.left} ${this.toY(y)}H${this.size[0] - MARGIN.right}`);
+  }
+
+  bands(spans) {
+    let d = "";
+    for (const [low, high] of spans) d += `M${this.toX(low)} ${MARGIN.top}H${this.toX(high)}V${this.size[1] - MARGIN.bottom}H${this.toX(low)}Z`;
+    return this.path("bands", "band", d, "bands");
+  }
+
+  // Takes away what has a name that begins so.
+  drop(prefix) {
+    for (const [name, path] of this.paths)
+      if (name.startsWith(prefix)) {
+        path.remove();
+        this.paths.delete(name);
+      }
+  }
+}
+
+// A range that holds all numbers, with room; it grows at once and shrinks only when told to.
+export function range(lists, { zero = false, old = null, shrink = true, even = false } = {}) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const list of lists)
+    for (const value of list || [])
+      if (value !== null) [low, high] = [Math.min(low, value), Math.max(high, value)];
+  if (zero) low = Math.min(low, 0);
+  if (!(low < high)) [low, high] = Number.isFinite(low) ? [low - 0.5 * Math.abs(low || 1), low + 0.5 * Math.abs(low || 1)] : [0, 1];
+  const room = 0.06 * (high - low);
+  [low, high] = [zero && low === 0 ? 0 : low - room, high + room];
+  if (even) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
+  if (old && !shrink) return [Math.min(low, old[0]), Math.max(high, old[1])];
+  return [low, high];
+}

@@ -1,0 +1,67 @@
+"""The resonance curves, up and down, coarse or fine, with their jumps and hysteresis."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.explorer.pictures.numbers import one, short
+from vibroimpact.explorer.state import State
+from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
+from vibroimpact.response import resonance
+from vibroimpact.response.sweep import sweep
+from vibroimpact.response.threads import Progress
+
+COARSE = 46
+"""Frequencies while a knob is turned: as many as the published tests held."""
+FINE = 181
+"""Four times as dense, with those of the coarse ones among them."""
+_PATIENCE, _WINDOW = 300, 100
+"""Cycles that a coarse hold waits, and those it is measured over, where it does not settle."""
+
+
+def swept(state: State, fine: bool, progress: Progress | None = None) -> xr.Dataset:
+    """Sweep the rig over the span of the page."""
+    frequencies = np.linspace(*state.span, FINE if fine else COARSE)
+    few: dict[str, Any] = {} if fine else {"max_cycles": _PATIENCE, "window": _WINDOW}
+    data = sweep(*state.rig, frequencies, progress=progress, **few)
+    data.attrs["title"] = state.name
+    return data
+
+
+def curves(state: State, data: xr.Dataset, fine: bool) -> dict[str, Any]:
+    """Return the curves of a sweep as two or three panels."""
+    found = resonance.features(data)
+    panels = physical_curves(data) if state.physical else normalised(data)
+    return {
+        "picture": "curves",
+        "fine": fine,
+        "physical": state.physical,
+        "frequency": short(data["frequency"].values, 7),
+        "panels": [_panel(panel) for panel in panels],
+        "jumps": [
+            {
+                "direction": jump.direction,
+                "before": one(jump.before, 7),
+                "after": one(jump.after, 7),
+                "upward": bool(jump.upward),
+            }
+            for jump in found.jumps
+        ],
+        "hysteresis": [
+            {"low": one(item.low, 7), "high": one(item.high, 7), "side": item.side}
+            for item in found.hysteresis
+        ],
+    }
+
+
+def _panel(drawn: Drawn) -> dict[str, Any]:
+    return {
+        "name": drawn.name,
+        "label": drawn.label.replace("$", "").replace("\\eta", "η").split("\n"),
+        "curves": {direction: short(values) for direction, values in drawn.curves.items()},
+        "free": None if drawn.free is None else short(drawn.free),
+        "levels": [{"value": one(level.value), "label": level.label} for level in drawn.levels],
+    }

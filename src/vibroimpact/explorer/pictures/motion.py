@@ -1,0 +1,107 @@
+"""The motion at the chosen frequency: what it is called, and how it looks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.explorer.pictures.numbers import one, short
+from vibroimpact.explorer.state import State
+from vibroimpact.facts import motions as told
+from vibroimpact.model import Harmonic
+from vibroimpact.model.quantities import FORCE
+from vibroimpact.response.simulate import simulate
+from vibroimpact.response.spectrum import spectrum
+from vibroimpact.stability.steady import steady
+
+_SAMPLES = 160
+"""Of a cycle, so that a curve is smooth on the page."""
+_MOST_CYCLES = 8
+"""Of a motion that is drawn; one that does not repeat is drawn as long."""
+_WINDOW, _GROWTH = 40, 2000
+"""Cycles that are recorded, and over which the growth of disturbances is averaged."""
+_HIGHEST = 16.0
+"""Order up to which lines of the spectrum are drawn."""
+
+
+def at(state: State, data: xr.Dataset) -> tuple[Harmonic, xr.DataArray, float]:
+    """What shakes the motion that is looked at, its state, and its period, from a sweep.
+
+    It is that of the nearest frequency that was held, on the curve that was chosen.
+    """
+    held = data.sel(direction=state.direction).sel(
+        frequency=state.shaking.frequency, method="nearest"
+    )
+    shaken = state.shaking.replace(frequency=float(held["frequency"]))
+    return shaken, held["section"], float(held["period"])
+
+
+def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
+    """Return the motion as the sweep has left it, for while a knob is turned."""
+    shaken, section, period = at(state, data)
+    cycles = int(period) if 0 < period <= _MOST_CYCLES else _MOST_CYCLES
+    motion = simulate(state.oscillator, shaken, cycles, section, _SAMPLES)
+    return {**_drawn(state, motion, shaken), "fine": False}
+
+
+def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
+    """Return the motion named and measured."""
+    shaken, section, _ = at(state, data)
+    motion = steady(
+        state.oscillator, shaken, section, _SAMPLES, window=_WINDOW, exponent_cycles=_GROWTH
+    )
+    drawn = motion.isel(time=slice(_MOST_CYCLES * _SAMPLES + 1))
+    return {
+        **_drawn(state, drawn, shaken),
+        "fine": True,
+        "words": told.words(motion),
+        "spectrum": _spectrum(motion),
+        "hits": [
+            {"time": one(start), "side": int(side), "speed": one(speed)}
+            for start, side, speed in zip(
+                motion["contact_start"].values,
+                motion["contact_side"].values,
+                motion["contact_closing_speed"].values,
+                strict=True,
+            )
+        ],
+    }
+
+
+def _spectrum(motion: xr.Dataset) -> dict[str, Any]:
+    """The lines of the displacement (mm), the mean left out."""
+    lines = spectrum(motion, _HIGHEST).isel(order=slice(1, None))
+    return {
+        "frequency": short(lines["line_frequency"].values),
+        "displacement": short(1e3 * lines["displacement_amplitude"].values),
+    }
+
+
+def _drawn(state: State, motion: xr.Dataset, shaken: Harmonic) -> dict[str, Any]:
+    """The curves of a motion in mm, mm/s and N."""
+    rig = state.oscillator
+    time = motion["time"].values
+    force = rig.force - rig.mass * motion["acceleration"].values
+    if not shaken.moves_base:
+        force = force + shaken.amplitude * np.sin(shaken.angular_frequency * time + shaken.phase)
+    faces, gaps = {}, {}
+    for side, stop, sign in (("right", rig.right, 1.0), ("left", rig.left, -1.0)):
+        gaps[side] = None if stop is None else one(1e3 * sign * stop.gap)
+        deformed = motion[f"{side}_bumper"].values
+        faces[side] = None if stop is None else short(1e3 * (sign * stop.gap + deformed))
+    unit = FORCE.unit(float(np.nanmax(np.abs(force), initial=0.0)))
+    return {
+        "picture": "motion",
+        "direction": state.direction,
+        "frequency": one(shaken.frequency, 7),
+        "time": short(time, 6),
+        "displacement": short(1e3 * motion["displacement"].values),
+        "velocity": short(1e3 * motion["velocity"].values),
+        "force": short(force),
+        "force_unit": {"size": unit.size, "symbol": unit.symbol},
+        **faces,
+        "contact": [int(side) for side in motion["contact"].values],
+        "gaps": gaps,
+    }

@@ -1,0 +1,45 @@
+"""The scenario, with its evidence in words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import xarray as xr
+
+from vibroimpact.explorer.pictures.numbers import one
+from vibroimpact.explorer.state import State
+from vibroimpact.facts import scenario as told
+from vibroimpact.response.threads import Progress
+from vibroimpact.scenario.classify import classify
+from vibroimpact.scenario.evidence import evidence
+from vibroimpact.scenario.thresholds import Thresholds
+from vibroimpact.scenario.verdict import scenario
+from vibroimpact.scenario.words import in_words
+
+
+def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
+    """Return what a coarse sweep shows, while a knob is turned."""
+    used = Thresholds()
+    found = evidence(*state.rig, data, 0.5 * used.prominence)
+    label = scenario(found, used).label
+    return {
+        "picture": "scenario",
+        "fine": False,
+        "scenario": label,
+        "meaning": told.meaning(label),
+        "confidence": None,
+        "evidence": in_words(found, used).split("; "),
+    }
+
+
+def careful(state: State, progress: Progress) -> dict[str, Any]:
+    """Return what `vibroimpact.classify` finds, over frequencies that it chooses itself."""
+    found = told.facts(classify(*state.rig, progress=progress))
+    return {
+        "picture": "scenario",
+        "fine": True,
+        "scenario": found["scenario"],
+        "meaning": found["meaning"],
+        "confidence": one(found["confidence"]),
+        "evidence": found["evidence"],
+    }

@@ -1,0 +1,52 @@
+"""Where to begin: the published tests, an example of each rarer scenario, and a building."""
+
+from __future__ import annotations
+
+from vibroimpact.errors import InputError
+from vibroimpact.explorer.state import State, begin
+from vibroimpact.model import Bumper, Isolator, Oscillator, Rig, laboratory
+from vibroimpact.model.units import shown
+
+FIRST = "B2-G1-A3"
+"""What a page begins with: right hysteresis, plain to see."""
+
+_CASES = {
+    "S4: motions that are not regular (B3, 10 mm, A3)": "B3-10mm-A3",
+    "S5: bumpers attached (B3, 0 mm, A3)": "B3-0mm-A3",
+    "S6: soft bumpers (20 kN/m, G1, A3)": "20kN/m-G1-A3",
+}
+BUILDING = "building with moat"
+
+
+def names() -> list[tuple[str, list[str]]]:
+    """Groups of presets by what they are called."""
+    return [
+        ("examples", [*_CASES, BUILDING]),
+        ("published tests", [case.code for case in laboratory.campaign()]),
+    ]
+
+
+def preset(name: str) -> State:
+    """Return the state that a preset begins with.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+    """
+    if name == BUILDING:
+        return begin(_building(), BUILDING)
+    if name in _CASES:
+        case = laboratory.case(_CASES[name])
+        return begin(case, name, (case.frequencies[0], case.frequencies[-1]))
+    if name in (case.code for case in laboratory.campaign()):
+        case = laboratory.case(name)
+        return begin(case, name, (case.frequencies[0], case.frequencies[-1]))
+    raise InputError(f"preset: {shown(name)} is unknown; a name of the list is accepted")
+
+
+def _building() -> Rig:
+    """5000 t on a period of 2.5 s, walls at 300 mm, shaken by 0.12 g."""
+    isolator = Isolator.from_period("5000 t", period="2.5 s", damping_ratio=0.15)
+    wall = Bumper("500 MN/m", "5 MN s/m", gap="300 mm")
+    return Rig(Oscillator("5000 t", isolator, wall, wall), 0.12 * 9.80665)

@@ -1,0 +1,147 @@
+"""Start the explorer: until Ctrl-C for the command line, in the background for a notebook."""
+
+from __future__ import annotations
+
+import asyncio
+import secrets
+import threading
+from collections.abc import Callable
+
+from vibroimpact.errors import InputError
+from vibroimpact.explorer.presets import FIRST, preset
+from vibroimpact.explorer.share import address
+from vibroimpact.explorer.state import State, begin
+from vibroimpact.model.rigs import AnyRig
+
+LOOPBACK = ("127.0.0.1", "::1", "localhost")
+
+
+def serve(
+    first: State, told: Callable[[str], None], host: str = LOOPBACK[0], port: int = 0
+) -> None:
+    """Serve pages until the program is interrupted.
+
+    Parameters
+    ----------
+    first
+        What a page begins with.
+    told
+        Called with the address as soon as pages are served.
+    host
+        Whose address is listened on; beyond this machine a token is part of the address.
+    port
+        0 takes a free one.
+
+    Raises
+    ------
+    InputError
+        If the websocket library is missing, or host and port cannot be used.
+    """
+    asyncio.run(_serve(first, host, port, told, None))
+
+
+async def _serve(
+    first: State,
+    host: str,
+    port: int,
+    told: Callable[[str], None],
+    stop: asyncio.Event | None,
+) -> None:
+    try:
+        from vibroimpact.explorer.server import start
+    except ModuleNotFoundError as error:
+        if error.name != "websockets":
+            raise
+        raise InputError(
+            "explore: the package websockets is not installed; pip install 'vibroimpact[explore]' "
+            "installs it"
+        ) from None
+    token = "" if host in LOOPBACK else secrets.token_urlsafe(24)
+    try:
+        server, where = await start(first, host, port, token)
+    except OSError as error:
+        raise InputError(
+            f"host, port: {host} {port} cannot be used ({error.strerror or error}); a free port "
+            "of this machine is accepted, and 0 takes one"
+        ) from None
+    async with server:
+        told(where)
+        await (stop or asyncio.Event()).wait()
+
+
+class Explored:
+    """A page in a notebook; it is also opened by its `address`."""
+
+    def __init__(self, where: str, height: int) -> None:
+        self.address = where
+        self._height = height
+
+    def __repr__(self) -> str:
+        return f"explorer at {self.address}"
+
+    def _repr_html_(self) -> str:
+        # The address is made of letters, digits and signs that HTML leaves alone.
+        return (
+            f'<iframe src="{self.address}" title="vibroimpact explorer" width="100%" '
+            f'height="{self._height}" style="border: 0" allow="clipboard-write"></iframe>'
+        )
+
+
+def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
+    """Show the explorer in a notebook: turn a knob and see the resonance bend.
+
+    One server a process runs in the background, for this machine only.
+
+    Parameters
+    ----------
+    rig
+        A laboratory case or its code, a `Rig` or a pair (oscillator, amplitude).
+    height
+        Of the page, in pixels.
+
+    Returns
+    -------
+    Explored
+        A notebook shows it; its ``address`` may be opened in a browser instead.
+
+    Raises
+    ------
+    InputError
+        If it is no rig that one sine shakes, or the websocket library is missing.
+    """
+    if isinstance(height, bool) or not isinstance(height, int) or height < 1:
+        raise InputError(f"height: {height!r}; a whole number of pixels is accepted")
+    try:
+        state = preset(rig) if isinstance(rig, str) else begin(rig)
+    except InputError:
+        state = begin(rig)  # which says what is wrong with it
+    return Explored(f"{_background()}#{address(state)}", height)
+
+
+_RUNNING: list[str] = []
+_STARTING = threading.Lock()
+
+
+def _background() -> str:
+    """The address of this process's server, which is started by the first call."""
+    with _STARTING:
+        if not _RUNNING:
+            ready = threading.Event()
+            failed: list[BaseException] = []
+
+            def told(where: str) -> None:
+                _RUNNING.append(where)
+                ready.set()
+
+            def run() -> None:
+                try:
+                    serve(preset(FIRST), told)
+                except BaseException as error:
+                    failed.append(error)
+                    ready.set()
+
+            threading.Thread(target=run, name="explorer", daemon=True).start()
+            ready.wait()
+            if failed:
+                raise failed[0]
+        return _RUNNING[0]

@@ -1,0 +1,237 @@
+"""The server of the explorer: pages and sessions, for this machine only.
+
+A page is a handful of files that are read when the server starts; nothing else is ever opened for a
+page, and what a page sends is read as JSON, numbers and names. A session is a websocket. Both are
+refused to whoever is not a page of this server: by the ``Host`` that was asked for (or a name that
+somebody else resolves to this machine would do), by the ``Origin`` of the websocket, and, beyond
+this machine, by a token.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import json
+import logging
+import mimetypes
+from collections.abc import Awaitable, Callable
+from http import HTTPStatus
+from importlib import resources
+from typing import Any, NamedTuple
+from urllib.parse import parse_qs, urlsplit
+
+from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.datastructures import Headers
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
+
+from vibroimpact.errors import InputError
+from vibroimpact.explorer.run import LOOPBACK
+from vibroimpact.explorer.session import Message, Session, Stage
+from vibroimpact.explorer.state import State
+from vibroimpact.response.threads import Stopped
+
+MOST_SESSIONS = 16
+"""Pages that are served at once."""
+MOST_MESSAGE = 16_384
+"""Bytes of a message from a page."""
+MOST_COMPUTING = 2
+"""Sessions that compute at once; a sweep has threads of its own."""
+_LIVE = "/live"
+_PAGES = {"/": "index.html"}
+_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+    "img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'self' http://localhost:* http://127.0.0.1:* vscode-webview:"
+)
+"""A page runs its own files only; a notebook of this machine may show it in a frame."""
+
+
+class Limits(NamedTuple):
+    """Who is served."""
+
+    hosts: frozenset[str]
+    """As the header ``Host`` has them."""
+    token: str
+    """What the address must hold; empty where everyone on this machine is served."""
+
+
+def _files() -> dict[str, tuple[bytes, str]]:
+    """The files of the page, by their path in an address."""
+    found = {}
+    for item in (resources.files(__package__) / "page").iterdir():
+        kind = mimetypes.guess_type(item.name)[0] or "application/octet-stream"
+        if kind.startswith("text/") or item.name.endswith(".js"):
+            kind += "; charset=utf-8"
+        found[f"/{item.name}"] = (item.read_bytes(), kind)
+    for path, name in _PAGES.items():
+        found[path] = found[f"/{name}"]
+    return found
+
+
+class Explorer:
+    """Serves pages that begin with one state."""
+
+    def __init__(self, first: State, limits: Callable[[], Limits]) -> None:
+        self._first, self._limits, self._files = first, limits, _files()
+        self._sessions = 0
+        self._computing = asyncio.Semaphore(MOST_COMPUTING)
+
+    def answer(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Answer what is asked for over HTTP; None lets a websocket begin."""
+        asked, limits = urlsplit(request.path), self._limits()
+        if request.headers.get("Host", "").lower() not in limits.hosts:
+            return _refused(HTTPStatus.MISDIRECTED_REQUEST, "another host was asked for")
+        if asked.path in self._files and asked.path not in _PAGES:
+            return _whole(*self._files[asked.path])  # the program itself is no secret
+        given = parse_qs(asked.query).get("token", [""])[0]
+        if not hmac.compare_digest(given.encode(), limits.token.encode()):
+            return _refused(HTTPStatus.FORBIDDEN, "the token of the address is missing or wrong")
+        if asked.path == _LIVE:
+            origin = request.headers.get("Origin", "")
+            if urlsplit(origin).netloc.lower() not in limits.hosts:
+                return _refused(HTTPStatus.FORBIDDEN, "a page of another origin asks")
+            return None
+        if asked.path in _PAGES:
+            return _whole(*self._files[asked.path])
+        return _refused(HTTPStatus.NOT_FOUND, "there is no such page")
+
+    async def live(self, connection: ServerConnection) -> None:
+        """Serve one page as long as it is open."""
+        if self._sessions >= MOST_SESSIONS:
+            await connection.close(1013, f"{MOST_SESSIONS} pages are open; close one of them")
+            return
+        self._sessions += 1
+        session, awake = Session(self._first), asyncio.Event()
+        pictures = asyncio.create_task(self._pictures(session, awake, connection.send))
+        try:
+            await connection.send(_text({**session.hello(), **session.told()}))
+            awake.set()
+            async for raw in connection:
+                message = _read(raw)
+                if isinstance(message, dict) and message.get("do") == "file":
+                    await connection.send(_text(await self._file(session, message)))
+                    continue
+                await connection.send(_text(session.take(message)))
+                awake.set()
+        except ConnectionClosed:
+            pass
+        finally:
+            session.asked += 1  # what is being computed is not wanted any more
+            pictures.cancel()
+            self._sessions -= 1
+
+    async def _pictures(
+        self, session: Session, awake: asyncio.Event, send: Callable[[str], Awaitable[None]]
+    ) -> None:
+        """Make what the newest state asks for, whenever it has changed."""
+        while True:
+            await awake.wait()
+            awake.clear()
+            asked = session.asked
+            for stage in session.stages():
+                if session.asked != asked:
+                    break
+                if session.wants(stage):
+                    try:
+                        await send(_text(await self._made(session, stage, asked)))
+                    except Stopped:
+                        break
+                    session.sent(stage)
+            else:
+                await send(_text({"settled": True, "n": session.number}))
+
+    async def _made(self, session: Session, stage: Stage, asked: int) -> Message:
+        """One picture, or why there is none."""
+        number = session.number
+        async with self._computing:
+            try:
+                made = await asyncio.to_thread(session.make, stage, asked)
+                return {**made, "n": number}
+            except InputError as error:
+                return {"picture": stage.kind, "none": str(error)}
+
+    async def _file(self, session: Session, message: Message) -> Message:
+        async with self._computing:
+            try:
+                return await asyncio.to_thread(session.file, str(message.get("kind")))
+            except InputError as error:
+                return {"refused": str(error)}
+
+
+def _read(raw: str | bytes) -> Any:
+    try:
+        return json.loads(raw)
+    except (ValueError, RecursionError):
+        return None
+
+
+def _text(message: Message) -> str:
+    return json.dumps(message, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+
+
+def _whole(body: bytes, kind: str) -> Response:
+    headers = Headers(
+        {
+            "Content-Type": kind,
+            "Content-Length": str(len(body)),
+            "Content-Security-Policy": _POLICY,
+            "X-Content-Type-Options": "nosniff",
+            "Referrer-Policy": "no-referrer",
+            "Cache-Control": "no-store",
+            "Connection": "close",
+        }
+    )
+    return Response(HTTPStatus.OK.value, "OK", headers, body)
+
+
+def _refused(status: HTTPStatus, why: str) -> Response:
+    response = _whole(f"vibroimpact: {why}\n".encode(), "text/plain; charset=utf-8")
+    response.status_code, response.reason_phrase = status.value, status.phrase
+    return response
+
+
+async def start(first: State, host: str, port: int, token: str = "") -> tuple[Server, str]:
+    """Begin to serve.
+
+    Parameters
+    ----------
+    first
+        What a page begins with.
+    host, port
+        Where; port 0 takes a free one.
+    token
+        What an address must hold; empty for none.
+
+    Returns
+    -------
+    server, address
+        The server runs until it is closed.
+
+    Raises
+    ------
+    OSError
+        If the port is taken, or the host is none of this machine's.
+    """
+    # It tells of every visitor that is refused; who is refused reads why.
+    quiet = logging.getLogger("vibroimpact.explorer")
+    quiet.addHandler(logging.NullHandler())
+    quiet.propagate = False
+    hosts: set[str] = set()
+    explorer = Explorer(first, lambda: Limits(frozenset(hosts), token))
+    server = await serve(
+        explorer.live,
+        host,
+        port,
+        process_request=explorer.answer,
+        max_size=MOST_MESSAGE,
+        max_queue=32,
+        compression=None,  # on one machine it only takes time
+        logger=quiet,
+        server_header=None,
+    )
+    bound = server.sockets[0].getsockname()[1]
+    names = {"localhost", "127.0.0.1", "[::1]"} if host in LOOPBACK else {host}
+    hosts |= {f"{name}:{bound}" for name in names}
+    shown = f"[{host}]" if ":" in host else host
+    return server, f"http://{shown}:{bound}/" + (f"?token={token}" if token else "")

@@ -1,0 +1,254 @@
+"""One page's session: what it asks for, and the newest request only.
+
+A message changes the state at once. Then the pictures of that state are made, stage by stage, the
+quick ones first; when the next message comes, those that are not made yet are not made any more.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Hashable, Iterator
+from typing import Any, NamedTuple
+
+import xarray as xr
+
+from vibroimpact.errors import InputError
+from vibroimpact.explorer import change, presets, share
+from vibroimpact.explorer.controls import controls
+from vibroimpact.explorer.files import made
+from vibroimpact.explorer.laws import isolator_laws, stop_laws
+from vibroimpact.explorer.pictures import curves, motion, scenario
+from vibroimpact.explorer.state import History, State
+from vibroimpact.model.quantities import FREQUENCY
+from vibroimpact.model.units import pretty, shown
+from vibroimpact.response.threads import Progress, Stopped
+
+Message = dict[str, Any]
+
+
+class Stage(NamedTuple):
+    """One picture that is to be made."""
+
+    kind: str
+    key: Hashable
+    """What it depends on: a picture of the same key is not made again."""
+    make: Callable[[Progress], Message]
+
+
+class Session:
+    """What one page shows, and what it has been sent.
+
+    The server calls `take` for each message and `stages` after it; nothing else keeps anything, and
+    nothing that is kept grows.
+    """
+
+    def __init__(self, first: State) -> None:
+        self.history = History(first, first)
+        self.asked = 0
+        """Counts requests; a stage of an older one is not wanted any more."""
+        self.number: int | None = None
+        """What the page calls the last request."""
+        self._dragging = False
+        self._sent: dict[str, Hashable] = {}
+        self._sweeps: dict[bool, tuple[Hashable, xr.Dataset]] = {}
+        self._lock = threading.Lock()
+
+    @property
+    def state(self) -> State:
+        """What is shown now."""
+        return self.history.now
+
+    def hello(self) -> Message:
+        """What a page has to know first."""
+        return {
+            "hello": True,
+            "presets": presets.names(),
+            "isolators": isolator_laws(),
+            "stops": stop_laws(),
+        }
+
+    def take(self, message: object) -> Message:
+        """Do what a page asks for, and say what it has become.
+
+        Returns
+        -------
+        dict
+            ``state`` with the knobs; or ``refused`` with the reason, and nothing has changed.
+        """
+        if not isinstance(message, dict) or not isinstance(message.get("do"), str):
+            return {"refused": "message: not understood; what the page sends is accepted"}
+        number = message.get("n") if isinstance(message.get("n"), int) else None
+        try:
+            self.history = self._next(message)
+        except InputError as error:
+            told = {"refused": str(error), "path": message.get("path"), "n": number}
+            return told if message.get("do") != "open" else {**told, **self.told()}
+        self.asked += 1
+        self._dragging = message.get("dragging") is True
+        self.number = number
+        return {**self.told(), "n": number}
+
+    def told(self) -> Message:
+        """The state as the page shows it."""
+        state, first = self.history.now, self.history.first
+        rig = state.oscillator
+        return {
+            "state": {
+                "name": state.name,
+                "controls": [control._asdict() for control in controls(state, first)],
+                "laws": {
+                    "isolator": rig.isolator.kind,
+                    "right": rig.right.kind if rig.right else "none",
+                    "left": rig.left.kind if rig.left else "none",
+                },
+                "together": state.together,
+                "physical": state.physical,
+                "direction": state.direction,
+                "frequency": state.shaking.frequency,
+                "frequency_text": pretty(state.shaking.frequency, FREQUENCY, 5),
+                "span": list(state.span),
+                "shown": sorted(state.shown),
+                "undo": len(self.history.past),
+                "redo": len(self.history.future),
+                "address": share.address(state),
+            }
+        }
+
+    def _next(self, message: Message) -> History:
+        """What the message makes of the history."""
+        history, now, do = self.history, self.history.now, message["do"]
+        if do == "undo":
+            return history.undo()
+        if do == "redo":
+            return history.redo()
+        if do == "reset":
+            return history.to(history.first)
+        if do == "preset":
+            return history.anew(presets.preset(_text(message, "name")))
+        if do == "open":
+            opened = share.from_address(message.get("address"))
+            return History(opened, opened)
+        if do == "change":
+            value = _value(message, "value")
+            gesture = str(message.get("gesture") or "")[:40]
+            return history.to(change.moved(now, _text(message, "path"), value), gesture)
+        if do == "law":
+            return history.to(change.with_law(now, _text(message, "part"), _text(message, "kind")))
+        if do == "together":
+            return history.to(change.joined(now, message.get("on") is True))
+        if do == "choose":
+            there = change.chosen(now, _text(message, "direction"), _value(message, "frequency"))
+            return history.to(there, "choose")
+        if do == "look":
+            there = change.looked(now, **{_text(message, "what"): message.get("on") is True})
+            return history.to(there, "look")
+        if do == "place":
+            point = (_number(message, "x"), _number(message, "y"))
+            gesture = str(message.get("gesture") or "")[:40]
+            return history.to(change.placed(now, *point), gesture)
+        raise InputError(f"message: {shown(do)} is unknown; what the page sends is accepted")
+
+    def stages(self) -> Iterator[Stage]:
+        """Return what is to be made of the state now, quick pictures first."""
+        state = self.state
+        rig = (state.oscillator, _without_frequency(state), state.span)
+        look = (*rig, state.physical)
+        seen = (*rig, state.direction, state.shaking.frequency)
+        yield Stage("curves", ("coarse", *look), lambda _: self._curves(state, fine=False))
+        yield Stage("motion", ("coarse", *seen), lambda _: self._quick(state))
+        yield Stage(
+            "scenario", ("coarse", *rig), lambda _: scenario.quick(state, self._swept(state, False))
+        )
+        if self._dragging:
+            return
+        yield Stage("curves", ("fine", *look), lambda check: self._curves(state, True, check))
+        yield Stage("motion", ("fine", *seen), lambda _: self._careful(state))
+        yield Stage("scenario", ("fine", *rig), lambda check: scenario.careful(state, check))
+
+    def wants(self, stage: Stage) -> bool:
+        """Whether a stage has not been sent, nor a better picture of the same."""
+        sent = self._sent.get(stage.kind)
+        assert isinstance(stage.key, tuple)
+        return sent not in (stage.key, ("fine", *stage.key[1:]))
+
+    def sent(self, stage: Stage) -> None:
+        """Note that the page has a picture."""
+        self._sent[stage.kind] = stage.key
+
+    def make(self, stage: Stage, asked: int) -> Message:
+        """Make a picture, unless another request comes.
+
+        Raises
+        ------
+        Stopped
+            If it is not wanted any more.
+        """
+
+        def check(done: int, total: int | None) -> None:
+            if self.asked != asked:
+                raise Stopped
+
+        check(0, None)
+        with self._lock:
+            return stage.make(check)
+
+    def file(self, kind: str) -> Message:
+        """Return a file of what is shown, for the page to save.
+
+        Raises
+        ------
+        InputError
+            If there is no such file.
+        """
+        state = self.state
+        return made(kind, state, lambda: self._swept(state, True))
+
+    def _swept(self, state: State, fine: bool, progress: Progress | None = None) -> xr.Dataset:
+        """The sweep of a state; the last one of either fineness is kept."""
+        key = (state.oscillator, _without_frequency(state), state.span)
+        held = self._sweeps.get(fine)
+        if held is None or held[0] != key:
+            held = self._sweeps[fine] = (key, curves.swept(state, fine, progress))
+        return held[1]
+
+    def _best(self, state: State) -> xr.Dataset:
+        """The fine sweep if it is there."""
+        key = (state.oscillator, _without_frequency(state), state.span)
+        held = self._sweeps.get(True)
+        return held[1] if held and held[0] == key else self._swept(state, False)
+
+    def _curves(self, state: State, fine: bool, progress: Progress | None = None) -> Message:
+        return curves.curves(state, self._swept(state, fine, progress), fine)
+
+    def _quick(self, state: State) -> Message:
+        return motion.quick(state, self._best(state))
+
+    def _careful(self, state: State) -> Message:
+        return motion.careful(state, self._best(state))
+
+
+def _without_frequency(state: State) -> Hashable:
+    """What shakes a sweep: the frequency that is looked at is no part of it."""
+    shaken = state.shaking
+    return shaken.amplitude, shaken.of, shaken.phase
+
+
+def _text(message: Message, key: str) -> str:
+    value = message.get(key)
+    if not isinstance(value, str) or len(value) > 200:
+        raise InputError(f"{key}: {shown(value)}; a text is accepted")
+    return value
+
+
+def _value(message: Message, key: str) -> float | str:
+    value = message.get(key)
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return value
+    return _text(message, key)
+
+
+def _number(message: Message, key: str) -> float:
+    value = _value(message, key)
+    if isinstance(value, str):
+        raise InputError(f"{key}: {shown(value)}; a number is accepted")
+    return value

@@ -1,0 +1,178 @@
+"""A state as text: an address, a study file, and the program that gives the same."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import json
+import re
+from typing import Any, get_args
+
+from vibroimpact.errors import InputError
+from vibroimpact.explorer.change import joined, looked
+from vibroimpact.explorer.pictures.curves import FINE
+from vibroimpact.explorer.state import Direction, State
+from vibroimpact.model import Harmonic, Oscillator, to_si
+from vibroimpact.model.excitation import QUANTITIES, sized
+from vibroimpact.model.quantities import FREQUENCY
+from vibroimpact.model.units import pretty, shown
+from vibroimpact.scenario.axes import one_sine
+
+MOST = 8000
+"""Letters of an address."""
+_LONGEST_NAME = 80
+
+
+def address(state: State) -> str:
+    """Return what stands behind the ``#`` of a page that shows this state."""
+    table = {
+        "name": state.name,
+        "oscillator": state.oscillator.model_dump(),
+        "amplitude": state.shaking.amplitude,
+        "of": state.shaking.of,
+        "phase": state.shaking.phase,
+        "frequency": state.shaking.frequency,
+        "span": list(state.span),
+        "direction": state.direction,
+        "together": state.together,
+        "physical": state.physical,
+        "shown": sorted(state.shown),
+    }
+    text = json.dumps(table, separators=(",", ":"), ensure_ascii=False)
+    return base64.urlsafe_b64encode(text.encode()).decode().rstrip("=")
+
+
+def from_address(text: object) -> State:
+    """Return the state that an address holds.
+
+    It is read as numbers, names of laws and names of choices, which are checked like those of a
+    study file; nothing in it is run, opened or looked up.
+
+    Raises
+    ------
+    InputError
+        If it is none, or a value in it cannot be used.
+    """
+    if not isinstance(text, str) or not 0 < len(text) <= MOST:
+        raise InputError(f"address: {shown(text)}; one that this page has written is accepted")
+    try:
+        padded = text + "=" * (-len(text) % 4)
+        table = json.loads(base64.b64decode(padded, altchars=b"-_", validate=True))
+    except (binascii.Error, UnicodeDecodeError, ValueError, RecursionError):
+        raise InputError(
+            "address: not readable; one that this page has written is accepted"
+        ) from None
+    return _from_table(table)
+
+
+def _from_table(table: Any) -> State:
+    fields = {
+        "name", "oscillator", "amplitude", "of", "phase", "frequency", "span", "direction",
+        "together", "physical", "shown",
+    }  # fmt: skip
+    if not isinstance(table, dict) or set(table) != fields:
+        raise InputError("address: not complete; one that this page has written is accepted")
+    name, of, direction, span = (table[key] for key in ("name", "of", "direction", "span"))
+    if not isinstance(name, str) or len(name) > _LONGEST_NAME or not name.isprintable():
+        raise InputError(
+            f"address: name: {shown(name)}; up to {_LONGEST_NAME} letters are accepted"
+        )
+    if direction not in get_args(Direction) or of not in QUANTITIES:
+        raise InputError("address: a choice in it is unknown; one of the page is accepted")
+    if not (isinstance(span, list) and len(span) == 2):
+        raise InputError(f"address: span: {shown(span)}; two frequencies are accepted")
+    oscillator = Oscillator.model_validate(table["oscillator"], where="oscillator")
+    size, _ = sized(table["amplitude"], of, "amplitude", positive=True)
+    low, high = (to_si(end, FREQUENCY, "span", above=0.0) for end in span)
+    hertz = to_si(table["frequency"], FREQUENCY, "frequency", minimum=low, maximum=high)
+    if not low < high:
+        raise InputError("address: span: empty; a rising range is accepted")
+    shaken = Harmonic(size, hertz, table["phase"], of)
+    one_sine(oscillator, shaken, "amplitude")
+    state = State(name, oscillator, shaken, (low, high), direction)
+    listed = table["shown"]
+    if not isinstance(listed, list) or not all(isinstance(item, str) for item in listed):
+        raise InputError("address: shown: a list of pictures is accepted")
+    state = looked(state, physical=table["physical"] is True, **dict.fromkeys(listed, True))
+    if table["together"] is True and oscillator.right == oscillator.left:
+        return joined(state, True)
+    return joined(state, False)
+
+
+def study(state: State) -> str:
+    """Return the study file of a state, which every command takes."""
+    lines = [f"name = {json.dumps(state.name, ensure_ascii=False)}", "", "[oscillator]"]
+    for key, value in state.oscillator.model_dump(exclude_none=True).items():
+        lines.append(f"{key} = {_toml(value)}")
+    low, high = state.span
+    step = (high - low) / (FINE - 1)
+    lines += [
+        "",
+        "[excitation]",
+        f"amplitude = {_amplitude(state)}",
+        *([f"phase = {state.shaking.phase!r}"] if state.shaking.phase else []),
+        "",
+        "[sweep]",
+        f"from = {low!r}",
+        f"to = {high!r}",
+        f"step = {step!r}",
+        "",
+        "[simulate]",
+        f"frequency = {state.shaking.frequency!r}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _amplitude(state: State) -> str:
+    """Of an acceleration the number in SI units; of others the text says what it is one of."""
+    if state.shaking.of == "acceleration":
+        return repr(state.shaking.amplitude)
+    quantity = QUANTITIES[state.shaking.of]
+    return json.dumps(f"{state.shaking.amplitude!r} {quantity.symbol}")
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, dict):
+        inside = ", ".join(
+            f"{key} = {_toml(item)}" for key, item in value.items() if item is not None
+        )
+        return f"{{ {inside} }}"
+    return json.dumps(value) if isinstance(value, str) else repr(value)
+
+
+def program(state: State) -> str:
+    """Return the Python program that gives the curves and the motion of a state."""
+    low, high = state.span
+    oscillator, shaken = state.rig
+    kinds = {type(oscillator).__name__, type(oscillator.isolator).__name__}
+    kinds |= {type(stop).__name__ for stop in oscillator.stops} | {"Harmonic"}
+    written = repr(oscillator)
+    for kind in kinds:
+        written = _prefixed(written, kind)
+    return f'''"""{state.name}: resonance curves, scenario and one motion."""
+
+import numpy as np
+
+import vibroimpact as vi
+from vibroimpact.figures import resonance_curves, save_figure
+
+oscillator = {written}
+shaking = {_prefixed(repr(shaken), "Harmonic")}  # {pretty(shaken.amplitude, shaken.quantity)}
+
+frequencies = np.linspace({low!r}, {high!r}, {FINE})
+curves = vi.sweep(oscillator, shaking, frequencies)
+axes = resonance_curves(curves, physical={state.physical!r})
+save_figure(axes[0], "curves.png")
+print(vi.classify(oscillator, shaking, frequencies))
+
+held = curves.sel(direction={state.direction!r}).sel(
+    frequency={shaken.frequency!r}, method="nearest"
+)
+motion = vi.steady(oscillator, shaking.replace(frequency=float(held.frequency)), held.section)
+print(motion.motion.item(), motion.period.item(), motion.attrs["evidence"])
+'''
+
+
+def _prefixed(text: str, kind: str) -> str:
+    """With ``vi.`` before the constructor."""
+    return re.sub(rf"\b{kind}\(", f"vi.{kind}(", text)

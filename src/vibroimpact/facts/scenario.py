@@ -1,0 +1,54 @@
+"""The scenario of a rig, with the evidence for it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from vibroimpact.scenario.classify import Classification
+from vibroimpact.scenario.kinds import Scenario
+
+
+def meaning(label: str) -> str:
+    """Return what a scenario shows, in a few words."""
+    return next(one.meaning for one in Scenario if one.label == label)
+
+
+def facts(found: Classification) -> dict[str, Any]:
+    """Return the scenario, its evidence, and the thresholds that matter."""
+    used = found.thresholds
+    return {
+        "scenario": found.scenario,
+        "meaning": meaning(found.scenario),
+        "confidence": found.confidence,
+        "evidence": found.evidence.split("; "),
+        "alternatives": [
+            {"threshold": name, "value": value, "scenario": other}
+            for (name, value), other in found.alternatives.items()
+        ],
+        "thresholds": {name: getattr(used, name) for name in used.names()},
+        "features": found.features,
+    }
+
+
+def text(found: Classification) -> RenderableType:
+    """Return the same for reading."""
+    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
+    for line in found.evidence.split("; "):
+        table.add_row("", line)
+    others = [
+        Text(f"  with --{name} {value:g}: {other}")
+        for (name, value), other in found.alternatives.items()
+    ]
+    return Group(
+        Text(f"{found.scenario}: {meaning(found.scenario)}", style="bold"),
+        table,
+        Text(
+            f"Confidence {found.confidence:.0%}: share of the thresholds' variations, each halved "
+            "and each doubled, that leave the scenario the same (over these frequencies)"
+        ),
+        *others,
+    )

@@ -1,0 +1,131 @@
+"""What a sweep shows: resonances, jumps, hysteresis, contact, and the largest of everything."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import xarray as xr
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from vibroimpact.facts import largest
+from vibroimpact.facts.tables import titled_table
+from vibroimpact.model.units import plain
+from vibroimpact.response.resonance import Features, Range
+
+_CURVES = {"eta_a": "η_a", "eta_d": "η_d"}
+
+
+def facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[str, Any]:
+    """Return what a sweep shows as nested plain values, frequencies in Hz."""
+    frequency = data["frequency"].values
+    return {
+        "frequencies": {
+            "from": float(frequency[0]),
+            "to": float(frequency[-1]),
+            "count": len(frequency),
+        },
+        "directions": [str(direction) for direction in data["direction"].values],
+        "peaks": [peak._asdict() for peak in found.peaks],
+        "jumps": [
+            {**jump._asdict(), "frequency": jump.frequency, "upward": jump.upward}
+            for jump in found.jumps
+        ],
+        "hysteresis": [item._asdict() for item in found.hysteresis],
+        "unsettled": [item._asdict() for item in found.unsettled],
+        "contact": [item._asdict() for item in found.contact],
+        "largest": largest.facts(data),
+        "advice": advice,
+    }
+
+
+def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType:
+    """Return what a sweep shows as tables."""
+    frequency = data["frequency"].values
+    directions = " and ".join(str(d) for d in data["direction"].values)
+    parts: list[RenderableType] = [
+        Text(
+            f"{len(frequency)} frequencies from "
+            f"{_span(frequency[0], frequency[-1])} Hz, {directions}"
+            if len(frequency) > 1
+            else f"1 frequency, {plain(frequency[0])} Hz, {directions}"
+        ),
+        Text(),
+        largest.text(data),
+        Text(),
+        _peaks(found),
+        Text(),
+        _jumps(found),
+        Text(),
+        _hysteresis(data, found),
+        _ranges("Contact with a bumper", found.contact, "nowhere"),
+        _ranges("Not settled", found.unsettled, "nowhere"),
+    ]
+    parts += [Text(f"Advice: {line}", style="yellow") for line in advice]
+    return Group(*parts)
+
+
+def _peaks(found: Features) -> RenderableType:
+    table = titled_table("Resonances", "curve", "sweep", "kind")
+    for name in ("frequency (Hz)", "value", "prominence"):
+        table.add_column(name, justify="right")
+    for curve, symbol in _CURVES.items():
+        for peak in found.peaks:
+            if peak.curve == curve:
+                kind = "primary" if peak.primary else "secondary"
+                table.add_row(
+                    symbol,
+                    peak.direction,
+                    f"{kind}, at the end" if peak.at_end else kind,
+                    f"{plain(peak.frequency)}",
+                    f"{plain(peak.value, 4)}",
+                    f"{plain(peak.prominence, 3)}",
+                )
+    return table
+
+
+def _jumps(found: Features) -> RenderableType:
+    if not found.jumps:
+        return Text("Jumps: none")
+    table = titled_table("Jumps", "sweep", "jump", "between (Hz)", "η_a", "η_d", "")
+    for jump in found.jumps:
+        table.add_row(
+            jump.direction,
+            "upward" if jump.upward else "downward",
+            f"{plain(jump.before)} and {plain(jump.after)}",
+            f"{plain(jump.eta_a[0], 4)} → {plain(jump.eta_a[1], 4)}",
+            f"{plain(jump.eta_d[0], 4)} → {plain(jump.eta_d[1], 4)}",
+            "" if jump.settled else "not settled",
+        )
+    return table
+
+
+def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
+    if data.sizes["direction"] < 2:
+        return Text("Hysteresis: not sought, needs both directions")
+    if not found.hysteresis:
+        return Text("Hysteresis: none")
+    lines = []
+    for item in found.hysteresis:
+        above = "forward above backward" if item.side == "right" else "backward above forward"
+        notes = [f"{item.side} ({above})"]
+        if item.below is None or item.above is None:
+            notes.append("goes on beyond the range")
+        if not item.settled:
+            notes.append("not settled")
+        lines.append(f"  {_span(item.low, item.high)} Hz: {', '.join(notes)}")
+    return Text("\n".join(["Hysteresis", *lines]))
+
+
+def _ranges(title: str, ranges: tuple[Range, ...], none: str) -> RenderableType:
+    if not ranges:
+        return Text(f"{title}: {none}")
+    lines = []
+    for direction in dict.fromkeys(item.direction for item in ranges):
+        spans = [_span(item.low, item.high) for item in ranges if item.direction == direction]
+        lines.append(f"  {direction}: {', '.join(spans)} Hz")
+    return Text("\n".join([title, *lines]))
+
+
+def _span(low: float, high: float) -> str:
+    return f"{plain(low)}" if low == high else f"{plain(low)} to {plain(high)}"

@@ -1,0 +1,126 @@
+"""A session: messages, pictures in their order, and the newest request only."""
+
+from __future__ import annotations
+
+import base64
+import json
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.explorer.presets import preset
+from vibroimpact.explorer.session import Session
+from vibroimpact.response.threads import Stopped
+
+
+@pytest.fixture
+def session():
+    return Session(preset("B2-G1-A3"))
+
+
+def pictures(session):
+    found = []
+    for stage in session.stages():
+        if session.wants(stage):
+            found.append(session.make(stage, session.asked))
+            session.sent(stage)
+    # As the server sends them.
+    return json.loads(json.dumps(found, allow_nan=False))
+
+
+def test_pictures_are_those_of_the_public_functions(session):
+    told = pictures(session)
+    assert [(one["picture"], one["fine"]) for one in told] == [
+        ("curves", False),
+        ("motion", False),
+        ("scenario", False),
+        ("curves", True),
+        ("motion", True),
+        ("scenario", True),
+    ]
+    coarse, fine, motion, scenario = told[0], told[3], told[4], told[5]
+    case = vi.laboratory.case("B2-G1-A3")
+    curves = vi.sweep(case, coarse["frequency"])
+    for k, name in enumerate(("eta_a", "eta_d")):
+        for direction in ("forward", "backward"):
+            np.testing.assert_allclose(
+                coarse["panels"][k]["curves"][direction],
+                curves[name].sel(direction=direction),
+                rtol=1e-4,
+            )
+    assert set(coarse["frequency"]) <= set(fine["frequency"])
+    assert fine["hysteresis"][-1]["side"] == "right"
+    held = curves.sel(direction="forward").sel(frequency=motion["frequency"], method="nearest")
+    assert max(motion["displacement"]) == pytest.approx(
+        1e3 * float(held["displacement_max"]), rel=1e-3
+    )
+    assert "periodic, period 1, stable" in motion["words"]
+    alone = vi.classify(case)
+    assert (scenario["scenario"], "; ".join(scenario["evidence"])) == (
+        alone.scenario,
+        alone.evidence,
+    )
+
+
+def test_what_has_been_sent_is_not_made_again(session):
+    pictures(session)
+    assert pictures(session) == []
+    told = session.take({"do": "choose", "direction": "backward", "frequency": 2.2})
+    assert told["state"]["direction"] == "backward"
+    assert [one["picture"] for one in pictures(session)] == ["motion", "motion"]
+
+
+def test_a_turning_knob_makes_quick_pictures_only(session):
+    session.take({"do": "change", "path": "stops.gap", "value": 0.01, "dragging": True})
+    assert {one["fine"] for one in pictures(session)} == {False}
+    session.take({"do": "change", "path": "stops.gap", "value": 0.01})
+    assert [one["fine"] for one in pictures(session)] == [True, True, True]
+
+
+def test_what_is_overtaken_is_not_made(session):
+    stages = list(session.stages())
+    asked = session.asked
+    session.take({"do": "change", "path": "mass", "value": 600})
+    with pytest.raises(Stopped):
+        session.make(stages[0], asked)
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        [],
+        {"do": 3},
+        {"do": "nothing"},
+        {"do": "change", "path": "mass"},
+        {"do": "change", "path": "mass", "value": True},
+        {"do": "change", "path": "mass", "value": "1 m"},
+        {"do": "change", "path": "oscillator.__init__", "value": 1},
+        {"do": "law", "part": "isolator", "kind": "magic"},
+        {"do": "law", "part": "state", "kind": "rigid"},
+        {"do": "choose", "direction": "up", "frequency": 1},
+        {"do": "choose", "direction": "forward", "frequency": 1e9},
+        {"do": "look", "what": "everything", "on": True},
+        {"do": "place", "x": "1", "y": 2},
+        {"do": "place", "x": 1e400, "y": 2},
+        {"do": "preset", "name": "../../etc/passwd"},
+        {"do": "open", "address": "AAAA"},
+    ],
+)
+def test_what_is_wrong_is_refused_and_changes_nothing(session, message):
+    before = session.history
+    told = session.take(message)
+    assert told["refused"]
+    assert session.history == before
+
+
+def test_files(session, tmp_path):
+    told = session.file("netcdf")
+    path = tmp_path / told["file"]
+    path.write_bytes(base64.b64decode(told["bytes"]))
+    assert vi.load(path).sizes["frequency"] == 181
+    table = base64.b64decode(session.file("csv")["bytes"]).decode()
+    assert table.count("\n") == 1 + 2 * 181
+    with pytest.raises(vi.InputError, match="file"):
+        session.file("/etc/passwd")
