@@ -9,6 +9,7 @@ from benchmarks.basins import basins
 from benchmarks.branches import branches
 from benchmarks.campaign import campaign
 from benchmarks.designs import designs
+from benchmarks.diagrams import diagrams
 from benchmarks.earthquakes import earthquakes
 from benchmarks.laws import laws, sampling, yielding
 from benchmarks.machine import load, machine
@@ -38,6 +39,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "basins": lambda: (basins(),),
         "scenarios": lambda: (scenarios(),),
         "designs": lambda: (designs(),),
+        "diagrams": lambda: (diagrams(),),
         "startup": lambda: (startup(compiling()), memory(), size()),
     }
 
