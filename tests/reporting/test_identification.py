@@ -84,9 +84,8 @@ def test_the_next_test_reduces_every_error(case, fit):
 
 
 def test_models_are_compared(case, data, fit):
-    again = vi.identify(
-        data, case.oscillator, "bumper_stiffness", tried=0, starts=1, profiles=False
-    )
+    asked = {"tried": 0, "starts": 1, "profiles": False}
+    again = vi.identify(data, case.oscillator, "bumper_stiffness", **asked)
     found = vi.compare_fits({"two": fit, "one": again})
     assert float(found.akaike_weight.sum()) == pytest.approx(1.0)
     assert abs(float(found.akaike[1] - found.akaike[0])) < 10.0  # both are right
