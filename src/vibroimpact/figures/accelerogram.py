@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.response_spectra import response_spectra
-from vibroimpact.figures.style import EDGE, also_in_g
+from vibroimpact.figures.style import EDGE, also_in_g, panels
 from vibroimpact.model import GRAVITY, Record
 
 
@@ -47,15 +47,8 @@ def accelerogram(
     if not isinstance(record, Record):
         raise InputError(f"record: {type(record).__name__}; a Record is accepted")
     count = 1 if spectrum is None else 2
-    if axes is None:
-        made = new_axes(count, 1, (7.2, 2.8 * count + 0.4))
-        given = Panels(made[:, 0])
-        if title:
-            made[0, 0].figure.suptitle(title)
-    else:
-        given = Panels(np.ravel(axes))
-    if len(given) != count:
-        raise InputError(f"axes: {len(given)} given; {count} are accepted")
+    what = "the record" if spectrum is None else "the record and its spectrum"
+    given = panels(axes, count, what, (7.2, 2.8 * count + 0.4), title, sharex=False)
     ax = given[0]
     ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
     ax.plot(record.time, record.acceleration, color="black", linewidth=0.7, zorder=3)

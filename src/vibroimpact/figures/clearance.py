@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.motions import Shown, cycles_shown, named, shown
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
 
@@ -56,11 +56,8 @@ def clearances(
         raise InputError("motions: there is no bumper; a motion of a rig with one is accepted")
     if zoom is not None and not 0.0 < zoom < math.inf:
         raise InputError(f"zoom: {zoom!r}; a number of cycles greater than 0 is accepted")
-    if axes is None:
-        axes = new_axes(2, 1, (7.2, 5.4))[:, 0]
-        if title:
-            axes[0].figure.suptitle(title)
-    given = panels(axes, 2, "the whole and the magnified part", (0.0, 0.0), None)
+    what = "the whole and the magnified part"
+    given = panels(axes, 2, what, (7.2, 5.4), title, sharex=False)
     whole, near = given
     for ax in given:
         for curve in curves:

@@ -13,9 +13,9 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.motions import axes_or_new
-from vibroimpact.figures.style import LEGEND
+from vibroimpact.figures.style import LEGEND, panels
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH
@@ -73,21 +73,11 @@ def design_chart(
             f"data: over {dict(data.sizes)}; one or two parameters with at least two values each "
             "are accepted, as those of data.isel"
         )
-    if axes is None:
-        count = len(quantities)
-        made = new_axes(1, count, (4.9 * count, 4.6))
-        if title:
-            made[0, 0].figure.suptitle(title)
-        panels = Panels(made[0])
-    else:
-        panels = Panels(np.ravel(axes))
-    if len(panels) != len(quantities):
-        raise InputError(
-            f"axes: {len(panels)} given; {len(quantities)} are accepted, one a quantity"
-        )
-    for ax, name in zip(panels, quantities, strict=True):
+    count = len(quantities)
+    drawn = panels(axes, count, "one a quantity", (4.9 * count, 4.6), title, beside=True)
+    for ax, name in zip(drawn, quantities, strict=True):
         (_curve if len(dims) == 1 else _contours)(ax, data, name)
-    return panels
+    return drawn
 
 
 def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:

@@ -122,10 +122,14 @@ def panels(
     size: tuple[float, float],
     title: str | None,
     heights: tuple[float, ...] | None = None,
+    *,
+    sharex: bool = True,
+    beside: bool = False,
 ) -> Panels:
-    """Return the given axes, or those of a new figure: panels one below the other.
+    """Return the given axes, or those of a new figure: panels below or beside each other.
 
-    Their heights, one over the other, are equal unless they are given.
+    Their heights, one over the other, are equal unless they are given; panels below each other
+    share the horizontal axis unless they are of different things.
 
     Raises
     ------
@@ -133,12 +137,13 @@ def panels(
         If axes are given, but not as many as there are panels.
     """
     if axes is None:
-        made = new_axes(count, 1, size, sharex=True, height_ratios=heights)
+        rows, columns = (1, count) if beside else (count, 1)
+        made = new_axes(rows, columns, size, sharex=sharex and not beside, height_ratios=heights)
         figure = made[0, 0].figure
         figure.align_ylabels()
         if title:
             figure.suptitle(title)
-        return Panels(made[:, 0])
+        return Panels(made.ravel())
     given = Panels(np.ravel(axes))
     if len(given) != count:
         raise InputError(f"axes: {len(given)} given; {count} are accepted, for {what}")
