@@ -1,8 +1,8 @@
-"""Draw which of four motions a mass that bounces on a wall settles on.
+"""Draw which motion a mass settles on that bounces on a stop, hard or soft.
 
     python examples/basins.py [FOLDER] [NODES]
 
-draws docs/images/basins.png and basins.nc into FOLDER (out).
+draws docs/images/basins.png and manifolds.png, and writes basins.nc, into FOLDER (out).
 """
 
 from __future__ import annotations
@@ -27,3 +27,10 @@ for number in found["attractor"].values:
     one = found.sel(attractor=number)
     share = f"{one['share'].item():.1%} ({one['share_low'].item():.1%} to"
     print(number + 1, "period", one["period"].item(), share, f"{one['share_high'].item():.1%})")
+
+# A softer stop: the borders are the stable curves of a saddle.
+soft = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), vi.Bumper(30.0, 0.6, 0.5), None)
+shaking = vi.Harmonic(1.0, 0.5411)
+curves = vi.manifolds(soft, shaking, longest=40.0)
+softly = vi.basins(soft, shaking, nodes=nodes)
+save_figure(basin_portrait(softly, manifolds=curves), folder / "manifolds.png")

@@ -62,6 +62,7 @@ _HOME = {
     "least_acceleration": "sizing.best",
     "load": "response.files",
     "lyapunov_exponents": "stability.exponents",
+    "manifolds": "attraction.manifolds",
     "one_by_one": "uncertainty.ensemble",
     "next_test": "identification.advice",
     "orbit": "stability.orbit",
@@ -131,6 +132,7 @@ __all__ = [
     "least_acceleration",
     "load",
     "lyapunov_exponents",
+    "manifolds",
     "next_test",
     "one_by_one",
     "orbit",
@@ -156,6 +158,7 @@ __all__ = [
 
 if TYPE_CHECKING:
     from vibroimpact.attraction.grid import basins
+    from vibroimpact.attraction.manifolds import manifolds
     from vibroimpact.errors import InputError
     from vibroimpact.explorer.run import explore
     from vibroimpact.identification.advice import next_test

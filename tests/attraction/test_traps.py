@@ -66,7 +66,7 @@ def test_chaotic_motions_are_held_by_cells():
     search = searched(1.06)
     assert [one.found.period for one in search.known] == [0, 0]
     assert all(one.traps.shape == (0, TRAP) for one in search.known)
-    cells, grid = search._traps.cells, search._traps.grid
+    cells, grid = search.traps.cells, search.traps.grid
     generator = np.random.default_rng(2)
     for number, one in enumerate(search.known):
         rows, columns = np.nonzero(cells == number)
@@ -78,13 +78,13 @@ def test_chaotic_motions_are_held_by_cells():
         points[:, 1] = grid[1] + grid[3] * (rows[pick] + share[:, 1])
         states = follow(search.stage, points, None, NO_TRAPS, 1).states
         for _ in range(3):
-            again = follow(search.stage, None, states, search._traps, 0)
+            again = follow(search.stage, None, states, search.traps, 0)
             np.testing.assert_array_equal(again.owner, number)
             states = follow(search.stage, None, states, NO_TRAPS, 7).states
         # The motion itself never leaves them.
         first = np.zeros((200, 5))
         first[:] = one.points[:200]
-        assert (follow(search.stage, first, None, search._traps, 0).owner == number).all()
+        assert (follow(search.stage, first, None, search.traps, 0).owner == number).all()
 
 
 def test_motions_of_long_periods_have_a_trap_a_point():

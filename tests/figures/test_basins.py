@@ -77,3 +77,16 @@ def test_axes_of_ones_own_and_a_file(tmp_path):
     ax = basin_portrait(made(), title="B3-10mm-A3")
     assert basin_portrait(made(), ax) is ax
     assert save_figure(ax, tmp_path / "one.png").stat().st_size > 10_000
+
+
+def test_curves_of_saddles_are_drawn_over_basins():
+    curves = vi.manifolds("B3-10mm-A3", 0.7, None, (-0.012, 0.012), (-0.1, 0.1), longest=2.0)
+    ax = basin_portrait(made(), manifolds=curves)
+    legend = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert legend[2:] == ["stable curves of saddles", "unstable curves of saddles", "saddles"]
+    drawn = [line for line in ax.lines if line.get_label() == "stable curves of saddles"]
+    assert [line.get_linestyle() for line in drawn] == ["-", "-"]
+    mine = curves["curve_number"].values == 0
+    np.testing.assert_allclose(drawn[0].get_ydata(), curves["curve_velocity"].values[mine])
+    with pytest.raises(vi.InputError, match="no curves"):
+        basin_portrait(made(), manifolds=made())

@@ -109,8 +109,8 @@ def basins(
     others = _others(oscillator, right_bumper, left_bumper, isolator)
     stage = Stage(oscillator, excitation, max_events)
     search = Search(stage, max_cycles, threads)
-    wide = _range(displacement, LENGTH, "displacement")
-    fast = _range(velocity, VELOCITY, "velocity")
+    wide = span_of(displacement, LENGTH, "displacement")
+    fast = span_of(velocity, VELOCITY, "velocity")
     if wide is None or fast is None:
         found = window(search)
         wide, fast = wide or found[0], fast or found[1]
@@ -141,9 +141,10 @@ def _nodes(given: int | tuple[int, int]) -> tuple[int, int]:
     return whole(pair[0], "nodes", 2), whole(pair[1], "nodes", 2)
 
 
-def _range(
+def span_of(
     given: Sequence[float | str] | None, quantity: Quantity, field: str
 ) -> tuple[float, float] | None:
+    """Read the lowest and the highest of a window; None if none is given."""
     if given is None:
         return None
     if isinstance(given, str) or not hasattr(given, "__len__") or len(given) != 2:

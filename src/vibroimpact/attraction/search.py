@@ -63,7 +63,7 @@ class Search:
         self.max_cycles = max_cycles
         self.threads = threads
         self.known: list[Attractor] = []
-        self._traps = NO_TRAPS
+        self.traps = NO_TRAPS
 
     def label(self, points: _Array, progress: Progress | None = None) -> Labelled:
         """Find where states lead; what they lead to is known afterwards.
@@ -96,7 +96,7 @@ class Search:
                 self.stage,
                 None if states.size else points,
                 states[left] if states.size else None,
-                self._traps,
+                self.traps,
                 ahead,
                 self.threads,
                 told if ahead == _FIRST else None,
@@ -162,7 +162,7 @@ class Search:
 
     def _set_traps(self) -> None:
         rows = np.vstack([one.traps for one in self.known])
-        self._traps = NO_TRAPS._replace(rows=rows)
+        self.traps = NO_TRAPS._replace(rows=rows)
         wandering = [i for i, one in enumerate(self.known) if not one.found.period]
         if not wandering or not forgets(self.stage):
             return
@@ -182,14 +182,14 @@ class Search:
             return
         grid = np.empty(GRID)
         grid[[LOW_U, LOW_V]], grid[[STEP_U, STEP_V]] = cells.corner, cells.side
-        self._traps = Traps(rows, whose, grid)
+        self.traps = Traps(rows, whose, grid)
 
     def _one_motion(self, cells: Cells, mask: NDArray[np.bool_], number: int) -> bool:
         """Whether all that begins in closed cells ends as one motion, as far as samples tell."""
         rows, columns = np.nonzero(mask)
         centres = np.zeros((len(rows), 5))
         centres[:, :2] = cells.corner + cells.side * (np.column_stack([columns, rows]) + 0.5)
-        went = follow(self.stage, centres, None, self._traps, _SETTLED, self.threads)
+        went = follow(self.stage, centres, None, self.traps, _SETTLED, self.threads)
         if not (went.outcome == Status.NOT_SETTLED).all():
             return False
         states, seen = went.states, []

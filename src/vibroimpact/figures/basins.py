@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib import patheffects
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
@@ -39,6 +40,7 @@ def basin_portrait(
     data: xr.Dataset,
     ax: Axes | None = None,
     *,
+    manifolds: xr.Dataset | None = None,
     shade: bool = True,
     title: str | None = None,
 ) -> Axes:
@@ -50,6 +52,9 @@ def basin_portrait(
         Dataset of `vibroimpact.basins`.
     ax
         Axes to draw on. None makes a new figure.
+    manifolds
+        Dataset of `vibroimpact.manifolds` for the same rig: stable curves are drawn solid,
+        unstable ones dashed, saddles as crosses, and where the curves cross as dots.
     shade
         Whether colours are darker where it takes more cycles until it is sure where a state leads.
     title
@@ -58,7 +63,7 @@ def basin_portrait(
     Raises
     ------
     InputError
-        If the dataset has no basins.
+        If the dataset has no basins, or the other no curves.
     """
     if "basin" not in data or data["basin"].ndim != 2:
         raise InputError("data: it has no basins; a dataset of basins is accepted")
@@ -73,7 +78,7 @@ def basin_portrait(
         interpolation="nearest",
         zorder=1,
     )
-    handles = [
+    handles: list[Patch | Line2D] = [
         Patch(facecolor=colour_of(number), edgecolor="black", linewidth=0.5, label=_label(one))
         for number, one in enumerate(_motions(data)[:_LISTED])
     ]
@@ -92,6 +97,8 @@ def basin_portrait(
         xlabel="relative displacement $u$ (mm)",
         ylabel="relative velocity $\\dot u$ (m/s)",
     )
+    if manifolds is not None:
+        handles += _curves(ax, manifolds)
     _name(ax, _motions(data))
     ax.legend(
         handles=handles,
@@ -170,6 +177,48 @@ def _mark(ax: Axes, one: xr.Dataset, number: int) -> None:
             path_effects=[patheffects.withStroke(linewidth=2.6, foreground="white")],
             zorder=6,
         )
+
+
+def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
+    """Stable and unstable curves, outlined in white, with their saddles and crossings."""
+    if "curve_kind" not in data:
+        raise InputError("manifolds: it has no curves; a dataset of manifolds is accepted")
+    handles = []
+    looks = {"stable": ("-", 1.3, "black"), "unstable": ((0, (3, 1.2)), 1.1, "#7a0019")}
+    for kind, (dashes, width, colour) in looks.items():
+        for number in np.flatnonzero(data["curve_kind"].values == kind):
+            mine = data["curve_number"].values == number
+            (line,) = ax.plot(
+                1e3 * data["curve_displacement"].values[mine],
+                data["curve_velocity"].values[mine],
+                color=colour,
+                linestyle=dashes,
+                linewidth=width,
+                label=f"{kind} curves of saddles",
+                path_effects=[patheffects.withStroke(linewidth=width + 1.2, foreground="white")],
+                zorder=3,
+            )
+        if (data["curve_kind"] == kind).any():
+            handles.append(line)
+    for name, marker, size, label in (
+        ("crossing", ".", 3.0, "where they cross"),
+        ("saddle", "X", 8.0, "saddles"),
+    ):
+        if data.sizes[name]:
+            (line,) = ax.plot(
+                1e3 * data[f"{name}_displacement"].values,
+                data[f"{name}_velocity"].values,
+                linestyle="",
+                marker=marker,
+                markersize=size,
+                markerfacecolor="white",
+                markeredgecolor="black",
+                markeredgewidth=0.5 if name == "crossing" else 1.0,
+                label=label,
+                zorder=4,
+            )
+            handles.append(line)
+    return handles
 
 
 def _name(ax: Axes, motions: list[xr.Dataset]) -> None:

@@ -43,6 +43,25 @@ MANY_MOTIONS: dict[str, Variable] = {
         "1 of a smooth border; 2 less this is the border's dimension",
     ),
     "uncertainty_exponent_error": Variable("1", "standard error of the uncertainty exponent"),
+    # stable and unstable curves
+    "curve_number": Variable("1", "number of the curve that the point is on"),
+    "curve_displacement": Variable(
+        "m", "relative displacement on a curve", "NaN where the curve jumps at a rigid stop"
+    ),
+    "curve_velocity": Variable("m s-1", "relative velocity on a curve"),
+    "curve_kind": Variable("1", "stable or unstable"),
+    "curve_saddle": Variable("1", "number of the saddle that the curve belongs to"),
+    "curve_length": Variable("1", "length of the curve", "sides of the window count 1 each"),
+    "curve_ended": Variable("1", "why the curve ends"),
+    "saddle_displacement": Variable("m", "relative displacement of the saddle"),
+    "saddle_velocity": Variable("m s-1", "relative velocity of the saddle"),
+    "saddle_period": Variable("1", "period of the saddle in forcing cycles"),
+    "multiplier_growing": Variable("1", "multiplier of what grows at the saddle"),
+    "multiplier_dying": Variable("1", "multiplier of what dies out at the saddle"),
+    "crossing_displacement": Variable("m", "relative displacement where two curves cross"),
+    "crossing_velocity": Variable("m s-1", "relative velocity where two curves cross"),
+    "crossing_stable": Variable("1", "number of the stable curve that is crossed"),
+    "crossing_unstable": Variable("1", "number of the unstable curve that crosses it"),
     # maps
     "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
     "confidence": Variable(

@@ -1,0 +1,94 @@
+"""Points along a curve of the plane, no farther apart than asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Array = NDArray[np.float64]
+
+_FINEST = 1e-11
+"""Of the parameter: two points as close as this are neighbours however far they are apart."""
+_MOST = 400_000
+"""Points of one piece."""
+
+
+class Curve(NamedTuple):
+    """Points of a curve in their order, and why it ends."""
+
+    points: _Array
+    ended: str
+
+
+class Measure(NamedTuple):
+    """How curves are measured: lengths are in windows, whose sides count 1 each."""
+
+    low: _Array
+    high: _Array
+    """Corners of the window."""
+    spacing: float
+    """Largest distance of two neighbours within it."""
+    longest: float
+    images: int
+
+    def scaled(self, difference: NDArray[np.floating[Any]]) -> _Array:
+        """A difference of points over the window's sides."""
+        found: _Array = difference / (self.high - self.low)
+        return found
+
+    def length(self, points: _Array) -> float:
+        """Of the line through points."""
+        return float(np.linalg.norm(self.scaled(np.diff(points, axis=0)), axis=1).sum())
+
+    def within(self, points: _Array, room: float) -> NDArray[np.bool_]:
+        """Which points lie in the window with room on each side."""
+        wide = room * (self.high - self.low)
+        inside: NDArray[np.bool_] = np.all(
+            (points >= self.low - wide) & (points <= self.high + wide), axis=1
+        )
+        return inside
+
+
+def broken(points: _Array, measure: Measure) -> _Array:
+    """The points with a row of NaN between neighbours that are farther apart than they may be.
+
+    So it is at a rigid stop: a state about to strike it is one with the state that has struck it.
+    """
+    gaps = np.linalg.norm(measure.scaled(np.diff(points, axis=0)), axis=1)
+    found: _Array = np.insert(points, np.flatnonzero(gaps > 1.01 * measure.spacing) + 1, np.nan, 0)
+    return found
+
+
+def refined(
+    at: Callable[[_Array], _Array], begin: float, end: float, measure: Measure
+) -> tuple[_Array, str]:
+    """Points between two parameters, neighbours in the window closer than its spacing.
+
+    Returns
+    -------
+    points, ended
+        What there is up to where it cannot be told, and why; else "".
+    """
+    parameters = np.linspace(begin, end, 17)
+    points = at(parameters)
+    while True:
+        gaps = np.linalg.norm(measure.scaled(np.diff(points, axis=0)), axis=1)
+        seen = measure.within(points, 0.5)
+        wide = ~(gaps <= measure.spacing) & (seen[1:] | seen[:-1])
+        wide &= np.diff(parameters) > _FINEST * max(end, 1.0)
+        if not wide.any() or len(points) > _MOST:
+            break
+        middle = 0.5 * (parameters[1:] + parameters[:-1])[wide]
+        parameters = np.concatenate([parameters, middle])
+        points = np.vstack([points, at(middle)])
+        order = np.argsort(parameters, kind="stable")
+        parameters, points = parameters[order], points[order]
+    lost = np.flatnonzero(np.isnan(points).any(axis=1))
+    if len(lost):
+        return points[: lost[0]], "a state on it was given up"
+    if len(points) > _MOST:
+        return points, "it has too many points"
+    return points, ""

@@ -1,0 +1,182 @@
+"""Stable and unstable curves of saddles in the plane of displacement and velocity."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.attraction.crossings import crossings
+from vibroimpact.attraction.curve import Curve, Measure
+from vibroimpact.attraction.followed import Stage
+from vibroimpact.attraction.grid import span_of
+from vibroimpact.attraction.memory import forgets
+from vibroimpact.attraction.saddles import Saddle, border_saddles, given_saddle, saddle_points
+from vibroimpact.attraction.search import Search
+from vibroimpact.attraction.stable import stable_curve
+from vibroimpact.attraction.unstable import unstable_curve
+from vibroimpact.attraction.window import window
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model.counts import share, whole
+from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
+from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.units import to_si
+from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
+
+_IMAGES = 400
+"""Images of the piece with which a curve begins, at most."""
+
+
+@takes_rig
+def manifolds(
+    oscillator: Oscillator,
+    excitation: Repeated,
+    saddles: xr.Dataset | State | Sequence[xr.Dataset | State] | None = None,
+    displacement: Sequence[float | str] | None = None,
+    velocity: Sequence[float | str] | None = None,
+    *,
+    period: int = 1,
+    spacing: float = 0.01,
+    longest: float = 30.0,
+    max_cycles: int = 2000,
+    max_events: int = 1000,
+    threads: int | None = None,
+) -> xr.Dataset:
+    """Find the stable and unstable curves of saddles, and where they cross.
+
+    What begins on a stable curve comes to the saddle; the borders of basins are such curves. What
+    comes from beside the saddle leaves along its unstable curve. Where the two cross there are
+    horseshoes, and with them transients as if chaotic. The section is at the phase of the
+    excitation.
+
+    Parameters
+    ----------
+    oscillator, excitation
+        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
+    saddles
+        Datasets of `orbit`, or states near saddle orbits. None for up to four saddles that the
+        borders between basins lead to.
+    displacement, velocity
+        Lowest and highest of the window, in m and m/s; None for that of `basins`.
+    period
+        Of the saddles that are given as states, in forcing cycles.
+    spacing
+        Largest distance of two neighbours on a curve in the window, whose sides count 1 each.
+    longest
+        Length of a curve at which it is cut, in the same measure.
+    max_cycles, max_events, threads
+        As in `basins`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``point``: ``curve_displacement``, ``curve_velocity`` and ``curve_number`` of all curves
+        one after the other, NaN where a curve jumps at a rigid stop. Dim ``curve``: ``curve_kind``
+        ("stable" or "unstable"), ``curve_saddle``, ``curve_length`` and ``curve_ended``, why it
+        ends. Dim ``saddle``: its points, period and multipliers. Dim ``crossing``: where stable and
+        unstable curves cross, with the numbers of both.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, an orbit is no saddle, or a state is more than displacement and
+        velocity: bumpers that relax slowly, isolators with a memory.
+    """
+    check_bounded(oscillator, excitation)
+    period = whole(period, "period")
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), whole(max_events, "max_events")
+    threads = None if threads is None else whole(threads, "threads")
+    spacing = share(spacing, "spacing")
+    longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)
+    stage = Stage(oscillator, excitation, max_events)
+    if not forgets(stage):
+        raise InputError(
+            "oscillator: a bumper or the isolator remembers more than a cycle, so that the curves "
+            "of saddles lie in no plane; bumpers that relax within a cycle are accepted"
+        )
+    wide = span_of(displacement, LENGTH, "displacement")
+    fast = span_of(velocity, VELOCITY, "velocity")
+    search = Search(stage, max_cycles, threads)
+    if wide is None or fast is None:
+        found = window(search)
+        wide, fast = wide or found[0], fast or found[1]
+    corners = np.array([wide, fast])
+    measure = Measure(corners[:, 0], corners[:, 1], spacing, longest, _IMAGES)
+    if saddles is None:
+        orbits = border_saddles(search, (wide, fast))
+    else:
+        alone = isinstance(saddles, xr.Dataset | State)
+        given: list[Any] = [saddles] if alone else list(saddles)
+        orbits = [given_saddle(stage, one, period, f"saddles[{i}]") for i, one in enumerate(given)]
+    points = [p for i, one in enumerate(orbits) for p in saddle_points(one, f"saddles[{i}]")]
+    data = _dataset(points, [_curves(stage, one, measure, threads) for one in points], measure)
+    return describe(
+        data,
+        "vibroimpact.manifolds",
+        {
+            "oscillator": oscillator_parameters(oscillator),
+            **excitation_parameters(excitation),
+            "displacement": list(wide),
+            "velocity": list(fast),
+            "spacing": spacing,
+            "longest": longest,
+        },
+    )
+
+
+def _curves(
+    stage: Stage, saddle: Saddle, measure: Measure, threads: int | None
+) -> list[tuple[str, Curve]]:
+    """The two sides of the stable curve, then those of the unstable one."""
+    return [("stable", stable_curve(saddle, side, measure)) for side in (1, -1)] + [
+        ("unstable", unstable_curve(stage, saddle, side, measure, threads)) for side in (1, -1)
+    ]
+
+
+def _dataset(
+    saddles: list[Saddle], curves: list[list[tuple[str, Curve]]], measure: Measure
+) -> xr.Dataset:
+    every = [(i, kind, one) for i, some in enumerate(curves) for kind, one in some]
+    points = np.vstack([*(one.points for _, _, one in every), np.empty((0, 2))])
+    met, pairs = [np.empty((0, 2))], []
+    for a, (_, kind, one) in enumerate(every):
+        for b, (_, other_kind, other) in enumerate(every):
+            if kind == "stable" and other_kind == "unstable":
+                # Where both begin, at the saddle, they meet and do not cross.
+                here = crossings(one.points[1:], other.points[1:])
+                met.append(here)
+                pairs += [(a, b)] * len(here)
+    crossed = np.vstack(met)
+    both = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    numbers = np.repeat(np.arange(len(every)), [len(one.points) for _, _, one in every])
+    values: dict[str, Any] = {
+        "curve_number": ("point", numbers),
+        "curve_displacement": ("point", points[:, 0]),
+        "curve_velocity": ("point", points[:, 1]),
+        "curve_kind": ("curve", np.array([kind for _, kind, _ in every], dtype=str)),
+        "curve_saddle": ("curve", np.array([i for i, _, _ in every], dtype=np.int64)),
+        "curve_length": ("curve", np.array([_length(one, measure) for _, _, one in every])),
+        "curve_ended": ("curve", np.array([one.ended for _, _, one in every], dtype=str)),
+        "saddle_displacement": ("saddle", np.array([one.point[0] for one in saddles])),
+        "saddle_velocity": ("saddle", np.array([one.point[1] for one in saddles])),
+        "saddle_period": (
+            "saddle",
+            np.array([one.orbit.section.period for one in saddles], dtype=np.int64),
+        ),
+        "multiplier_growing": ("saddle", np.array([one.growing for one in saddles])),
+        "multiplier_dying": ("saddle", np.array([one.dying for one in saddles])),
+        "crossing_displacement": ("crossing", crossed[:, 0]),
+        "crossing_velocity": ("crossing", crossed[:, 1]),
+        "crossing_stable": ("crossing", both[:, 0]),
+        "crossing_unstable": ("crossing", both[:, 1]),
+    }
+    return xr.Dataset(values)
+
+
+def _length(curve: Curve, measure: Measure) -> float:
+    steps = np.linalg.norm(measure.scaled(np.diff(curve.points, axis=0)), axis=1)
+    return float(np.nansum(steps))

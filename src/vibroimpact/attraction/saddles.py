@@ -1,0 +1,186 @@
+"""Saddles: orbits whose disturbances grow in one direction and die out in the other.
+
+Those on a border between basins are found from the border: of two states close to each other that
+lead to different motions, the middle is followed. It stays on the border as long as halving has
+told the border, passes near the saddle there, and Newton's method does the rest.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.attraction.followed import NO_TRAPS, Stage, follow
+from vibroimpact.attraction.search import Search
+from vibroimpact.attraction.window import Window, lattice
+from vibroimpact.errors import InputError
+from vibroimpact.model import State
+from vibroimpact.response.start import state_from
+from vibroimpact.stability.family import family
+from vibroimpact.stability.first import first_orbit
+from vibroimpact.stability.fixed_points import Orbit, Section, evaluated
+
+_Array = NDArray[np.float64]
+
+_LATTICE = 40
+"""States along each axis among which borders are sought."""
+_TRIED = 6
+"""Places of each border from which it is followed."""
+_HALVINGS = 48
+_SHADOWED = 40
+"""Cycles that the border is followed."""
+_MOST = 4
+"""Saddles, those of least period."""
+_LONGEST = 8
+"""Period of a saddle, in cycles."""
+_SAME = 1e-7
+"""Of the window: two points that are one."""
+
+
+class Saddle(NamedTuple):
+    """One point of a saddle orbit at the section, and the map over its period there."""
+
+    orbit: Orbit
+    point: _Array
+    """u and u̇."""
+    growing: float
+    """The multiplier beyond 1 in size, and its direction."""
+    unstable: _Array
+    dying: float
+    stable: _Array
+
+
+def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
+    """The points of a saddle orbit, a cycle apart.
+
+    Raises
+    ------
+    InputError
+        If it is no saddle; the line begins with `where`.
+    """
+    full = orbit.section.simpler(orbit.section.count, mirror=False)
+    one = Section(full.family, 1, False, full.scale)
+    point, found = orbit.point, []
+    for _ in range(orbit.section.period):
+        status, here, _ = evaluated(full, relaxed(point), 0.0)
+        values, vectors = np.linalg.eig(here.own[:2, :2])
+        order = np.argsort(-np.abs(values))
+        values, vectors = values[order], vectors[:, order]
+        saddle = abs(values[0]) > 1.0 > abs(values[1]) and not np.iscomplex(values).any()
+        if status or not saddle:
+            raise InputError(
+                f"{where}: its multipliers are {values[0]:.4g} and {values[1]:.4g}; an orbit with "
+                "one beyond 1 in size and one below is accepted"
+            )
+        real, ways = values.real, vectors.real
+        found.append(Saddle(here, point[:2].copy(), real[0], ways[:, 0], real[1], ways[:, 1]))
+        _, _, point = evaluated(one, point, here.facts[0])
+    return found
+
+
+def relaxed(point: _Array) -> _Array:
+    """A point of the section map with relaxed bumpers."""
+    found = point.copy()
+    found[2:4] = 0.0
+    return found
+
+
+def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: str) -> Orbit:
+    """A saddle from a dataset of `orbit`, or near a state."""
+    fam = family(stage.oscillator, stage.excitation, "frequency")
+    start = orbit
+    if isinstance(orbit, xr.Dataset):
+        if "monodromy" not in orbit or "final_state" not in orbit:
+            raise InputError(f"{where}: it is no orbit; a dataset of orbit, or a State is accepted")
+        period = int(orbit["period"])
+        phase = float(orbit["final_state"].sel(component="phase"))
+        if abs(np.sin(0.5 * (phase - stage.excitation.phase))) > 1e-9:
+            raise InputError(
+                f"{where}: its phase is {phase:.6g}, that of the excitation "
+                f"{stage.excitation.phase:.6g}; the same is accepted"
+            )
+    return first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
+
+
+def border_saddles(search: Search, window: Window) -> list[Orbit]:
+    """The saddles that the borders between basins lead to, each once."""
+    shape = (_LATTICE, _LATTICE)
+    points = lattice(*window, shape)
+    labels = search.label(points).owner.reshape(shape)
+    span = np.ptp(np.array(window), axis=1)
+    found: list[Orbit] = []
+    known: list[_Array] = []
+    for inside, outside in _pairs(labels):
+        edge = _edge(search, points[inside], points[outside])
+        orbit = _near(search, edge, span)
+        if orbit is None:
+            continue
+        if any((np.abs(orbit.point[:2] - one) <= _SAME * span).all() for one in known):
+            continue
+        try:
+            cycle = saddle_points(orbit, "saddles")
+        except InputError:
+            continue
+        found.append(orbit)
+        known += [one.point for one in cycle]
+    return sorted(found, key=lambda one: one.section.count)[:_MOST]
+
+
+def _pairs(labels: NDArray[np.int64]) -> list[tuple[int, int]]:
+    """Neighbours that lead to different motions, some of each two motions."""
+    kinds: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    index = np.arange(labels.size).reshape(labels.shape)
+    for a, b in ((index[:, :-1], index[:, 1:]), (index[:-1], index[1:])):
+        one, other = labels.ravel()[a.ravel()], labels.ravel()[b.ravel()]
+        for k in np.flatnonzero((one != other) & (one >= 0) & (other >= 0)):
+            kind = (min(one[k], other[k]), max(one[k], other[k]))
+            kinds.setdefault(kind, []).append((int(a.ravel()[k]), int(b.ravel()[k])))
+    every = []
+    for pairs in kinds.values():
+        pick = np.linspace(0, len(pairs) - 1, min(_TRIED, len(pairs))).astype(int)
+        every += [pairs[k] for k in pick]
+    return every
+
+
+def _edge(search: Search, one: _Array, other: _Array) -> _Array:
+    """A state on the border between two, as near as numbers tell."""
+    stage, traps = search.stage, search.traps
+    label = follow(stage, one[None], None, traps, search.max_cycles).owner[0]
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (one + other)
+        if follow(stage, middle[None], None, traps, search.max_cycles).owner[0] == label:
+            one = middle
+        else:
+            other = middle
+    return 0.5 * (one + other)
+
+
+def _near(search: Search, edge: _Array, span: _Array) -> Orbit | None:
+    """The orbit that a state on a border comes nearest to, before it leaves for a motion."""
+    stage = search.stage
+    went = follow(stage, edge[None], None, search.traps, 0)
+    states = [went.states[0]]
+    while len(states) < _SHADOWED and went.owner[0] < 0:
+        went = follow(stage, None, states[-1][None], NO_TRAPS, 1)
+        went = follow(stage, None, went.states, search.traps, 0)
+        states.append(went.states[0])
+    way = np.array(states)[:, 2:4] / span
+    fam = family(stage.oscillator, stage.excitation, "frequency")
+    closest = {
+        period: np.linalg.norm(way[period:] - way[:-period], axis=1)
+        for period in range(1, min(_LONGEST, len(way) - 1) + 1)
+    }
+    for period in sorted(closest, key=lambda n: float(closest[n].min())):
+        at = int(closest[period].argmin())
+        try:
+            start = state_from(states[at], stage.excitation.phase)
+            orbit = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
+        except InputError:
+            continue
+        near = np.linalg.norm((orbit.point[:2] - states[at][2:4]) / span) < 0.02
+        if near and not orbit.stable:
+            return orbit
+    return None

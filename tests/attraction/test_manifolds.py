@@ -1,0 +1,217 @@
+"""Stable curves lie on borders, unstable ones lead to the motions, and both map into themselves."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.spatial import KDTree
+
+import vibroimpact as vi
+from samples import sample
+from vibroimpact.attraction.crossings import crossings
+from vibroimpact.attraction.followed import NO_TRAPS, Stage, follow, images
+from vibroimpact.response.vocabulary import VARIABLES
+
+CASE = vi.laboratory.case("B3-10mm-A3")
+EXCITATION = vi.Harmonic(CASE.amplitude, 0.7)
+STAGE = Stage(CASE.oscillator, EXCITATION)
+WINDOW = (-0.011, 0.011), (-0.104, 0.104)
+SIDES = np.ptp(np.array(WINDOW), axis=1)
+
+
+@cache
+def found() -> xr.Dataset:
+    return vi.manifolds(CASE.oscillator, EXCITATION, None, *WINDOW)
+
+
+def curve(data: xr.Dataset, number: int, scale: object = SIDES) -> np.ndarray:
+    mine = data["curve_number"].values == number
+    both = np.column_stack([data["curve_displacement"], data["curve_velocity"]])
+    return both[mine] / scale
+
+
+def curves(kind: str) -> list[np.ndarray]:
+    numbers = np.flatnonzero(found()["curve_kind"].values == kind)
+    return [curve(found(), int(number)) for number in numbers]
+
+
+def inside(points: np.ndarray) -> np.ndarray:
+    return points[(np.abs(points) <= 0.5).all(axis=1)]
+
+
+def begun(points: np.ndarray) -> np.ndarray:
+    states = np.zeros((len(points), 5))
+    states[:, :2] = points * SIDES
+    return states
+
+
+def basin_of(points: np.ndarray) -> np.ndarray:
+    """Which of the two motions states lead to, followed to the end."""
+    ends = follow(STAGE, begun(points), None, NO_TRAPS, 120).states
+    return ends[:, 3] > 0.0
+
+
+def test_what_is_found():
+    data = found()
+    for name in data.variables:
+        assert data[name].attrs["units"] == VARIABLES[str(name)].units
+    assert list(data["curve_kind"].values) == ["stable", "stable", "unstable", "unstable"]
+    assert list(data["saddle_period"].values) == [1]
+    alone = vi.orbit(
+        CASE.oscillator,
+        EXCITATION,
+        vi.State(float(data["saddle_displacement"][0]), float(data["saddle_velocity"][0])),
+    )
+    sizes = np.abs(alone["multiplier_real"].values)
+    assert sizes[0] == pytest.approx(float(data["multiplier_growing"][0]), rel=1e-6)
+    assert sizes[1] == pytest.approx(abs(float(data["multiplier_dying"][0])), rel=1e-4)
+    assert data.sizes["crossing"] == 0
+
+
+def test_neighbours_are_as_close_as_asked_for():
+    for number in range(4):
+        points = curve(found(), number)
+        steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+        in_view = (np.abs(points[1:]) <= 0.5).all(axis=1)
+        assert steps[in_view].max() <= 0.01 * (1.0 + 1e-9)
+        assert steps[in_view].mean() > 0.0003
+
+
+def test_beside_a_stable_curve_states_part():
+    for points in curves("stable"):
+        middle = inside(points)[5 :: sample(2, 9)]
+        way = np.gradient(inside(points), axis=0)[5 :: sample(2, 9)]
+        across = np.column_stack([-way[:, 1], way[:, 0]])
+        across *= 1e-5 / np.linalg.norm(across, axis=1, keepdims=True)
+        assert (basin_of(middle + across) != basin_of(middle - across)).all()
+
+
+def test_the_border_of_a_grid_lies_on_stable_curves():
+    data = vi.basins(CASE.oscillator, EXCITATION, *WINDOW, nodes=sample(300, 80))
+    labels = data["basin"].values
+    u, v = data["displacement"].values / SIDES[0], data["velocity"].values / SIDES[1]
+    tree = KDTree(np.vstack(curves("stable")))
+    rows, columns = np.nonzero(labels[:, 1:] != labels[:, :-1])
+    assert len(rows) > 50
+    between = np.column_stack([0.5 * (u[columns] + u[columns + 1]), v[rows]])
+    away, _ = tree.query(between)
+    assert away.max() < 0.5 * (u[1] - u[0]) + 0.006  # half the nodes' and half the points' distance
+
+
+def test_unstable_curves_end_on_the_motions():
+    data = vi.basins(CASE.oscillator, EXCITATION, *WINDOW, nodes=20)
+    motions = np.column_stack([data["section_displacement"], data["section_velocity"]]) / SIDES
+    ends = np.array([points[-1] for points in curves("unstable")])
+    away = np.linalg.norm(ends[:, None] - motions[None], axis=2)
+    assert away.min(axis=1).max() < 1e-3
+    assert set(away.argmin(axis=1)) == {0, 1}
+    assert list(found()["curve_ended"].values[2:]) == ["it ends on a motion"] * 2
+
+
+@pytest.mark.parametrize("kind", ["stable", "unstable"])
+def test_the_map_takes_a_curve_into_itself(kind):
+    for points in curves(kind):
+        dense = np.vstack([np.linspace(a, b, 9)[:-1] for a, b in pairwise(points)])
+        tree = KDTree(dense)
+        picked = inside(points)[1:-2]
+        went, known = images(STAGE, begun(picked))
+        assert known.all()
+        away, _ = tree.query(went[:, :2] / SIDES)
+        # As far as straight lines between points follow a bent curve.
+        assert np.quantile(away, 0.9) < 2e-4
+        assert away.max() < 3e-3
+
+
+def test_states_on_a_stable_curve_come_to_the_saddle():
+    saddle = np.array([found()["saddle_displacement"][0], found()["saddle_velocity"][0]]) / SIDES
+    for points in curves("stable"):
+        nearest = np.full(len(picked := inside(points)), np.inf)
+        states = follow(STAGE, begun(picked), None, NO_TRAPS, 0).states
+        for _ in range(12):
+            away = np.linalg.norm(states[:, 2:4] / SIDES - saddle, axis=1)
+            nearest = np.minimum(nearest, away)
+            states = follow(STAGE, None, states, NO_TRAPS, 1).states
+        assert nearest.max() < 1e-4
+
+
+def test_given_saddles_are_those_that_borders_lead_to():
+    first = vi.State(0.0053, 0.002)
+    orbit = vi.orbit(CASE.oscillator, EXCITATION, first)
+    for saddles in (first, orbit, [orbit]):
+        data = vi.manifolds(CASE.oscillator, EXCITATION, saddles, *WINDOW, longest=0.5)
+        assert float(data["saddle_velocity"][0]) == pytest.approx(
+            float(found()["saddle_velocity"][0]), rel=1e-7
+        )
+        # The side of a direction is told by nothing.
+        pieces = [curve(data, number)[-1] for number in (0, 1)]
+        tree = KDTree(np.vstack(curves("stable")))
+        assert tree.query(pieces)[0].max() < 0.006
+
+
+def test_tangles_are_found_where_curves_cross():
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), vi.Bumper(30.0, 0.6, 0.5), None)
+    shaking, sides = vi.Harmonic(1.0, 3.3 / (2.0 * np.pi)), np.array([2.1, 3.6])
+    window, start = ((-1.1, 1.0), (-1.8, 1.8)), vi.State(0.4624, 0.4448)
+    data = vi.manifolds(rig, shaking, start, *window, period=3, spacing=0.01, longest=3.0)
+    kinds = data["curve_kind"].values
+    assert data.sizes["crossing"] > 10
+    assert (kinds[data["crossing_stable"].values] == "stable").all()
+    assert (kinds[data["crossing_unstable"].values] == "unstable").all()
+    # What begins there comes to the saddle; a crossing is known as well as the lines are.
+    points = np.zeros((data.sizes["crossing"], 5))
+    points[:, 0], points[:, 1] = data["crossing_displacement"], data["crossing_velocity"]
+    saddles = np.column_stack([data["saddle_displacement"], data["saddle_velocity"]]) / sides
+    stage = Stage(rig, shaking)
+    states = follow(stage, points, None, NO_TRAPS, 0).states
+    nearest = np.full(len(points), np.inf)
+    for _ in range(24):
+        away = np.linalg.norm(states[:, None, 2:4] / sides - saddles, axis=2).min(axis=1)
+        nearest = np.minimum(nearest, away)
+        states = follow(stage, None, states, NO_TRAPS, 1).states
+    assert np.quantile(nearest, 0.9) < 0.01, np.quantile(nearest, [0.1, 0.5, 0.9, 1.0])
+
+
+def test_crossings_of_lines_that_are_known():
+    x = np.linspace(0.0, 3.5 * np.pi, 400)
+    wave = np.column_stack([x, np.sin(x)])
+    line = np.array([[-1.0, 0.0], [2.0, 0.0], [20.0, 0.0]])
+    met = crossings(wave[1:], line)
+    np.testing.assert_allclose(met[:, 0], np.pi * np.array([1, 2, 3]), atol=1e-3)
+    parted = np.insert(line, 1, np.nan, axis=0)  # only the second piece is left
+    np.testing.assert_allclose(crossings(wave[1:], parted), met, atol=1e-12)
+    assert crossings(wave, line + np.array([0.0, 2.0])).shape == (0, 2)
+    assert crossings(wave[:1], line).shape == (0, 2)
+
+
+@pytest.mark.parametrize(
+    ("saddles", "words", "named"),
+    [
+        (vi.State(0.0026, -0.027), {}, "saddles[0]: its multipliers"),
+        (xr.Dataset(), {}, "saddles[0]: it is no orbit"),
+        (None, {"spacing": 0.0}, "spacing: "),
+        (None, {"longest": -1.0}, "longest: "),
+        (None, {"period": 0}, "period: 0"),
+        (None, {"displacement": (1.0, 0.0)}, "displacement: 1 is not below 0"),
+    ],
+)
+def test_what_is_refused(saddles, words, named):
+    with pytest.raises(vi.InputError) as caught:
+        vi.manifolds(CASE.oscillator, EXCITATION, saddles, **words)
+    assert str(caught.value).startswith(named)
+
+
+def test_an_orbit_at_another_phase_is_refused():
+    orbit = vi.orbit(CASE.oscillator, EXCITATION, vi.State(0.0053, 0.002))
+    with pytest.raises(vi.InputError, match="its phase is 0, that of the excitation 1"):
+        vi.manifolds(CASE.oscillator, EXCITATION.replace(phase=1.0), orbit, *WINDOW)
+
+
+def test_what_remembers_has_no_curves_in_the_plane():
+    slow = vi.Bumper(680e3, 4e5, 0.005)
+    rig = vi.Oscillator(550.0, CASE.oscillator.isolator, slow, slow)
+    with pytest.raises(vi.InputError, match="remembers more than a cycle"):
+        vi.manifolds(rig, EXCITATION)
