@@ -11,6 +11,7 @@ from benchmarks.campaign import campaign
 from benchmarks.designs import designs
 from benchmarks.diagrams import diagrams
 from benchmarks.earthquakes import earthquakes
+from benchmarks.identification import identification
 from benchmarks.laws import laws, sampling, yielding
 from benchmarks.machine import load, machine
 from benchmarks.memory import memory
@@ -40,6 +41,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "scenarios": lambda: (scenarios(),),
         "designs": lambda: (designs(),),
         "diagrams": lambda: (diagrams(),),
+        "identification": lambda: (identification(),),
         "startup": lambda: (startup(compiling()), memory(), size()),
     }
 

@@ -120,7 +120,8 @@ class HistoryTest:
         if base is None:
             found = shaken.replace(frequency=sine.frequency)
             return (rig, found), found
-        if sine.rest < _PURE:
+        still = np.nanmax(np.abs(base)) == 0.0
+        if sine.rest < _PURE and not still:
             found = Harmonic(sine.amplitude, sine.frequency, sine.phase % (2.0 * math.pi))
             return (rig, found), found
         step = float(np.median(np.diff(self.time)))
@@ -269,11 +270,10 @@ class HistoryTest:
     ) -> Moved | None:
         begin = float(time[0])
         if isinstance(self.shaking, Record):
-            first = round(begin / self.shaking.step)
-            last = math.ceil(float(time[-1]) / self.shaking.step - 1e-9)
-            values = self.shaking.acceleration[first : max(last, first + 1) + 1]
-            record = Record(values, self.shaking.step)
-            return under_record(rig, record, state, time - first * self.shaking.step)
+            step = self.shaking.step
+            steps = max(1, math.ceil((float(time[-1]) - begin) / step - 1e-9))
+            values = self.shaking.at(begin + step * np.arange(steps + 1))
+            return under_record(rig, Record(values, step), state, time - begin)
         at = shaken.phase if phase is None else phase
         turned = shaken.replace(phase=(at + shaken.angular_frequency * begin) % (2.0 * math.pi))
         return under_sine(rig, turned, state, time)

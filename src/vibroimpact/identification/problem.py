@@ -150,6 +150,13 @@ class Problem:
         return found
 
     @property
+    def jumps(self) -> Flags:
+        """Which residuals are those of the jumps of curves."""
+        parts = [(np.arange(t.count) >= t.points_count) & (t.kind == "curves") for t in self.tests]
+        found: Flags = np.concatenate([*parts, np.zeros(self._priors, dtype=bool)])
+        return found
+
+    @property
     def _priors(self) -> int:
         return sum(one.prior is not None for one in self.free)
 

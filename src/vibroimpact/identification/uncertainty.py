@@ -53,6 +53,9 @@ def spread(problem: Problem, x: Array) -> Spread:
     """Covariance at a fit."""
     plain = problem.replaced(tail=np.inf)
     matrix = plain.jacobian(x, fine=True)
+    # A jump at the edge of its step bounds a parameter on one side, which profiles tell; as a
+    # derivative it would bound it on both.
+    matrix[problem.jumps] = 0.0
     used = int(problem.measured.sum())
     freedom = max(used - len(x), 1)
     # A direction that the data do not see at all has an infinite variance, not a zero one.
