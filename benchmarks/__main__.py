@@ -16,6 +16,7 @@ from benchmarks.laws import laws, sampling, yielding
 from benchmarks.machine import load, machine
 from benchmarks.memory import memory
 from benchmarks.motions import motions
+from benchmarks.page import page
 from benchmarks.records import records
 from benchmarks.report import Table, show, write
 from benchmarks.scenarios import scenarios
@@ -38,6 +39,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "motions": lambda: (motions(),),
         "branches": lambda: (branches(),),
         "basins": lambda: (basins(),),
+        "page": lambda: (page(),),
         "scenarios": lambda: (scenarios(),),
         "designs": lambda: (designs(),),
         "diagrams": lambda: (diagrams(),),

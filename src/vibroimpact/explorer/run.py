@@ -37,16 +37,17 @@ def serve(
     InputError
         If the websocket library is missing, or host and port cannot be used.
     """
-    asyncio.run(_serve(first, host, port, told, None))
+    asyncio.run(serving(first, host, port, told))
 
 
-async def _serve(
+async def serving(
     first: State,
     host: str,
     port: int,
     told: Callable[[str], None],
-    stop: asyncio.Event | None,
+    stop: asyncio.Event | None = None,
 ) -> None:
+    """Do what `serve` does, until `stop` is set."""
     try:
         from vibroimpact.explorer.server import start
     except ModuleNotFoundError as error:

@@ -10,10 +10,13 @@ this machine, by a token.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import hmac
 import json
 import logging
 import mimetypes
+import socket
+import time
 from collections.abc import Awaitable, Callable
 from http import HTTPStatus
 from importlib import resources
@@ -26,7 +29,6 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from vibroimpact.errors import InputError
-from vibroimpact.explorer.run import LOOPBACK
 from vibroimpact.explorer.session import Message, Session, Stage
 from vibroimpact.explorer.state import State
 from vibroimpact.response.threads import Stopped
@@ -37,6 +39,9 @@ MOST_MESSAGE = 16_384
 """Bytes of a message from a page."""
 MOST_COMPUTING = 2
 """Sessions that compute at once; a sweep has threads of its own."""
+_SELDOM = 0.3
+"""Seconds between two tellings of progress."""
+_ANY = ("0.0.0.0", "::")
 _LIVE = "/live"
 _PAGES = {"/": "index.html"}
 _POLICY = (
@@ -51,7 +56,7 @@ class Limits(NamedTuple):
     """Who is served."""
 
     hosts: frozenset[str]
-    """As the header ``Host`` has them."""
+    """As the header ``Host`` has them, of this machine alone; none where a token is asked for."""
     token: str
     """What the address must hold; empty where everyone on this machine is served."""
 
@@ -80,7 +85,8 @@ class Explorer:
     def answer(self, connection: ServerConnection, request: Request) -> Response | None:
         """Answer what is asked for over HTTP; None lets a websocket begin."""
         asked, limits = urlsplit(request.path), self._limits()
-        if request.headers.get("Host", "").lower() not in limits.hosts:
+        host = request.headers.get("Host", "").lower()
+        if not limits.token and host not in limits.hosts:
             return _refused(HTTPStatus.MISDIRECTED_REQUEST, "another host was asked for")
         if asked.path in self._files and asked.path not in _PAGES:
             return _whole(*self._files[asked.path])  # the program itself is no secret
@@ -89,7 +95,7 @@ class Explorer:
             return _refused(HTTPStatus.FORBIDDEN, "the token of the address is missing or wrong")
         if asked.path == _LIVE:
             origin = request.headers.get("Origin", "")
-            if urlsplit(origin).netloc.lower() not in limits.hosts:
+            if urlsplit(origin).netloc.lower() != host:
                 return _refused(HTTPStatus.FORBIDDEN, "a page of another origin asks")
             return None
         if asked.path in _PAGES:
@@ -134,19 +140,30 @@ class Explorer:
                     break
                 if session.wants(stage):
                     try:
-                        await send(_text(await self._made(session, stage, asked)))
+                        await send(_text(await self._made(session, stage, asked, send)))
                     except Stopped:
                         break
                     session.sent(stage)
             else:
                 await send(_text({"settled": True, "n": session.number}))
 
-    async def _made(self, session: Session, stage: Stage, asked: int) -> Message:
+    async def _made(
+        self, session: Session, stage: Stage, asked: int, send: Callable[[str], Awaitable[None]]
+    ) -> Message:
         """One picture, or why there is none."""
+        loop, told = asyncio.get_running_loop(), time.monotonic()
+
+        def progress(done: int, total: int | None) -> None:
+            nonlocal told
+            if total and time.monotonic() - told > _SELDOM:
+                told = time.monotonic()
+                share = _text({"progress": stage.kind, "share": round(done / total, 3)})
+                asyncio.run_coroutine_threadsafe(_sent(send, share), loop)
+
         number = session.number
         async with self._computing:
             try:
-                made = await asyncio.to_thread(session.make, stage, asked)
+                made = await asyncio.to_thread(session.make, stage, asked, progress)
                 return {**made, "n": number}
             except InputError as error:
                 return {"picture": stage.kind, "none": str(error)}
@@ -157,6 +174,11 @@ class Explorer:
                 return await asyncio.to_thread(session.file, str(message.get("kind")))
             except InputError as error:
                 return {"refused": str(error)}
+
+
+async def _sent(send: Callable[[str], Awaitable[None]], text: str) -> None:
+    with contextlib.suppress(ConnectionClosed):  # who has left wants no progress
+        await send(text)
 
 
 def _read(raw: str | bytes) -> Any:
@@ -231,7 +253,7 @@ async def start(first: State, host: str, port: int, token: str = "") -> tuple[Se
         server_header=None,
     )
     bound = server.sockets[0].getsockname()[1]
-    names = {"localhost", "127.0.0.1", "[::1]"} if host in LOOPBACK else {host}
-    hosts |= {f"{name}:{bound}" for name in names}
-    shown = f"[{host}]" if ":" in host else host
+    if not token:
+        hosts |= {f"{name}:{bound}" for name in ("localhost", "127.0.0.1", "[::1]")}
+    shown = socket.gethostname() if host in _ANY else f"[{host}]" if ":" in host else host
     return server, f"http://{shown}:{bound}/" + (f"?token={token}" if token else "")

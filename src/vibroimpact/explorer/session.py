@@ -17,8 +17,9 @@ from vibroimpact.explorer import change, presets, share
 from vibroimpact.explorer.controls import controls
 from vibroimpact.explorer.files import made
 from vibroimpact.explorer.laws import isolator_laws, stop_laws
-from vibroimpact.explorer.pictures import curves, motion, scenario
-from vibroimpact.explorer.state import History, State
+from vibroimpact.explorer.pictures import basins, branch, curves, motion, plane, scenario
+from vibroimpact.explorer.state import ON_DEMAND, History, State
+from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.units import pretty, shown
 from vibroimpact.response.threads import Progress, Stopped
@@ -65,6 +66,8 @@ class Session:
             "presets": presets.names(),
             "isolators": isolator_laws(),
             "stops": stop_laws(),
+            "scenarios": {name: area.colour for name, area in SCENARIOS.items()},
+            "plane": {"x": plane.STIFFNESS, "y": plane.GAP},
         }
 
     def take(self, message: object) -> Message:
@@ -86,6 +89,8 @@ class Session:
         self.asked += 1
         self._dragging = message.get("dragging") is True
         self.number = number
+        for kind in set(ON_DEMAND) - self.state.shown:
+            self._sent.pop(kind, None)  # what is put away is made again when it is asked for
         return {**self.told(), "n": number}
 
     def told(self) -> Message:
@@ -164,6 +169,32 @@ class Session:
         yield Stage("curves", ("fine", *look), lambda check: self._curves(state, True, check))
         yield Stage("motion", ("fine", *seen), lambda _: self._careful(state))
         yield Stage("scenario", ("fine", *rig), lambda check: scenario.careful(state, check))
+        yield from self._on_demand(state, (*look, *seen), seen)
+
+    def _on_demand(
+        self, state: State, branched: tuple[Hashable, ...], seen: tuple[Hashable, ...]
+    ) -> Iterator[Stage]:
+        """The pictures that take seconds, where they are asked for."""
+        if "branch" in state.shown:
+            yield Stage(
+                "branch",
+                ("fine", *branched),
+                lambda check: branch.branches(state, self._best(state), check),
+            )
+        for kind in ("map", "basins"):
+            if kind not in state.shown:
+                continue
+            for fine in (False, True):
+                word = "fine" if fine else "coarse"
+                if kind == "basins":
+                    yield Stage(kind, (word, *seen), _starts(state, fine))
+                    continue
+                try:
+                    where = plane.plane(state)
+                except InputError as error:
+                    yield Stage(kind, (word, str(error)), _refusal(error))
+                    break
+                yield Stage(kind, (word, *where), _scenarios(where, fine))
 
     def wants(self, stage: Stage) -> bool:
         """Whether a stage has not been sent, nor a better picture of the same."""
@@ -175,7 +206,7 @@ class Session:
         """Note that the page has a picture."""
         self._sent[stage.kind] = stage.key
 
-    def make(self, stage: Stage, asked: int) -> Message:
+    def make(self, stage: Stage, asked: int, progress: Progress | None = None) -> Message:
         """Make a picture, unless another request comes.
 
         Raises
@@ -187,6 +218,8 @@ class Session:
         def check(done: int, total: int | None) -> None:
             if self.asked != asked:
                 raise Stopped
+            if progress:
+                progress(done, total)
 
         check(0, None)
         with self._lock:
@@ -225,6 +258,21 @@ class Session:
 
     def _careful(self, state: State) -> Message:
         return motion.careful(state, self._best(state))
+
+
+def _starts(state: State, fine: bool) -> Callable[[Progress], Message]:
+    return lambda check: basins.starts(state, fine, check)
+
+
+def _scenarios(where: plane.Plane, fine: bool) -> Callable[[Progress], Message]:
+    return lambda check: plane.scenarios(where, fine, check)
+
+
+def _refusal(error: InputError) -> Callable[[Progress], Message]:
+    def refused(check: Progress) -> Message:
+        raise error
+
+    return refused
 
 
 def _without_frequency(state: State) -> Hashable:

@@ -71,7 +71,7 @@ export class Curves {
   orbits(picture = this.branches) {
     this.branches = picture;
     for (const chart of this.charts) chart.drop("orbit");
-    if (!picture || picture.physical !== this.picture.physical) return;
+    if (!picture || picture.physical !== this.picture?.physical) return;
     picture.panels.forEach((pieces, k) => {
       const chart = this.charts[k];
       if (chart) pieces.forEach((piece, j) => chart.line(`orbit ${j}`, piece.stable ? "stable" : "unstable", piece.frequency, piece.value));

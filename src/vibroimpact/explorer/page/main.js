@@ -4,6 +4,7 @@ import { Curves } from "./curves.js";
 import { Knobs } from "./knobs.js";
 import { Link } from "./link.js";
 import { Motion } from "./motion.js";
+import { Basins, Plane } from "./plane.js";
 import { asPicture, copy, keep } from "./save.js";
 
 const PATIENCE = 1200; // ms after which a page that waits says so
@@ -32,6 +33,9 @@ const send = (message) => {
 const knobs = new Knobs(send);
 const curves = new Curves((direction, frequency) => send({ do: "choose", direction, frequency }));
 const motion = new Motion();
+const plane = new Plane(id("map"), (x, y, dragging, gesture) => send({ do: "place", x, y, dragging, gesture: `place ${gesture}` }));
+const basins = new Basins(id("basins"));
+const TABS = ["motion", "map", "basins"];
 
 function say(text, lost = false) {
   if (status.textContent !== text) status.textContent = text;
@@ -43,6 +47,7 @@ function told(message) {
   if (message.state) show(message.state);
   if (message.refused) refused(message);
   if (message.picture) drawn(message);
+  if (message.progress) say(`${message.progress}: ${Math.round(100 * message.share)} %`);
   if (message.file) keep(message.file, message.mime, message.bytes);
   if (message.settled) {
     clearTimeout(waiting);
@@ -75,8 +80,20 @@ function show(next) {
   if (!state.shown.includes("branch")) curves.orbits(null);
   if (document.activeElement !== id("frequency")) id("frequency").value = state.frequency_text;
   id("direction").value = state.direction;
+  const ratio = (name) => state.controls.find((knob) => knob.path === `stops.${name}`)?.value;
+  const point = [ratio("stiffness_ratio"), ratio("gap_ratio")];
+  tab(TABS.find((name) => state.shown.includes(name)) ?? "motion");
+  plane.at(point.includes(undefined) ? null : point, choices.plane, choices.scenarios);
   document.title = `${state.name} – vibroimpact explorer`;
   history.replaceState(null, "", `#${state.address}`);
+}
+
+function tab(name) {
+  for (const one of TABS) {
+    id(one).hidden = one !== name;
+    id(`tab-${one}`).setAttribute("aria-selected", one === name);
+    id(`tab-${one}`).tabIndex = one === name ? 0 : -1;
+  }
 }
 
 function refused({ refused: why, path }) {
@@ -108,11 +125,25 @@ function drawn(message) {
     id("scenario-meaning").textContent = message.meaning + (message.confidence === null ? "" : ` (confidence ${Math.round(100 * message.confidence)} %)`);
     id("evidence").replaceChildren(...message.evidence.map((text) => Object.assign(document.createElement("li"), { textContent: text })));
   } else if (message.picture === "branch") curves.orbits(message);
+  else if (message.picture === "map") plane.show(message);
+  else if (message.picture === "basins") basins.show(message);
 }
 
 id("presets").addEventListener("change", (event) => event.target.value && send({ do: "preset", name: event.target.value }));
 for (const what of ["undo", "redo", "reset"]) id(what).addEventListener("click", () => send({ do: what }));
 for (const what of ["physical", "branch"]) id(what).addEventListener("change", (event) => send({ do: "look", what, on: event.target.checked }));
+for (const name of TABS) {
+  id(`tab-${name}`).addEventListener("click", () => {
+    for (const one of ["map", "basins"]) if (state.shown.includes(one) !== (one === name)) send({ do: "look", what: one, on: one === name });
+  });
+  id(`tab-${name}`).addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!step) return;
+    const next = id(`tab-${TABS[(TABS.indexOf(name) + step + TABS.length) % TABS.length]}`);
+    next.click();
+    next.focus();
+  });
+}
 id("frequency").addEventListener("change", (event) => send({ do: "choose", path: "frequency", direction: state.direction, frequency: event.target.value }));
 id("direction").addEventListener("change", (event) => send({ do: "choose", direction: event.target.value, frequency: state.frequency }));
 for (const button of document.querySelectorAll("[data-file]")) button.addEventListener("click", () => link.send({ do: "file", kind: button.dataset.file }));

@@ -38,11 +38,13 @@ export class Chart {
     this.svg = element("svg", { role: "img", "aria-label": name }, this.box);
     this.layers = Object.fromEntries(["bands", "axes", "lines", "marks", "over"].map((id) => [id, element("g", { class: id }, this.svg)]));
     Object.assign(this, { name, xlabel: x, ylabel: y, xlog, ylog, x: [0, 1], y: [0, 1], paths: new Map() });
+    this.measure();
     new ResizeObserver(() => this.redraw && this.redraw()).observe(this.box);
   }
 
-  get size() {
-    return [this.box.clientWidth || 400, this.box.clientHeight || 200];
+  // Looked up once a drawing: asking the page in between would let it lay out anew each time.
+  measure() {
+    this.size = [this.box.clientWidth || 400, this.box.clientHeight || 200];
   }
 
   toX(value) {
@@ -67,6 +69,7 @@ export class Chart {
   // Axes for these ranges; what was drawn before is redrawn by whoever calls.
   axes(x, y, ylabel = this.ylabel) {
     Object.assign(this, { x, y, ylabel });
+    this.measure();
     const [width, height] = this.size;
     const group = this.layers.axes;
     group.replaceChildren();

@@ -29,7 +29,7 @@ function together(box) {
   const width = Math.max(...charts.map((chart) => chart.clientWidth));
   const height = charts.reduce((sum, chart) => sum + chart.clientHeight, 0);
   const whole = element("svg", { width, height, viewBox: `0 0 ${width} ${height}` });
-  element("rect", { width, height, style: `fill: ${getComputedStyle(document.body).backgroundColor}` }, whole);
+  element("rect", { width, height, fill: getComputedStyle(document.body).backgroundColor }, whole);
   let top = 0;
   for (const chart of charts) {
     const group = element("g", { transform: `translate(0 ${top})` }, whole);
@@ -37,7 +37,7 @@ function together(box) {
     const [from, to] = [[...chart.querySelectorAll("path, text")], [...group.querySelectorAll("path, text")]];
     from.forEach((node, i) => {
       const look = getComputedStyle(node);
-      to[i].setAttribute("style", KEPT.map((key) => `${key}: ${look.getPropertyValue(key)}`).join("; "));
+      for (const key of KEPT) to[i].setAttribute(key, look.getPropertyValue(key));
     });
     top += chart.clientHeight;
   }

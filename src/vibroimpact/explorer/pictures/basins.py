@@ -1,0 +1,44 @@
+"""Which starts lead to which motion at the chosen frequency, coarse first."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vibroimpact.attraction.grid import basins
+from vibroimpact.explorer.pictures.numbers import one, short
+from vibroimpact.explorer.state import State
+from vibroimpact.response.threads import Progress
+
+COARSE, FINE = 32, 128
+"""Starts along each axis."""
+_PATIENCE = 500
+"""Cycles behind which a motion that has not settled is said to wander."""
+
+
+def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
+    """Return the number of the motion that each start leads to, and what the motions are.
+
+    Raises
+    ------
+    InputError
+        If nothing dies out, so that each start has its own motion.
+    """
+    data = basins(
+        *state.rig, nodes=FINE if fine else COARSE, max_cycles=_PATIENCE, progress=progress
+    )
+    return {
+        "picture": "basins",
+        "fine": fine,
+        "frequency": one(state.shaking.frequency),
+        "x": short(1e3 * data["displacement"].values),
+        "y": short(1e3 * data["velocity"].values),
+        "cells": [[int(cell) for cell in row] for row in data["basin"].values],
+        "motions": [
+            f"{kind}, period {period}" if period else str(kind)
+            for kind, period in zip(
+                data["motion"].values.tolist(), data["period"].values.tolist(), strict=True
+            )
+        ],
+        "shares": short(data["share"].values, 3),
+        "excursions": short(1e3 * data["displacement_excursion"].values, 3),
+    }

@@ -1,0 +1,77 @@
+"""The branch of orbits through the motion that is looked at, stable or not."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.explorer.pictures.motion import at
+from vibroimpact.explorer.pictures.numbers import short
+from vibroimpact.explorer.state import State
+from vibroimpact.model import GRAVITY
+from vibroimpact.response.threads import Progress
+from vibroimpact.stability.branch import branch
+
+_MOST = 2000
+"""Orbits to either side, after which a branch is given up."""
+
+
+def branches(state: State, data: xr.Dataset, progress: Progress) -> dict[str, Any]:
+    """Return the branch through the motion, in pieces that are stable or unstable.
+
+    Raises
+    ------
+    InputError
+        If the motion is none that repeats itself.
+    """
+    shaken, section, period = at(state, data)
+    low, high = state.span
+    found = branch(
+        state.oscillator,
+        shaken,
+        section,
+        low=low,
+        high=high,
+        period=int(period) or None,
+        most_points=_MOST,
+        progress=progress,
+    )
+    return {
+        "picture": "branch",
+        "physical": state.physical,
+        "panels": [_pieces(found, values) for values in _heights(state, data, found)],
+    }
+
+
+def _heights(state: State, data: xr.Dataset, found: xr.Dataset) -> list[NDArray[np.float64]]:
+    """What the panels of the curves show, of each orbit."""
+    if not state.physical:
+        kinds = ("acceleration", "displacement")
+        return [
+            found[f"{kind}_excursion"].values / float(data[f"largest_free_{kind}_excursion"])
+            for kind in kinds
+        ]
+    peaks = (
+        np.fmax(np.abs(found[f"{kind}_max"].values), np.abs(found[f"{kind}_min"].values))
+        for kind in ("acceleration", "displacement")
+    )
+    return [size * unit for size, unit in zip(peaks, (1.0 / GRAVITY, 1e3), strict=True)]
+
+
+def _pieces(found: xr.Dataset, values: NDArray[np.float64]) -> list[dict[str, Any]]:
+    """The branch, cut where its stability changes; neighbouring pieces share a point."""
+    frequency, stable = found["frequency"].values, found["stable"].values.astype(bool)
+    changes = np.flatnonzero(np.diff(stable.astype(int))) + 1
+    ends = [0, *changes, len(stable) - 1]
+    return [
+        {
+            "stable": bool(stable[first]),
+            "frequency": short(frequency[first : last + 1], 6),
+            "value": short(values[first : last + 1]),
+        }
+        for first, last in pairwise(ends)
+    ]

@@ -1,0 +1,165 @@
+"""Who is served, and who is refused."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import subprocess
+import sys
+import urllib.error
+import urllib.request
+
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
+
+import vibroimpact as vi
+from explorer.conftest import Served
+from vibroimpact.explorer.presets import FIRST, preset
+from vibroimpact.explorer.server import MOST_MESSAGE, MOST_SESSIONS
+
+
+def live(served, **options):
+    url = served.address.replace("http", "ws") + "live"
+    return connect(url, **{"origin": served.address.rstrip("/"), "proxy": None, **options})
+
+
+def asked(address, **headers):
+    request = urllib.request.Request(address, headers=headers)
+    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+    try:
+        with opener.open(request) as answer:
+            return answer.status, dict(answer.headers), answer.read()
+    except urllib.error.HTTPError as error:
+        return error.code, dict(error.headers), error.read()
+
+
+def test_a_page_of_this_server_is_served(served):
+    with live(served) as socket:
+        hello = json.loads(socket.recv())
+        assert hello["hello"]
+        assert hello["state"]["name"] == FIRST
+
+
+@pytest.mark.parametrize(
+    "origin", ["http://evil.example", "http://127.0.0.1:1", "null", None, "https://127.0.0.1.evil"]
+)
+def test_a_foreign_origin_is_refused(served, origin):
+    with pytest.raises(InvalidStatus) as refused:
+        live(served, origin=origin)
+    assert refused.value.response.status_code == 403
+
+
+def test_another_host_is_refused(served):
+    status, _, _ = asked(served.address, Host=f"evil.example:{served.port}")
+    assert status == 421
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "../run.py",
+        "%2e%2e/run.py",
+        "page/main.js",
+        "etc/passwd",
+        "state.py",
+        "?x=/etc/passwd",
+        "\\",
+    ],
+)
+def test_nothing_but_the_page_is_served(served, path):
+    status, _, body = asked(served.address + path)
+    assert (status, body) == (404, b"vibroimpact: there is no such page\n") or (
+        path.startswith("?") and b"<!doctype html>" in body
+    )
+
+
+def test_a_page_may_run_its_own_files_only(served):
+    _, headers, body = asked(served.address)
+    policy = headers["Content-Security-Policy"]
+    assert "script-src 'self';" in policy
+    assert "unsafe" not in policy
+    assert b"<script>" not in body
+    assert b"http" not in body  # nothing is loaded from elsewhere
+
+
+@pytest.mark.parametrize("raw", ["", "{", "[1]", "null", '{"do": 1}', "[" * 5000, b"\x80\x04."])
+def test_what_is_not_understood_is_refused(served, raw):
+    with live(served) as socket:
+        socket.recv()
+        socket.send(raw)
+        while True:
+            told = json.loads(socket.recv(timeout=30))
+            if "refused" in told:
+                break
+        socket.send('{"do": "change", "path": "mass", "value": "600 kg"}')
+        while "state" not in (told := json.loads(socket.recv(timeout=30))):
+            pass
+        assert told["state"]["undo"] == 1
+
+
+def test_messages_are_bounded(served):
+    with live(served) as socket:
+        socket.recv()
+        socket.send("x" * (MOST_MESSAGE + 1))
+        with contextlib.suppress(ConnectionClosed):
+            for _ in range(100):
+                socket.recv(timeout=30)
+        assert socket.close_code == 1009
+
+
+def test_sessions_are_bounded(served):
+    with contextlib.ExitStack() as many:
+        for _ in range(MOST_SESSIONS):
+            many.enter_context(live(served)).recv()
+        with live(served) as one_more:
+            with pytest.raises(ConnectionClosed) as closed:
+                one_more.recv(timeout=30)
+            assert "pages are open" in closed.value.rcvd.reason
+
+
+def test_beyond_this_machine_a_token_is_asked_for():
+    server = Served(host="0.0.0.0")
+    token = server.address.split("=")[1]
+    here = f"http://127.0.0.1:{server.port}/"
+    try:
+        assert len(token) >= 32
+        for given, status in ((token, 200), ("", 403), (token[:-1], 403), (token + "x", 403)):
+            assert asked(f"{here}?token={given}")[0] == status
+        assert asked(here)[0] == asked(here + "live")[0] == 403
+        at = {"origin": here.rstrip("/"), "proxy": None}
+        with connect(f"ws://127.0.0.1:{server.port}/live?token={token}", **at) as socket:
+            assert json.loads(socket.recv())["hello"]
+        for wrong in ({**at, "origin": "http://evil.example"}, at):
+            asks = f"?token={token}" if wrong != at else ""
+            with pytest.raises(InvalidStatus):
+                connect(f"ws://127.0.0.1:{server.port}/live{asks}", **wrong).__enter__()
+    finally:
+        server.stop()
+
+
+def test_the_command_says_where_and_ends_with_ctrl_c():
+    words = [sys.executable, "-m", "vibroimpact", "explore", "B3-G2-A1", "--no-browser"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as process:
+        first = process.stdout.readline()
+        assert first.startswith("The explorer is at http://127.0.0.1:")
+        address = first.split()[-1]
+        assert asked(address)[0] == 200
+        process.send_signal(2)
+        said, _ = process.communicate(timeout=30)
+        assert process.returncode == 0
+        assert said.endswith("The explorer has ended.\n")
+
+
+def test_in_a_notebook():
+    shown = vi.explore("B2-G1-A3", height=500)
+    assert "<iframe" in shown._repr_html_()
+    assert 'height="500"' in shown._repr_html_()
+    assert asked(shown.address.split("#")[0])[0] == 200
+    again = vi.explore((preset(FIRST).oscillator.replace(mass=600.0), "0.04 g"))
+    assert again.address.split("#")[0] == shown.address.split("#")[0]
+    assert again.address != shown.address
+    with pytest.raises(vi.InputError, match="height"):
+        vi.explore("B2-G1-A3", height="tall")
+    with pytest.raises(vi.InputError, match="rig"):
+        vi.explore("B9")
