@@ -37,6 +37,7 @@ _HOME = {
     "RigidStop": "model",
     "State": "model",
     "Thresholds": "scenario.thresholds",
+    "basin_stability": "attraction.along",
     "basins": "attraction.grid",
     "bifurcation_curve": "stability.curves",
     "bifurcation_diagram": "stability.bifurcation_diagram",
@@ -107,6 +108,7 @@ __all__ = [
     "State",
     "Thresholds",
     "__version__",
+    "basin_stability",
     "basins",
     "bifurcation_curve",
     "bifurcation_diagram",
@@ -157,6 +159,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
+    from vibroimpact.attraction.along import basin_stability
     from vibroimpact.attraction.grid import basins
     from vibroimpact.attraction.manifolds import manifolds
     from vibroimpact.errors import InputError

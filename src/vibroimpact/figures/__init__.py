@@ -6,6 +6,7 @@ A notebook shows what is returned; `save_figure` writes it to a file.
 """
 
 from vibroimpact.figures.accelerogram import accelerogram
+from vibroimpact.figures.basin_shares import basin_shares
 from vibroimpact.figures.basins import basin_portrait
 from vibroimpact.figures.branches import bifurcation_diagram
 from vibroimpact.figures.cases import scenario_cases
@@ -37,6 +38,7 @@ __all__ = [
     "Mark",
     "accelerogram",
     "basin_portrait",
+    "basin_shares",
     "bifurcation_curves",
     "bifurcation_diagram",
     "clearances",

@@ -18,6 +18,7 @@ MANY_MOTIONS: dict[str, Variable] = {
     "mirror_image": Variable("1", "number of the mirror image", "-1 where it is not among them"),
     "section_attractor": Variable("1", "number of the motion whose point it is"),
     "states": Variable("1", "number of states that lead there"),
+    "given_up": Variable("1", "number of states that were given up"),
     "share": Variable("1", "share of the states that lead there"),
     **{
         f"share_{end}": Variable(

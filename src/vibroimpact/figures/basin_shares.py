@@ -1,0 +1,98 @@
+"""Shares of states by the motion that they lead to, along a parameter."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib import patheffects
+from matplotlib.axes import Axes
+from matplotlib.patches import Patch
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.basins import colour_of
+from vibroimpact.figures.branches import axis_unit
+from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.style import LEGEND
+
+
+def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
+    """Draw shares along a parameter, one on top of the other, with their intervals.
+
+    Parameters
+    ----------
+    data
+        Dataset of `vibroimpact.basin_stability` along a parameter.
+    ax
+        Axes to draw on. None makes a new figure.
+    title
+        Title of a new figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset has no shares along a parameter.
+    """
+    if "share" not in data or data["share"].ndim != 2:
+        raise InputError(
+            "data: it has no shares along a parameter; a dataset of basin_stability with a "
+            "parameter is accepted"
+        )
+    ax = axes_or_new(ax, (7.2, 4.4), title)
+    along = data[str(data["share"].dims[0])]
+    factor, unit = axis_unit(along)
+    x = factor * along.values
+    share = 100.0 * data["share"].values
+    top = np.cumsum(share, axis=1)
+    handles = []
+    for number in range(share.shape[1]):
+        low, high = top[:, number] - share[:, number], top[:, number]
+        ax.fill_between(
+            x, low, high, facecolor=colour_of(number), edgecolor="black", linewidth=0.6, zorder=2
+        )
+        handles.append(Patch(facecolor=colour_of(number), edgecolor="black", linewidth=0.5))
+        widest = int(np.argmax(share[:, number]))
+        if share[widest, number] > 4.0:
+            inner = slice(1, -1) if len(x) > 2 else slice(None)
+            at = np.arange(len(x))[inner][int(np.argmax(share[inner, number]))]
+            text = ax.text(
+                float(x[at]),
+                0.5 * float(low[at] + high[at]),
+                str(number + 1),
+                ha="center",
+                va="center",
+                fontweight="bold",
+                zorder=4,
+            )
+            text.set_path_effects([patheffects.withStroke(linewidth=2.4, foreground="white")])
+        if number + 1 == share.shape[1]:
+            continue
+        # Above the last there is nothing; a border's interval is that of the share below it.
+        below = 100.0 * data["share_low"].values[:, number]
+        above = 100.0 * data["share_high"].values[:, number]
+        there = (share[:, number] > 0.0) & (share[:, number] < 100.0)
+        bars = ax.errorbar(
+            x[there],
+            high[there],
+            yerr=[(share[:, number] - below)[there], (above - share[:, number])[there]],
+            linestyle="",
+            color="black",
+            linewidth=0.8,
+            capsize=2.0,
+            zorder=3,
+        )
+        for line in (*bars.lines[1], *bars.lines[2]):
+            line.set_path_effects([patheffects.withStroke(linewidth=2.0, foreground="white")])
+    ends = (x.min(), x.max()) if len(x) > 1 else (x[0] - 0.5, x[0] + 0.5)
+    ax.set(
+        xlim=ends,
+        ylim=(0.0, 100.0),
+        xlabel=f"{along.attrs['long_name']} ({unit})",
+        ylabel="share of the states (%)",
+    )
+    ax.legend(
+        handles,
+        [f"motion {number + 1}" for number in range(share.shape[1])],
+        ncols=min(share.shape[1], 5),
+        **LEGEND,
+    )
+    return ax
