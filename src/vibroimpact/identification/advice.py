@@ -32,7 +32,7 @@ _STEP = 1e-3
 _FACTORS = (0.5, 0.75, 1.0, 1.5, 2.0)
 """Of the amplitude."""
 _POINTS = 61
-_WILD = 30.0
+_WILD = 8.0
 """Derivatives of logarithms from which on a hold lies so near to a jump that it may miss it."""
 _NOISE = 0.02
 """Of a hold to come, where the fit's tests were no curves."""

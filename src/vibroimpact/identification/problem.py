@@ -150,6 +150,13 @@ class Problem:
         return found
 
     @property
+    def shares_of_curves(self) -> Array:
+        """As `_shares` of the points of curves; 0 of all others."""
+        parts = [np.full(t.count, float(t.kind == "curves")) for t in self.tests]
+        kept: Array = self._shares * np.concatenate([*parts, np.zeros(self._priors)])
+        return kept
+
+    @property
     def jumps(self) -> Flags:
         """Which residuals are those of the jumps of curves."""
         parts = [(np.arange(t.count) >= t.points_count) & (t.kind == "curves") for t in self.tests]

@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 
 _FARTHEST = 100.0
 """Sizes of a parameter beyond which no end of an interval is looked for."""
+_STEEP = 8.0
+"""Change of a value over that of a parameter, both as shares, from which on a fold is near."""
 _CLOSE = 0.01
 """An end is found when the sum of squares is this close to its limit, as a share of that."""
 _REFITS = 14
@@ -53,9 +55,11 @@ def spread(problem: Problem, x: Array) -> Spread:
     """Covariance at a fit."""
     plain = problem.replaced(tail=np.inf)
     matrix = plain.jacobian(x, fine=True)
-    # A jump at the edge of its step bounds a parameter on one side, which profiles tell; as a
-    # derivative it would bound it on both.
-    matrix[problem.jumps] = 0.0
+    # A jump at the edge of its step, and a point beside a fold, where a branch turns as a square
+    # root, bound a parameter on one side, which profiles tell; by their derivatives they would
+    # bound it on both, far too tightly.
+    steep = np.abs(matrix * problem.shares_of_curves[:, np.newaxis]).max(axis=1) > _STEEP
+    matrix[problem.jumps | steep] = 0.0
     used = int(problem.measured.sum())
     freedom = max(used - len(x), 1)
     # A direction that the data do not see at all has an infinite variance, not a zero one.
