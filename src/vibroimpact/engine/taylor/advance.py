@@ -1,10 +1,8 @@
 """From one event to the next under curved laws, a leap or a Taylor step at a time.
 
-Where a leap does not know the forces or is not sure, a step is taken (`leaps`). On each step
-every event that may come is asked for: a free stop that is touched, a bumper that lets go, and what
-ends a branch of the isolator's law. What the sizes of a series' coefficients exclude costs a sum;
-the rest is searched as between tables (`linear.roots`), in three parts: about the step's beginning,
-its middle and its end, so that what has just happened there has no noise.
+Where a leap does not know the forces or is not sure, a step is taken (`leaps`). On each step every
+event that may come is asked for. What the sizes of a series' coefficients exclude costs a sum; the
+rest is searched (`linear.roots`) about the beginning, middle and end, without what just was.
 """
 
 from __future__ import annotations
