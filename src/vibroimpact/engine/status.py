@@ -32,8 +32,9 @@ _ADVICE = {
         "more contacts and detachments in one forcing cycle than `max_events`, or more steps to "
         "the next of them than any rig should need: the mass chatters on a bumper (raise "
         "`max_events`, or give the bumper more damping, or no restitution, if it is met all but "
-        "without speed, where that asks for endless damping), or a drag with a `damping_exponent` below 1 is too "
-        "stiff where the mass all but stands (raise the exponent, or lower the damping)"
+        "without speed, where that asks for endless damping), or a drag with a "
+        "`damping_exponent` below 1 is too stiff where the mass all but stands (raise the "
+        "exponent, or lower the damping)"
     ),
     Status.TOO_MUCH_WORK: (
         "the fastest rate of the rig is too many times the forcing frequency to follow one "
