@@ -20,6 +20,12 @@ from vibroimpact.engine import jit
 
 KNOWN = "0.68."
 """Versions of numba whose code generator these four methods are those of."""
+_METHODS: tuple[tuple[Any, str], ...] = (
+    (JITCPUCodegen, "_add_module"),
+    (JITCodeLibrary, "_finalize_specific"),
+    (JITCodeLibrary, "get_pointer_to_function"),
+    (JITCPUCodegen, "set_env"),
+)
 
 
 @contextmanager
@@ -31,9 +37,9 @@ def only(name: str) -> Iterator[None]:
     if not (numba.__version__.startswith(KNOWN) and jit.WITHIN["no_cpython_wrapper"]):
         yield
         return
-    add, finish = JITCPUCodegen._add_module, JITCodeLibrary._finalize_specific
-    pointer, place = JITCodeLibrary.get_pointer_to_function, JITCPUCodegen.set_env
     here = threading.get_ident()
+    own = {key: getattr(*key) for key in _METHODS}
+    add, finish, pointer, place = own.values()
 
     def linked(library: str) -> bool:
         return library != name and threading.get_ident() == here
@@ -54,9 +60,9 @@ def only(name: str) -> Iterator[None]:
             place(self, symbol, env)
 
     try:
-        JITCPUCodegen._add_module, JITCodeLibrary._finalize_specific = add_module, finalize
-        JITCodeLibrary.get_pointer_to_function, JITCPUCodegen.set_env = get_pointer, set_env
+        for key, method in zip(own, (add_module, finalize, get_pointer, set_env), strict=True):
+            setattr(*key, method)
         yield
     finally:
-        JITCPUCodegen._add_module, JITCodeLibrary._finalize_specific = add, finish
-        JITCodeLibrary.get_pointer_to_function, JITCPUCodegen.set_env = pointer, place
+        for key, method in own.items():
+            setattr(*key, method)

@@ -51,12 +51,12 @@ _announced = threading.Event()
 
 def kernel(function: F) -> F:
     """Compile a function that only other compiled functions call."""
-    return _within(numba.njit(**WITHIN)(function))
+    return _within(numba.njit(**WITHIN)(function))  # type: ignore[no-any-return]
 
 
 def inlined(function: F) -> F:
     """As `kernel`, merged into each function that calls it: for what a hot loop consists of."""
-    return _within(numba.njit(**WITHIN, forceinline=True)(function))
+    return _within(numba.njit(**WITHIN, forceinline=True)(function))  # type: ignore[no-any-return]
 
 
 def _within(dispatcher: Any) -> Any:

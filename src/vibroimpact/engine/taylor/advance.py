@@ -43,6 +43,7 @@ from vibroimpact.engine.taylor.frame import (
     curved_stop,
     grip,
     push_of,
+    steep,
     stuck,
     way_of,
     without_friction,
@@ -236,7 +237,7 @@ def turns(plan: Vector, found: Found, motion: Motion, frame: Frame) -> Found:
     if motion.v == 0.0:
         plan[ASKED] = 0.0
         slips = motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED)
-        if (slips and plan[par.DRAG] >= 1.0) or balanced(plan, motion):
+        if (slips and not steep(plan)) or balanced(plan, motion):
             plan[ASKED + 1] = 0.0
     clearance = Clearance(0.0, ways, 0.0, 0.0, False)
     found = watch(plan, found, TURNED, ASKED, spread(plan, ASKED), clearance, False, False)

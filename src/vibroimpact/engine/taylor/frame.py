@@ -179,14 +179,20 @@ def creep(plan: Vector) -> float:
 
 
 @kernel
+def steep(plan: Vector) -> bool:
+    """Whether there is a drag of an exponent below 1: infinitely stiff where the mass stands."""
+    return bool(plan[par.DRAG] < 1.0 and plan[par.DAMPING] != 0.0)
+
+
+@kernel
 def grip(plan: Vector) -> float:
     """Up to which force a mass that stands is held, per unit mass (m/s²).
 
-    That of friction. A drag of an exponent below 1 is infinitely stiff where the mass stands: under
-    less than what it pulls with at `creep` the mass would never be faster than that.
+    That of friction; and under less than what a steep drag pulls with at `creep` the mass would
+    never be faster than that.
     """
     held: float = plan[par.FRICTION]
-    if plan[par.DRAG] < 1.0:
+    if steep(plan):
         held += plan[par.DAMPING] * creep(plan) ** plan[par.DRAG]
     return held
 
@@ -196,7 +202,7 @@ def stuck(plan: Vector, motion: Motion) -> bool:
     """Whether friction holds the mass, or a drag that no force overcomes."""
     if motion.v != 0.0 or motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT):
         return False
-    if plan[par.FRICTION] == 0.0 and plan[par.DRAG] >= 1.0:
+    if plan[par.FRICTION] == 0.0 and not steep(plan):
         return False
     return bool(abs(without_friction(plan, motion)) <= grip(plan))
 
@@ -204,7 +210,7 @@ def stuck(plan: Vector, motion: Motion) -> bool:
 @kernel
 def creeps(plan: Vector, motion: Motion) -> bool:
     """Whether a drag is about to hold a mass that is slower than leaves a trace."""
-    if plan[par.DRAG] >= 1.0 or motion.v == 0.0 or abs(motion.v) > creep(plan):
+    if not steep(plan) or motion.v == 0.0 or abs(motion.v) > creep(plan):
         return False
     mode, _, u, _, right, left, z, age, clock = motion
     standing = Motion(mode, 0, u, 0.0, right, left, z, age, clock)
