@@ -25,7 +25,7 @@ from vibroimpact.engine.motion import (
 )
 from vibroimpact.engine.taylor.plan import stiff_rate
 
-_CREEP = 2.0**-44
+_CREEP = 2.0**-36
 """Of a velocity: what a strong drag leaves of it where the forces on the mass change their sign."""
 
 _ROUNDING = 1e-15

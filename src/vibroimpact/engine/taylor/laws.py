@@ -30,7 +30,7 @@ from vibroimpact.engine.taylor.step import Laws
 _NOTHING = 2.0**-60
 """A share of the motion's energy or force that leaves no trace in it."""
 
-_STABLE = 5.0
+_STABLE = 8.0
 """Times that in which a drag decays: a series of a step's degree grows with a longer one."""
 
 _ROUNDING = 2.0**-53
