@@ -263,8 +263,7 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
     s, c = clock
     # `still` − A_t is what friction holds against.
     still = without_friction(plan, motion) + value(plan, s, c)
-    event, t, slips = LIMIT, limit, 0
-    most = grip(plan)
+    event, t, slips, most = LIMIT, limit, 0, grip(plan)
     after = turned(plan, s, c, limit)
     for way in range(2):
         sign = -1.0 if way == 0 else 1.0  # to the right where −A_t exceeds a level
