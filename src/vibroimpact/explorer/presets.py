@@ -35,7 +35,8 @@ def preset(name: str) -> State:
         If there is none of that name.
     """
     if name == BUILDING:
-        return begin(_building(), BUILDING)
+        state = begin(_building(), BUILDING)
+        return state._replace(shaking=state.shaking.replace(frequency=0.55))  # its hysteresis
     if name in _CASES:
         case = laboratory.case(_CASES[name])
         return begin(case, name, (case.frequencies[0], case.frequencies[-1]))

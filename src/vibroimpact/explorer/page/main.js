@@ -7,18 +7,23 @@ import { Motion } from "./motion.js";
 import { Basins, Plane } from "./plane.js";
 import { asPicture, copy, keep } from "./save.js";
 
-const PATIENCE = 1200; // ms after which a page that waits says so
+// Milliseconds after which a page that waits says so, and says why it may take so long.
+const PATIENCE = 400;
+const LONG = 3000;
+const FIRST = "computing … (what is used for the first time is compiled: up to a minute, once)";
 const id = (name) => document.getElementById(name);
 const status = id("status");
 let state = null;
 let choices = { presets: [], isolators: [], stops: [] };
 let resting = true;
-let waiting = 0;
+let waiting = [];
+let asked = 0;
 
 const link = new Link({
   told,
   changed(how, why) {
     document.body.dataset.link = how;
+    patient(how === "connected");
     if (how === "lost") say(`Connection lost: ${why}. Trying again …`, true);
     else say("");
   },
@@ -26,16 +31,25 @@ const link = new Link({
 });
 const send = (message) => {
   resting = !message.dragging;
-  clearTimeout(waiting);
-  waiting = setTimeout(() => say("computing …"), PATIENCE);
-  return link.send(message);
+  patient(true);
+  return (asked = link.send(message));
 };
 const knobs = new Knobs(send);
 const curves = new Curves((direction, frequency) => send({ do: "choose", direction, frequency }));
 const motion = new Motion();
 const plane = new Plane(id("map"), (x, y, dragging, gesture) => send({ do: "place", x, y, dragging, gesture: `place ${gesture}` }));
 const basins = new Basins(id("basins"));
-const TABS = ["motion", "map", "basins"];
+const TABS = ["motion", "words", "map", "basins"];
+let beside = "motion"; // of those that are there already
+
+// What is drawn fades while it is not yet that of the knobs.
+function patient(begin) {
+  waiting.forEach(clearTimeout);
+  waiting = [];
+  if (!begin) return;
+  waiting.push(setTimeout(() => document.body.classList.add("late"), PATIENCE));
+  for (const [when, words] of [[PATIENCE, "computing …"], [LONG, FIRST]]) waiting.push(setTimeout(() => say(words), when));
+}
 
 function say(text, lost = false) {
   if (status.textContent !== text) status.textContent = text;
@@ -50,7 +64,8 @@ function told(message) {
   if (message.progress) say(`${message.progress}: ${Math.round(100 * message.share)} %`);
   if (message.file) keep(message.file, message.mime, message.bytes);
   if (message.settled) {
-    clearTimeout(waiting);
+    patient(false);
+    document.body.classList.remove("late");
     say("");
     document.body.dataset.settled = message.n ?? "";
   }
@@ -82,7 +97,7 @@ function show(next) {
   id("direction").value = state.direction;
   const ratio = (name) => state.controls.find((knob) => knob.path === `stops.${name}`)?.value;
   const point = [ratio("stiffness_ratio"), ratio("gap_ratio")];
-  tab(TABS.find((name) => state.shown.includes(name)) ?? "motion");
+  tab(TABS.find((name) => state.shown.includes(name)) ?? beside);
   plane.at(point.includes(undefined) ? null : point, choices.plane, choices.scenarios);
   document.title = `${state.name} – vibroimpact explorer`;
   history.replaceState(null, "", `#${state.address}`);
@@ -97,7 +112,7 @@ function tab(name) {
 }
 
 function refused({ refused: why, path }) {
-  clearTimeout(waiting);
+  patient(false);
   if (path === "frequency") {
     id("frequency-why").textContent = why;
     id("frequency").setAttribute("aria-invalid", "true");
@@ -111,6 +126,8 @@ function drawn(message) {
   }
   if (message.picture === "curves") {
     curves.show(message, resting);
+    if (message.n === asked) document.body.classList.remove("late");
+    if (message.words) id("words-curves").textContent = message.words;
     requestAnimationFrame(() => {
       document.body.dataset.drawn = message.n ?? "";
       document.body.dataset.fine = message.fine;
@@ -119,6 +136,7 @@ function drawn(message) {
     id("frequency-why").textContent = "";
     id("frequency").setAttribute("aria-invalid", "false");
     motion.show(message);
+    if (message.table) id("words-motion").textContent = message.table.trim();
     curves.mark({ direction: message.direction, frequency: message.frequency });
   } else if (message.picture === "scenario") {
     id("scenario-name").textContent = message.scenario;
@@ -134,6 +152,7 @@ for (const what of ["undo", "redo", "reset"]) id(what).addEventListener("click",
 for (const what of ["physical", "branch"]) id(what).addEventListener("change", (event) => send({ do: "look", what, on: event.target.checked }));
 for (const name of TABS) {
   id(`tab-${name}`).addEventListener("click", () => {
+    if (name === "motion" || name === "words") tab((beside = name));
     for (const one of ["map", "basins"]) if (state.shown.includes(one) !== (one === name)) send({ do: "look", what: one, on: one === name });
   });
   id(`tab-${name}`).addEventListener("keydown", (event) => {

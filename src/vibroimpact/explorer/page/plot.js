@@ -75,7 +75,7 @@ export class Chart {
     group.replaceChildren();
     const [left, right, top, bottom] = [MARGIN.left, width - MARGIN.right, MARGIN.top, height - MARGIN.bottom];
     const xs = this.xlog ? decades(...x) : ticks(...x, width / 75);
-    const ys = this.ylog ? decades(...y) : ticks(...y, height / 45);
+    const ys = this.ylog ? decades(...y) : ticks(...y, height / 33);
     for (const value of xs) {
       element("path", { class: "grid", d: `M${this.toX(value)} ${top}V${bottom}` }, group);
       element("text", { x: this.toX(value), y: bottom + 13, "text-anchor": "middle" }, group, label(value));

@@ -7,11 +7,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.explorer.pictures.numbers import one, short
+from vibroimpact.explorer.pictures.numbers import WIDTH, one, short
 from vibroimpact.explorer.state import State
+from vibroimpact.facts import sweeps as told
+from vibroimpact.facts.tables import as_text
 from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
 from vibroimpact.response import resonance
-from vibroimpact.response.sweep import sweep
+from vibroimpact.response.sweep import advice, sweep
 from vibroimpact.response.threads import Progress
 
 COARSE = 46
@@ -35,9 +37,11 @@ def curves(state: State, data: xr.Dataset, fine: bool) -> dict[str, Any]:
     """Return the curves of a sweep as two or three panels."""
     found = resonance.features(data)
     panels = physical_curves(data) if state.physical else normalised(data)
+    words = as_text(told.text(data, found, advice(data)), WIDTH) if fine else None
     return {
         "picture": "curves",
         "fine": fine,
+        "words": words,
         "physical": state.physical,
         "frequency": short(data["frequency"].values, 7),
         "panels": [_panel(panel) for panel in panels],

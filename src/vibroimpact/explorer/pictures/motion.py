@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.explorer.pictures.numbers import one, short
+from vibroimpact.explorer.pictures.numbers import WIDTH, one, short
 from vibroimpact.explorer.state import State
 from vibroimpact.facts import motions as told
+from vibroimpact.facts.tables import as_text
 from vibroimpact.model import Harmonic
 from vibroimpact.model.quantities import FORCE
 from vibroimpact.response.simulate import simulate
@@ -57,6 +58,7 @@ def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
         **_drawn(state, drawn, shaken),
         "fine": True,
         "words": told.words(motion),
+        "table": as_text(told.text({shaken.frequency: {"motion": motion}}), WIDTH),
         "spectrum": _spectrum(motion),
         "hits": [
             {"time": one(start), "side": int(side), "speed": one(speed)}

@@ -6,6 +6,9 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
+WIDTH = 100
+"""Columns of a text on the page."""
+
 
 def short(values: Iterable[Any], digits: int = 5) -> list[float | None]:
     """Round to so many digits; None for what is not finite."""
