@@ -70,7 +70,7 @@ def page() -> Table | None:
         shown = driver.chromium.launch(executable_path=browser, args=["--no-sandbox"])
         opened = shown.new_page(viewport={"width": 1280, "height": 720})
         opened.goto(where[0])
-        opened.wait_for_selector("body[data-settled]")
+        opened.wait_for_selector("body[data-settled]", timeout=300_000)  # it may have to compile
         took = opened.evaluate(TURNED, {"id": "knob-stops-gap", "moves": _MOVES})
         shown.close()
     table = targets("The explorer's page")

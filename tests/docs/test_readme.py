@@ -34,10 +34,10 @@ def test_pictures_are_there():
 
 
 def test_its_picture_is_made_by_the_script_that_it_names():
-    (picture,) = PICTURE.findall(README)
+    picture, strip = PICTURE.findall(README)
     (script,) = re.findall(r"\]\((examples/\w+\.py)\)", README)
-    name = picture.rsplit("/", 1)[1]
-    assert name in (ROOT / script).read_text(encoding="utf-8")
+    for drawn, by in ((picture, script), (strip, "tests/explorer/strip.py")):
+        assert drawn.rsplit("/", 1)[1] in (ROOT / by).read_text(encoding="utf-8")
 
 
 def test_citations():

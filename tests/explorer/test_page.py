@@ -205,6 +205,7 @@ def test_light_and_dark(opened):
 def test_a_server_that_ends_and_comes_back(browser):
     server = Served()
     page = browser.new_page()
+    page.set_default_timeout(120_000)
     page.goto(server.address)
     page.wait_for_selector("body[data-settled]")
     page.fill("#text-mass", "700 kg")
