@@ -15,13 +15,15 @@ from vibroimpact.engine import capture
 from vibroimpact.engine import motion as layout
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.response.start import engine_rig
-from vibroimpact.response.threads import Progress, Tally, each
+from vibroimpact.response.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.int64]
 
 _REGION = 2000
 """States that a thread follows at a time."""
+_WORTH_IT = 16
+"""Regions; fewer are followed here sooner than they travel to a cluster."""
 
 
 class Stage(NamedTuple):
@@ -52,7 +54,7 @@ class Region(NamedTuple):
     points: _Array
     """u, u̇, u_R, u_L, z as the engine counts, where the motions begin; empty where they go on."""
     states: _Array
-    """Of the engine, where they go on; of as many rows in any case."""
+    """Of the engine, where they go on; empty where they begin."""
     traps: Traps
     cycles: int
 
@@ -72,7 +74,8 @@ class Followed(NamedTuple):
 def follow_region(region: Region, tally: Tally) -> Followed:
     """Follow the states of one region."""
     stage, points, states, traps, cycles = region
-    states = np.ascontiguousarray(states).copy()
+    begun = len(points) > 0
+    states = np.zeros((len(points), layout.STATE)) if begun else np.ascontiguousarray(states).copy()
     results = np.zeros((len(states), capture.RESULT), dtype=np.int64)
     capture.caught(
         engine_rig(stage.oscillator, stage.excitation),
@@ -81,7 +84,7 @@ def follow_region(region: Region, tally: Tally) -> Followed:
         stage.excitation.phase,
         cycles,
         stage.max_events,
-        len(points) > 0,
+        begun,
         np.ascontiguousarray(points),
         *traps,
         states,
@@ -102,7 +105,7 @@ def follow(
     states: _Array | None,
     traps: Traps,
     cycles: int,
-    threads: int | None = None,
+    threads: Workers = None,
     progress: Progress | None = None,
 ) -> Followed:
     """Follow states in regions, over threads; no result depends on their number.
@@ -113,20 +116,22 @@ def follow(
         Where the motions begin, or where they go on: one of the two is None.
     """
     begun = np.empty((0, 5)) if points is None else points
-    held = np.zeros((len(begun), layout.STATE)) if states is None else states
-    number = len(held)
+    held = np.empty((0, layout.STATE)) if states is None else states
+    number = max(len(begun), len(held))
     if not number:
         none = np.empty(0, dtype=np.int64)
         return Followed(np.empty((0, layout.STATE)), none, none, none)
     where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
     capture.caught.prepare(engine_rig(stage.oscillator, stage.excitation))
+    if len(regions) < _WORTH_IT and not isinstance(threads, int):
+        threads = None
     found = each(follow_region, regions, steps=number, threads=threads, progress=progress)
     return Followed(*(np.concatenate(column) for column in zip(*found, strict=True)))
 
 
 def images(
-    stage: Stage, points: _Array, cycles: int = 1, threads: int | None = None
+    stage: Stage, points: _Array, cycles: int = 1, threads: Workers = None
 ) -> tuple[_Array, NDArray[np.bool_]]:
     """Where points of the section are some cycles later, and which of them are known.
 

@@ -19,6 +19,7 @@ from vibroimpact.model import Oscillator, Repeated, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
@@ -47,6 +48,7 @@ def basins(
     max_cycles: int = 2000,
     max_events: int = 10_000,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Find which initial states lead to which steady motion.
@@ -79,6 +81,9 @@ def basins(
     threads
         How many regions of states are followed at once; None for one a processor. No result depends
         on it.
+    where
+        ``"threads"``, or a dask cluster: a `distributed.Client` or the address of its scheduler
+        (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread with the states done and all.
 
@@ -98,7 +103,7 @@ def basins(
     """
     check_bounded(oscillator, excitation)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), whole(max_events, "max_events")
-    threads = None if threads is None else whole(threads, "threads")
+    workers = placed(threads, where)
     refine = whole(refine, "refine", 0)
     first = _nodes(nodes)
     if refine > MOST_REFINED:
@@ -108,7 +113,7 @@ def basins(
         raise InputError(f"nodes: {plan.shape[1]} × {plan.shape[0]}; fewer are accepted")
     others = _others(oscillator, right_bumper, left_bumper, isolator)
     stage = Stage(oscillator, excitation, max_events)
-    search = Search(stage, max_cycles, threads)
+    search = Search(stage, max_cycles, workers)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
     if wide is None or fast is None:

@@ -24,7 +24,7 @@ from vibroimpact.attraction.memory import forgets
 from vibroimpact.engine.capture import GRID, LOW_U, LOW_V, STEP_U, STEP_V
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.response.threads import Progress
+from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.stability.same import ALIKE, distance, same
 
 _Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ class Labelled(NamedTuple):
 class Search:
     """The motions that are known so far, and their traps."""
 
-    def __init__(self, stage: Stage, max_cycles: int = 2000, threads: int | None = None) -> None:
+    def __init__(self, stage: Stage, max_cycles: int = 2000, threads: Workers = None) -> None:
         self.stage = stage
         self.max_cycles = max_cycles
         self.threads = threads

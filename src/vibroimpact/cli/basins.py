@@ -49,6 +49,13 @@ def basins(
         Whole | None,
         Parameter(group=COMPUTATION, help="How many regions at once; one a processor."),
     ] = None,
+    where: Annotated[
+        str,
+        Parameter(
+            group=COMPUTATION,
+            help="Address of a dask scheduler, such as tcp://10.0.0.1:8786; or threads.",
+        ),
+    ] = "threads",
     output: OutputOptions | None = None,
 ) -> int:
     """Map which initial states lead to which steady motion at a frequency.
@@ -94,6 +101,7 @@ def basins(
                 nodes=nodes,
                 refine=refine,
                 threads=threads,
+                where=where,
                 progress=progress,
             )
         data.attrs["title"] = what.name

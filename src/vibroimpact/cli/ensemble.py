@@ -93,6 +93,13 @@ def ensemble(
         Whole | None,
         Parameter(group=COMPUTATION, help="How many sweeps run at once; one a processor."),
     ] = None,
+    where: Annotated[
+        str,
+        Parameter(
+            group=COMPUTATION,
+            help="Address of a dask scheduler, such as tcp://10.0.0.1:8786; or threads.",
+        ),
+    ] = "threads",
     output: OutputOptions | None = None,
 ) -> int:
     """Draw rigs from the distributions of their parameters, and sweep each of them.
@@ -135,7 +142,7 @@ def ensemble(
         from vibroimpact.uncertainty.ensemble import ensemble as draw
 
         pair = (what.oscillator, what.repeated)
-        response = partial(sweeps, frequencies=held, threads=threads)
+        response = partial(sweeps, frequencies=held, threads=threads, where=where)
         with warnings.catch_warnings(record=True) as caught, progress_bar("sweeping") as progress:
             warnings.simplefilter("always", RuntimeWarning)
             data = draw(pair, given, response, method=way, progress=progress, **options)

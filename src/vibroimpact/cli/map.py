@@ -78,6 +78,13 @@ def scenario_map(
         Whole | None,
         Parameter(group=COMPUTATION, help="How many rigs are computed at once; one a processor."),
     ] = None,
+    where: Annotated[
+        str,
+        Parameter(
+            group=COMPUTATION,
+            help="Address of a dask scheduler, such as tcp://10.0.0.1:8786; or threads.",
+        ),
+    ] = "threads",
     output: OutputOptions | None = None,
 ) -> int:
     """Map the scenarios of a rig over two of its parameters.
@@ -133,6 +140,7 @@ def scenario_map(
                     thresholds=used,
                     store=store,
                     threads=threads,
+                    where=where,
                     progress=progress,
                 )
             except InputError as error:

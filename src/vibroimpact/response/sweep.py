@@ -29,6 +29,7 @@ from vibroimpact.model.rigs import (
     rig_name,
     takes_rig,
 )
+from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.free_flight import (
     check_bounded,
     free_flight_excursions,
@@ -132,6 +133,7 @@ def sweeps(
     window: int = 500,
     max_events: int = 10_000,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Sweep many rigs at once, in parallel over threads.
@@ -159,6 +161,9 @@ def sweeps(
         Contacts and detachments in one forcing cycle at which a hold is given up.
     threads
         How many sweeps run at once; None for one a processor. No result depends on it.
+    where
+        ``"threads"``, or a dask cluster: a `distributed.Client` or the address of its scheduler
+        (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread while the sweeps run.
 
@@ -182,7 +187,7 @@ def sweeps(
     tolerance = share(tolerance, "tolerance")
     max_cycles, window = whole(max_cycles, "max_cycles"), whole(window, "window")
     max_events = whole(max_events, "max_events")
-    threads = None if threads is None else whole(threads, "threads")
+    workers = placed(threads, where)
 
     free = np.empty((2, len(pairs), len(grid)))
     largest = np.empty((2, len(pairs)))
@@ -231,7 +236,7 @@ def sweeps(
         *(rig for rig, _, _ in prepared)
     )  # once, before the threads would queue for it
     items = [(r, direction) for r in range(len(pairs)) for direction in directions]
-    done = each(one, items, steps=len(grid) * len(items), threads=threads, progress=progress)
+    done = each(one, items, steps=len(grid) * len(items), threads=workers, progress=progress)
     shape = (len(pairs), len(directions), len(grid))
     results = np.array([found for found, _ in done]).reshape(*shape, hold.RESULTS)
     states = np.array([reached for _, reached in done]).reshape(*shape, layout.STATE)

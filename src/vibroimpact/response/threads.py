@@ -1,4 +1,4 @@
-"""Many independent tasks on threads, with progress, and all stopped on Ctrl-C."""
+"""Many independent tasks on threads or a cluster, with progress, and all stopped on Ctrl-C."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import itertools
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
-from typing import TypeAlias, TypeVar
+from typing import Any, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,24 @@ Tally: TypeAlias = NDArray[np.int64]
 
 Progress = Callable[[int, int | None], None]
 """Called now and then with how much is done and how much there is to do, None if nobody knows."""
+
+
+class Elsewhere(Protocol):
+    """Where tasks are done in the place of threads (`cluster`)."""
+
+    def width(self) -> int:
+        """How many are done at once."""
+        ...
+
+    def each(
+        self, task: Callable[..., Any], items: Sequence[Any], total: int, progress: Progress | None
+    ) -> list[Any]:
+        """Do a task for each item."""
+        ...
+
+
+Workers: TypeAlias = int | Elsewhere | None
+"""So many threads, one a processor, or a cluster."""
 
 
 def counted(progress: Progress | None) -> Callable[[object], None] | None:
@@ -36,12 +54,19 @@ def available() -> int:
     return os.cpu_count() or 1
 
 
+def breadth(threads: Workers) -> int:
+    """How many tasks are done at once."""
+    if threads is None:
+        return available()
+    return threads if isinstance(threads, int) else threads.width()
+
+
 def each(
     task: Callable[[_Item, Tally], _Found],
     items: Sequence[_Item],
     *,
     steps: int | None = None,
-    threads: int | None = None,
+    threads: Workers = None,
     progress: Progress | None = None,
 ) -> list[_Found]:
     """Do a task for each item, many at once; all stop when one fails, or on Ctrl-C.
@@ -60,7 +85,8 @@ def each(
         What the tallies add up to, where tasks count steps of their own; None where an item is
         one step, which is counted here.
     threads
-        How many run at once; None for one a processor. No result depends on it.
+        How many run at once, None for one a processor; or a cluster, where a task has no tally
+        but its own. No result depends on it.
     progress
         Called from the calling thread.
 
@@ -71,8 +97,10 @@ def each(
     """
     if not items:
         return []
-    tallies = np.zeros((len(items), 2), dtype=np.int64)
     total = len(items) if steps is None else steps
+    if threads is not None and not isinstance(threads, int):
+        return threads.each(task, items, total, progress)
+    tallies = np.zeros((len(items), 2), dtype=np.int64)
 
     def one(number: int) -> _Found:
         tally = tallies[number]

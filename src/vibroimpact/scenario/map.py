@@ -14,7 +14,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import from_dimensionless
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.rigs import AnyRig, as_rig
-from vibroimpact.response.threads import Progress, Stopped, Tally, available, each
+from vibroimpact.response.cluster import THREADS, placed
+from vibroimpact.response.threads import Progress, Stopped, Tally, Workers, breadth, each
 from vibroimpact.response.variables import excitation_parameters, oscillator_parameters
 from vibroimpact.scenario.axes import Axis, Base, Shaken, axis, check_pair, one_sine
 from vibroimpact.scenario.cell import classified
@@ -43,6 +44,7 @@ def scenario_map(
     store: Path | str | None = None,
     block: int = 10,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Name the scenarios over two parameters.
@@ -80,6 +82,9 @@ def scenario_map(
         computation is stopped, and held in memory at a time.
     threads
         How many rigs are computed at once; None for one a processor. No result depends on it.
+    where
+        ``"threads"``, or a dask cluster: a `distributed.Client` or the address of its scheduler
+        (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread with the nodes done and those known so far to be wanted.
 
@@ -113,7 +118,7 @@ def scenario_map(
         "max_cycles": None if max_cycles is None else whole(max_cycles, "max_cycles"),
         "block": (block := whole(block, "block")),
     }
-    workers = available() if threads is None else whole(threads, "threads")
+    workers = placed(threads, where)
     fine = first.refined(refine), second.refined(refine)
     for end in (0, -1):  # refused before anything is computed
         start.rig({one.name: float(one.values[end]) for one in fine})
@@ -166,7 +171,7 @@ def _level(
     held: MapStore,
     level: int,
     compute: Compute,
-    workers: int,
+    workers: Workers,
     progress: Progress | None,
     done: int,
 ) -> int:
@@ -201,13 +206,13 @@ def _known(plan: _Plan, held: MapStore, level: int) -> Scenarios:
 def _parallel(
     rigs: list[Shaken],
     compute: Compute,
-    workers: int,
+    workers: Workers,
     progress: Progress | None,
     before: int,
     total: int,
 ) -> dict[str, NDArray[Any]]:
     """Compute some rigs, a few at a time on each thread."""
-    few = max(1, min(_FEW, len(rigs) // (4 * workers)))
+    few = max(1, min(_FEW, len(rigs) // (4 * breadth(workers))))
     parts = [rigs[i : i + few] for i in range(0, len(rigs), few)]
 
     def task(part: list[Shaken], tally: Tally) -> dict[str, NDArray[Any]]:

@@ -20,7 +20,8 @@ from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.response.threads import Progress
+from vibroimpact.response.cluster import THREADS, placed
+from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.scenario.folder import Kind, create, finished, folder, read
 from vibroimpact.seismic.intensity import Measure, measure
@@ -52,6 +53,7 @@ def demands(
     store: Path | str | None = None,
     block: int = 64,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Return what records at several scales ask of rigs.
@@ -88,6 +90,9 @@ def demands(
         computation is stopped.
     threads
         How many runs are done at once; None for one a processor. No result depends on it.
+    where
+        ``"threads"``, or a dask cluster: a `distributed.Client` or the address of its scheduler
+        (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread with the runs done and all there are.
 
@@ -116,7 +121,7 @@ def demands(
         factors,
         None if tail is None else to_si(tail, TIME, "tail", minimum=0.0),
         whole(max_events, "max_events"),
-        None if threads is None else whole(threads, "threads"),
+        placed(threads, where),
     )
     settings = {
         "oscillators": {name: oscillator_parameters(one) for name, one in rigs.rigs.items()},
@@ -163,7 +168,7 @@ class _Task(NamedTuple):
     """Of each record at each level."""
     tail: float | None
     max_events: int
-    threads: int | None
+    threads: Workers
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -16,7 +16,7 @@ from vibroimpact.engine import earthquakes as found
 from vibroimpact.model import Oscillator, Record, equilibrium
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import Progress, Tally, available, each
+from vibroimpact.response.threads import Progress, Tally, Workers, breadth, each
 from vibroimpact.seismic.free import BLOCKS, SMALL, block, free_tail, settles
 
 _Array = NDArray[np.float64]
@@ -62,7 +62,7 @@ def peaks(
     energies: bool = False,
     residuals: bool = False,
     max_events: int = MAX_EVENTS,
-    threads: int | None = None,
+    threads: Workers = None,
     progress: Progress | None = None,
 ) -> dict[str, NDArray[np.generic]]:
     """Return the peaks of rigs through records, at several scales each, from their rest.
@@ -80,7 +80,7 @@ def peaks(
     max_events
         See `MAX_EVENTS`.
     threads
-        How many run at once; None for one a processor. No result depends on it.
+        How many run at once, None for one a processor; or a cluster. No result depends on it.
     progress
         Called from the calling thread with the runs done and all there are.
 
@@ -92,7 +92,7 @@ def peaks(
     """
     count = len(shaken[0].factors) if shaken else 0
     rows = np.full((len(shaken), count, found.FOUND), np.nan)
-    workers = threads or available()
+    workers = breadth(threads)
     # Few rigs with many scales are dealt out, too.
     few = max(1, min(_AT_ONCE, -(-count * len(shaken) // (4 * workers))))
     parts = [(n, slice(i, i + few)) for n in range(len(shaken)) for i in range(0, count, few)]

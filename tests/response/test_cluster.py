@@ -1,0 +1,115 @@
+"""On a dask cluster of processes everything is as on threads, whatever dies meanwhile."""
+
+from __future__ import annotations
+
+import os
+import signal
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from samples import sample
+from vibroimpact.response.cluster import LostError, placed
+
+distributed = pytest.importorskip("distributed")
+
+GRID = np.linspace(0.5, 3.0, 30)
+SIDE = sample(12, 5)
+AXES = (
+    ("stiffness_ratio", np.geomspace(2.0, 60.0, SIDE), "log"),
+    ("gap_ratio", np.linspace(0.0, 1.0, SIDE), "linear"),
+)
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
+        ) as local,
+        distributed.Client(local) as client,
+    ):
+        yield client
+
+
+@pytest.fixture(scope="module")
+def on_threads():
+    return vi.scenario_map(*AXES, refine=1, block=2)
+
+
+def test_sweeps(cluster):
+    rigs = {"one": "B2-G1-A3", "two": "B3-G2-A2", "three": "B1-G1-A3"}
+    told = []
+    there = vi.sweeps(rigs, GRID, where=cluster, progress=lambda *at: told.append(at))
+    assert there.identical(vi.sweeps(rigs, GRID))
+    assert told[-1] == (6 * len(GRID), 6 * len(GRID))
+
+
+def test_demands(cluster):
+    time = np.arange(0.0, 5.0, 0.01)
+    record = vi.Record(np.sin(7.0 * time) * np.exp(-time / 2.0), 0.01)
+    asked = ("B2-G1-A3", record, np.linspace(0.5, 3.0, 20))
+    there = vi.demands(*asked, where=cluster.scheduler.address)
+    assert there.identical(vi.demands(*asked))
+
+
+def test_basins(cluster):
+    asked = {"nodes": sample(400, 190)}  # 19 regions
+    there = vi.basins("B3-10mm-A3", "0.70 Hz", where=cluster, **asked)
+    assert there.identical(vi.basins("B3-10mm-A3", "0.70 Hz", **asked))
+
+
+def test_a_map_outlives_workers(cluster, on_threads):
+    killed = []
+
+    def kill(done, total):
+        if done > total // 3 and len(killed) < 2:
+            pid = next(p for p in cluster.run(os.getpid).values() if p not in killed)
+            killed.append(pid)
+            os.kill(pid, signal.SIGKILL)
+
+    there = vi.scenario_map(*AXES, refine=1, block=2, where=cluster, progress=kill)
+    assert killed
+    assert there.identical(on_threads)
+
+
+def test_a_map_is_completed_when_the_scheduler_died(tmp_path, on_threads):
+    local = distributed.LocalCluster(
+        n_workers=1, threads_per_worker=2, processes=False, dashboard_address=":0"
+    )
+    client = distributed.Client(local)
+    store = tmp_path / "map.zarr"
+
+    def die(done, total):
+        if done > total // 3:
+            local.close(timeout=10)
+
+    with pytest.raises(LostError, match="went away"):
+        vi.scenario_map(*AXES, refine=1, block=2, store=store, where=client, progress=die)
+    client.close()
+    left = []
+    again = vi.scenario_map(
+        *AXES, refine=1, block=2, store=store, progress=lambda *at: left.append(at[0])
+    )
+    assert left[0] > 0  # what was done is not done again
+    assert again.load().identical(on_threads)
+
+
+@pytest.mark.parametrize(
+    ("where", "said"),
+    [
+        ("treads", "where: 'treads'; 'threads', a dask Client, or the address"),
+        ("tcp://127.0.0.1:9", "no scheduler answers at tcp://127.0.0.1:9"),
+        (3, "where: 3; 'threads', a dask Client"),
+    ],
+)
+def test_what_is_no_cluster_is_refused(where, said, monkeypatch):
+    monkeypatch.setattr("vibroimpact.response.cluster._PATIENCE", "1s")
+    with pytest.raises(vi.InputError, match=said.split(";")[0]):
+        placed(None, where)
+
+
+def test_threads_and_a_cluster_exclude_one_another(cluster):
+    with pytest.raises(vi.InputError, match="threads: 2; on a cluster its workers"):
+        vi.sweeps(["B2-G1-A3"], GRID, threads=2, where=cluster)
