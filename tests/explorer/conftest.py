@@ -67,7 +67,7 @@ def opened(browser, served):
             **{"viewport": {"width": 1280, "height": 720}, "reduced_motion": "reduce", **options}
         )
         contexts.append(context)
-        context.set_default_timeout(120_000)  # the engine may have to be compiled
+        context.set_default_timeout(60_000)  # the engine may have to be compiled
         page = context.new_page()
         page.said = said
         page.on("console", lambda one: one.type == "error" and said.append(one.text))

@@ -151,7 +151,6 @@ def test_the_point_of_the_map_is_dragged(opened):
     page.mouse.up()
     until(page, "document.getElementById('text-stops-gap').value !== '7.5 mm'")
     until_bent(page, before)
-    settle(page)
     assert float(page.input_value("#text-stops-stiffness_ratio")) < 15.0
     page.click("#undo")
     until(page, "document.getElementById('text-stops-gap').value === '7.5 mm'")

@@ -97,6 +97,10 @@ def test_what_is_overtaken_is_not_made(session):
         {"do": "change", "path": "mass", "value": True},
         {"do": "change", "path": "mass", "value": "1 m"},
         {"do": "change", "path": "oscillator.__init__", "value": 1},
+        {"do": "change", "path": "mass", "value": 1e300},
+        {"do": "change", "path": "amplitude", "value": 1e-320},
+        {"do": "change", "path": "stops.stiffness", "value": "1e-320"},
+        {"do": "change", "path": "isolator.stiffness", "value": 0},
         {"do": "law", "part": "isolator", "kind": "magic"},
         {"do": "law", "part": "state", "kind": "rigid"},
         {"do": "choose", "direction": "up", "frequency": 1},
@@ -124,3 +128,8 @@ def test_files(session, tmp_path):
     assert table.count("\n") == 1 + 2 * 181
     with pytest.raises(vi.InputError, match="file"):
         session.file("/etc/passwd")
+
+
+def test_coarse_pictures_are_waited_for_and_long_ones_are_left(session):
+    stages = list(session.stages())
+    assert [stage.long for stage in stages] == [False, False, False, True, True, True]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
@@ -74,8 +75,20 @@ class Control(NamedTuple):
 
 
 def controls(state: State, first: State) -> list[Control]:
-    """Return the knobs of a state; their ranges lie around where the page began."""
-    return [*_physical(state, first), *_dimensionless(state)]
+    """Return the knobs of a state; their ranges lie around where the page began.
+
+    Raises
+    ------
+    ArithmeticError
+        If a number of the rig, or the end of a range, has no bound.
+    """
+    found = [*_physical(state, first), *_dimensionless(state)]
+    for knob in found:
+        if not (math.isfinite(knob.value) and math.isfinite(knob.high - knob.low)):
+            raise OverflowError(knob.path)
+        if knob.log and not knob.low > 0.0:
+            raise FloatingPointError(knob.path)
+    return found
 
 
 def _physical(state: State, first: State) -> Iterator[Control]:

@@ -17,6 +17,7 @@ import logging
 import mimetypes
 import socket
 import time
+import traceback
 from collections.abc import Awaitable, Callable
 from http import HTTPStatus
 from importlib import resources
@@ -37,8 +38,10 @@ MOST_SESSIONS = 16
 """Pages that are served at once."""
 MOST_MESSAGE = 16_384
 """Bytes of a message from a page."""
-MOST_COMPUTING = 2
-"""Sessions that compute at once; a sweep has threads of its own."""
+MOST_COMPUTING = 4
+"""Pictures that are made at once; a sweep has threads of its own."""
+_MOMENT = 0.1
+"""Seconds that a picture which is overtaken is waited for."""
 _SELDOM = 0.3
 """Seconds between two tellings of progress."""
 _ANY = ("0.0.0.0", "::")
@@ -130,27 +133,44 @@ class Explorer:
     async def _pictures(
         self, session: Session, awake: asyncio.Event, send: Callable[[str], Awaitable[None]]
     ) -> None:
-        """Make what the newest state asks for, whenever it has changed."""
-        while True:
-            await awake.wait()
-            awake.clear()
-            asked = session.asked
-            for stage in session.stages():
-                if session.asked != asked:
-                    break
-                if session.wants(stage):
-                    try:
-                        await send(_text(await self._made(session, stage, asked, send)))
-                    except Stopped:
+        """Make what the newest state asks for, whenever it has changed.
+
+        What is overtaken is not waited for, so that a knob answers at once; but no second long
+        picture is begun while one that was left goes on.
+        """
+        making: set[asyncio.Task[str]] = set()
+        try:
+            while True:
+                await awake.wait()
+                awake.clear()
+                asked = session.asked
+                for stage in session.stages():
+                    if not session.wants(stage):
+                        continue
+                    if making and stage.long:
+                        await asyncio.wait(making)
+                    if session.asked != asked:
                         break
+                    task = asyncio.create_task(self._made(session, stage, asked, send))
+                    making.add(task)
+                    task.add_done_callback(making.discard)
+                    task.add_done_callback(lambda done: done.cancelled() or done.exception())
+                    if not await _ready(task, awake if stage.long else None):
+                        break
+                    if isinstance(task.exception(), Stopped):
+                        break
+                    await send(task.result())
                     session.sent(stage)
-            else:
-                await send(_text({"settled": True, "n": session.number}))
+                else:
+                    await send(_text({"settled": True, "n": session.number}))
+        finally:
+            for task in making:
+                task.cancel()
 
     async def _made(
         self, session: Session, stage: Stage, asked: int, send: Callable[[str], Awaitable[None]]
-    ) -> Message:
-        """One picture, or why there is none."""
+    ) -> str:
+        """One picture as it is sent, or why there is none."""
         loop, told = asyncio.get_running_loop(), time.monotonic()
 
         def progress(done: int, total: int | None) -> None:
@@ -164,9 +184,14 @@ class Explorer:
         async with self._computing:
             try:
                 made = await asyncio.to_thread(session.make, stage, asked, progress)
-                return {**made, "n": number}
+                return _text({**made, "n": number})
             except InputError as error:
-                return {"picture": stage.kind, "none": str(error)}
+                return _text({"picture": stage.kind, "none": str(error)})
+            except Stopped:
+                raise
+            except Exception as error:  # a fault of ours must not leave the page waiting for ever
+                traceback.print_exc()
+                return _text({"picture": stage.kind, "none": f"{stage.kind}: failed ({error!r})"})
 
     async def _file(self, session: Session, message: Message) -> Message:
         async with self._computing:
@@ -174,6 +199,19 @@ class Explorer:
                 return await asyncio.to_thread(session.file, str(message.get("kind")))
             except InputError as error:
                 return {"refused": str(error)}
+
+
+async def _ready(task: asyncio.Task[str], awake: asyncio.Event | None) -> bool:
+    """Wait for a picture; no longer than a moment once another is asked for."""
+    if awake is None:
+        await asyncio.wait({task})
+        return True
+    woken = asyncio.create_task(awake.wait())
+    await asyncio.wait({task, woken}, return_when=asyncio.FIRST_COMPLETED)
+    woken.cancel()
+    if not task.done():
+        await asyncio.wait({task}, timeout=_MOMENT)  # most stop at once
+    return task.done()
 
 
 async def _sent(send: Callable[[str], Awaitable[None]], text: str) -> None:

@@ -6,7 +6,7 @@ quick ones first; when the next message comes, those that are not made yet are n
 
 from __future__ import annotations
 
-import threading
+import time
 from collections.abc import Callable, Hashable, Iterator
 from typing import Any, NamedTuple
 
@@ -23,8 +23,14 @@ from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.units import pretty, shown
 from vibroimpact.response.threads import Progress, Stopped
+from vibroimpact.scenario.axes import one_sine
 
 Message = dict[str, Any]
+MOST_SECONDS = 60.0
+"""For one picture; the work that a page can ask for is bounded."""
+_NO_NUMBER = "value: it makes a rig whose numbers have no bound; a moderate one is accepted"
+_PATIENCE = 0.25
+"""Seconds that a coarse picture is waited for though another is asked for."""
 
 
 class Stage(NamedTuple):
@@ -34,6 +40,11 @@ class Stage(NamedTuple):
     key: Hashable
     """What it depends on: a picture of the same key is not made again."""
     make: Callable[[Progress], Message]
+
+    @property
+    def long(self) -> bool:
+        """Whether it may take seconds; a coarse picture does not."""
+        return isinstance(self.key, tuple) and self.key[0] != "coarse"
 
 
 class Session:
@@ -52,7 +63,6 @@ class Session:
         self._dragging = False
         self._sent: dict[str, Hashable] = {}
         self._sweeps: dict[bool, tuple[Hashable, xr.Dataset]] = {}
-        self._lock = threading.Lock()
 
     @property
     def state(self) -> State:
@@ -82,42 +92,24 @@ class Session:
             return {"refused": "message: not understood; what the page sends is accepted"}
         number = message.get("n") if isinstance(message.get("n"), int) else None
         try:
-            self.history = self._next(message)
-        except InputError as error:
-            told = {"refused": str(error), "path": message.get("path"), "n": number}
-            return told if message.get("do") != "open" else {**told, **self.told()}
+            history = self._next(message)
+            told = shown_as(history)
+        except (InputError, ArithmeticError) as error:
+            # Numbers whose products are none: nobody means them, and they are told as such.
+            words = str(error) if isinstance(error, InputError) else _NO_NUMBER
+            refused = {"refused": words, "path": message.get("path"), "n": number}
+            return refused if message.get("do") != "open" else {**refused, **self.told()}
+        self.history = history
         self.asked += 1
         self._dragging = message.get("dragging") is True
         self.number = number
         for kind in set(ON_DEMAND) - self.state.shown:
             self._sent.pop(kind, None)  # what is put away is made again when it is asked for
-        return {**self.told(), "n": number}
+        return {**told, "n": number}
 
     def told(self) -> Message:
         """The state as the page shows it."""
-        state, first = self.history.now, self.history.first
-        rig = state.oscillator
-        return {
-            "state": {
-                "name": state.name,
-                "controls": [control._asdict() for control in controls(state, first)],
-                "laws": {
-                    "isolator": rig.isolator.kind,
-                    "right": rig.right.kind if rig.right else "none",
-                    "left": rig.left.kind if rig.left else "none",
-                },
-                "together": state.together,
-                "physical": state.physical,
-                "direction": state.direction,
-                "frequency": state.shaking.frequency,
-                "frequency_text": pretty(state.shaking.frequency, FREQUENCY, 5),
-                "span": list(state.span),
-                "shown": sorted(state.shown),
-                "undo": len(self.history.past),
-                "redo": len(self.history.future),
-                "address": share.address(state),
-            }
-        }
+        return shown_as(self.history)
 
     def _next(self, message: Message) -> History:
         """What the message makes of the history."""
@@ -159,7 +151,7 @@ class Session:
         rig = (state.oscillator, _without_frequency(state), state.span)
         look = (*rig, state.physical)
         seen = (*rig, state.direction, state.shaking.frequency)
-        yield Stage("curves", ("coarse", *look), lambda _: self._curves(state, fine=False))
+        yield Stage("curves", ("coarse", *look), lambda check: self._curves(state, False, check))
         yield Stage("motion", ("coarse", *seen), lambda _: self._quick(state))
         yield Stage(
             "scenario", ("coarse", *rig), lambda _: scenario.quick(state, self._swept(state, False))
@@ -214,16 +206,28 @@ class Session:
         Stopped
             If it is not wanted any more.
         """
+        # When it was first told of: what is compiled before is not counted.
+        begun: float | None = None
+        # A coarse picture is worth its milliseconds, or a knob that is turned fast would show none.
+        patience = 0.0 if stage.long else _PATIENCE
 
         def check(done: int, total: int | None) -> None:
-            if self.asked != asked:
+            nonlocal begun
+            begun = begun or time.monotonic()
+            taken = time.monotonic() - begun
+            if self.asked != asked and taken >= patience:
                 raise Stopped
+            if taken > MOST_SECONDS:
+                raise InputError(
+                    f"{stage.kind}: given up after {MOST_SECONDS:g} s; a rig with more damping, or "
+                    "less of what is shown, takes less"
+                )
             if progress:
                 progress(done, total)
 
-        check(0, None)
-        with self._lock:
-            return stage.make(check)
+        if self.asked != asked:
+            raise Stopped
+        return stage.make(check)
 
     def file(self, kind: str) -> Message:
         """Return a file of what is shown, for the page to save.
@@ -258,6 +262,40 @@ class Session:
 
     def _careful(self, state: State) -> Message:
         return motion.careful(state, self._best(state))
+
+
+def shown_as(history: History) -> Message:
+    """Return the state as the page shows it.
+
+    Raises
+    ------
+    InputError
+        If its mass has no spring.
+    """
+    one_sine(*history.now.rig, "amplitude")
+    state, first = history.now, history.first
+    rig = state.oscillator
+    return {
+        "state": {
+            "name": state.name,
+            "controls": [control._asdict() for control in controls(state, first)],
+            "laws": {
+                "isolator": rig.isolator.kind,
+                "right": rig.right.kind if rig.right else "none",
+                "left": rig.left.kind if rig.left else "none",
+            },
+            "together": state.together,
+            "physical": state.physical,
+            "direction": state.direction,
+            "frequency": state.shaking.frequency,
+            "frequency_text": pretty(state.shaking.frequency, FREQUENCY, 5),
+            "span": list(state.span),
+            "shown": sorted(state.shown),
+            "undo": len(history.past),
+            "redo": len(history.future),
+            "address": share.address(state),
+        }
+    }
 
 
 def _starts(state: State, fine: bool) -> Callable[[Progress], Message]:

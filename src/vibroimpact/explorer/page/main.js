@@ -66,7 +66,7 @@ function told(message) {
   if (message.settled) {
     patient(false);
     document.body.classList.remove("late");
-    say("");
+    if (!status.classList.contains("lost")) say("");
     document.body.dataset.settled = message.n ?? "";
   }
 }
@@ -85,6 +85,8 @@ function begin(message) {
 
 function show(next) {
   state = next;
+  id("frequency-why").textContent = "";
+  id("frequency").setAttribute("aria-invalid", "false");
   knobs.show(state, choices);
   const select = id("presets");
   if (document.activeElement !== select) select.value = [...select.options].some((one) => one.value === state.name) ? state.name : "";
@@ -122,6 +124,8 @@ function refused({ refused: why, path }) {
 function drawn(message) {
   if (message.none) {
     say(message.none, true);
+    if (message.picture === "map") plane.show(null);
+    if (message.picture === "branch") curves.orbits(null);
     return;
   }
   if (message.picture === "curves") {
@@ -133,8 +137,6 @@ function drawn(message) {
       document.body.dataset.fine = message.fine;
     });
   } else if (message.picture === "motion") {
-    id("frequency-why").textContent = "";
-    id("frequency").setAttribute("aria-invalid", "false");
     motion.show(message);
     if (message.table) id("words-motion").textContent = message.table.trim();
     curves.mark({ direction: message.direction, frequency: message.frequency });
