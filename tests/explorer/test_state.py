@@ -177,6 +177,19 @@ def test_the_study_file_and_the_program_give_the_same(tmp_path):
     assert names["shaking"] == state.shaking
 
 
+def test_a_name_runs_nothing():
+    name = '"""; raise SystemExit #'
+    state = share.from_address(made(name=name))
+    names: dict[str, object] = {}
+    exec(share.program(state).split("frequencies =")[0], names)
+    assert names["oscillator"] == CASE.oscillator
+    for forged in ("a\nraise SystemExit", "a\u2028b", "a\rb"):
+        with pytest.raises(vi.InputError, match="name"):
+            share.from_address(made(name=forged))
+    many = share.program(state._replace(name="a\nraise SystemExit"))
+    exec(many.split("frequencies =")[0], names)
+
+
 def test_what_a_page_can_begin_with():
     for _, names in presets.names():
         for name in names:

@@ -149,7 +149,10 @@ def program(state: State) -> str:
     written = repr(oscillator)
     for kind in kinds:
         written = _prefixed(written, kind)
-    return f'''"""{state.name}: resonance curves, scenario and one motion."""
+    # The name may come from an address: a comment of one line can do nothing.
+    return f'''"""Resonance curves, scenario and one motion."""
+
+# {" ".join(state.name.split())}
 
 import numpy as np
 
@@ -163,7 +166,7 @@ frequencies = np.linspace({low!r}, {high!r}, {FINE})
 curves = vi.sweep(oscillator, shaking, frequencies)
 axes = resonance_curves(curves, physical={state.physical!r})
 save_figure(axes[0], "curves.png")
-print(vi.classify(oscillator, shaking, frequencies))
+print(vi.classify(oscillator, shaking))
 
 held = curves.sel(direction={state.direction!r}).sel(
     frequency={shaken.frequency!r}, method="nearest"
