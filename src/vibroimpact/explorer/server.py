@@ -207,8 +207,10 @@ async def _ready(task: asyncio.Task[str], awake: asyncio.Event | None) -> bool:
         await asyncio.wait({task})
         return True
     woken = asyncio.create_task(awake.wait())
-    await asyncio.wait({task, woken}, return_when=asyncio.FIRST_COMPLETED)
-    woken.cancel()
+    try:
+        await asyncio.wait({task, woken}, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        woken.cancel()
     if not task.done():
         await asyncio.wait({task}, timeout=_MOMENT)  # most stop at once
     return task.done()
