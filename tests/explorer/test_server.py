@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import signal
 import subprocess
 import sys
 import urllib.error
@@ -138,17 +139,28 @@ def test_beyond_this_machine_a_token_is_asked_for():
         server.stop()
 
 
+# Where tests run in the background, Ctrl-C is ignored by all that they start.
+COMMAND = """
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from vibroimpact.cli import main
+sys.exit(main(["explore", "B3-G2-A1", "--no-browser"]))
+"""
+
+
 def test_the_command_says_where_and_ends_with_ctrl_c():
-    words = [sys.executable, "-m", "vibroimpact", "explore", "B3-G2-A1", "--no-browser"]
+    words = [sys.executable, "-c", COMMAND]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as process:
-        first = process.stdout.readline()
-        assert first.startswith("The explorer is at http://127.0.0.1:")
-        address = first.split()[-1]
-        assert asked(address)[0] == 200
-        process.send_signal(2)
-        said, _ = process.communicate(timeout=30)
-        assert process.returncode == 0
-        assert said.endswith("The explorer has ended.\n")
+        try:
+            first = process.stdout.readline()
+            assert first.startswith("The explorer is at http://127.0.0.1:")
+            assert asked(first.split()[-1])[0] == 200
+            process.send_signal(signal.SIGINT)
+            said, _ = process.communicate(timeout=60)
+        finally:
+            process.kill()  # if it has not ended
+    assert process.returncode == 0
+    assert said.endswith("The explorer has ended.\n")
 
 
 def test_in_a_notebook():
