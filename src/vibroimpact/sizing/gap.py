@@ -10,6 +10,7 @@ import xarray as xr
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, equilibrium
+from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.response.free_flight import free_flight_excursions, peak_ratio
 from vibroimpact.response.threads import Progress
@@ -52,6 +53,7 @@ def required_gap(
     InputError
         If a value cannot be used, or the free motion has no bound or was given up.
     """
+    threads = None if threads is None else whole(threads, "threads")
     rig = one_rig(oscillator)
     what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
     free = rig.without_bumpers()
