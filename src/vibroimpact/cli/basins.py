@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Group, Parameter
 
-from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Where, Whole
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -49,13 +49,7 @@ def basins(
         Whole | None,
         Parameter(group=COMPUTATION, help="How many regions at once; one a processor."),
     ] = None,
-    where: Annotated[
-        str,
-        Parameter(
-            group=COMPUTATION,
-            help="Address of a dask scheduler, such as tcp://10.0.0.1:8786; or threads.",
-        ),
-    ] = "threads",
+    where: Where = "threads",
     output: OutputOptions | None = None,
 ) -> int:
     """Map which initial states lead to which steady motion at a frequency.

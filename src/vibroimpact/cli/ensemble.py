@@ -13,6 +13,7 @@ from vibroimpact.cli.options import (
     OutputOptions,
     RigName,
     RigOptions,
+    Where,
     Whole,
 )
 from vibroimpact.errors import InputError
@@ -93,13 +94,7 @@ def ensemble(
         Whole | None,
         Parameter(group=COMPUTATION, help="How many sweeps run at once; one a processor."),
     ] = None,
-    where: Annotated[
-        str,
-        Parameter(
-            group=COMPUTATION,
-            help="Address of a dask scheduler, such as tcp://10.0.0.1:8786; or threads.",
-        ),
-    ] = "threads",
+    where: Where = "threads",
     output: OutputOptions | None = None,
 ) -> int:
     """Draw rigs from the distributions of their parameters, and sweep each of them.

@@ -13,6 +13,7 @@ from vibroimpact.cli.options import (
     RigName,
     RigOptions,
     ThresholdOptions,
+    Where,
     Whole,
 )
 from vibroimpact.errors import InputError
@@ -78,13 +79,7 @@ def scenario_map(
         Whole | None,
         Parameter(group=COMPUTATION, help="How many rigs are computed at once; one a processor."),
     ] = None,
-    where: Annotated[
-        str,
-        Parameter(
-            group=COMPUTATION,
-            help="Address of a dask scheduler, such as tcp://10.0.0.1:8786; or threads.",
-        ),
-    ] = "threads",
+    where: Where = "threads",
     output: OutputOptions | None = None,
 ) -> int:
     """Map the scenarios of a rig over two of its parameters.

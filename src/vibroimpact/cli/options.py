@@ -51,6 +51,13 @@ def _whole(_type: Any, tokens: Sequence[Token]) -> int:
 
 
 Whole: TypeAlias = Annotated[int, Parameter(converter=_whole)]
+Where: TypeAlias = Annotated[
+    str,
+    Parameter(
+        group=COMPUTATION,
+        help="Address of a dask scheduler, such as tcp://10.0.0.1:8786; or threads.",
+    ),
+]
 
 
 @Parameter(name="*")
