@@ -20,7 +20,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # One installation at a time, also under make -j.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-full lint format bench pins clean
+.PHONY: help demo test test-full lint format docs bench pins clean
 .SECONDARY:
 
 help:
@@ -29,9 +29,10 @@ help:
 	@echo 'make test-full   the same on full samples, before what the engine does is changed'
 	@echo 'make lint     check style, types and layers'
 	@echo 'make format   put the code into the style that make lint checks'
+	@echo 'make docs     build the documentation, gallery included; it begins at out/site/index.html'
 	@echo 'make bench    compare speed and accuracy with other solvers (benchmarks/README.md)'
 	@echo 'make pins     renew constraints.txt (CONTRIBUTING.md)'
-	@echo 'make clean    remove .venv and all caches, but not out/'
+	@echo 'make clean    remove .venv, all caches and the built documentation; the rest of out/ stays'
 	@echo 'PYTHON=...    which python makes the environment, 3.11 or newer; python3'
 
 demo: $(VENV)/.installed-run
@@ -55,6 +56,11 @@ format: $(VENV)/.installed-lint
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
+# What is not newer than its page is not built again.
+docs: $(VENV)/.installed-docs
+	$(BIN)/python -m sphinx -W --keep-going -q -j auto -c docs . out/site $(ARGS)
+	$(BIN)/python docs/check_links.py out/site
+
 bench: $(VENV)/.installed-bench
 	$(BIN)/python -m benchmarks $(ARGS)
 
@@ -68,7 +74,7 @@ pins:
 	$(PYTHON) -m venv $(VENV)-pins
 	PIP_CONSTRAINT= PIP_BUILD_CONSTRAINT= \
 	    $(VENV)-pins/bin/python -m pip install -q -U setuptools hatchling editables \
-	    '.[test,lint,bench]'
+	    '.[test,lint,docs,bench]'
 	$(VENV)-pins/bin/python -m pip freeze --all --exclude pip --exclude vibroimpact > $(VENV)-pins/constraints.txt
 	@! grep -vE '^[A-Za-z0-9._-]+==[A-Za-z0-9.!+_-]+$$' $(VENV)-pins/constraints.txt || { \
 	    echo 'make: these are not plain name==version lines' >&2; exit 1; }
@@ -77,13 +83,14 @@ pins:
 
 clean:
 	rm -rf $(VENV) $(VENV)-pins dist .pytest_cache .hypothesis .mypy_cache .ruff_cache \
-	    .import_linter_cache .benchmarks
+	    .import_linter_cache .benchmarks out/site docs/gallery docs/reference/api
 	find src tests benchmarks examples -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # The extra that each installation takes; none to run.
 EXTRA_run   :=
 EXTRA_test  := [test]
 EXTRA_lint  := [lint]
+EXTRA_docs  := [docs]
 EXTRA_bench := [bench]
 
 $(VENV)/.installed-%: $(VENV)/.made pyproject.toml constraints.txt src/vibroimpact/_version.py
