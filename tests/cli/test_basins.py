@@ -61,4 +61,4 @@ def test_what_is_refused(run, tmp_path, words, named):
 def test_one_frequency_is_taken(run):
     code, _, errors = run("B3-10mm-A3", "--frequency", "1Hz,2Hz")
     assert code == 2
-    assert "--frequency: '1Hz,2Hz'; one frequency is accepted" in errors
+    assert "--frequency: '1Hz,2Hz' has a unit that cannot be read" in errors

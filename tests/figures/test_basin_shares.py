@@ -46,6 +46,14 @@ def test_intervals_are_drawn_where_there_are_two():
     )
 
 
+def test_above_all_there_is_no_interval():
+    none = made().isel(attractor=[1]) * 0.0
+    data = describe(xr.concat([made(), none.assign_coords(attractor=[2])], "attractor"), "test")
+    first, second = basin_shares(data).containers
+    assert len(first.lines[2][0].get_segments()) == 2
+    assert not second.lines[2][0].get_segments()
+
+
 def test_what_has_no_shares_is_told():
     with pytest.raises(vi.InputError, match="no shares along a parameter"):
         basin_shares(made().isel(frequency=0))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -23,6 +23,7 @@ from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
@@ -54,6 +55,7 @@ def basin_stability(
     max_cycles: int = 2000,
     max_events: int = 10_000,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Find how likely random states lead to each steady motion.
@@ -76,7 +78,7 @@ def basin_stability(
         How many are drawn; along a parameter the same ones at each value.
     seed
         Of the states; the same one gives the same states.
-    max_cycles, max_events, threads
+    max_cycles, max_events, threads, where
         As in `basins`.
     progress
         Called from the calling thread with the values done and all.
@@ -95,7 +97,7 @@ def basin_stability(
     """
     drawn, seed = whole(states, "states"), whole(seed, "seed", 0)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), whole(max_events, "max_events")
-    threads = None if threads is None else whole(threads, "threads")
+    workers = placed(threads, where)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
     varied, given = _values(oscillator, excitation, parameter, values)
@@ -110,7 +112,7 @@ def basin_stability(
             )
         )
         check_bounded(rig, shaken)
-        searches.append(Search(Stage(rig, shaken, max_events), max_cycles, threads))
+        searches.append(Search(Stage(rig, shaken, max_events), max_cycles, workers))
     if wide is None or fast is None:
         every = [window(search) for search in searches]
         wide, fast = wide or _around(w[0] for w in every), fast or _around(w[1] for w in every)

@@ -24,7 +24,9 @@ from vibroimpact.model.counts import share, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import to_si
+from vibroimpact.response.cluster import placed
 from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.threads import Workers
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 
 _IMAGES = 400
@@ -89,7 +91,7 @@ def manifolds(
     check_bounded(oscillator, excitation)
     period = whole(period, "period")
     max_cycles, max_events = whole(max_cycles, "max_cycles"), whole(max_events, "max_events")
-    threads = None if threads is None else whole(threads, "threads")
+    workers = placed(threads)
     spacing = share(spacing, "spacing")
     longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)
     stage = Stage(oscillator, excitation, max_events)
@@ -100,7 +102,7 @@ def manifolds(
         )
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
-    search = Search(stage, max_cycles, threads)
+    search = Search(stage, max_cycles, workers)
     if wide is None or fast is None:
         found = window(search)
         wide, fast = wide or found[0], fast or found[1]
@@ -113,7 +115,7 @@ def manifolds(
         given: list[Any] = [saddles] if alone else list(saddles)
         orbits = [given_saddle(stage, one, period, f"saddles[{i}]") for i, one in enumerate(given)]
     points = [p for i, one in enumerate(orbits) for p in saddle_points(one, f"saddles[{i}]")]
-    data = _dataset(points, [_curves(stage, one, measure, threads) for one in points], measure)
+    data = _dataset(points, [_curves(stage, one, measure, workers) for one in points], measure)
     return describe(
         data,
         "vibroimpact.manifolds",
@@ -129,11 +131,11 @@ def manifolds(
 
 
 def _curves(
-    stage: Stage, saddle: Saddle, measure: Measure, threads: int | None
+    stage: Stage, saddle: Saddle, measure: Measure, workers: Workers
 ) -> list[tuple[str, Curve]]:
     """The two sides of the stable curve, then those of the unstable one."""
     return [("stable", stable_curve(saddle, side, measure)) for side in (1, -1)] + [
-        ("unstable", unstable_curve(stage, saddle, side, measure, threads)) for side in (1, -1)
+        ("unstable", unstable_curve(stage, saddle, side, measure, workers)) for side in (1, -1)
     ]
 
 

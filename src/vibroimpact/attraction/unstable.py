@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from vibroimpact.attraction.curve import Curve, Measure, broken, refined
 from vibroimpact.attraction.followed import Stage, images
 from vibroimpact.attraction.saddles import Saddle
+from vibroimpact.response.threads import Workers
 
 _Array = NDArray[np.float64]
 
@@ -18,7 +19,7 @@ _ARRIVED = 0.02
 
 
 def unstable_curve(
-    stage: Stage, saddle: Saddle, side: int, measure: Measure, threads: int | None
+    stage: Stage, saddle: Saddle, side: int, measure: Measure, workers: Workers
 ) -> Curve:
     """One side of a saddle's unstable curve, image by image.
 
@@ -38,7 +39,7 @@ def unstable_curve(
             begun = np.zeros((int(mine.sum()), 5))
             share = factor ** (parameters[mine] - level - 1.0)
             begun[:, :2] = saddle.point + _SHORT * share[:, None] * way
-            went, known = images(stage, begun, cycles * int(level), threads)
+            went, known = images(stage, begun, cycles * int(level), workers)
             found[mine] = np.where(known[:, None], went[:, :2], np.nan)
         return found
 

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable
 from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
+from vibroimpact.cli.basin_stability import basin_stability
 from vibroimpact.cli.basins import basins
 from vibroimpact.cli.bifurcation import bifurcation
 from vibroimpact.cli.branch import branch
@@ -22,6 +23,7 @@ from vibroimpact.cli.earthquake import earthquake
 from vibroimpact.cli.ensemble import ensemble
 from vibroimpact.cli.explore import explore
 from vibroimpact.cli.identify import identify
+from vibroimpact.cli.manifolds import manifolds
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
 from vibroimpact.cli.paper import paper
@@ -48,6 +50,8 @@ For example:
     vibroimpact branch B2-G1-A3
     vibroimpact bifurcation B3-10mm-A3 --from 0.9Hz --to 1.3Hz
     vibroimpact basins B3-10mm-A3 --frequency 0.7Hz
+    vibroimpact manifolds B3-10mm-A3 --frequency 0.7Hz
+    vibroimpact basin-stability B2-G1-A3 --from 1.5Hz --to 2.7Hz
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
     vibroimpact record quake.AT2
     vibroimpact earthquake B2-G1-A3 quake.AT2
@@ -71,6 +75,8 @@ _COMMANDS: tuple[Callable[..., int], ...] = (
     bifurcation,
     curve,
     basins,
+    manifolds,
+    basin_stability,
     simulate,
     record,
     earthquake,

@@ -7,38 +7,20 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Where, Whole
-from vibroimpact.errors import InputError
+from vibroimpact.cli.states import StateOptions
 
 if TYPE_CHECKING:
     import xarray as xr
     from rich.console import RenderableType
 
 _BASINS = Group("Basins", sort_key=1)
-_WITH_UNITS = Parameter(group=_BASINS, allow_leading_hyphen=True)
 
 
 def basins(
     rig: RigName,
     /,
     *,
-    frequency: Annotated[
-        str | None, _WITH_UNITS, Parameter(help="Excitation frequency, such as 0.7Hz.")
-    ] = None,
-    phase: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(help="Phase of the excitation at which motions begin, such as 90deg."),
-    ] = None,
-    displacement: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(help="Range of displacements LOW:HIGH, such as -20mm:20mm; around the motions."),
-    ] = None,
-    velocity: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(help="Range of velocities, such as -0.1m/s:0.1m/s; around the motions."),
-    ] = None,
+    states: StateOptions | None = None,
     nodes: Annotated[Whole, Parameter(group=_BASINS, help="States along each axis.")] = 400,
     refine: Annotated[
         Whole,
@@ -63,21 +45,13 @@ def basins(
         vibroimpact basins B3-10mm-A3 --frequency 1.06Hz --nodes 1000
         vibroimpact basins B2-G1-A3 --frequency 2.6Hz --displacement -20mm:20mm --velocity -1:1
     """
-    from vibroimpact.cli.motion import excitations
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
-    from vibroimpact.model import to_si
-    from vibroimpact.model.quantities import ANGLE
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
-    shaken = excitations(what, frequency)
-    if len(shaken) > 1:
-        raise InputError(f"--frequency: {frequency!r}; one frequency is accepted")
-    excitation = shaken[0]
-    if phase is not None:
-        excitation = excitation.replace(phase=to_si(phase, ANGLE, "--phase"))
-    ranges = _range("--displacement", displacement), _range("--velocity", velocity)
+    begun = states or StateOptions()
+    excitation, ranges = begun.forcing(what), begun.window()
 
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
@@ -108,16 +82,6 @@ def basins(
     facts = {**summary.rig_facts(what), "frequency": excitation.frequency, **_facts(data)}
     tell(Together(summary.rig_text(what), _text(data)), facts, folder, files, out.json)
     return 0
-
-
-def _range(option: str, text: str | None) -> tuple[str, str] | None:
-    """Read ``LOW:HIGH``; the ends are read by what is called."""
-    if text is None:
-        return None
-    low, colon, high = (part.strip() for part in text.partition(":"))
-    if not (low and colon and high) or ":" in high:
-        raise InputError(f"{option}: {text!r}; a range LOW:HIGH is accepted, such as -20mm:20mm")
-    return low, high
 
 
 _MEASURES = (

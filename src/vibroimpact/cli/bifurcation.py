@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from cyclopts import Group, Parameter
 
 from vibroimpact.cli.branch import PARAMETERS, option_range
-from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Where, Whole
+from vibroimpact.cli.states import forcing
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -104,6 +105,7 @@ def bifurcation(
         Whole | None,
         Parameter(group=COMPUTATION, help="How many starts run at once; one a processor."),
     ] = None,
+    where: Where = "threads",
     max_cycles: Annotated[
         Whole, Parameter(group=COMPUTATION, help="Forcing cycles to wait for a steady motion.")
     ] = 2000,
@@ -138,7 +140,7 @@ def bifurcation(
         rig=what.oscillator,
         of=what.repeated.of,
     )
-    shaken = _excitation(what, along, frequency, phase)
+    shaken = forcing(what, along, frequency, phase)
     for option, value, least in (
         ("--steps", steps, 2),
         ("--random", random, 0),
@@ -173,6 +175,7 @@ def bifurcation(
                 log=log,
                 max_cycles=max_cycles,
                 threads=threads,
+                where=where,
                 progress=progress,
             )
         data.attrs["title"] = what.name
@@ -186,22 +189,6 @@ def bifurcation(
     found = {**summary.rig_facts(what), **facts(data)}
     tell(Together(summary.rig_text(what), text(data)), found, folder, files, out.json)
     return 0
-
-
-def _excitation(what: Subject, along: str, frequency: str | None, phase: str | None) -> Repeated:
-    """The forcing of the rig; along the frequency its own does not matter."""
-    from vibroimpact.model import to_si
-    from vibroimpact.model.quantities import ANGLE, FREQUENCY
-
-    studied = what.study.simulate.frequency if what.study else None
-    if frequency is not None:
-        hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
-    elif along == "frequency" or studied is not None:
-        hertz = studied or 1.0
-    else:
-        raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
-    own = what.study.excitation.phase if what.study else 0.0
-    return what.at(hertz, own if phase is None else to_si(phase, ANGLE, "--phase"))
 
 
 def _branches(what: Subject, shaken: Repeated, along: str, span: tuple[float, float]) -> xr.Dataset:

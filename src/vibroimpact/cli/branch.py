@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.cli.states import state
 from vibroimpact.errors import InputError
 from vibroimpact.stability.labels import Quantity
 
@@ -290,23 +291,11 @@ def _first(start: str | None, period: int | None) -> First | None:
     InputError
         If one cannot be used.
     """
-    from vibroimpact.model import State, to_si
-    from vibroimpact.model.quantities import LENGTH, VELOCITY
-
     if period is not None and period < 1:
         raise InputError(f"--period: {period}; a whole number of at least 1 is accepted")
     if start is None:
         return None if period is None else First(period=period)
-    parts = start.split(",")
-    if len(parts) != 2:
-        raise InputError(
-            f"--start: {start!r}; a displacement and a velocity are accepted, as 5mm,100mm/s"
-        )
-    u, v = (
-        to_si(part.strip(), quantity, "--start")
-        for part, quantity in zip(parts, (LENGTH, VELOCITY), strict=True)
-    )
-    return First(State(u, v), period)
+    return First(state("--start", start), period)
 
 
 def _hertz(parameter: str, frequency: str | None, first: First | None) -> float | None:

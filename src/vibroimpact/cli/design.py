@@ -13,6 +13,7 @@ from vibroimpact.cli.options import (
     RecordOptions,
     RigName,
     RigOptions,
+    Where,
     Whole,
 )
 from vibroimpact.errors import InputError
@@ -85,6 +86,7 @@ def design(
         Whole | None,
         Parameter(group=COMPUTATION, help="How many are computed at once; one a processor."),
     ] = None,
+    where: Where = "threads",
     output: OutputOptions | None = None,
 ) -> int:
     """Say which gap is needed to hit nothing, and chart displacement against acceleration.
@@ -113,6 +115,7 @@ def design(
     asked: dict[str, Any] = {
         "fractile": 1.0 if share is None else _share(share),
         "threads": threads,
+        "where": where,
         "frequencies": _frequencies(what, start, to) if not found else None,
     }
     ranges = _ranges(what, vary or tuple(((table and table.vary) or {}).items()))

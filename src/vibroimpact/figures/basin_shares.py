@@ -15,6 +15,10 @@ from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND
 
 
+_ROUNDING = 1e-9
+"""Of a sum of shares, in per cent."""
+
+
 def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw shares along a parameter, one on top of the other, with their intervals.
 
@@ -69,7 +73,7 @@ def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
         # Above the last there is nothing; a border's interval is that of the share below it.
         below = 100.0 * data["share_low"].values[:, number]
         above = 100.0 * data["share_high"].values[:, number]
-        there = (share[:, number] > 0.0) & (share[:, number] < 100.0)
+        there = (share[:, number] > 0.0) & (high < 100.0 - _ROUNDING)
         bars = ax.errorbar(
             x[there],
             high[there],

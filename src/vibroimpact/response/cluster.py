@@ -83,7 +83,7 @@ def _alone(task: Callable[[_Item, Tally], _Found], item: _Item) -> _Found:
     return task(item, np.zeros(2, dtype=np.int64))
 
 
-def placed(threads: int | None, where: Any) -> Workers:
+def placed(threads: int | None, where: Any = THREADS) -> Workers:
     """Where tasks are done: so many threads, or a dask cluster.
 
     Parameters

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator, to_si
-from vibroimpact.model.counts import whole
 from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.response.threads import Progress
+from vibroimpact.response.cluster import THREADS, placed
+from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.response.vocabulary import VARIABLES
 from vibroimpact.seismic.plan import Runs, runs
@@ -75,9 +75,9 @@ class _Known:
     """What is known of the designs that were tried, each computed once."""
 
     def __init__(
-        self, what: Asked, space: _Space, threads: int | None, progress: Progress | None
+        self, what: Asked, space: _Space, workers: Workers, progress: Progress | None
     ) -> None:
-        self.what, self.space, self.threads, self.progress = what, space, threads, progress
+        self.what, self.space, self.workers, self.progress = what, space, workers, progress
         self.rows: dict[bytes, dict[str, float]] = {}
 
     def __call__(self, x: _Array) -> list[dict[str, float]]:
@@ -86,7 +86,7 @@ class _Known:
         new = [one for one in columns if one.tobytes() not in self.rows]
         new = list({one.tobytes(): one for one in new}.values())
         if new:
-            found = self.what.peaks(self.space.rigs(np.array(new).T), self.threads, None)
+            found = self.what.peaks(self.space.rigs(np.array(new).T), self.workers, None)
             for i, one in enumerate(new):
                 self.rows[one.tobytes()] = {name: float(v[i]) for name, v in found.items()}
             if self.progress:
@@ -116,6 +116,7 @@ def least_acceleration(
     tail: float | str | None = None,
     seed: int = 0,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Return the design with the least acceleration: which bumper for this gap.
@@ -127,7 +128,7 @@ def least_acceleration(
 
     Parameters
     ----------
-    oscillator, shaking, fractile, frequencies, step, tail, threads
+    oscillator, shaking, fractile, frequencies, step, tail, threads, where
         As of `design`.
     ranges
         Lowest and highest value of parameters by name, as those of `design`. None for the
@@ -162,7 +163,7 @@ def least_acceleration(
     space = _space(rig, ranges)
     what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
     most = _limits(limits)
-    known = _Known(what, space, None if threads is None else whole(threads, "threads"), progress)
+    known = _Known(what, space, placed(threads, where), progress)
     constraints = tuple(
         NonlinearConstraint(lambda x, name=name: known.of(name, x)[np.newaxis], -np.inf, limit)
         for name, limit in most.items()

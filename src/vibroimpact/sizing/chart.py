@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator
-from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
+from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.seismic.plan import Runs, runs
@@ -34,6 +34,7 @@ def design(
     step: float = STEP,
     tail: float | str | None = None,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Return the trade-off between displacement and acceleration over parameters of a rig.
@@ -62,6 +63,8 @@ def design(
         How long a motion is followed behind a record; see `seismic_response`.
     threads
         How many designs are computed at once; None for one a processor. No result depends on it.
+    where
+        ``"threads"``, or a dask cluster, as of `scenario_map`. No result depends on it.
     progress
         Called from the calling thread with what is done and all there is.
 
@@ -86,7 +89,7 @@ def design(
     rig = one_rig(oscillator)
     what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
     plan = _designs(rig, vary)
-    workers = None if threads is None else whole(threads, "threads")
+    workers = placed(threads, where)
     places = list(itertools.product(*(range(n) for n in plan.shape)))
     found = what.peaks([plan.oscillator(at) for at in places], workers, progress)
     data = _dataset(plan, found)

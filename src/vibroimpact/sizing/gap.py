@@ -10,10 +10,10 @@ import xarray as xr
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, equilibrium
-from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
+from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.free_flight import free_flight_excursions, peak_ratio
-from vibroimpact.response.threads import Progress
+from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.seismic.suites import quantiles
 from vibroimpact.sizing.shaking import AnyShaken, ByRecords, asked, one_rig
@@ -29,13 +29,14 @@ def required_gap(
     step: float = STEP,
     tail: float | str | None = None,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Return the gaps at which a rig hits nothing: how far it moves without stops.
 
     Parameters
     ----------
-    oscillator, shaking, fractile, frequencies, step, tail, threads, progress
+    oscillator, shaking, fractile, frequencies, step, tail, threads, where, progress
         As of `design`. Of sines and a linear isolator the worst frequency is known in closed form,
         and the gap is that of the steady motion: exact at any frequency of the range, all of them
         if none is given. Of other isolators it is that of sweeps up and down. A transient may reach
@@ -53,16 +54,16 @@ def required_gap(
     InputError
         If a value cannot be used, or the free motion has no bound or was given up.
     """
-    threads = None if threads is None else whole(threads, "threads")
+    workers = placed(threads, where)
     rig = one_rig(oscillator)
     what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
     free = rig.without_bumpers()
     if isinstance(what, ByRecords):
-        found = _of_records(free, what, threads, progress)
+        found = _of_records(free, what, workers, progress)
     elif free.isolator.linear:
         found = _in_closed_form(free, what.sines)
     else:
-        found = _swept(free, what.sines, threads, progress)
+        found = _swept(free, what.sines, workers, progress)
     if not np.isfinite(found["required_gap"]):
         raise InputError(
             "shaking: the mass moves without bound where no stop holds it; an isolator that does "
@@ -87,17 +88,17 @@ def _in_closed_form(free: Oscillator, sines: Sines) -> xr.Dataset:
 
 
 def _swept(
-    free: Oscillator, sines: Sines, threads: int | None, progress: Progress | None
+    free: Oscillator, sines: Sines, workers: Workers, progress: Progress | None
 ) -> xr.Dataset:
-    (worst,) = sines.worst([free], threads, progress)
+    (worst,) = sines.worst([free], workers, progress)
     _refuse(worst.status)
     return _sides(worst.right, worst.left, displacement_frequency=worst.displacement_frequency)
 
 
 def _of_records(
-    free: Oscillator, what: ByRecords, threads: int | None, progress: Progress | None
+    free: Oscillator, what: ByRecords, workers: Workers, progress: Progress | None
 ) -> xr.Dataset:
-    runs = what.runs([free], threads, progress)
+    runs = what.runs([free], workers, progress)
     for status in runs["status"].ravel():
         _refuse(int(status))
     right, left = (runs[f"peak_displacement_{side}"][:, 0] for side in ("right", "left"))

@@ -14,7 +14,7 @@ from vibroimpact.model import Harmonic, Oscillator, Record, to_si
 from vibroimpact.model.counts import share
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
 from vibroimpact.model.rigs import as_rig
-from vibroimpact.response.threads import Progress
+from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import excitation_parameters
 from vibroimpact.scenario.axes import one_sine
 from vibroimpact.seismic.peaks import Shaken, peaks
@@ -42,7 +42,7 @@ class Asked(Protocol):
     """What a rig is sized for."""
 
     def peaks(
-        self, rigs: Sequence[Oscillator], threads: int | None, progress: Progress | None
+        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
     ) -> dict[str, NDArray[Any]]:
         """`PEAKS` of each rig, ``hitting``, ``status`` and what else is known of it."""
 
@@ -56,10 +56,10 @@ class BySines(NamedTuple):
     sines: Sines
 
     def peaks(
-        self, rigs: Sequence[Oscillator], threads: int | None, progress: Progress | None
+        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
     ) -> dict[str, NDArray[Any]]:
         """Of each rig the largest over all frequencies."""
-        worst = self.sines.worst(rigs, threads, progress)
+        worst = self.sines.worst(rigs, workers, progress)
         right, left = (np.array([getattr(one, side) for one in worst]) for side in _SIDES)
         return {
             "peak_displacement": np.maximum(right, left),
@@ -93,14 +93,14 @@ class ByRecords(NamedTuple):
     tail: float | None
 
     def runs(
-        self, rigs: Sequence[Oscillator], threads: int | None, progress: Progress | None
+        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
     ) -> dict[str, NDArray[Any]]:
         """Of each record and rig, as arrays (record, rig)."""
         one = np.ones(1)
         found = peaks(
             [Shaken(rig, record, one) for record in self.records.values() for rig in rigs],
             tail=self.tail,
-            threads=threads,
+            threads=workers,
             progress=progress,
         )
         shaped = {n: v.reshape(len(self.records), len(rigs)) for n, v in found.items()}
@@ -112,10 +112,10 @@ class ByRecords(NamedTuple):
         return values
 
     def peaks(
-        self, rigs: Sequence[Oscillator], threads: int | None, progress: Progress | None
+        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
     ) -> dict[str, NDArray[Any]]:
         """Of each rig the fractile over the records."""
-        runs = self.runs(rigs, threads, progress)
+        runs = self.runs(rigs, workers, progress)
         right, left = (runs[f"peak_displacement_{side}"] for side in _SIDES)
         force = np.maximum(runs["peak_force_right"], runs["peak_force_left"])
         every = {

@@ -15,7 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, equilibrium
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import Progress, each
+from vibroimpact.response.threads import Progress, Workers, each
 from vibroimpact.scenario.frequencies import LOW, cycles, highest
 
 _Array = NDArray[np.float64]
@@ -85,7 +85,7 @@ class Sines(NamedTuple):
         return found
 
     def worst(
-        self, rigs: Sequence[Oscillator], threads: int | None, progress: Progress | None
+        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
     ) -> list[Worst]:
         """The worst that each rig does."""
         vectors = [engine_rig(rig, self.shaken) for rig in rigs]
@@ -94,7 +94,7 @@ class Sines(NamedTuple):
         return each(
             lambda one, _: _Search(self, *one).worst(),
             list(zip(rigs, vectors, starts, strict=True)),
-            threads=threads,
+            threads=workers,
             progress=progress,
         )
 

@@ -18,6 +18,7 @@ from vibroimpact.model.counts import share, whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.held import sizes
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.threads import Progress, Tally, each
@@ -59,6 +60,7 @@ def bifurcation_diagram(
     max_cycles: int = 2000,
     max_events: int = 10_000,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Hold one value of a parameter after the other, and look at what each motion settles on.
@@ -100,6 +102,8 @@ def bifurcation_diagram(
     threads
         How many starts or blocks of values run at once; None for one a processor. No result
         depends on it.
+    where
+        ``"threads"``, or a dask cluster, as of `scenario_map`. No result depends on it.
     progress
         Called from the calling thread with the holds done and all.
 
@@ -137,10 +141,7 @@ def bifurcation_diagram(
     look = Look(
         section, patience.window, whole(exponent_cycles, "exponent_cycles"), patience.max_events
     )
-    random, threads = (
-        whole(random, "random", 0),
-        None if threads is None else whole(threads, "threads"),
-    )
+    random, workers = whole(random, "random", 0), placed(threads, where)
     ways = _ways(directions, starts, random, oscillator)
     every = settings(varied, oscillator, excitation, values)
     vectors = [engine_rig(*one) for one in every]
@@ -163,7 +164,7 @@ def bifurcation_diagram(
     def done(parts: list[_Part], before: int) -> dict[str, list[Seen]]:
         told = progress and (lambda ready, _: progress(before + ready, total))
         held = sum(len(every[part.values]) for part in parts)
-        lists = each(seen, parts, steps=held, threads=threads, progress=told)
+        lists = each(seen, parts, steps=held, threads=workers, progress=told)
         found: dict[str, list[Seen]] = {part.name: [] for part in parts}
         for part, one in zip(parts, lists, strict=True):
             found[part.name] += one

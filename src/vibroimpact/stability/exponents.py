@@ -19,6 +19,7 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.model.varied import Varied, varied, written
+from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.follow import grown
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.start import as_state, engine_rig, engine_state
@@ -52,6 +53,7 @@ def lyapunov_exponents(
     phase: float | str = 0.0,
     max_events: int = 10_000,
     threads: int | None = None,
+    where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Find the two largest Lyapunov exponents of many motions, in parallel over threads.
@@ -82,6 +84,8 @@ def lyapunov_exponents(
         Contacts and detachments in one forcing cycle at which a motion is given up.
     threads
         How many motions run at once; None for one a processor. No result depends on it.
+    where
+        ``"threads"``, or a dask cluster, as of `scenario_map`. No result depends on it.
     progress
         Called from the calling thread with the motions done and all.
 
@@ -106,7 +110,7 @@ def lyapunov_exponents(
         angle = state.phase
     cycles, transient = whole(cycles, "cycles"), whole(transient, "transient", 0)
     max_events = whole(max_events, "max_events")
-    threads = None if threads is None else whole(threads, "threads")
+    workers = placed(threads, where)
     first = pairs[0][0]
     every = tuple(
         varied(name, values, first, f"vary[{name!r}]", ("frequency",), "has an argument of its own")
@@ -134,7 +138,7 @@ def lyapunov_exponents(
         return _Grown(mean * frequency, spread * frequency, lost * frequency, len(rows), status)
 
     lyapunov.growth.prepare(*vectors)  # once, before threads would queue
-    found = each(grow, list(zip(items, vectors, strict=True)), threads=threads, progress=progress)
+    found = each(grow, list(zip(items, vectors, strict=True)), threads=workers, progress=progress)
     dims = ("rig", "frequency", *(one.name for one in every))
     rates = {
         "exponents": [f.exponents for f in found],
