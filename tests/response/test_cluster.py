@@ -60,6 +60,31 @@ def test_basins(cluster):
     assert there.identical(vi.basins("B3-10mm-A3", "0.70 Hz", **asked))
 
 
+def _shares(**how):
+    return vi.basin_stability(
+        "B3-10mm-A3", 0.7, parameter="gap", values=[0.004, 0.006], states=20, **how
+    )
+
+
+def _diagram(**how):
+    case = vi.laboratory.case("B3-10mm-A3")
+    shaking = vi.Harmonic(case.amplitude, 1.12)
+    return vi.bifurcation_diagram(case.oscillator, shaking, "gap", "5 mm", "6 mm", 3, **how)
+
+
+def _growth(**how):
+    return vi.lyapunov_exponents("B3-10mm-A3", [0.7, 1.1], 40, transient=10, **how)
+
+
+def _designs(**how):
+    return vi.design("B2-G1-A3", "0.05 g", {"gap": ["5 mm", "8 mm"]}, step=0.2, **how)
+
+
+@pytest.mark.parametrize("computed", [_shares, _diagram, _growth, _designs])
+def test_everything_else_of_many_tasks(cluster, computed):
+    assert computed(where=cluster).identical(computed())
+
+
 def test_a_map_outlives_workers(cluster, on_threads):
     killed = []
 

@@ -14,7 +14,6 @@ from vibroimpact.figures.branches import axis_unit
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND
 
-
 _ROUNDING = 1e-9
 """Of a sum of shares, in per cent."""
 
