@@ -6,14 +6,21 @@ import pytest
 import vibroimpact as vi
 from identification.twins import FREE, curves
 from vibroimpact.engine import hold, orbit
+from vibroimpact.engine.section_map import MODE
 from vibroimpact.identification.curves import CurveTest
 from vibroimpact.identification.free import frees
 from vibroimpact.identification.held import Rig
 from vibroimpact.identification.problem import Problem
-from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.stability.family import family
 from vibroimpact.stability.first import first_orbit
-from vibroimpact.stability.fixed_points import MAX_EVENTS
+from vibroimpact.stability.fixed_points import MAX_EVENTS, evaluated
+
+FOLDED = vi.laboratory.case("B2-G1-A3", "identified")
+GRAZED = vi.laboratory.case("B2-G2-A2", "identified")
+
+
+def shaken(case, frequency=1.0):
+    return vi.Harmonic(case.amplitude, frequency)
 
 
 def measured(found, point):
@@ -27,51 +34,108 @@ def measured(found, point):
     return np.array([row[hold.U_MOST] - row[hold.U_LEAST], row[hold.A_MOST] - row[hold.A_LEAST]])
 
 
+def by_the_implicit_function_theorem(case, frequency, name, state):
+    """Logarithmic derivatives of both excursions: P(z; p) = z, so dz = (1 - P_z)^-1 P_p dp.
+
+    P_z comes from the tangent map; P_p and what is measured over one cycle are differences at a
+    fixed state, which nothing has to settle for.
+    """
+    fam = family(case.oscillator, shaken(case, frequency), name)
+    now = fam.value
+    found = first_orbit(fam, (0.5 * now, 1.5 * now), vi.State(*state), 1, symmetric=False)
+    states = len(found.own)
+    step = 1e-6 * now
+
+    def moved(by):
+        point = found.point.copy()
+        point[:states] += by[:states]
+        point[-1] += by[-1]
+        return point
+
+    along = np.zeros(states + 1)
+    along[-1] = step
+    images = [evaluated(found.section, moved(s * along), found.facts[MODE])[2] for s in (1, -1)]
+    of_parameter = (images[0] - images[1])[:states] / 2.0
+    along[:states] = np.linalg.solve(np.eye(states) - found.own, of_parameter)
+    ends = [measured(found, moved(s * along)) for s in (1, -1)]
+    return (ends[0] - ends[1]) / (2e-6 * measured(found, found.point))
+
+
+def by_the_fit(case, grid, name):
+    """The same, as a fit finds them at the last of its frequencies."""
+    data = curves(case.oscillator, case.amplitude, frequencies=grid).sel(direction=["forward"])
+    settings = {"one": (case.oscillator, shaken(case))}
+    test = CurveTest("one", data, settings["one"], 1.0)
+    problem = Problem([test], frees(name, settings, (), {}), {}, [1.0], np.inf)
+    slopes = problem.jacobian(problem.start, fine=True)[: test.points_count, 0]
+    # Of asinh(y/floor), whose derivative is that of the logarithm where y is large.
+    value = test.points.value
+    slopes = slopes * np.sqrt(1.0 + (test.floor / value) ** 2)
+    return slopes[test.points.hold == len(grid) - 1]
+
+
 @pytest.mark.parametrize(
     ("frequency", "name"),
     [
         (2.0, "stiffness"),
         (2.0, "bumper_damping"),
-        (2.65, "bumper_stiffness"),  # the forward fold is at 2.67
+        (2.65, "bumper_stiffness"),  # the forward fold is at 2.66
         (2.65, "gap"),
         (1.69, "damping"),
     ],
 )
 def test_differences_agree_with_the_implicit_function_theorem(frequency, name):
-    case = vi.laboratory.case("B2-G1-A3", "identified")
-    grid = np.arange(1.0, frequency + 0.001, 0.01)
-    rig = Rig((case.oscillator, vi.Harmonic(case.amplitude, 1.0)))
-    _, states = rig.sweep(grid)
-    start = vi.State(states[-1][2], states[-1][3])
-    shaken = vi.Harmonic(case.amplitude, float(grid[-1]))
-    fam = family(case.oscillator, shaken, name)
-    now = PARAMETERS[name].read(case.oscillator, shaken)
-    found = first_orbit(fam, (0.5 * now, 1.5 * now), start, 1, symmetric=False)
-    states_count = len(found.own)
-    # P(z; p) = z, so that dz = (1 - P_z)^-1 P_p dp with P_z from the tangent map.
-    moved = np.linalg.solve(np.eye(states_count) - found.own, found.slope[:states_count])
-    step = 1e-5 * now
-    ends = []
-    for sign in (1.0, -1.0):
-        point = found.point.copy()
-        point[:states_count] += sign * step * moved
-        point[-1] += sign * step
-        ends.append(measured(found, point))
-    exact = (ends[0] - ends[1]) / (2.0 * step)
-    swept = []
-    for sign in (1.0, -1.0):
-        setting = PARAMETERS[name].write(case.oscillator, shaken, now * (1.0 + sign * 1e-4))
-        (row,), _ = Rig(setting).sweep(grid[-1:], states[-1])
-        swept.append([row[hold.U_MOST] - row[hold.U_LEAST], row[hold.A_MOST] - row[hold.A_LEAST]])
-    differences = (np.array(swept[0]) - np.array(swept[1])) / (2e-4 * now)
-    assert differences == pytest.approx(exact, rel=2e-4)
+    grid = np.round(np.arange(1.0, frequency + 0.001, 0.01), 10)
+    _, states = Rig((FOLDED.oscillator, shaken(FOLDED))).sweep(grid)
+    exact = by_the_implicit_function_theorem(FOLDED, frequency, name, states[-1][2:4])
+    assert by_the_fit(FOLDED, grid, name) == pytest.approx(exact, rel=5e-6)
+
+
+def grazing():
+    """The frequency (Hz) above which the mass that comes from below touches its bumpers."""
+    low, high = 0.5, 0.8
+    rig = Rig((GRAZED.oscillator, shaken(GRAZED)))
+    gap = GRAZED.oscillator.right.gap
+    while high - low > 1e-12:
+        middle = 0.5 * (low + high)
+        touches = rig.sweep(np.array([middle]))[0][0, hold.U_MOST] > gap
+        low, high = (low, middle) if touches else (middle, high)
+    return low
+
+
+@pytest.mark.parametrize("share", [1e-4, 1e-2])
+@pytest.mark.parametrize("name", ["stiffness", "bumper_stiffness", "bumper_damping", "gap"])
+def test_differences_behind_a_grazing(share, name):
+    frequency = grazing() * (1.0 + share)
+    rig = Rig((GRAZED.oscillator, shaken(GRAZED)))
+    (row,), (state,) = rig.sweep(np.array([frequency]))
+    assert 0.0 < row[hold.U_MOST] - GRAZED.oscillator.right.gap < 0.1 * row[hold.U_MOST]
+    exact = by_the_implicit_function_theorem(GRAZED, frequency, name, state[2:4])
+    found = by_the_fit(GRAZED, np.array([frequency]), name)
+    assert found == pytest.approx(exact, rel=5e-6, abs=1e-8)
+
+
+def test_differences_before_a_grazing_are_those_of_free_flight():
+    frequency = grazing() * (1.0 - 1e-4)
+    rig, omega = GRAZED.oscillator, 2.0 * np.pi * frequency
+    k, c = rig.isolator.stiffness, rig.isolator.damping
+    real, imaginary = k - rig.mass * omega**2, c * omega
+    size = real**2 + imaginary**2
+    # |u| = m a/|k - m w² + i c w|, and |ü + a| = |u| |k + i c w| / m.
+    displacement = np.array([-k * real, -c * omega * imaginary]) / size
+    force = np.array([k * k, (c * omega) ** 2]) / (k * k + imaginary**2)
+    for i, name in enumerate(("stiffness", "damping")):
+        found = by_the_fit(GRAZED, np.array([frequency]), name)
+        exact = [displacement[i], displacement[i] + force[i]]
+        assert found == pytest.approx(exact, rel=1e-6)
+    for name in ("bumper_stiffness", "bumper_damping", "gap"):
+        assert (by_the_fit(GRAZED, np.array([frequency]), name) == 0.0).all()
 
 
 def test_residuals_are_continuous_where_a_fold_passes_a_measured_frequency():
-    case = vi.laboratory.case("B2-G1-A3", "identified")
+    case = FOLDED
     data = curves(case.oscillator, case.amplitude, 0.02, seed=2)
-    shaken = vi.Harmonic(case.amplitude, 1.0)
-    settings = {"one": (case.oscillator, shaken)}
+    settings = {"one": (case.oscillator, shaken(case))}
     test = CurveTest("one", data, settings["one"], None)
     problem = Problem([test], frees(FREE, settings, (), {}), {}, [0.02], np.inf)
     for column in (2, 3):  # the bumper's stiffness and damping move the forward fold
@@ -88,7 +152,7 @@ def test_what_has_not_settled_has_no_derivative_and_spoils_none():
     case = vi.laboratory.case("B3-10mm-A3")
     grid = np.array([0.9, 1.0, 1.1, 3.0])  # chaotic at 1 Hz
     data = curves(case.oscillator, case.amplitude, frequencies=grid)
-    settings = {"one": (case.oscillator, vi.Harmonic(case.amplitude, 1.0))}
+    settings = {"one": (case.oscillator, shaken(case))}
     test = CurveTest("one", data, settings["one"], 0.02)
     problem = Problem([test], frees("bumper_stiffness", settings, (), {}), {}, [0.02], np.inf)
     here = problem.values(problem.start)

@@ -19,8 +19,9 @@ Flags = NDArray[np.bool_]
 
 _STEP = 1e-5
 """Of a parameter's size, for differences while searching."""
-_FINE = 1e-4
-"""For central differences, whose error is the square of it."""
+_FINE = 1e-6
+"""For central differences, whose error is the square of it over that of the distance, as a share,
+from a fold or a grazing; what is left of settling weighs 1e-12 over it."""
 _BROKEN = 300.0
 """A value that changes by more than so many times the share of a parameter's change is not
 followed: the difference reaches across a jump."""
@@ -221,9 +222,9 @@ class Problem:
     ) -> Array:
         """Derivatives of the residuals by differences of settled motions.
 
-        A motion that has settled is an orbit to 1e-12 of its size, so that a difference is as good
-        as the derivative by the tangent map to six digits (decision 16). What did not settle has
-        none, and gets 0.
+        A motion that has settled is an orbit to 1e-12 of its size, so that a fine difference agrees
+        with the derivative by the tangent map to five digits or more (decision 16). What did not
+        settle has none, and gets 0.
         """
         here = self.values(x) if at is None else at
         matrix = np.zeros((len(here.residuals), len(x)))
