@@ -10,6 +10,7 @@ import pytest
 
 import vibroimpact as vi
 from samples import sample
+from vibroimpact.cli import main
 from vibroimpact.response.cluster import LostError, placed
 
 distributed = pytest.importorskip("distributed")
@@ -28,7 +29,7 @@ def cluster():
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
         ) as local,
-        distributed.Client(local) as client,
+        distributed.Client(local, set_as_default=False) as client,
     ):
         yield client
 
@@ -85,6 +86,16 @@ def test_everything_else_of_many_tasks(cluster, computed):
     assert computed(where=cluster).identical(computed())
 
 
+def test_from_the_command_line(cluster, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    words = ("bifurcation", "B3-10mm-A3", "--from", "1Hz", "--to", "1.2Hz", "--steps", "3")
+    found = []
+    for where in ("threads", cluster.scheduler.address):
+        assert main((*words, "--where", where, "--output", where[:3])) == 0
+        found.append(vi.load(f"{where[:3]}/B3-10mm-A3-frequency-diagram.nc"))
+    assert found[0].identical(found[1])
+
+
 def test_a_map_outlives_workers(cluster, on_threads):
     killed = []
 
@@ -103,7 +114,7 @@ def test_a_map_is_completed_when_the_scheduler_died(tmp_path, on_threads):
     local = distributed.LocalCluster(
         n_workers=1, threads_per_worker=2, processes=False, dashboard_address=":0"
     )
-    client = distributed.Client(local)
+    client = distributed.Client(local, set_as_default=False)
     store = tmp_path / "map.zarr"
 
     def die(done, total):

@@ -55,7 +55,8 @@ class Cluster(NamedTuple):
             _alone, [task] * len(items), items, pure=False, batch_size=_TOGETHER
         )
         try:
-            for done, future in enumerate(distributed.as_completed(futures), 1):
+            finished = distributed.as_completed(futures, loop=self.client.loop)
+            for done, future in enumerate(finished, 1):
                 if future.status != "finished":
                     _raise(future)
                 if progress:
