@@ -12,11 +12,15 @@ from pathlib import Path
 import pytest
 
 
-def measured(name: str) -> Path:
-    """The path of a file or folder; the test is skipped where it is absent."""
+def find(name: str) -> Path | None:
+    """The path of a file or folder, if it is there."""
     named = os.environ.get("VIBROIMPACT_MEASURED")
     roots = [Path(named)] if named else [up / "shared/data" for up in Path(__file__).parents]
-    for root in roots:
-        if (root / name).exists():
-            return root / name
-    pytest.skip(f"the measured data {name} are absent")
+    return next((root / name for root in roots if (root / name).exists()), None)
+
+
+def measured(name: str) -> Path:
+    """The same; the test is skipped where it is absent."""
+    if (path := find(name)) is None:
+        pytest.skip(f"the measured data {name} are absent")
+    return path

@@ -1,14 +1,11 @@
 """Published impact oscillators with rigid stops.
 
-H. Dankowicz and F. Schilder, Recipes for Continuation (SIAM, 2013), Example 15.2, and the `hspo`
-demonstration of COCO: x″ = A cos ωt - c x′ - k x with k = 1, c = 0.1, A = 1, ω = 1, a stop at
-x = 1 and restitution 0.8. Its first solution is printed to two or three digits.
-
 C. Budd and F. Dux, Chattering and related behaviour in impact oscillators, Phil. Trans. R. Soc. A
 347 (1994) 365-389: x″ + x = cos ωt with a stop at x = σ and restitution r. Of the (1, n) orbits -
 one impact in n cycles - the impact velocity is known in closed form: with γ = cos(2πn/ω) and so on
 as derived here in `reference.impact_orbits`; chattering motions end in rest on the stop while
-σ < 1 and the force presses, and leave it where cos ωt = σ.
+σ < 1 and the force presses, and leave it where cos ωt = σ. What is compared number by number, and
+the orbit of Dankowicz and Schilder, is in `comparisons/impact_oscillators.py`.
 """
 
 from __future__ import annotations
@@ -21,40 +18,16 @@ import xarray as xr
 from mpmath import mp
 
 import vibroimpact as vi
+from literature.comparisons.impact_oscillators import (
+    COSINE,
+    budd_dux_doubling,
+    budd_dux_doubling_found,
+    budd_dux_rig,
+    budd_dux_start,
+    fastest,
+)
 from reference.impact_orbits import Oscillator, doubling, possible_orbits
 from reference.public_motion import events
-
-PHASE = -math.pi / 2
-"""-A sin(θ + this) = A cos θ."""
-
-
-def test_coco_the_first_orbit() -> None:
-    """Guess and solution: (1, -1.36) behind the impact at θ = 0.076, (-0.98, -0.29) at θ = ±π.
-
-    The two segments last 3.2 and 3.1.
-    """
-    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(0.8, 1.0))
-    shaken = vi.Harmonic(1.0, 0.5 / math.pi, -math.pi + PHASE)
-    found = vi.orbit(rig, shaken, vi.State(-0.98, -0.29))
-    u, v = found["final_state"].values[:2]
-    assert (u, v) == (pytest.approx(-0.98, abs=0.005), pytest.approx(-0.29, abs=0.005))
-    (impact,) = events(found)
-    assert impact.u == 1.0
-    assert -0.8 * impact.v == pytest.approx(-1.36, abs=0.005)
-    assert impact.time - math.pi == pytest.approx(0.076, abs=0.0005)
-    assert impact.time == pytest.approx(3.2, abs=0.05)
-    assert math.tau - impact.time == pytest.approx(3.1, abs=0.05)
-
-
-def test_coco_the_family_ends_where_it_grazes() -> None:
-    """Continued in A, the velocity of impact falls to zero at A = |k - ω² + i c ω| d = 0.1."""
-    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(0.8, 1.0))
-    shaken = vi.Harmonic(1.0, 0.5 / math.pi, -math.pi + PHASE)
-    data = vi.branch(rig, shaken, vi.State(-0.98, -0.29), parameter="amplitude", low=0.05, high=1.0)
-    kinds = data["bifurcation_kind"].values
-    grazings = data["bifurcation_value"].values[kinds == "grazing"]
-    assert np.abs(grazings - 0.1).min() < 1e-9
-
 
 BUDD_DUX = [  # ω, r, σ, n
     (2.8, 0.8, 0.0, 1),
@@ -74,13 +47,11 @@ BUDD_DUX = [  # ω, r, σ, n
 @pytest.mark.parametrize(("omega", "r", "sigma", "n"), BUDD_DUX)
 def test_budd_and_dux_orbits(omega: float, r: float, sigma: float, n: int) -> None:
     one = Oscillator(omega / math.tau, 0.0, r, sigma, n)
-    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), vi.RigidStop(r, sigma))
     with mp.workdps(30):
         found = possible_orbits(one)
         assert found
         for orbit in found:
-            u, v, phase = (float(x) for x in orbit.after(one.span / 3))
-            shown = vi.orbit(rig, vi.Harmonic(1.0, one.frequency, phase), vi.State(u, v), n)
+            shown = vi.orbit(budd_dux_rig(one), *budd_dux_start(orbit), n)
             (impact,) = events(shown)
             assert impact.v == pytest.approx(float(orbit.velocity), rel=1e-10)
             assert int(shown["stable"]) == int(max(map(abs, orbit.multipliers)) < 1)
@@ -93,16 +64,7 @@ def test_budd_and_dux_orbits(omega: float, r: float, sigma: float, n: int) -> No
 )
 def test_budd_and_dux_period_doubling(r: float, sigma: float) -> None:
     one = Oscillator(2.3 / math.tau, 0.0, r, sigma)
-    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), vi.RigidStop(r, sigma))
-    with mp.workdps(30):
-        at = float(doubling(one, 2.2 / math.tau, 2.8 / math.tau))
-        (orbit,) = possible_orbits(one)
-        u, v, phase = (float(x) for x in orbit.after(one.span / 3))
-    shaken = vi.Harmonic(1.0, one.frequency, phase)
-    data = vi.branch(rig, shaken, vi.State(u, v), low=0.9 * one.frequency, high=1.02 * at)
-    kinds = data["bifurcation_kind"].values
-    found = data["bifurcation_value"].values[kinds == "period doubling"]
-    assert np.abs(found - at).min() < 1e-10
+    assert abs(budd_dux_doubling_found(one) - budd_dux_doubling(one)) < 1e-10
 
 
 @pytest.mark.parametrize("other", ["gap", "restitution", "amplitude", "damping"])
@@ -130,11 +92,8 @@ def test_curves_of_folds_in_closed_form(other: str) -> None:
 
 def _followed(one: Oscillator, **span: float) -> tuple[vi.Oscillator, vi.Harmonic, xr.Dataset]:
     """The branch of the faster of its orbits."""
-    rig = vi.Oscillator(1.0, vi.Isolator(1.0, one.damping), vi.RigidStop(one.restitution, one.gap))
-    orbit = max(possible_orbits(one), key=lambda orbit: orbit.velocity)
-    u, v, phase = (float(x) for x in orbit.after(one.span / 3))
-    shaken = vi.Harmonic(1.0, one.frequency, phase)
-    return rig, shaken, vi.branch(rig, shaken, vi.State(u, v), **span)
+    rig, (shaken, start) = budd_dux_rig(one), budd_dux_start(fastest(one))
+    return rig, shaken, vi.branch(rig, shaken, start, **span)
 
 
 def _curve(
@@ -174,7 +133,7 @@ def test_budd_and_dux_chatter_ends_in_rest() -> None:
     """It sticks for part of each cycle at low ω, and leaves the stop where cos ωt = σ."""
     r, sigma, omega = 0.7, -0.3, 0.45
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), vi.RigidStop(r, sigma))
-    shaken = vi.Harmonic(1.0, omega / math.tau, PHASE)
+    shaken = vi.Harmonic(1.0, omega / math.tau, COSINE)
     data = vi.simulate(rig, shaken, 8, samples=1)
     left = [one for one in events(data) if one.kind == "detach_right"]
     assert len(left) == 8
@@ -188,7 +147,7 @@ def test_budd_and_dux_chatter_ends_in_rest() -> None:
 def test_a_shifted_stop_is_a_constant_force(sigma: float) -> None:
     """x″ + x = cos ωt + σ with the stop at the place where the spring is slack."""
     r, omega = 0.8, 2.8
-    shaken = vi.Harmonic(1.0, omega / math.tau, PHASE)
+    shaken = vi.Harmonic(1.0, omega / math.tau, COSINE)
     held = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(r, sigma))
     pushed = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(r, 0.0), force=-sigma)
     one = vi.simulate(held, shaken, 12, vi.State(-1.0), samples=8)
