@@ -34,6 +34,7 @@ extensions = [
     "sphinx_copybutton",
     "sphinx_gallery.gen_gallery",
     "links",
+    "validation",
 ]
 
 root_doc = "docs/index"

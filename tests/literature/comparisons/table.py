@@ -3,9 +3,7 @@
     python tests/literature/comparisons/table.py           writes it into the page
     python tests/literature/comparisons/table.py --again   runs the other programs, where they are
 
-A build of the documentation calls `renewed(text)` on the page's text: it computes the table anew.
-It needs this folder's grandparent `tests`, and the project's root, on the path. Nothing of the
-project imports this.
+A build of the documentation computes it anew, by `renewed` (`docs/_ext/validation.py`).
 """
 
 from __future__ import annotations
