@@ -13,3 +13,14 @@ left = { stiffness = "510 kN/m", damping = "0.9 kN s/m", gap = "-1 mm" }
 amplitude = "0.05 g"
 """
 """A rigid stop and a preloaded bumper."""
+
+ISOLA = """
+[oscillator]
+mass = 1.0
+isolator = { stiffness = 1.0, damping = 0.059 }
+right = { stiffness = 40.0, damping = 0.4, gap = 1.0 }
+
+[excitation]
+amplitude = 2.0
+"""
+"""A bumper at which a motion of period 5 is reached from 1 state in 100, near 0.955 Hz."""

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from cli.studies import QUAY
+from cli.studies import ISOLA, QUAY
 
 COMMAND = "branch"
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -41,6 +41,18 @@ def gaps(tmp_path_factory, told):
     code, out, errors = told(folder, "B2-G1-A3", *GAPS, "--frequency", "2Hz", "--json")
     assert (code, errors) == (0, "")
     return json.loads(out), folder
+
+
+def test_basins_find_an_isolated_branch(run, tmp_path):
+    (tmp_path / "isola.toml").write_text(ISOLA)
+    words = ("isola.toml", "--from", "0.94Hz", "--to", "0.97Hz", "--longest", "5", "--json")
+    counts = []
+    for basins in ("0", "1"):
+        code, out, _ = run(*words, "--random", "0", "--basins", basins)
+        assert code == 0
+        data = vi.load(tmp_path / json.loads(out)["files"]["data"])
+        counts.append([int((data["period"] == period).any()) for period in (1, 5)])
+    assert counts == [[1, 0], [1, 1]]
 
 
 def of_kind(facts: dict, kind: str) -> list[dict]:
@@ -358,7 +370,7 @@ def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
 
 
 def test_help_names_every_parameter() -> None:
-    from vibroimpact.cli.branch import PARAMETERS as TOLD
+    from vibroimpact.cli.parameters import PARAMETERS as TOLD
     from vibroimpact.model.parameters import PARAMETERS
 
     every = [name.replace("_", "-") for name in PARAMETERS]

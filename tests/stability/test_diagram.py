@@ -50,6 +50,36 @@ def test_isolated_branches_are_found_once():
     )
 
 
+def test_basins_lead_to_a_branch_that_random_starts_miss():
+    """A small isola of period 5, to which 1 state in 100 leads, within 3 % of the frequency."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.059), HARD, None)
+    asked = {"oscillator": rig, "amplitude": 2.0, "low": hertz(4.0), "high": hertz(8.0)}
+    missed = vi.resonance_diagram(**asked, longest=5, random=40)
+    assert not (missed["period"] == 5).any()
+    found = vi.basins(rig, vi.Harmonic(2.0, hertz(6.0)), nodes=40)
+    assert float(found["share"].min()) < 0.01
+    data = vi.resonance_diagram(**asked, longest=5, basins=found)
+    isola = data["period"].values == 5
+    (number,) = np.unique(data["branch"].values[isola])
+    assert data.attrs[f"branch_{number}_closed"] == 1
+    ends = data["frequency"].values[isola]
+    assert hertz(5.8) < ends.min() < hertz(5.9)
+    assert hertz(6.0) < ends.max() < hertz(6.1)
+    assert data["stable"].values[isola].any()
+    # The rest is what it is without.
+    assert int(data["branch"].max()) == int(missed["branch"].max()) + 1
+
+
+def test_basins_of_a_rig_whose_bumpers_remember():
+    slow = vi.Bumper(40.0, 20.0, 1.0)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), slow, None)
+    shaking = vi.Harmonic(2.0, hertz(2.0))
+    found = vi.basins(rig, shaking, nodes=5)
+    over = {"parameter": "gap", "random": 0, "starts": 2}
+    data = vi.resonance_diagram(rig, shaking, 0.8, 1.2, **over, basins=[found])
+    assert int(data["branch"].max()) == 0
+
+
 def excursions(data: xr.Dataset, value: float) -> list[float]:
     """Of all orbits at a value of the parameter, from a straight line through their neighbours."""
     x, y = data[data.attrs["parameter"]].values, data["displacement_excursion"].values
@@ -121,3 +151,19 @@ def test_refused(wrong, told):
     given = {"oscillator": ONE_STOP, "amplitude": 1.0, "low": 1.0, "high": 2.0}
     with pytest.raises(vi.InputError, match=told):
         vi.resonance_diagram(**{**given, **wrong})
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"low": 1.0, "high": 2.0}, r"basins\[0\]: they are of frequency 0.3; a value from 1 to 2"),
+        ({"amplitude": 1.5}, r"basins\[0\]: they are of another rig"),
+        ({"phase": 1.0}, r"basins\[0\]: they are of another rig, shaking or phase"),
+        ({"basins": [xr.Dataset()]}, r"basins\[0\]: it has no basins"),
+    ],
+)
+def test_basins_that_are_refused(changed, told):
+    found = vi.basins(ONE_STOP, vi.Harmonic(1.0, 0.3), nodes=3)
+    given = {"oscillator": ONE_STOP, "amplitude": 1.0, "low": 0.2, "high": 0.4, "basins": found}
+    with pytest.raises(vi.InputError, match=told):
+        vi.resonance_diagram(**{**given, **changed}, starts=1)

@@ -55,6 +55,8 @@ def variables(known: Sequence[Attractor]) -> dict[str, Any]:
         ),
         "section_displacement": ("point", points[:, 0]),
         "section_velocity": ("point", points[:, 1]),
+        "section_right_bumper": ("point", points[:, 2]),
+        "section_left_bumper": ("point", -points[:, 3]),
     }
 
 

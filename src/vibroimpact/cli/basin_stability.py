@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Group, Parameter
 
-from vibroimpact.cli.branch import PARAMETERS, option_range
 from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Where, Whole
+from vibroimpact.cli.parameters import PARAMETERS, option_range
 from vibroimpact.cli.states import StateOptions
 from vibroimpact.errors import InputError
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
+from vibroimpact.cli.parameters import PARAMETERS, option_range
 from vibroimpact.cli.states import state
 from vibroimpact.errors import InputError
 from vibroimpact.stability.labels import Quantity
@@ -15,21 +16,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model import Oscillator, State
-    from vibroimpact.model.excitation import Of
+    from vibroimpact.model import Repeated, State
 
 _BRANCH = Group("Branch", sort_key=1)
-PARAMETERS = (
-    "frequency, amplitude, force, gap, right-gap, left-gap, bumper-stiffness, right-stiffness, "
-    "left-stiffness, proportional-stiffness, bumper-damping, right-damping, left-damping, "
-    "restitution, right-restitution, left-restitution, bumper-exponent, right-exponent, "
-    "left-exponent, dissipation, right-dissipation, left-dissipation, bumper-mass, right-mass, "
-    "left-mass, stiffness, damping, damping-exponent, friction, elastic-stiffness, "
-    "post-yield-stiffness, yield-force, cubic, quintic, beta, gamma, reversal-stiffness, "
-    "final-stiffness, decay, hardening, hardening-force, isolator-period, stiffness-ratio, "
-    "gap-ratio, relaxation-time, damping-ratio"
-)
-"""Those of the registry, written out: help loads nothing that computes."""
+_NODES = 40
+"""States along each axis of the basins that are looked at."""
 
 _PHYSICAL: dict[str, Any] = {"eta_d": "peak_displacement", "eta_a": "peak_acceleration"}
 
@@ -96,6 +87,13 @@ def branch(
             group=_BRANCH, help="Random starts at each of 40 values, which find isolated branches."
         ),
     ] = 8,
+    basins: Annotated[
+        Whole,
+        Parameter(
+            group=_BRANCH,
+            help="Values whose basins are looked at for isolated branches, too, however small.",
+        ),
+    ] = 0,
     begin: Annotated[
         str | None,
         _WITH_UNITS,
@@ -153,7 +151,11 @@ def branch(
     hertz = _hertz(along, frequency, first)
     if first is not None and hertz is not None:
         _check(what, along, span, hertz)
-    for option, number, least in (("--longest", longest, 1), ("--random", random, 0)):
+    for option, number, least in (
+        ("--longest", longest, 1),
+        ("--random", random, 0),
+        ("--basins", basins, 0),
+    ):
         if number < least:
             raise InputError(f"{option}: {number}; a whole number of at least {least} is accepted")
 
@@ -171,7 +173,7 @@ def branch(
             warnings.simplefilter("always", RuntimeWarning)
             swept = None
             if first is None:
-                data = _all_branches(what, along, span, hertz, longest, random, progress)
+                data = _all_branches(what, along, span, hertz, longest, random, basins, progress)
                 if along == "frequency":
                     swept = _sweep(what, data)
             else:
@@ -191,54 +193,6 @@ def branch(
     return 0
 
 
-def option_range(
-    name: str,
-    low: str | None,
-    high: str | None,
-    options: tuple[str, str],
-    default: tuple[float, float],
-    field: str = "--parameter",
-    rig: Oscillator | None = None,
-    of: Of = "acceleration",
-) -> tuple[float, float]:
-    """A range of a parameter from two options; that of a frequency has a default, in Hz.
-
-    `field` is the option that names the parameter, whose unit may depend on the rig; `of` says
-    what an amplitude is one of.
-
-    Raises
-    ------
-    InputError
-        If there is no such parameter, an end is missing or cannot be used, or none lies between.
-    """
-    from vibroimpact.model import to_si
-    from vibroimpact.model.parameters import parameter
-
-    varied = parameter(name, field, of)
-    if rig is not None:
-        varied = varied.of(rig)
-    given: list[str | float | None] = [low, high]
-    if name == "frequency":
-        given = [
-            text if text is not None else otherwise
-            for text, otherwise in zip(given, default, strict=True)
-        ]
-    ends = []
-    for text, option in zip(given, options, strict=True):
-        if text is None:
-            raise InputError(f"{option}: missing; the end of the range of {name} is accepted")
-        if name == "frequency":
-            ends.append(to_si(text, varied.quantity, option, above=0.0))
-        else:
-            least, most = varied.least, varied.most
-            ends.append(to_si(text, varied.quantity, option, minimum=least, maximum=most))
-    if not ends[0] < ends[1]:
-        raise InputError(
-            f"{options[1]}: {given[1]} does not lie above {given[0]}; a larger value is accepted"
-        )
-    return ends[0], ends[1]
-
-
 def _all_branches(
     what: Subject,
     parameter: str,
@@ -246,6 +200,7 @@ def _all_branches(
     hertz: float | None,
     longest: int,
     random: int,
+    looked: int,
     progress: Any,
 ) -> xr.Dataset:
     """All branches along a parameter."""
@@ -261,8 +216,33 @@ def _all_branches(
         phase=phase,
         longest=longest,
         random=random,
+        basins=_basins(what, parameter, span, what.at(hertz or span[1], phase), looked, progress),
         progress=progress,
     )
+
+
+def _basins(
+    what: Subject,
+    parameter: str,
+    span: tuple[float, float],
+    shaken: Repeated,
+    count: int,
+    progress: Any,
+) -> list[xr.Dataset]:
+    """Basins at so many values, each in the middle of its part of the range."""
+    from vibroimpact.attraction.grid import basins
+    from vibroimpact.model.parameters import parameter as registered
+
+    varied = registered(parameter, of=shaken.of).of(what.oscillator)
+    step = (span[1] - span[0]) / max(count, 1)
+    return [
+        basins(
+            *varied.write(what.oscillator, shaken, span[0] + (i + 0.5) * step),
+            nodes=_NODES,
+            progress=progress,
+        )
+        for i in range(count)
+    ]
 
 
 def _sweep(what: Subject, data: xr.Dataset) -> xr.Dataset:

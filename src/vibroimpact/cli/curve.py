@@ -148,7 +148,7 @@ def curve(
 def _range(
     option: str, name: str, text: str | None, default: tuple[float, float], of: Of
 ) -> tuple[float, float]:
-    from vibroimpact.cli.branch import option_range
+    from vibroimpact.cli.parameters import option_range
 
     if text is None and name == "frequency":
         return option_range(name, None, None, (option, option), default, "--over", of=of)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, hold
@@ -16,7 +17,8 @@ from vibroimpact.model.access import Setting
 from vibroimpact.response.free_flight import extremes, harmonics
 from vibroimpact.response.start import engine_rig, state_from
 from vibroimpact.response.threads import Tally, each
-from vibroimpact.stability.family import Family, family
+from vibroimpact.response.variables import excitation_from, motion_parameters
+from vibroimpact.stability.family import Family, family, system_vector
 from vibroimpact.stability.first import first_orbit
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.stepped import Held, Patience, random_states, settings, stepped
@@ -26,6 +28,9 @@ _Phasors = NDArray[np.complex128]
 
 _SAME = 1e-6
 """Two orbits of one period whose extremes agree to this share are one, or mirror images."""
+
+_PARTS = ("displacement", "velocity", "right_bumper", "left_bumper")
+"""Of a state, that datasets of `basins` have at the section."""
 
 
 class Values(NamedTuple):
@@ -38,10 +43,15 @@ class Values(NamedTuple):
 
     def family_at(self, i: int) -> Family:
         """The family, made at one of the values."""
-        rig, shaken = self.every[i]
-        if not self.fam.straight:
-            return family(rig, shaken, self.fam.parameter.name)
-        return self.fam._replace(value=float(self.grid[i]), oscillator=rig, excitation=shaken)
+        return _made(self.fam, float(self.grid[i]))
+
+
+def _made(fam: Family, value: float) -> Family:
+    """The family, made at a value."""
+    rig, shaken = fam.at(value)
+    if not fam.straight:
+        return family(rig, shaken, fam.parameter.name)
+    return fam._replace(value=value, oscillator=rig, excitation=shaken)
 
 
 def values(fam: Family, span: tuple[float, float], count: int) -> Values:
@@ -154,3 +164,50 @@ def _met(one: Held, ends: tuple[float, float], known: list[tuple[int, float, flo
         and max(abs(first - ends[0]), abs(second - ends[1])) <= _SAME * size
         for period, first, second in known
     )
+
+
+def in_basins(
+    fam: Family, span: tuple[float, float], data: Sequence[xr.Dataset], longest: int
+) -> Iterator[Orbit]:
+    """The periodic motions that datasets of `basins` have, each once; mirror images are no other.
+
+    Raises
+    ------
+    InputError
+        If one is no such dataset, or of another rig, or of a value beyond the range.
+    """
+    for i, one in enumerate(data):
+        here = _made(fam, _value_of(fam, span, one, f"basins[{i}]"))
+        for number in one["attractor"].values:
+            period = int(one["period"].sel(attractor=number))
+            image = int(one["mirror_image"].sel(attractor=number))
+            if not 0 < period <= longest or 0 <= image < number:
+                continue
+            point = one.isel(point=int(np.argmax(one["section_attractor"].values == number)))
+            state = State.model_validate({p: float(point[f"section_{p}"]) for p in _PARTS})
+            try:
+                yield first_orbit(here, span, state, period)
+            except InputError:
+                continue  # as of what settles
+
+
+def _value_of(fam: Family, span: tuple[float, float], one: xr.Dataset, field: str) -> float:
+    """The value of the parameter at which basins were found."""
+    if not isinstance(one, xr.Dataset) or "basin" not in one or "section_attractor" not in one:
+        raise InputError(f"{field}: it has no basins; a dataset of basins is accepted")
+    given = motion_parameters(one)
+    rig, shaken = Oscillator.model_validate(given["oscillator"]), excitation_from(given)
+    value = fam.parameter.read(rig, shaken)
+    there = fam.at(value)
+    alike = np.allclose(system_vector(rig, shaken), system_vector(*there), 1e-9, 0.0, True)
+    if not alike or abs(np.sin(0.5 * (shaken.phase - fam.phase))) > 1e-9:
+        raise InputError(
+            f"{field}: they are of another rig, shaking or phase; those of this one at a value of "
+            f"{fam.parameter.name} are accepted"
+        )
+    if not span[0] <= value <= span[1]:
+        raise InputError(
+            f"{field}: they are of {fam.parameter.name} {value:g}; a value from {span[0]:g} to "
+            f"{span[1]:g} is accepted"
+        )
+    return value

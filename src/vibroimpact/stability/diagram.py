@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -16,7 +17,7 @@ from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import AnyShaking, as_shaking, takes_rig
 from vibroimpact.response.threads import Progress
-from vibroimpact.stability.begun import free, settled, values
+from vibroimpact.stability.begun import free, in_basins, settled, values
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
 from vibroimpact.stability.branch import follow_both_ways
 from vibroimpact.stability.family import family
@@ -45,6 +46,7 @@ def resonance_diagram(
     starts: int = 40,
     random: int = 8,
     seed: int = 0,
+    basins: xr.Dataset | Sequence[xr.Dataset] = (),
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Follow all branches of periodic orbits over a range of the frequency or another parameter.
@@ -52,7 +54,7 @@ def resonance_diagram(
     Branches are begun from where motions settle that are carried on up and down the range, from
     free flight, and from every symmetry breaking and period doubling that is found on the way. A
     branch that none of these leads to is isolated: `random` starts at each value find it where
-    some of its orbits are stable.
+    some of its orbits are stable, and the more surely `basins`, however small theirs are.
 
     Parameters
     ----------
@@ -77,6 +79,8 @@ def resonance_diagram(
         Values at which motions are held.
     random, seed
         Random starts at each of these, as of `bifurcation_diagram`.
+    basins
+        Datasets of `basins` at values of the parameter, whose motions are followed as well.
     progress
         Called with the branches done and those known.
 
@@ -112,11 +116,16 @@ def resonance_diagram(
     most_branches = whole(most_branches, "most_branches")
     most_points = whole(most_points, "most_points")
     random, seed = whole(random, "random", 0), whole(seed, "seed", 0)
+    given = [basins] if isinstance(basins, xr.Dataset) else list(basins)
     begin = values(fam, span, starts)
     followed: list[Followed] = []
     waiting: list[tuple[Orbit, Bifurcation | None]] = [
         (first, None)
-        for first in itertools.chain(free(begin), settled(begin, longest, random, seed))
+        for first in itertools.chain(
+            free(begin),
+            settled(begin, longest, random, seed),
+            in_basins(fam, span, given, longest),
+        )
     ]
     complete = True
     while waiting:
