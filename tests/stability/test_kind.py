@@ -236,3 +236,10 @@ def test_it_grazes_where_the_free_flight_reaches_the_stop():
     at = 2 * math.pi * data["bifurcation_value"].values
     grazing = at[data["bifurcation_kind"].values == "grazing"]
     assert np.abs(grazing - exact).min() < 1e-11
+
+
+def test_growth_without_bound_is_judged_without_a_warning():
+    """A wall that is met at no speed stretches disturbances without bound."""
+    logarithms = growth(0.5, 1.0)
+    logarithms[7] = np.inf, -np.inf
+    assert judge(logarithms, WANDERING).motion == "undecided"

@@ -130,9 +130,10 @@ def scenario_map(
         bbox_to_anchor=(0.5, -0.14),
         ncols=2,
         frameon=False,
-        fontsize="small",
+        fontsize=7.6,
         borderaxespad=0.0,
-        handlelength=2.4,
+        columnspacing=1.2,
+        handlelength=2.2,
         handleheight=1.2,
     )
     return ax

@@ -51,6 +51,8 @@ class Judgement(NamedTuple):
     """Cycles after which a motion that still settles, slowly, all but returns; 0 for any other."""
 
 
+# A wall that is grazed stretches disturbances without bound.
+@np.errstate(invalid="ignore")
 def averages(logarithms: _Array) -> tuple[_Array, _Array]:
     """Mean growth per cycle and its standard uncertainty, from the means of blocks of cycles.
 
@@ -72,6 +74,7 @@ def averages(logarithms: _Array) -> tuple[_Array, _Array]:
     return logarithms.mean(axis=0), blocks.std(axis=0, ddof=1) / math.sqrt(BLOCKS)
 
 
+@np.errstate(invalid="ignore")
 def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) -> Judgement:
     """Tell the kind of a motion.
 

@@ -1,0 +1,25 @@
+"""
+A strange attractor
+===================
+
+Chaos, looked at once a cycle: forty thousand points of one motion. Folded sheets within sheets
+come from stretching between impacts and folding at them; each fold ends where the mass just
+grazes.
+"""
+
+from matplotlib.figure import Figure
+
+import vibroimpact as vi
+
+wall = vi.RigidStop(restitution=0.8, gap=0.0)
+rig = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.05), right=wall, left=None)
+motion = vi.steady(rig, vi.Harmonic(1.0, 0.445))
+print(motion["motion"].item(), f"largest exponent {float(motion['exponents'][0]):+.3f} 1/s")
+points = vi.stroboscopic_section(motion, phase=1.0, cycles=40_000)
+
+figure = Figure(figsize=(7.0, 4.6), layout="constrained")
+ax = figure.subplots()
+ax.plot(points["section_displacement"], points["section_velocity"], ",", color="#1f2a5a", alpha=0.6)
+ax.set_xlabel("displacement (m)")
+ax.set_ylabel("velocity (m/s)")
+figure

@@ -1,0 +1,16 @@
+"""
+Order and chaos in one number
+=============================
+
+The largest Lyapunov exponent over the frequency: the rate at which two neighbouring motions part.
+Where it is above zero, no forecast lasts. The bands are twice the uncertainty of the average.
+"""
+
+import numpy as np
+
+import vibroimpact as vi
+from vibroimpact.figures import exponent_curves
+
+rigs = {"gap 5 mm": "B3-10mm-A3", "gap 7.5 mm": "B3-G1-A3"}
+exponents = vi.lyapunov_exponents(rigs, np.linspace(0.9, 1.3, 161), cycles=1500)
+exponent_curves(exponents)

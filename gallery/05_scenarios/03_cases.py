@@ -1,0 +1,14 @@
+"""
+Forty-eight published tests
+===========================
+
+Each test of the study, classified from its computed curves: four bumpers, four gaps, three
+strengths of shaking.
+"""
+
+import vibroimpact as vi
+from vibroimpact.figures import scenario_cases
+
+cases = vi.laboratory.campaign()
+found = {case.code: str(vi.classify(case).scenario) for case in cases}
+scenario_cases(found)

@@ -1,0 +1,25 @@
+"""
+A map for one rig
+=================
+
+The same question in the units of a drawing: gap and stiffness of the bumpers of one laboratory
+rig.
+"""
+
+from pathlib import Path
+from tempfile import mkdtemp
+
+import numpy as np
+
+import vibroimpact as vi
+from vibroimpact.figures import save_figure, scenario_map
+
+data = vi.scenario_map(
+    ("gap", np.linspace(2e-3, 36e-3, 15)),
+    ("proportional_stiffness", np.geomspace(2e4, 2e6, 13)),
+    base="B2-G1-A3",
+    step=0.03,
+)
+drawn = scenario_map(data)
+save_figure(drawn, Path(mkdtemp(), "map.pdf"))  # for print: PDF, SVG or PNG
+drawn

@@ -1,0 +1,36 @@
+"""
+An earthquake on one page
+=========================
+
+The record, the displacement between the walls, the acceleration with each impact marked, the
+force over the displacement, and the spectrum of the ground beside that of the floor: what stands
+in the building feels the impacts at short periods.
+"""
+
+import numpy as np
+
+import vibroimpact as vi
+from vibroimpact.figures import earthquake_page
+
+
+def quake(seed, peak="0.3 g"):
+    """A made-up strong motion; ``vi.Record.read`` reads a real one."""
+    rng = np.random.default_rng(seed)
+    time = np.arange(2000) * 0.01
+    waves = np.sin(2 * np.pi * np.outer(time, np.linspace(0.2, 8, 80)) + rng.uniform(0, 6.28, 80))
+    swell = (time / 4.0) ** 2 * np.exp(-time / 2.0)
+    return vi.Record(swell * waves.sum(axis=1), "10 ms").scaled(peak=peak)
+
+
+bumper = vi.Bumper("40 MN/m", "200 kN s/m", "90 mm")
+isolator = vi.BilinearIsolator("8 MN/m", "1 MN/m", "120 kN", "60 kN s/m")
+building = vi.Oscillator("200 t", isolator, right=bumper, left=bumper)
+
+record = quake(1, "0.4 g")
+motion = vi.simulate(building, record, tail="5 s", samples=8)
+periods = np.geomspace(0.02, 5.0, 100)
+spectra = {
+    "ground": vi.response_spectrum(record, periods, damping=0.05),
+    "floor": vi.response_spectrum(vi.floor_record(motion), periods, damping=0.05),
+}
+earthquake_page(motion, spectra)

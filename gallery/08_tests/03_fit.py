@@ -1,0 +1,28 @@
+"""
+A fit of a time history
+=======================
+
+Dots were measured, with noise; the line is the motion of the rig that explains them, contacts
+included, from an initial state that is found as well.
+"""
+
+import numpy as np
+
+import vibroimpact as vi
+from vibroimpact.figures import fit_history
+from vibroimpact.measurement.read import as_measured
+
+case = vi.laboratory.case("B2-G1-A3")
+motion = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, "2 Hz"), 12, samples=48)
+noise = np.random.default_rng(3).normal(size=(2, motion.sizes["time"]))
+test = as_measured(
+    motion[["base_acceleration"]].assign(
+        displacement=motion["displacement"] + 1e-4 * noise[0],
+        acceleration=motion["acceleration"] + 0.05 * noise[1],
+    )
+)
+
+bumper = vi.Bumper("700 kN/m", "0.5 kN s/m", "7.5 mm")
+guess = vi.Oscillator("550 kg", case.oscillator.isolator, bumper, bumper)
+fit = vi.identify(test, guess, "bumper_stiffness,bumper_damping,gap", starts=1, profiles=False)
+fit_history(fit)

@@ -1,0 +1,27 @@
+"""
+One trajectory
+==============
+
+A mass that meets two bumpers a period, by this package and by general integrators that were tuned
+for the same accuracy or better. The scale is logarithmic; the error stands behind each bar.
+"""
+
+from benchmarks.results import number, rows
+from matplotlib.figure import Figure
+
+table = rows("One trajectory of problem P")
+names = [row["Solver"] for row in table]
+took = [number(row["µs a period"]) for row in table]
+
+figure = Figure(figsize=(8.0, 3.2), layout="constrained")
+ax = figure.subplots()
+colours = ["#1f4fbf" if "vibroimpact" in name else "0.65" for name in names]
+ax.barh(names, took, color=colours)
+for place, row in enumerate(table):
+    text = f" {took[place]:,.2f} µs, error {row['State error']}"
+    ax.text(took[place], place, text, va="center", fontsize="small")
+ax.set_xscale("log")
+ax.set_xlim(0.1, 60.0 * max(took))
+ax.invert_yaxis()
+ax.set_xlabel("time for a forcing period (µs)")
+figure

@@ -1,0 +1,27 @@
+"""
+How many times as long others take
+==================================
+
+Every comparison of the benchmarks with a program of others, on problems that both can do. To the
+left of the line the other one is faster. Loops over scipy stand for what one would write oneself.
+"""
+
+from benchmarks.results import against_others
+from matplotlib.figure import Figure
+
+found = sorted(against_others(), key=lambda one: one[1])
+names, ratios = zip(*found, strict=True)
+
+figure = Figure(figsize=(9.0, 0.34 * len(names) + 1.0), layout="constrained")
+ax = figure.subplots()
+ax.hlines(range(len(names)), 1.0, ratios, color="0.8", linewidth=2.0)
+ax.plot(ratios, range(len(names)), "o", color="#1f4fbf")
+for place, ratio in enumerate(ratios):
+    text = f"{ratio:,.0f}" if ratio > 100.0 else f"{ratio:.2g}"
+    ax.annotate(text, (ratio, place), (7, -3), textcoords="offset points", fontsize="small")
+ax.axvline(1.0, color="black", linewidth=0.8)
+ax.set_xscale("log")
+ax.set_xlim(min(0.3, 0.5 * ratios[0]), 10.0 * ratios[-1])
+ax.set_yticks(range(len(names)), names, fontsize="small")
+ax.set_xlabel("time of the other over ours (–)")
+figure

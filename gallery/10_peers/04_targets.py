@@ -1,0 +1,25 @@
+"""
+What was aimed at, and what was missed
+======================================
+
+Each target of the benchmarks, and how far the last full run was from it. Crosses to the left of
+the line are targets that were not met.
+"""
+
+from benchmarks.results import margins
+from matplotlib.figure import Figure
+
+found = sorted(margins(), key=lambda one: one[1])
+names, room = zip(*found, strict=True)
+
+figure = Figure(figsize=(10.0, 0.27 * len(names) + 1.0), layout="constrained")
+ax = figure.subplots()
+for place, value in enumerate(room):
+    good = value >= 1.0
+    ax.plot(value, place, "o" if good else "X", color="#1f4fbf" if good else "#c8102e")
+ax.axvline(1.0, color="black", linewidth=0.8)
+ax.set_xscale("log")
+ax.set_yticks(range(len(names)), names, fontsize="small")
+ax.margins(y=0.02)
+ax.set_xlabel("room to the target: 2 is twice as good as asked for (–)")
+figure
