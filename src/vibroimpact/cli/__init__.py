@@ -16,6 +16,7 @@ from vibroimpact.cli.basin_stability import basin_stability
 from vibroimpact.cli.basins import basins
 from vibroimpact.cli.bifurcation import bifurcation
 from vibroimpact.cli.branch import branch
+from vibroimpact.cli.cache import cache
 from vibroimpact.cli.classify import classify
 from vibroimpact.cli.curve import curve
 from vibroimpact.cli.design import design
@@ -62,6 +63,7 @@ For example:
     vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
     vibroimpact explore B2-G1-A3
     vibroimpact paper
+    vibroimpact cache --clean others
 
 More about a command: vibroimpact COMMAND --help
 
@@ -144,6 +146,7 @@ def _app() -> App:
     app.command(identify)
     app.command(scenario_map, name="map")
     app.command(paper)
+    app.command(cache)
     app.register_install_completion_command(
         help="Teach the shell (bash, zsh, fish or PowerShell) to complete commands and options."
     )
