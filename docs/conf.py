@@ -41,7 +41,7 @@ root_doc = "docs/index"
 include_patterns = ["*.md", "benchmarks/README.md", "docs/**"]
 exclude_patterns = ["docs/_*", ".*", "out", "src", "tests", "examples", "docs/**/*.ipynb"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
-templates_path = ["_templates"]
+templates_path = [str(ROOT / "docs" / "_templates")]
 
 # Headings have the anchors that a view of the plain files gives them.
 myst_heading_anchors = 4
@@ -50,7 +50,9 @@ myst_dmath_double_inline = True
 
 # A name in single backticks is one of the package's, if there is one.
 default_role = "py:obj"
-autosummary_generate = True
+autosummary_generate = sorted(
+    f"docs/reference/{path.name}" for path in ROOT.glob("docs/reference/*.md")
+)
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 numpydoc_show_class_members = False

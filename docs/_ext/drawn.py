@@ -69,7 +69,11 @@ GALLERY = {
 
 
 def forget_what_is_stale() -> None:
-    """Have all scripts run again if the package is another one than when they ran last."""
+    """Have all scripts run again if the package is another one, and drop pages without a script."""
+    for page in PAGES.glob("*/*.rst"):
+        script = ROOT / "gallery" / page.parent.name / f"{page.stem}.py"
+        if page.stem != "index" and not script.is_file():
+            page.unlink()
     stamp, now = PAGES / "package.sha256", _package()
     if not stamp.is_file() or stamp.read_text() != now:
         for mark in PAGES.rglob("*.md5"):

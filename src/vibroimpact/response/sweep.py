@@ -141,7 +141,7 @@ def sweeps(
     Parameters
     ----------
     rigs
-        Laboratory cases or their codes, `Rig`s or (oscillator, amplitude) pairs; as a mapping,
+        Laboratory cases or their codes, a `Rig` each or (oscillator, amplitude) pairs; as a mapping,
         its keys name the rigs.
     frequencies, directions
         As in `sweep`.

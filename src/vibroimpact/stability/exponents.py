@@ -66,7 +66,7 @@ def lyapunov_exponents(
     Parameters
     ----------
     rigs
-        Laboratory cases or their codes, `Rig`s or (oscillator, amplitude) pairs; as a mapping, its
+        Laboratory cases or their codes, a `Rig` each or (oscillator, amplitude) pairs; as a mapping, its
         keys name the rigs.
     frequencies
         Excitation frequencies in Hz, rising.

@@ -28,7 +28,7 @@ class BilinearIsolator(YieldingLaw):
     damping
         C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     damping_exponent
-        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
 
     Raises
     ------

@@ -56,7 +56,7 @@ class BoucWenIsolator(YieldingLaw):
     gamma
         γ, with β + γ greater than 0. For γ = β it unloads with the elastic stiffness.
     damping_exponent
-        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
 
     Raises
     ------

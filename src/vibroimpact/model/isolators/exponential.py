@@ -49,7 +49,7 @@ class ExponentialIsolator(IsolatorLaw):
     hardening_force
         Q in N, at least 0.
     damping_exponent
-        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
 
     Raises
     ------

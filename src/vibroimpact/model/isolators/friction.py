@@ -29,7 +29,7 @@ class FrictionIsolator(SpringLaw):
     friction
         F_c in N, at least 0, sliding and sticking alike; or text such as ``"120 N"``.
     damping_exponent
-        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
 
     Raises
     ------

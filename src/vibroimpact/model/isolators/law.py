@@ -16,7 +16,7 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class IsolatorLaw(Named):
-    """Base of the isolators: a restoring force beside the viscous force c |v|^α sgn v.
+    """Base of the isolators: a restoring force beside the viscous force ``c |v|^α sgn v``.
 
     A new law says its `initial_stiffness` and its `static_force`, and where that force ends to grow
     (`reach`) or is bounded (`strongest`).
@@ -85,7 +85,7 @@ class IsolatorLaw(Named):
         return math.inf
 
     def viscous_force(self, velocity: float) -> float:
-        """The c |v|^α sgn v in N, at a velocity in m/s."""
+        """The ``c |v|^α sgn v`` in N, at a velocity in m/s."""
         return math.copysign(self.damping * abs(velocity) ** self.damping_exponent, velocity)
 
     @classmethod

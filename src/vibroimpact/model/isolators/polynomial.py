@@ -26,7 +26,7 @@ class PolynomialIsolator(SpringLaw):
     quintic
         k₅ in N/m⁵; or text such as ``"5 MN/m^5"``.
     damping_exponent
-        α of the viscous force C |v|^α sgn v, greater than 0; the unit of C is then N (s/m)^α.
+        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
 
     Raises
     ------

@@ -1,0 +1,25 @@
+"""The reference has every public name, each on one page."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+
+import vibroimpact as vi
+from docs.snippets import ROOT
+from vibroimpact import figures
+
+LISTED = re.compile(r"^\.\. currentmodule:: (\S+)\n\n\.\. autosummary::\n((?: .*\n|\n)*)", re.M)
+
+
+def test_every_public_name_occurs_once():
+    found: Counter[str] = Counter()
+    for page in (ROOT / "docs/reference").glob("*.md"):
+        for module, names in LISTED.findall(page.read_text(encoding="utf-8")):
+            found.update(f"{module}.{name}" for name in re.findall(r"^   (\w+)$", names, re.M))
+    public = {f"vibroimpact.{name}" for name in {*vi.__all__, *vi._HOME}}
+    public -= {"vibroimpact.__version__", "vibroimpact.laboratory"}  # the latter is a module
+    public |= {f"vibroimpact.model.laboratory.{name}" for name in ("case", "campaign")}
+    public |= {f"vibroimpact.figures.{name}" for name in figures.__all__}
+    assert {name: count for name, count in found.items() if count > 1} == {}
+    assert public == set(found)
