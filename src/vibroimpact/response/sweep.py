@@ -141,8 +141,8 @@ def sweeps(
     Parameters
     ----------
     rigs
-        Laboratory cases or their codes, a `Rig` each or (oscillator, amplitude) pairs; as a mapping,
-        its keys name the rigs.
+        Laboratory cases or their codes, a `Rig` each or (oscillator, amplitude) pairs; as a
+        mapping, its keys name the rigs.
     frequencies, directions
         As in `sweep`.
     start

@@ -66,8 +66,8 @@ def lyapunov_exponents(
     Parameters
     ----------
     rigs
-        Laboratory cases or their codes, a `Rig` each or (oscillator, amplitude) pairs; as a mapping, its
-        keys name the rigs.
+        Laboratory cases or their codes, a `Rig` each or (oscillator, amplitude) pairs; as a
+        mapping, its keys name the rigs.
     frequencies
         Excitation frequencies in Hz, rising.
     cycles

@@ -12,8 +12,8 @@ class BilinearIsolator(YieldingLaw):
     """Two stiffnesses and a yield force, with kinematic hardening, and a dashpot.
 
     A spring k_p stands beside an elastic, perfectly plastic element of stiffness k_e - k_p that
-    yields at ±u_y = F_y/k_e: k_p u + (k_e - k_p) z, where z' = v while |z| < u_y, or where v takes
-    it back from there, and else 0. It starts with z = 0.
+    yields at ±u_y = F_y/k_e: k_p u + (k_e - k_p) z, where z' = v while ``|z| < u_y``, or where
+    v takes it back from there, and else 0. It starts with z = 0.
 
     Its kind in a table is ``"bilinear"``.
 
