@@ -11,7 +11,7 @@ import contextlib
 import functools
 import inspect
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol, TypeAlias, TypeVar, cast
+from typing import Any, Concatenate, NamedTuple, ParamSpec, Protocol, TypeAlias, TypeVar, overload
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
@@ -19,7 +19,9 @@ from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.record import Record
 from vibroimpact.model.units import shown
 
-_Function = TypeVar("_Function", bound=Callable[..., Any])
+_Shaken = TypeVar("_Shaken", contravariant=True)
+_Found = TypeVar("_Found", covariant=True)
+_Rest = ParamSpec("_Rest")
 
 _ACCEPTED = (
     'a laboratory case or its code, such as "B2-G1-A3", a `Rig` or a pair (oscillator, amplitude) '
@@ -111,7 +113,55 @@ def as_shaking(value: Any, where: str) -> tuple[Repeated, tuple[float, ...] | No
     return Harmonic(size, 1.0, of=of), None
 
 
-def takes_rig(function: _Function, *, records: bool = False) -> _Function:
+class OfAmplitude(Protocol[_Rest, _Found]):
+    """A function of an oscillator and an amplitude, or of what carries both."""
+
+    @overload
+    def __call__(
+        self,
+        oscillator: Oscillator | AnyRig,
+        amplitude: AnyShaking,
+        *args: _Rest.args,
+        **kwargs: _Rest.kwargs,
+    ) -> _Found: ...
+    @overload
+    def __call__(self, oscillator: AnyRig, *args: _Rest.args, **kwargs: _Rest.kwargs) -> _Found: ...
+
+
+class OfExcitation(Protocol[_Shaken, _Rest, _Found]):
+    """A function of an oscillator and what shakes it, or of a case and a frequency."""
+
+    @overload
+    def __call__(
+        self,
+        oscillator: Oscillator,
+        excitation: _Shaken,
+        *args: _Rest.args,
+        **kwargs: _Rest.kwargs,
+    ) -> _Found: ...
+    @overload
+    def __call__(
+        self,
+        oscillator: AnyRig,
+        excitation: _Shaken | float | str,
+        *args: _Rest.args,
+        **kwargs: _Rest.kwargs,
+    ) -> _Found: ...
+
+
+@overload
+def takes_rig(
+    function: Callable[Concatenate[Oscillator, AnyShaking, _Rest], _Found],
+) -> OfAmplitude[_Rest, _Found]: ...
+@overload
+def takes_rig(
+    function: Callable[Concatenate[Oscillator, float | str, _Rest], _Found],
+) -> OfAmplitude[_Rest, _Found]: ...
+@overload
+def takes_rig(
+    function: Callable[Concatenate[Oscillator, _Shaken, _Rest], _Found],
+) -> OfExcitation[_Shaken, _Rest, _Found]: ...
+def takes_rig(function: Callable[..., Any]) -> Any:
     """Let a function of an oscillator and an amplitude, or an excitation, take a case as well.
 
     Where its first argument carries the amplitude, the amplitude may be left out, and an
@@ -119,9 +169,20 @@ def takes_rig(function: _Function, *, records: bool = False) -> _Function:
 
         sweep("B2-G1-A3", frequencies)    simulate(case, "2 Hz", 100)
 
-    What is neither a rig nor an excitation is refused before the function sees it, a record unless
-    the function takes `records`.
+    What is neither a rig nor an excitation is refused before the function sees it, and a record.
     """
+    return _with_rig(function, records=False)
+
+
+def takes_rig_or_record(
+    function: Callable[Concatenate[Oscillator, _Shaken, _Rest], _Found],
+) -> OfExcitation[_Shaken, _Rest, _Found]:
+    """Let a function of an oscillator and a record, or an excitation, take a case as well."""
+    found: OfExcitation[_Shaken, _Rest, _Found] = _with_rig(function, records=True)
+    return found
+
+
+def _with_rig(function: Callable[..., Any], records: bool) -> Any:
     signature = inspect.signature(function)
     first, second = list(signature.parameters)[:2]
     example = f"{function.__name__}({', '.join(list(signature.parameters)[:3])}, ...)"
@@ -157,7 +218,7 @@ def takes_rig(function: _Function, *, records: bool = False) -> _Function:
             raise InputError(f"{left_out[0]}: missing; {example} is accepted")
         return function(rig, *rest, **kwargs)
 
-    return cast(_Function, with_rig)
+    return with_rig
 
 
 def _left_out(

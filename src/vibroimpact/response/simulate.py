@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import warnings
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.rigs import takes_rig_or_record
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.recorded import through
 from vibroimpact.response.reversal import ended
@@ -33,7 +32,7 @@ from vibroimpact.response.variables import (
 from vibroimpact.response.written import EVENTS_AT_ONCE, listed, sampled
 
 
-@partial(takes_rig, records=True)
+@takes_rig_or_record
 def simulate(
     oscillator: Oscillator,
     excitation: Repeated | Record,

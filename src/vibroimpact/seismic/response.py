@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -13,7 +12,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.quantities import TIME
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.rigs import takes_rig_or_record
 from vibroimpact.model.units import shown
 from vibroimpact.response.accelerogram import record_parameters
 from vibroimpact.response.variables import describe, oscillator_parameters
@@ -32,7 +31,7 @@ SUMS = {
 """Of both sides."""
 
 
-@partial(takes_rig, records=True)
+@takes_rig_or_record
 def seismic_response(
     oscillator: Oscillator,
     record: Record,
