@@ -9,7 +9,8 @@
 In what a page shows, a line of three dots stands for any lines.
 
 After a change that changes what is printed: ``python tests/docs/snippets.py`` writes it into all
-pages, except where a block has such dots.
+pages, except where a block has such dots, and the pictures that a page both draws and shows to where
+it shows them.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from doctest import ELLIPSIS, OutputChecker
+from filecmp import cmp
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -34,6 +36,7 @@ PAGES = sorted(
 )
 
 _FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+PICTURE = re.compile(r"!\[[^\]]+\]\(([^)\s]+)\)")
 _FILE = re.compile(r"# ([\w.-]+\.toml)\n")
 
 
@@ -110,6 +113,12 @@ def _renew(page: Path) -> None:
             else:
                 text = text[: shown.start] + _trimmed(shown.printed) + text[shown.end :]
                 print(f"{page}:{line} renewed")
+        for target in PICTURE.findall(text):
+            kept = (page.parent / target).resolve()
+            drawn = next(Path().rglob(kept.name), None)
+            if drawn and not (kept.is_file() and cmp(drawn, kept, shallow=False)):
+                kept.write_bytes(drawn.read_bytes())
+                print(f"{kept} drawn")
     page.write_text(text, encoding="utf-8")
 
 

@@ -7,11 +7,10 @@ import re
 import yaml
 
 import vibroimpact as vi
-from docs.snippets import PAGES, ROOT
+from docs.snippets import PAGES, PICTURE, ROOT
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-PICTURE = re.compile(r"!\[[^\]]+\]\(([^)\s]+)\)")
 
 
 def test_it_is_short():

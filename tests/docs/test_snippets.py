@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from docs.snippets import PAGES, ROOT, run_page
+from docs.snippets import PAGES, PICTURE, ROOT, run_page
 
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
 
@@ -25,6 +25,8 @@ def test_blocks_run_and_print_what_is_shown(page, tmp_path, monkeypatch):
         assert shown.agrees, (
             f"{name(page)}:{line} shows\n{shown.expected}\nbut this is printed\n{shown.printed}"
         )
+    if page.parent.name == "tutorials":
+        assert all(any(Path().rglob(Path(target).name)) for target in PICTURE.findall(text))
 
 
 @pytest.mark.parametrize(

@@ -36,6 +36,16 @@ def history():
     return as_measured(xr.Dataset(known, {"time": time})), motion
 
 
+def test_noise_is_that_of_repeated_values():
+    """A mean of four would show half of it, a few frequencies of one way hardly anything."""
+    values = np.linspace(1.0, 3.0, 10)[:, None]
+    values = values * np.random.default_rng(1).normal(1.0, 0.02, size=(2, 1, 10, 4))
+    dims = ("direction", "frequency", "repeat")
+    names = ("displacement_excursion", "acceleration_excursion")
+    again = xr.Dataset({n: (dims, v) for n, v in zip(names, values, strict=True)})
+    assert noise_of(again) == pytest.approx(0.02, rel=0.2)
+
+
 def test_features_are_told_with_the_step(curves):
     assert noise_of(curves) == pytest.approx(0.02, rel=0.4)
     jumps = measured_features(curves).jumps

@@ -7,6 +7,8 @@ follow one motion, or of the third differences of a single curve.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import xarray as xr
 
@@ -17,12 +19,20 @@ from vibroimpact.response.swept import Swept, swept
 
 _NOISES = 6.0
 """Least difference of two motions, and least prominence of a peak, in standard deviations."""
+_ENOUGH = 8
+"""Values that are needed for an estimate."""
+_EXCURSIONS = ("displacement_excursion", "acceleration_excursion", "eta_d", "eta_a")
 _LOW, _OF_NORMAL = 0.3, 0.3853
 """A quantile, and what it is of the size of a standard normal number."""
 
 
 def noise_of(data: xr.Dataset | Swept) -> float:
-    """Standard deviation of a measured value as a share of it, estimated robustly; 0 if unknown."""
+    """Standard deviation of a measured value as a share of it, estimated robustly; 0 if unknown.
+
+    Where frequencies were held more than once, that of the repeated values tells it best.
+    """
+    if isinstance(data, xr.Dataset) and (repeated := _of_repeats(data)):
+        return repeated
     both = data if isinstance(data, Swept) else swept(data)
     found: list[float] = []
     for name in CURVES:
@@ -37,7 +47,23 @@ def noise_of(data: xr.Dataset | Swept) -> float:
         change = np.abs(change[np.isfinite(change)])
         found += change.tolist()
     # The directions differ by more than noise in a hysteresis, hence the lower values alone.
-    return float(np.quantile(found, _LOW)) / _OF_NORMAL if len(found) >= 8 else 0.0
+    return float(np.quantile(found, _LOW)) / _OF_NORMAL if len(found) >= _ENOUGH else 0.0
+
+
+def _of_repeats(data: xr.Dataset) -> float:
+    """Of values that were measured again; 0 if these are few."""
+    squares, spare = 0.0, 0
+    for name in _EXCURSIONS:
+        if name in data and "repeat" in data[name].dims:
+            values = data[name].transpose(..., "repeat").values
+            with np.errstate(divide="ignore", invalid="ignore"):
+                logs = np.log(values.reshape(-1, values.shape[-1]))
+            for held in logs:
+                held = held[np.isfinite(held)]
+                if len(held) > 1:
+                    squares += float(((held - held.mean()) ** 2).sum())
+                    spare += len(held) - 1
+    return math.sqrt(squares / spare) if spare >= _ENOUGH else 0.0
 
 
 def measured_features(data: xr.Dataset) -> Features:
@@ -82,7 +108,7 @@ def in_words(data: xr.Dataset) -> list[str]:
             f"{both.frequency[-1]:.4g} Hz, in steps of {told} Hz: what lies between two steps is "
             "not seen"
         )
-    lines.append(f"noise: {100.0 * noise_of(both):.2g} % of a value")
+    lines.append(f"noise: {100.0 * noise_of(data):.2g} % of a value")
     lines += [
         f"{peak.direction}: peak of {'E_a' if peak.curve == 'eta_a' else 'E_d'} at "
         f"{peak.frequency:.4g} Hz{' (the end of the curve)' if peak.at_end else ''}"
