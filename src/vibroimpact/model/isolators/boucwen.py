@@ -32,7 +32,7 @@ def _whole(value: Any) -> int:
 class BoucWenIsolator(YieldingLaw):
     """The smooth hysteresis of Bouc and Wen, with a dashpot.
 
-    The force is k_p u + (k_e - k_p) z with z' = v [1 - |z/u_y|ⁿ (γ + β sgn(v z))] and
+    The force is k_p u + (k_e - k_p) z with ``z' = v [1 - |z/u_y|ⁿ (γ + β sgn(v z))]`` and
     u_y = F_y/k_e (Wen, J. Eng. Mech. Div. 102 (1976) 249). It starts with z = 0, and ``|z|`` comes
     close to u_y/(β + γ)^(1/n) at most. The larger n is, the closer it comes to
     `BilinearIsolator` with the same stiffnesses and yield force, if β + γ = 1.
