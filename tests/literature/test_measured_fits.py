@@ -67,7 +67,8 @@ def test_a_pad_that_is_struck_through_is_no_spring():
     cart = vi.Oscillator(mass, vi.Isolator(0.0, 0.0), vi.Bumper(stiffness, 0.5, 0.06), None)
     free = {"right_stiffness": None, "right_gap": (0.0, 0.2)}
     fit = vi.identify(data, cart, free, tried=0, starts=1, profiles=False)
-    assert float(fit.residual_excess[0]) > 10.0
+    # The samples beside the leap of the force count less: when it came is not known better.
+    assert float(fit.residual_excess[0]) > 3.5
     assert "times the noise of the measurement" in fit.attrs["findings"]
 
 

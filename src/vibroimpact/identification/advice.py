@@ -2,6 +2,9 @@
 
 To first order, a hold at which excursions have the derivatives R (in standard deviations of the
 measurement) takes the covariance C of a fit to C − C Rᵀ (1 + R C Rᵀ)⁻¹ R C.
+
+The derivatives are secants over one standard deviation along each axis of C: a hold beside a fold,
+which a rig that is as likely would have passed, tells nothing that can be counted on.
 """
 
 from __future__ import annotations
@@ -27,13 +30,13 @@ from vibroimpact.response.variables import describe
 
 Array = NDArray[np.float64]
 
-_STEP = 1e-3
-"""Of a parameter, for the differences."""
+_MOST = 0.2
+"""Of a value, by which it is moved at most: where it is hardly known, one deviation is too far."""
 _FACTORS = (0.5, 0.75, 1.0, 1.5, 2.0)
 """Of the amplitude."""
 _POINTS = 61
-_WILD = 8.0
-"""Derivatives of logarithms from which on a hold lies so near to a jump that it may miss it."""
+_WILD = 0.5
+"""Change of a logarithm over one deviation at which a jump may have been passed."""
 _NOISE = 0.02
 """Of a hold to come, where the fit's tests were no curves."""
 
@@ -101,17 +104,18 @@ def next_test(
     shape = (len(levels), 2, len(grid))
     error = np.full((*shape, len(keys)), np.nan)
     gain = np.full(shape, np.nan)
+    axes = _axes(covariance)
+    before = np.sqrt(np.sum(axes**2, axis=1))
     for a, level in enumerate(levels):
-        slopes, known = _slopes((oscillator, shaken.replace(amplitude=level)), keys, name, grid)
+        setting = (oscillator, shaken.replace(amplitude=level))
+        slopes, known = _slopes(setting, keys, name, grid, axes)
         for d, k in np.argwhere(known):
             rows = slopes[d, k] / share
-            seen = rows @ covariance @ rows.T
-            if not np.isfinite(seen).all():
-                continue
-            lower = np.linalg.solve(np.eye(2) + seen, rows @ covariance)
-            after = np.diag(covariance) - np.sum((covariance @ rows.T) * lower.T, axis=1)
-            error[a, d, k] = np.sqrt(np.maximum(after, 0.0) / np.diag(covariance))
-            gain[a, d, k] = 0.5 * np.linalg.slogdet(np.eye(2) + seen)[1]
+            seen = np.eye(2) + rows @ rows.T
+            drop = axes @ rows.T
+            after = before**2 - np.sum(drop * np.linalg.solve(seen, drop.T).T, axis=1)
+            error[a, d, k] = np.sqrt(np.maximum(after, 0.0)) / before
+            gain[a, d, k] = 0.5 * np.linalg.slogdet(seen)[1]
     dims = ("candidate_amplitude", "direction", "frequency")
     data = xr.Dataset(
         {"information": (dims, gain), "remaining_error": ((*dims, "parameter"), error)},
@@ -126,32 +130,58 @@ def next_test(
     return describe(data, "vibroimpact.next_test", {"test": name, "noise": share})
 
 
+def _axes(covariance: Array) -> Array:
+    """Columns whose sum of outer products is the covariance: its axes, counted in errors."""
+    error = np.sqrt(np.diag(covariance))
+    size, axes = np.linalg.eigh(covariance / np.outer(error, error))
+    found: Array = error[:, np.newaxis] * axes * np.sqrt(np.maximum(size, 0.0))
+    return found
+
+
 def _slopes(
-    setting: Setting, keys: list[str], test: str, grid: Array
+    setting: Setting, keys: list[str], test: str, grid: Array, axes: Array
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Derivatives of both excursions' logarithms, by direction, frequency, excursion, parameter."""
-    slopes = np.zeros((2, len(grid), 2, len(keys)))
-    known = np.ones((2, len(grid)), dtype=bool)
-    for column, key in enumerate(keys):
-        bare, _, whose = key.partition("[")
-        if bare in SENSORS or (whose and whose != f"{test}]"):
+    """Changes of both excursions' logarithms by one deviation along each axis of the covariance.
+
+    Returns
+    -------
+    slopes, known
+        By direction, frequency, excursion and axis; and where no jump is passed, and all settle.
+    """
+    own = [
+        (row, PARAMETERS[bare])
+        for row, (bare, _, whose) in enumerate(key.partition("[") for key in keys)
+        if bare not in SENSORS and (not whose or whose == f"{test}]")
+    ]
+    now = np.array([of.read(*setting) for _, of in own])
+    most = _MOST * np.where(now == 0.0, np.inf, np.abs(now))
+    here = _swept(setting, grid)
+    slopes = np.zeros((2, len(grid), 2, axes.shape[1]))
+    known = here[1]
+    for column, axis in enumerate(axes.T):
+        along = axis[[row for row, _ in own]]
+        if not along.any():
             continue
-        of = PARAMETERS[bare]
-        now = of.read(*setting)
-        step = _STEP * (abs(now) or 1.0)
+        part = float(min(1.0, np.min(most / np.maximum(np.abs(along), 1e-300))))
         ends = []
-        for value in (
-            now + step,
-            max(now - step, of.least) if of.least is not None else now - step,
-        ):
-            rig = Rig(of.write(*setting, value))
-            ways = [rig.sweep(grid)[0], rig.sweep(grid[::-1])[0][::-1]]
-            ends.append((value, np.stack(ways)))
-        (high, above), (low, below) = ends
-        slopes[:, :, :, column] = (sizes(above) - sizes(below)) / (high - low)
-        known &= (above[..., hold.PERIOD] > 0) & (below[..., hold.PERIOD] > 0)
-        known &= np.abs(slopes[:, :, :, column] * (abs(now) or 1.0)).max(axis=-1) < _WILD
+        for sign in (1.0, -1.0):
+            moved = setting
+            for (_, of), value in zip(own, now + sign * part * along, strict=True):
+                least = -np.inf if of.least is None else of.least
+                moved = of.write(*moved, max(float(value), least))
+            ends.append(_swept(moved, grid))
+        (above, settled), (below, also) = ends
+        slopes[..., column] = (above - below) / (2.0 * part)
+        bent = np.abs(above + below - 2.0 * here[0]) + np.abs(above - below)
+        known = known & settled & also & (bent.max(axis=-1) < _WILD)
     return slopes, known
+
+
+def _swept(setting: Setting, grid: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Logarithms of both excursions by direction and frequency, and where the motion settled."""
+    rig = Rig(setting)
+    rows = np.stack([rig.sweep(grid)[0], rig.sweep(grid[::-1])[0][::-1]])
+    return sizes(rows), rows[..., hold.PERIOD] > 0
 
 
 def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:

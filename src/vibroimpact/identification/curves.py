@@ -69,6 +69,7 @@ class CurveTest:
         self.name, self.data, self.setting = name, data, setting
         self.names = [variable for variable in CURVES if variable in data]
         self.noise = noise_of(data) if noise is None else noise
+        self.weights = dict.fromkeys(self.names, 1.0)
         known = told_jumps(data)
         self.directions = [str(d) for d in data["direction"].values]
         self.ways: list[Way] = []
@@ -135,8 +136,14 @@ class CurveTest:
 
     @property
     def shares(self) -> Array:
-        """Residuals are shares of the values themselves."""
-        return np.ones(len(self.points.value))
+        """Residuals are shares of the values themselves, over the weight of their quantity."""
+        of = np.array([self.weights[name] for name in self.names])
+        return of[self.points.variable]
+
+    @property
+    def channels(self) -> list[str]:
+        """What each of its measured values is."""
+        return [self.names[v] for v in self.points.variable]
 
     @property
     def groups(self) -> list[list[tuple[int, NDArray[np.bool_]]]]:
@@ -227,6 +234,7 @@ class CurveTest:
         points = self._off(values, np.ones(len(values), dtype=bool))
         lost = ~np.isfinite(points)
         points[lost] = 3.0  # given up: as if it were off by a factor of 20
+        points /= self.shares
         off = np.concatenate([found.off for found in followed])
         jumps = off / (_JUMP * self.steps)
         return np.concatenate([points, jumps]), np.concatenate([settled & ~lost, jumps > 0.0])

@@ -35,6 +35,10 @@ _CYCLES = 5
 _ROUGH = 1e4
 """Residual of a motion that was given up."""
 _PHASES = 24
+_JUMPING = ("velocity", "acceleration")
+"""What jumps at a rigid stop, and where the force of a dashpot begins."""
+_JUMP = 5.0
+"""Standard deviations by which a step exceeds its neighbours where a channel jumps."""
 
 
 class _Window(NamedTuple):
@@ -91,11 +95,12 @@ class HistoryTest:
         own = {c: noise_of_channel(self.measured[c]) if noise is None else noise * spread[c]
                for c in self.names}  # fmt: skip
         self.size = {c: max(own[c], _QUIET * spread[c]) for c in self.names}
-        self.noise = 1.0
-        self._share = np.concatenate(
-            [np.full(np.isfinite(v).sum(), self.size[c] / spread[c])
-             for c, v in self.measured.items()]
-        )  # fmt: skip
+        self.noise, self.weights = 1.0, dict.fromkeys(self.names, 1.0)
+        self.doubt = {
+            c: doubt(v, self.size[c]) if c in _JUMPING else np.ones(len(v))
+            for c, v in self.measured.items()
+        }
+        self._spread = spread
         self.setting, self.shaking = self._shaken(setting)
         self.windows = self._windows(window)
         self._phase = 0.0
@@ -184,7 +189,17 @@ class HistoryTest:
     @property
     def shares(self) -> Array:
         """A residual as a share of its channel."""
-        return self._share
+        parts = [
+            self.doubt[c][np.isfinite(v)] * self.size[c] * self.weights[c] / self._spread[c]
+            for c, v in self.measured.items()
+        ]
+        found: Array = np.concatenate(parts)
+        return found
+
+    @property
+    def channels(self) -> list[str]:
+        """What each of its measured values is."""
+        return [c for c, v in self.measured.items() for _ in range(np.isfinite(v).sum())]
 
     @property
     def points_count(self) -> int:
@@ -315,7 +330,8 @@ class HistoryTest:
         parts = []
         for c in self.names:
             known = np.isfinite(self.measured[c])
-            parts.append((values[c] - self.measured[c])[known] / self.size[c])
+            off = (values[c] - self.measured[c]) / (self.size[c] * self.weights[c] * self.doubt[c])
+            parts.append(off[known])
         if len(gaps):
             parts.append(gaps / np.resize(self._joint, len(gaps)))
         residuals = np.concatenate(parts)
@@ -345,7 +361,7 @@ class HistoryTest:
             variable += [c] * int(known.sum())
             measured.append(self.measured[c][known])
             modelled.append(here)
-            residual.append((here - measured[-1]) / self.size[c])
+            residual.append((here - measured[-1]) / (self.size[c] * self.doubt[c][known]))
         return Shown(
             np.concatenate(place),
             [""] * len(variable),
@@ -357,11 +373,33 @@ class HistoryTest:
 
 
 def noise_of_channel(values: Array) -> float:
-    """Standard deviation of white noise on smooth samples, by their third differences."""
+    """Standard deviation of white noise on smooth samples, by their third or fifth differences.
+
+    What is left of the signal makes either too large, hence the smaller one.
+    """
     known = values[np.isfinite(values)]
     if len(known) < 8:
         return 0.0
-    return float(np.median(np.abs(np.diff(known, 3)))) / 0.6745 / math.sqrt(20.0)
+    return min(
+        float(np.median(np.abs(np.diff(known, n)))) / 0.6745 / math.sqrt(math.comb(2 * n, n))
+        for n in (3, 5)
+    )
+
+
+def doubt(values: Array, noise: float) -> Array:
+    """By how much the two samples beside a jump are less certain than the noise.
+
+    When a channel jumps is not known better than the step between its samples, so that each may be
+    off by half the jump. A step is a jump if it exceeds both its neighbours by several standard
+    deviations.
+    """
+    found = np.ones(len(values))
+    step = np.abs(np.diff(values))
+    over = step[1:-1] - np.maximum(step[:-2], step[2:])
+    for i in np.flatnonzero(over > _JUMP * noise):
+        beside = slice(i + 1, i + 3)
+        found[beside] = np.maximum(found[beside], math.hypot(1.0, 0.5 * over[i] / noise))
+    return found
 
 
 def integrated(time: Array, values: Array) -> Array:

@@ -16,7 +16,7 @@ from vibroimpact.identification.free import frees
 from vibroimpact.identification.given import tests_of, ties_of
 from vibroimpact.identification.posterior import posterior as sampled
 from vibroimpact.identification.problem import Problem
-from vibroimpact.identification.robust import noises
+from vibroimpact.identification.robust import noises, weighed
 from vibroimpact.identification.search import local, search
 from vibroimpact.identification.uncertainty import Profile, bootstrap, profile, spread
 from vibroimpact.model import Rig
@@ -145,6 +145,7 @@ def identify(
     fixed = [noise is not None] * len(tests)
     tail = _TAIL if robust else np.inf
     for _ in range(_ROUNDS):
+        problem = problem.replaced(tests=weighed(problem, x, fixed))
         problem = problem.replaced(sigma=noises(problem, x, fixed), tail=tail)
         x = local(problem, x, precise=True).x
     problem = problem.replaced(sigma=noises(problem, x, fixed))

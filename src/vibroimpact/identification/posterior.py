@@ -36,7 +36,10 @@ def posterior(
         ) from None
     count = len(problem.free)
     if len(x) > count:
-        raise InputError("posterior: time histories have initial states; curves are accepted")
+        raise InputError(
+            f"posterior: {len(x) - count} initial values of time histories are unknown, too, more "
+            "than emcee's walkers mix in; curves are accepted, or draws= for a bootstrap"
+        )
     factor = moments(problem.tail).deviance
 
     def log_density(y: Any) -> float:

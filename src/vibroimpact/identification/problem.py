@@ -38,6 +38,8 @@ class Test(Protocol):
     setting: Setting
     noise: float
     """Standard deviation of a point, as far as it is known beforehand."""
+    weights: dict[str, float]
+    """Noise of each quantity that is measured over that of the test."""
 
     @property
     def count(self) -> int:
@@ -50,6 +52,10 @@ class Test(Protocol):
     @property
     def shares(self) -> Array:
         """What a residual of 1 is of a point, as a share of what was measured."""
+
+    @property
+    def channels(self) -> list[str]:
+        """Which quantity each measured value is of."""
 
     @property
     def groups(self) -> list[list[tuple[int, Flags]]]:

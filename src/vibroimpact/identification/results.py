@@ -13,7 +13,7 @@ from vibroimpact.identification import words
 from vibroimpact.identification.problem import Array, Problem
 from vibroimpact.identification.search import Found
 from vibroimpact.identification.shown import Shown
-from vibroimpact.identification.structure import Structure, structure
+from vibroimpact.identification.structure import TOLD, Row, Structure, structure
 from vibroimpact.identification.uncertainty import Profile, Spread
 from vibroimpact.model import Oscillator
 from vibroimpact.model.access import Setting
@@ -68,14 +68,13 @@ def labelled(
     cost = problem.cost(x)
     # Of normal residuals whose deviation was found, too, up to what all models have in common.
     number = int(problem.measured.sum())
-    plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf).values(x).residuals
-    begin, likelihood = 0, 0.0
-    for test in problem.tests:
-        part = plain[begin : begin + test.points_count]
-        begin += test.count
-        size = max(float(np.mean(part**2)), _SILENT**2 * 1e-6)
-        likelihood -= 0.5 * test.points_count * (np.log(2.0 * np.pi * size) + 1.0)
-    known = len(x) + len(problem.tests)
+    groups = list(zip(data["point_test"].values, data["point_variable"].values, strict=True))
+    likelihood, distinct = 0.0, list(dict.fromkeys(groups))
+    for group in distinct:
+        part = data["fit_residual"].values[[one == group for one in groups]]
+        size = max(float(np.nanmean(part**2)), _SILENT**2 * 1e-6)
+        likelihood -= 0.5 * len(part) * (np.log(2.0 * np.pi * size) + 1.0)
+    known = len(x) + len(distinct)
     data["log_likelihood"] = likelihood
     data["akaike"] = (
         2.0 * known - 2.0 * likelihood + 2.0 * known * (known + 1) / max(number - known - 1, 1)
@@ -148,7 +147,11 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
         rows["fit_residual"] += shown.residual.tolist()
         known = test.noise if test.noise > 0.0 else None
         share = max(1.0 - len(x) / used, 0.1)
-        judged.append(structure(_sequences(shown), known, share * len(shown.place), _SILENT))
+        size = float(np.sqrt(np.mean(shown.residual**2)))
+        size = size if size > _SILENT else 0.0
+        count = len(shown.place)
+        told = max(TOLD[test.kind] * count, 1.0)
+        judged.append(structure(_rows(shown, test.weights), size, known, share * count, told))
     for name, values in rows.items():
         data[name] = ("point", np.array(values))
     data["noise"] = ("test", np.array(problem.sigma))
@@ -159,12 +162,13 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
     return judged
 
 
-def _sequences(shown: Shown) -> list[tuple[Array, Array]]:
+def _rows(shown: Shown, weights: dict[str, float]) -> list[Row]:
     """Residuals of each direction and quantity in the order of their places."""
     found = []
     keys = list(zip(shown.direction, shown.variable, strict=True))
     for key in dict.fromkeys(keys):
-        here = np.array([k == key for k in keys])
-        order = np.argsort(shown.place[here], kind="stable")
-        found.append((shown.place[here][order], shown.residual[here][order]))
+        here = np.flatnonzero([k == key for k in keys])
+        here = here[np.argsort(shown.place[here], kind="stable")]
+        residual = shown.residual[here] / weights[key[1]]
+        found.append(Row(key[1], shown.place[here], residual, shown.modelled[here]))
     return found

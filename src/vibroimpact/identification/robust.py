@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from typing import NamedTuple
 
 import numpy as np
 
-from vibroimpact.identification.problem import Array, Problem, softened
+from vibroimpact.identification.problem import Array, Problem, Test, softened
 
 _X, _W = np.polynomial.hermite_e.hermegauss(80)
 _W = _W / _W.sum()
@@ -34,6 +35,10 @@ def moments(tail: float) -> Soft:
     return Soft(float(_W @ softened(_X, tail) ** 2), pull / slope**2, slope / pull)
 
 
+_MANY = 8
+"""Values of a quantity from which on its noise is told by itself."""
+_RATIO = 0.05
+"""A quantity's noise is taken as no smaller a share of all."""
 _LEAST = 1e-9
 """Noise is taken as no smaller."""
 _STEPS = 30
@@ -58,6 +63,29 @@ def noises(problem: Problem, x: Array, said: Sequence[bool]) -> list[float]:
         points = residuals[begin : begin + test.points_count]
         begin += test.count
         found.append(test.noise if known else max(_noise(points, problem.tail, spare), _LEAST))
+    return found
+
+
+def weighed(problem: Problem, x: Array, said: Sequence[bool]) -> list[Test]:
+    """The tests, each quantity weighed by its own noise where that is not known beforehand."""
+    plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf, weights=None)
+    residuals = plain.values(x).residuals
+    found, begin = [], 0
+    for test, known in zip(problem.tests, said, strict=True):
+        points = residuals[begin : begin + test.points_count]
+        begin += test.count
+        changed = copy(test)
+        if not known and len(test.weights) > 1:
+            of = np.array(test.channels)
+            own = {name: test.weights[name] * _noise(points[of == name], problem.tail, 1.0)
+                   for name in test.weights if (of == name).sum() >= _MANY}  # fmt: skip
+            whole = float(np.sqrt(np.mean(np.square(list(own.values()))))) if own else 0.0
+            if whole > _LEAST:
+                rest = dict.fromkeys(test.weights, 1.0)
+                changed.weights = rest | {
+                    name: max(size / whole, _RATIO) for name, size in own.items()
+                }
+        found.append(changed)
     return found
 
 

@@ -7,7 +7,7 @@ import xarray as xr
 
 from vibroimpact.identification.problem import Problem
 from vibroimpact.identification.search import Found
-from vibroimpact.identification.structure import CERTAIN, Structure
+from vibroimpact.identification.structure import CERTAIN, HINT, Structure
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.units import pretty
 
@@ -70,6 +70,11 @@ def _shape(name: str, kind: str, what: Structure) -> list[str]:
             f"{name}: the residuals are not noise: neighbours agree (correlation "
             f"{what.correlation:.2f}), most between {what.worst[0]:.4g} and {what.worst[1]:.4g} "
             f"{unit}; the model lacks something there"
+        )
+    elif what.chance < HINT:
+        lines.append(
+            f"{name}: neighbouring residuals agree more than noise would in all but "
+            f"{100.0 * what.chance:.1g} % of tests: compare other laws of the stops or the isolator"
         )
     if what.excess_chance < CERTAIN and np.isfinite(what.excess):
         lines.append(
