@@ -18,6 +18,18 @@ def test_the_paths_are_there():
     assert missing == set()
 
 
+def test_what_a_file_is_said_to_have_is_in_it():
+    """As `slopes` of `taylor/carry.py`."""
+    said = re.findall(
+        r"`([A-Za-z_]\w*)`(?: and `([A-Za-z_]\w*)`)?\s+(?:of|in)\s+`([\w/]+\.py)`", PAGE
+    )
+    assert len(said) > 30
+    for *names, path in said:
+        file = next(at / path for at in BELOW if (at / path).exists())
+        words = set(re.findall(r"\w+", file.read_text(encoding="utf-8")))
+        assert set(filter(None, names)) <= words, path
+
+
 def test_a_folder_of_the_package_has_its_row():
     folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
     assert folders <= set(re.findall(r"^\| `(\w+)/` \|", PAGE, re.M))
