@@ -39,6 +39,23 @@ def test_one_command_makes_a_report_and_a_rig_that_sweep_takes(file, tmp_path, c
     assert main(["sweep", str(study), "--step", "0.5Hz", "-o", str(tmp_path), "--json"]) == 0
 
 
+def test_a_study_need_not_say_the_amplitude_that_the_file_says(file, tmp_path, capsys):
+    guess = tmp_path / "guess.toml"
+    guess.write_text(
+        """
+        [oscillator]
+        mass = "550 kg"
+        isolator = { stiffness = "31 kN/m", damping = "1.1 kN s/m" }
+        right = { stiffness = "510 kN/m", damping = "0.9 kN s/m", gap = "10 mm" }
+        left = { stiffness = "510 kN/m", damping = "0.9 kN s/m", gap = "10 mm" }
+        """
+    )
+    words = ["identify", str(file), "--rig", str(guess), "--free", "stiffness", "--starts", "1"]
+    assert main([*words, "-o", str(tmp_path), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)["parameters"]["stiffness"]
+    assert found["value"] == pytest.approx(31900.0, rel=0.01)
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [

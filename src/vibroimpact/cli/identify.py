@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from vibroimpact.cli.rig import Subject
+    from vibroimpact.model import Harmonic
 
 _FIT = Group("Fit", sort_key=1)
 _TEXT = Parameter(group=_FIT, allow_leading_hyphen=True)
@@ -106,12 +107,12 @@ def identify(
     from vibroimpact.measurement.read import read_measurement
 
     out = output or OutputOptions()
-    what = subject(rig, changes or RigOptions(), out.name)
     if not data:
         raise InputError("DATA: missing; the file of a test is accepted")
     named = {key.replace("-", "_"): value for key, value in columns}
     in_units = {key.replace("-", "_") if key.replace("-", "_") else key: v for key, v in units}
     tests = [read_measurement(path, columns=named, units=in_units) for path in data]
+    what = subject(rig, changes or RigOptions(), out.name, _shaken(tests))
     asked: dict[str, Any] = {
         "each": [name.strip() for name in each.split(",")] if each else [],
         "ties": dict(tie),
@@ -155,6 +156,15 @@ def identify(
     text, facts = _summary(found, tests, comparison)
     tell(text, facts, folder, files, out.json)
     return 0
+
+
+def _shaken(tests: list[xr.Dataset]) -> Harmonic | None:
+    """What the files themselves say of the base; None where one of them leaves it open."""
+    from vibroimpact.model import Harmonic
+
+    if any("amplitude" not in t.attrs and "base_acceleration" not in t for t in tests):
+        return None
+    return Harmonic(float(tests[0].attrs.get("amplitude", 1.0)), 1.0)
 
 
 def _rig(what: Subject) -> Any:

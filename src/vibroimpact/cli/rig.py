@@ -99,7 +99,10 @@ class _Named(NamedTuple):
 
 
 def subject(
-    text: str, options: RigOptions, name: str | None = None, shaken: Record | None = None
+    text: str,
+    options: RigOptions,
+    name: str | None = None,
+    shaken: Repeated | Record | None = None,
 ) -> Subject:
     """Return the rig that a case code or the path of a study file names, with changes.
 
