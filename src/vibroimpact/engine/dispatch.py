@@ -6,6 +6,7 @@ that is not said there to the Taylor flow. Each is a folder whose modules have t
 
     build(plan, amplitude, omega)           make the plan for one forcing
     too_much_work(plan, period)             whether one cycle takes too long
+    undisturbed(plan, motion, clock, dying)  free flight that touches nothing any more, if known
     stiff_rate(plan)                        what makes a velocity of a displacement (1/s)
 
     begin(plan, motion, length), more(plan, cursor), following(plan, cursor)
@@ -70,6 +71,7 @@ def _by_flow(name: str) -> Callable[..., Any]:
 
 build = _by_flow("build")
 too_much_work = _by_flow("too_much_work")
+undisturbed = _by_flow("undisturbed")
 stiff_rate = _by_flow("stiff_rate")
 begin = _by_flow("begin")
 more = _by_flow("more")

@@ -1,6 +1,7 @@
 """One held frequency: wait until the motion has settled, then measure it.
 
-A motion of one cycle is pursued (`pursuit`); what is not found so is followed until it has
+Free flight that nothing can disturb any more is known at once (`linear.undisturbed`). Any other
+motion of one cycle is pursued (`pursuit`); what is not found so is followed until it has
 settled. Settled means that the stroboscopic state repeats after n ≤ LONGEST cycles. The distance
 d_n(k) = ‖s_k − s_(k−n)‖ shrinks geometrically on the way to a stable orbit; from its decay over
 two blocks of cycles follows what is still missing, d_n ρⁿ / (1 − ρⁿ), and that must be below
@@ -11,7 +12,10 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.dispatch import build, stiff_rate, too_much_work
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import build, stiff_rate, too_much_work, undisturbed
+from vibroimpact.engine.fixed_point import DYING
+from vibroimpact.engine.forcing.dispatch import begin
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import stack
@@ -240,9 +244,19 @@ def hold(
     """
     tolerance, max_cycles, window, max_events = options
     period = 1.0 / frequency
-    build(plan, amplitude, 2.0 * math.pi * frequency)
     for i in range(RESULTS):
         result[i] = math.nan
+    begin(plan, amplitude, 2.0 * math.pi * frequency)
+    alone, swing, felt, steady = undisturbed(plan, motion, clock, DYING)
+    if alone:
+        rest = plan[par.LOAD] / plan[par.STIFFNESS]
+        result[U_LEAST], result[U_MOST] = rest - swing, rest + swing
+        result[A_LEAST], result[A_MOST] = -felt, felt
+        for i in (HITS_RIGHT, HITS_LEFT, FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT):
+            result[i] = 0.0
+        result[PERIOD], result[CYCLES], result[OUTCOME] = 1, 0, DONE
+        return steady
+    build(plan, amplitude, 2.0 * math.pi * frequency)
     result[PERIOD], result[CYCLES] = 0, 0
     if too_much_work(plan, period):
         result[OUTCOME] = TOO_MUCH_WORK

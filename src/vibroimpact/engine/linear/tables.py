@@ -102,6 +102,9 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
             or (mode == BOTH and plan[other + par.KIND] == par.ABSENT)
         ):
             continue
+        if slot in (LEFT, SEEN_LEFT) and symmetric(plan):
+            _copy(plan, TABLES + SIZE * slot, RIGHT if slot == LEFT else BOTH)
+            continue
         stiffness = plan[at + par.BUMPER_STIFFNESS] if mode else 0.0
         damping = plan[at + par.BUMPER_DAMPING] if mode else 0.0
         k = plan[par.STIFFNESS] + stiffness
@@ -114,6 +117,28 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
             c += plan[other + par.BUMPER_DAMPING]
             d -= plan[other + par.BUMPER_STIFFNESS] * (plan[at + par.GAP] + plan[other + par.GAP])
         _table(plan, TABLES + SIZE * slot, k, c, d, stiffness, damping, slot)
+
+
+@kernel
+def symmetric(plan: Vector) -> bool:
+    """Whether the left side is the right one in the mirror, the forcing's mirror image with it."""
+    if count(plan) != 1 or plan[par.LOAD] != 0.0:
+        return False
+    for i in range(par.WIDTH):
+        if plan[par.BUMPER + i] != plan[par.BUMPER + par.WIDTH + i]:
+            return False
+    one, other = wave(plan, 1, False), wave(plan, 1, True)
+    return one.sine == other.sine and one.cosine == other.cosine
+
+
+@kernel
+def _copy(plan: Vector, table: int, slot: int) -> None:
+    """Take over the early and the late table of another mode."""
+    for late in range(2):
+        to = table + late * LATE_TABLES
+        given = TABLES + SIZE * slot + late * LATE_TABLES
+        for i in range(SIZE):
+            plan[to + i] = plan[given + i]
 
 
 @kernel

@@ -47,6 +47,13 @@ def series_extremes(
     """
     at_least = low
     at_most = low
+    spread = 0.0
+    power = 0.5
+    for n in range(1, ORDER):
+        spread += abs(series[n]) * power
+        power *= 0.5
+    if least <= series[0] - spread and series[0] + spread <= most:
+        return least, most, at_least, at_most  # it lies within what was seen
     third = 0.0
     power = 1.0
     for n in range(3, ORDER):

@@ -9,12 +9,21 @@ from vibroimpact.engine.forcing.dispatch import begin, pace
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import WORK_LIMIT
 from vibroimpact.engine.linear.layout import OMEGA
+from vibroimpact.engine.motion import Clock, Motion
 
 
 @kernel
 def build(plan: Vector, amplitude: float, omega: float) -> None:
     """Take a forcing, as `parameters.rig_vector` was told: its size (m/s², m or N), and ω."""
     begin(plan, amplitude, omega)
+
+
+@kernel
+def undisturbed(
+    plan: Vector, motion: Motion, clock: Clock, dying: float
+) -> tuple[bool, float, float, Motion]:
+    """Free flight has no closed form here."""
+    return False, 0.0, 0.0, motion
 
 
 @kernel
