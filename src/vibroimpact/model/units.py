@@ -247,6 +247,8 @@ class _RefusalError(Exception):
 
 def _number(value: Any, quantity: Quantity) -> float:
     """Return the SI value of anything that can be read as one; it may be infinite or NaN."""
+    if type(value) is float:  # as nearly always
+        return value
     if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
         value = value.item()  # a numpy scalar or an array of no dimension
     if isinstance(value, str):

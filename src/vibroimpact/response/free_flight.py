@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import lru_cache
 
 import numpy as np
@@ -37,8 +38,7 @@ def free_flight_excursions(
         motion has no bound.
     """
     oscillator.check_linear("free flight in closed form", stops=False)
-    for i, frequency in enumerate(frequencies):
-        _check(oscillator, shaken, float(frequency), f"frequencies[{i}]")
+    _check(oscillator, shaken, frequencies, "frequencies[{}]")
     if isinstance(shaken, Periodic):
         return tuple(
             np.ptp(extremes(one), axis=0) for one in harmonics(oscillator, shaken, frequencies)
@@ -120,24 +120,33 @@ def peak_ratio(damping_ratio: float, shaken: Harmonic) -> float:
 def check_bounded(oscillator: Oscillator, shaken: Repeated, field: str = "frequency") -> None:
     """Refuse resonance of an undamped mass that no bumper stops."""
     if not oscillator.stops:
-        _check(oscillator, shaken, shaken.frequency, field)
+        _check(oscillator, shaken, [shaken.frequency], field)
 
 
-def _check(oscillator: Oscillator, shaken: Repeated, frequency: float, field: str) -> None:
-    """Refuse resonance of an undamped isolator."""
+def check_each_bounded(oscillator: Oscillator, shaken: Repeated, frequencies: _Array) -> None:
+    """The same of each frequency of a sweep."""
+    if not oscillator.stops:
+        _check(oscillator, shaken, frequencies, "frequencies[{}]")
+
+
+def _check(
+    oscillator: Oscillator, shaken: Repeated, frequencies: Iterable[float], field: str
+) -> None:
+    """Refuse resonance of an undamped isolator; the field may have a place for the position."""
     isolator = oscillator.isolator
     if not isolator.linear or isolator.damping > 0.0 or isolator.initial_stiffness == 0.0:
         return
     sizes = shaken.amplitudes if isinstance(shaken, Periodic) else (shaken.amplitude,)
-    for n, size in enumerate(sizes, start=1):
-        ratio = n * frequency / oscillator.natural_frequency
-        if size and abs((1.0 - ratio) * (1.0 + ratio)) <= _RESONANT:
-            which = "" if n == 1 else f" over {n}"
-            raise InputError(
-                f"{field}: {frequency!r} Hz is the natural frequency{which} of an undamped "
-                "isolator, where free flight grows without bound; another frequency or some "
-                "isolator damping is accepted"
-            )
+    for i, frequency in enumerate(frequencies):
+        for n, size in enumerate(sizes, start=1):
+            ratio = n * frequency / oscillator.natural_frequency
+            if size and abs((1.0 - ratio) * (1.0 + ratio)) <= _RESONANT:
+                which = "" if n == 1 else f" over {n}"
+                raise InputError(
+                    f"{field.format(i)}: {float(frequency)!r} Hz is the natural frequency{which} "
+                    "of an undamped isolator, where free flight grows without bound; another "
+                    "frequency or some isolator damping is accepted"
+                )
 
 
 def harmonics(

@@ -31,7 +31,7 @@ from vibroimpact.model.rigs import (
 )
 from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.free_flight import (
-    check_bounded,
+    check_each_bounded,
     free_flight_excursions,
     reference_excursions,
 )
@@ -193,8 +193,7 @@ def sweeps(
     largest = np.empty((2, len(pairs)))
     prepared = []
     for r, (oscillator, shaken, sizes) in enumerate(pairs):
-        for i, frequency in enumerate(grid):
-            check_bounded(oscillator, shaken.replace(frequency=frequency), f"frequencies[{i}]")
+        check_each_bounded(oscillator, shaken, grid)
         levels = _levels(sizes, shaken, grid)
         if oscillator.isolator.linear:
             free[:, r] = free_flight_excursions(oscillator, shaken, grid)
@@ -287,6 +286,8 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
         raise InputError(
             f"frequencies: {frequencies!r} is not a list; a list of frequencies is accepted"
         ) from None
+    if isinstance(frequencies, np.ndarray) and frequencies.dtype == float and frequencies.ndim == 1:
+        items = frequencies.tolist()  # of plain floats, which are read at once
     grid = np.array(
         [to_si(f, FREQUENCY, f"frequencies[{i}]", above=0.0) for i, f in enumerate(items)]
     )

@@ -61,7 +61,11 @@ VARIABLES: dict[str, Variable] = {
         "periodic, quasi-periodic, chaotic or undecided; a sweep tells periodic from undecided",
     ),
     "period": Variable("1", "period in forcing cycles", "0 where the motion did not settle"),
-    "cycles": Variable("1", "forcing cycles used, measured ones included"),
+    "cycles": Variable(
+        "1",
+        "forcing cycles used, measured ones included",
+        "0 where free flight was known without following it",
+    ),
     "status": Variable("1", "how the computation ended"),
     "free_displacement_excursion": Variable(
         "m", "excursion of relative displacement in steady free flight"

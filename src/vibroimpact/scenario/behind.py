@@ -10,7 +10,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.response.start import as_state, engine_state
 from vibroimpact.scenario.evidence import Evidence, Irregular, Kind
-from vibroimpact.stability.branch import branch
+from vibroimpact.stability.branch import branch, turning_points
 from vibroimpact.stability.growth import judge_wandering
 from vibroimpact.stability.settled import Settled
 
@@ -71,12 +71,15 @@ def _folds(
     oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset, found: Evidence
 ) -> tuple[float, ...] | None:
     """Where the branch through the primary resonance turns back (Hz), rising; None if unknown."""
-    orbits = primary_branch(found, oscillator, shaken, data)
-    if orbits is None:
+    first = _primary_orbit(found, shaken, data)
+    if first is None:
         return None
     low, high = found.swept
-    turns = orbits["bifurcation_value"].values[orbits["bifurcation_turns"].values == 1]
-    return tuple(sorted(float(f) for f in turns if low < f < high))
+    try:
+        turns = turning_points(oscillator, *first, low, high)
+    except InputError:
+        return None
+    return tuple(sorted(f for f in turns if low < f < high))
 
 
 def primary_branch(
@@ -87,15 +90,24 @@ def primary_branch(
     None where the mass hits no bumper, where the motion there is not of one forcing cycle, or
     where Newton's method finds no orbit, as on the edge of stability.
     """
+    first = _primary_orbit(found, shaken, data)
+    if first is None:
+        return None
+    low, high = found.swept
+    try:
+        return branch(oscillator, *first, low=low, high=high)
+    except InputError:
+        return None
+
+
+def _primary_orbit(
+    found: Evidence, shaken: Harmonic, data: xr.Dataset
+) -> tuple[Harmonic, xr.DataArray] | None:
+    """The forcing at the primary resonance and the state there, where the branch begins."""
     tops = [p for p in found.peaks if p.primary and p.direction == "forward" and p.curve == "eta_a"]
     if found.contact is None or not tops:
         return None
     hold = data.sel(direction="forward", frequency=tops[0].frequency)
     if int(hold["period"]) != 1:
         return None
-    excitation = shaken.replace(frequency=tops[0].frequency, phase=0.0)
-    low, high = found.swept
-    try:
-        return branch(oscillator, excitation, hold["section"], low=low, high=high)
-    except InputError:
-        return None
+    return shaken.replace(frequency=tops[0].frequency, phase=0.0), hold["section"]

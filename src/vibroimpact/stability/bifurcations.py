@@ -75,8 +75,11 @@ def remembers(orbit: Orbit) -> bool:
     return bool(np.abs(orbit.map_multipliers[2]) > _MEMORY)
 
 
-def find(stations: list[Station]) -> Iterator[Bifurcation]:
-    """Bifurcations on a branch, in its order; between stations of one smooth piece."""
+def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcation]:
+    """Bifurcations on a branch, in its order; between stations of one smooth piece.
+
+    With `turning`, of those between two orbits only the ones at which the branch turns back.
+    """
     for here, there in itertools.pairwise(_between_folds(stations)):
         if here.orbit.section.family.phase != there.orbit.section.family.phase:
             continue  # one orbit, seen at two sections
@@ -92,7 +95,7 @@ def find(stations: list[Station]) -> Iterator[Bifurcation]:
             )
             continue
         met = parent(here.orbit, there.orbit)
-        for kind, function in _tests(here):
+        for kind, function in _tests(here)[: 1 if turning else None]:
             if kind == FOLD:  # the tangents are known
                 first, second = float(here.tangent[PARAMETER]), float(there.tangent[PARAMETER])
             else:

@@ -12,7 +12,7 @@ from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.threads import Progress, counted
 from vibroimpact.stability import bifurcations
-from vibroimpact.stability.family import family
+from vibroimpact.stability.family import Family, family
 from vibroimpact.stability.first import first_orbit
 from vibroimpact.stability.fixed_points import HELD, Orbit
 from vibroimpact.stability.labelled import Followed, as_dataset
@@ -79,6 +79,41 @@ def branch(
     InputError
         If a value cannot be used, or Newton's method finds no orbit near the start.
     """
+    fam, span, first = _begun(oscillator, excitation, start, parameter, low, high, period)
+    most_points = whole(most_points, "most_points")
+    data = as_dataset([follow_both_ways(first, span, most_points, progress)], fam, span)
+    if progress is not None:
+        progress(data.sizes["point"], data.sizes["point"])
+    return data
+
+
+def turning_points(
+    oscillator: Oscillator,
+    excitation: Repeated,
+    start: State | xr.DataArray | xr.Dataset,
+    low: float,
+    high: float,
+    most_points: int = 5000,
+) -> list[float]:
+    """Frequencies (Hz) at which a branch of orbits of one cycle turns back, along the branch.
+
+    Where nothing else is asked of it: the arguments are those of `branch`.
+    """
+    _, span, first = _begun(oscillator, excitation, start, "frequency", low, high, 1)
+    stations, *_ = _both_ways(first, span, most_points)
+    return [one.orbit.value for one in bifurcations.find(stations, turning=True) if one.turns]
+
+
+def _begun(
+    oscillator: Oscillator,
+    excitation: Repeated,
+    start: State | xr.DataArray | xr.Dataset | None,
+    parameter: str,
+    low: float | str,
+    high: float | str,
+    period: int | None,
+) -> tuple[Family, tuple[float, float], Orbit]:
+    """What is varied, over which range, and the first orbit."""
     fam = family(oscillator, excitation, parameter)
     span = bounds(fam.parameter, low, high)
     if not span[0] <= fam.value <= span[1]:
@@ -87,18 +122,21 @@ def branch(
             f"{fam.value:g}; a range that holds it is accepted"
         )
     period = None if period is None else whole(period, "period")
-    most_points = whole(most_points, "most_points")
-    first = first_orbit(fam, span, start, period)
-    data = as_dataset([follow_both_ways(first, span, most_points, progress)], fam, span)
-    if progress is not None:
-        progress(data.sizes["point"], data.sizes["point"])
-    return data
+    return fam, span, first_orbit(fam, span, start, period)
 
 
 def follow_both_ways(
     first: Orbit, span: tuple[float, float], most_points: int, progress: Progress | None = None
 ) -> Followed:
     """Follow a branch both ways from an orbit, and find its bifurcations."""
+    stations, ended, closed = _both_ways(first, span, most_points, progress)
+    return Followed(stations, list(bifurcations.find(stations)), ended, closed)
+
+
+def _both_ways(
+    first: Orbit, span: tuple[float, float], most_points: int, progress: Progress | None = None
+) -> tuple[list[Station], tuple[str, str], bool]:
+    """The orbits of a branch in its order, why it ends on either side, and whether it is closed."""
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
         start = Station(first, first.tangent(sense * HELD), 0.0, 0)
@@ -106,13 +144,7 @@ def follow_both_ways(
         traces.append(trace)
         if trace.ended == CLOSED:
             break
-    if len(traces) == 1:
-        stations = traces[0].points
-    else:
-        stations = bifurcations.joined(traces[0].points, traces[1].points)
-    return Followed(
-        stations,
-        list(bifurcations.find(stations)),
-        (traces[0].ended, traces[-1].ended),
-        len(traces) == 1,
-    )
+    ended, closed = (traces[0].ended, traces[-1].ended), len(traces) == 1
+    if closed:
+        return traces[0].points, ended, closed
+    return bifurcations.joined(traces[0].points, traces[1].points), ended, closed

@@ -2,7 +2,7 @@
 
 A deviation e from the steady free flight obeys e″ + c e′ + k e = 0, whose energy k e² + e′² never
 grows. Where the steady flight and √(e² + e′²/k) together stay within the gaps, nothing is touched
-again, and what the motion settles on is the closed form (docs/theory.md, section 6).
+again, and what the motion settles on is the closed form (docs/decisions/0014-settling.md).
 """
 
 from __future__ import annotations
