@@ -146,9 +146,7 @@ _TAYLOR = (
     taylor_carry,
     taylor_growth,
 )
-answer(
-    par.LINEAR, tables, undisturbed, linear_advance, forces, pieces, linear_carry, linear_growth
-)
+answer(par.LINEAR, tables, undisturbed, linear_advance, forces, pieces, linear_carry, linear_growth)
 answer(par.BENT, *_TAYLOR)
 answer(par.YIELDING, yielding_plan, *_TAYLOR)
 
