@@ -247,7 +247,7 @@ def hold(
     for i in range(RESULTS):
         result[i] = math.nan
     begin(plan, amplitude, 2.0 * math.pi * frequency)
-    alone, swing, felt, steady = undisturbed(plan, motion, clock, DYING)
+    alone, swing, felt, motion = undisturbed(plan, motion, clock, DYING)
     if alone:
         rest = plan[par.LOAD] / plan[par.STIFFNESS]
         result[U_LEAST], result[U_MOST] = rest - swing, rest + swing
@@ -255,7 +255,7 @@ def hold(
         for i in (HITS_RIGHT, HITS_LEFT, FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT):
             result[i] = 0.0
         result[PERIOD], result[CYCLES], result[OUTCOME] = 1, 0, DONE
-        return steady
+        return motion
     build(plan, amplitude, 2.0 * math.pi * frequency)
     result[PERIOD], result[CYCLES] = 0, 0
     if too_much_work(plan, period):

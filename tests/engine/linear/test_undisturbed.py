@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from samples import sample
 
 import vibroimpact as vi
+from samples import sample
 
 MASS, PERIOD = 2.0, 0.7
 
@@ -30,7 +30,7 @@ def held(one: vi.Oscillator, frequency: float, start: vi.State, phase: float = 0
 @pytest.mark.parametrize("amplitude", [0.3, "2 mm", "1.5 N"])
 @pytest.mark.parametrize("load", [0.0, 0.4])
 def test_it_is_what_following_leads_to(amplitude: float | str, load: float) -> None:
-    """Displacement, acceleration and the state at any section, against a motion that is followed."""
+    """Extremes and the state at any section, against a motion that is followed."""
     one = rig(0.1, 0.5, 0.5, load)
     for frequency in (0.4, 1.3, 3.0):
         data = vi.sweep(one, amplitude, [frequency], "forward", phase=0.7)

@@ -128,7 +128,7 @@ def symmetric(plan: Vector) -> bool:
         if plan[par.BUMPER + i] != plan[par.BUMPER + par.WIDTH + i]:
             return False
     one, other = wave(plan, 1, False), wave(plan, 1, True)
-    return one.sine == other.sine and one.cosine == other.cosine
+    return bool(one.sine == other.sine and one.cosine == other.cosine)
 
 
 @kernel
