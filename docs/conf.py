@@ -14,6 +14,7 @@ ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "docs" / "_ext"))
 
 import drawn  # noqa: E402
+import landing  # noqa: E402
 from vibroimpact import __version__  # noqa: E402
 
 # MathJax is copied into the site: formulas are shown without a network.
@@ -66,12 +67,13 @@ html_title = f"vibroimpact {release}"
 html_static_path = ["_static", f"{OFFLINE}/static"]
 html_css_files = ["site.css"]
 html_additional_pages = {"index": "landing.html"}
+html_context = landing.CONTEXT
 html_show_sourcelink = False
 html_copy_source = False
 html_theme_options = {
     "logo": {"text": "vibroimpact"},
     "navigation_with_keys": False,
-    "header_links_before_dropdown": 7,
+    "header_links_before_dropdown": 6,
     "show_toc_level": 2,
     "secondary_sidebar_items": ["page-toc"],
     "footer_start": ["copyright"],
