@@ -9,7 +9,7 @@
 In what a page shows, a line of three dots stands for any lines.
 
 After a change that changes what is printed: ``python tests/docs/snippets.py`` writes it into all
-pages, except where a block has such dots, and what a page both draws and shows to where it is shown.
+pages, except where a block has such dots, and what a page draws and shows to where it is shown.
 """
 
 from __future__ import annotations
