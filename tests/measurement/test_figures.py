@@ -107,3 +107,13 @@ def test_the_spectrum_of_a_history(history):
             float(exact.displacement_amplitude.sel(order=order)), rel=0.01
         )
     assert "velocity_amplitude" not in lines
+
+
+def test_maxima_and_minima_lie_over_computed_curves(computed):
+    names = ["displacement_max", "displacement_min", "acceleration_max", "acceleration_min"]
+    measured = as_measured(computed[names])
+    for ax, name in zip(
+        figures.resonance_curves(computed, measured=measured), ("eta_a", "eta_d"), strict=True
+    ):
+        (line,) = [one for one in ax.lines if str(one.get_label()).startswith("measured, forward")]
+        assert line.get_ydata() == pytest.approx(computed[name].sel(direction="forward").values)

@@ -167,9 +167,14 @@ def _on_panel(
     if name in ("η_a", "η_d"):
         if f"eta_{name[-1]}" in measured:
             return points_of(measured[f"eta_{name[-1]}"])
-        if f"{kind}_excursion" not in measured:
+        ends = [measured[n] for n in (f"{kind}_max", f"{kind}_min") if n in measured]
+        if f"{kind}_excursion" in measured:
+            excursion = measured[f"{kind}_excursion"]
+        elif len(ends) == 2:
+            excursion = ends[0] - ends[1]
+        else:
             return None
-        x, y = points_of(measured[f"{kind}_excursion"])
+        x, y = points_of(excursion)
         return x, y / float(computed[f"largest_free_{kind}_excursion"])
     if name != kind:
         return None

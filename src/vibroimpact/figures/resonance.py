@@ -30,6 +30,9 @@ _ARROWS_APART = 5.0
 _MARKS = 60
 """How many marks of motions that did not settle fit side by side."""
 
+_PLAIN = {"marker": "none"}
+"""Beneath measured points, whose marks must not be taken for those of the curve."""
+
 
 def resonance_curves(
     data: xr.Dataset,
@@ -84,11 +87,12 @@ def resonance_curves(
     what = " and ".join(one.name for one in drawn)
     given = panels(axes, len(drawn), what, (7.2, 0.4 + 3.2 * len(drawn)), title)
     for ax, one in zip(given, drawn, strict=True):
-        _panel(ax, data, found, one)
+        _panel(ax, data, found, one, marked=measured is None)
         ax.set_ylabel(one.label)
     upper = given[0]
     given[-1].set_xlabel("excitation frequency $f$ (Hz)")
-    entries = [*_legend(data, found), *(line.entry() for one in drawn for line in one.levels)]
+    entries = _legend(data, found, marked=measured is None)
+    entries += [line.entry() for one in drawn for line in one.levels]
     if measured is not None:
         names = [one.name for one in drawn]
         entries += measured_points(given, names, data, as_measured(measured, "measured"))
@@ -96,7 +100,7 @@ def resonance_curves(
     return given
 
 
-def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn) -> None:
+def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked: bool) -> None:
     frequency = data["frequency"].values
     margin = 0.02 * (frequency[-1] - frequency[0]) or 0.05 * frequency[0]
     ax.set_xlim(frequency[0] - margin, frequency[-1] + margin)
@@ -134,7 +138,7 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn) -> None:
         mine = [jump for jump in jumps if jump.direction == direction]
         values = drawn.curves[direction]
         x, y = _parted(frequency, values, mine)
-        style = curve_style(look, len(x))
+        style = curve_style(look, len(x)) | ({} if marked else _PLAIN)
         wild = one["motion"].values != "periodic"
         if wild.any():  # its marks would hide the crosses
             first, every = style["markevery"]
@@ -217,14 +221,15 @@ def _draw_jumps(ax: Axes, frequency: NDArray[np.float64], drawn: Drawn, jumps: l
         )
 
 
-def _legend(data: xr.Dataset, found: Features) -> list[Artist]:
+def _legend(data: xr.Dataset, found: Features, *, marked: bool) -> list[Artist]:
     """Return an entry for each thing that is there to see."""
     entries: list[Artist] = []
     loose: list[Artist] = []
     for direction, look in SWEEPS.items():
         if direction not in data["direction"]:
             continue
-        entries.append(Line2D([], [], label=look.label, **curve_style(look, 1)))
+        style = curve_style(look, 1) | ({} if marked else _PLAIN)
+        entries.append(Line2D([], [], label=look.label, **style))
         if (data["motion"].sel(direction=direction) != "periodic").any():
             loose.append(
                 Line2D(
