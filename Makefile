@@ -5,6 +5,7 @@
 # Nothing is installed twice, and a set-up that was cut short is begun again.
 
 PYTHON ?= python3
+PYTHONS ?= $(PYTHON)
 VENV   := .venv
 ARGS   :=
 
@@ -20,7 +21,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # One installation at a time, also under make -j.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-full lint format docs bench pins clean
+.PHONY: help demo test test-full lint format docs bench dist pins clean
 .SECONDARY:
 
 help:
@@ -31,6 +32,7 @@ help:
 	@echo 'make format   put the code into the style that make lint checks'
 	@echo 'make docs     build the documentation, gallery included; it begins at out/site/index.html'
 	@echo 'make bench    compare speed and accuracy with other solvers (benchmarks/README.md)'
+	@echo 'make dist     build wheel and sdist into dist/, and try them out; PYTHONS="python3.11 python3.13"'
 	@echo 'make pins     renew constraints.txt (CONTRIBUTING.md)'
 	@echo 'make clean    remove .venv, all caches and the built documentation; the rest of out/ stays'
 	@echo 'PYTHON=...    which python makes the environment, 3.11 or newer; python3'
@@ -65,6 +67,12 @@ docs: $(VENV)/.installed-docs
 bench: $(VENV)/.installed-bench
 	$(BIN)/python -m benchmarks $(ARGS)
 
+dist: $(VENV)/.installed-release
+	rm -rf dist
+	$(BIN)/python -m build --outdir dist .
+	$(BIN)/python -m twine check --strict dist/*
+	$(BIN)/python tests/distribution.py dist $(PYTHONS)
+
 # What pip builds the package with is pinned too: hatchling, and editables, which hatchling asks
 # for when pip installs with -e. The oldest Python needs the most packages.
 pins:
@@ -75,7 +83,7 @@ pins:
 	$(PYTHON) -m venv $(VENV)-pins
 	PIP_CONSTRAINT= PIP_BUILD_CONSTRAINT= \
 	    $(VENV)-pins/bin/python -m pip install -q -U setuptools hatchling editables \
-	    '.[test,lint,docs,bench]'
+	    '.[test,lint,docs,bench,release]'
 	$(VENV)-pins/bin/python -m pip freeze --all --exclude pip --exclude vibroimpact > $(VENV)-pins/constraints.txt
 	@! grep -vE '^[A-Za-z0-9._-]+==[A-Za-z0-9.!+_-]+$$' $(VENV)-pins/constraints.txt || { \
 	    echo 'make: these are not plain name==version lines' >&2; exit 1; }
@@ -93,6 +101,7 @@ EXTRA_test  := [test]
 EXTRA_lint  := [lint]
 EXTRA_docs  := [docs]
 EXTRA_bench := [bench]
+EXTRA_release := [release]
 
 $(VENV)/.installed-%: $(VENV)/.made pyproject.toml constraints.txt src/vibroimpact/_version.py
 	@touch $(UNFINISHED)

@@ -1,0 +1,99 @@
+"""The built wheel and sdist, as a user gets them; a script, for ``make dist``.
+
+``python tests/distribution.py dist python3.11 python3.13``: their contents are the repository's
+files and no others; then, with each interpreter, the wheel is installed into a fresh environment
+in which nothing can be compiled, sweeps a rig, is type-checked from outside, and passes the
+tests that take little time.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tarfile
+import tempfile
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+QUICK = (
+    "tests/test_package.py::test_names_and_arguments_that_users_rely_on",
+    "tests/model",
+    "tests/records",
+    "tests/analytic/test_free_flight.py",
+    "tests/cli/test_main.py",
+    "tests/cli/test_cache.py",
+    "tests/cli/test_sweep.py",
+    "tests/response/test_files.py",
+    "tests/explorer/test_family.py",
+)
+NEEDED = ("pytest", "hypothesis", "mpmath", "pyyaml", "mypy")
+
+
+def tracked(*under: str) -> set[str]:
+    """Files of the repository."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", *under], cwd=ROOT, check=True, capture_output=True, text=True
+    )
+    return {name for name in listed.stdout.split("\0") if name}
+
+
+def check_contents(wheel: Path, sdist: Path) -> None:
+    """Refuse a file too many or too few."""
+    inside = set(zipfile.ZipFile(wheel).namelist())
+    code = {name.removeprefix("src/") for name in tracked("src")}
+    about = {name for name in inside if ".dist-info/" in name}
+    assert inside - about == code, (inside - about) ^ code
+    files = {name.partition(".dist-info/")[2] for name in about}
+    assert files == {"METADATA", "RECORD", "WHEEL", "entry_points.txt", "licenses/LICENSE"}, files
+    assert wheel.name.endswith("-py3-none-any.whl"), wheel.name
+    with tarfile.open(sdist) as packed:
+        names = {one.name.partition("/")[2] for one in packed.getmembers() if one.isfile()}
+    assert names == tracked() | {"PKG-INFO"}, names ^ tracked()
+    print(f"{wheel.name}: {len(code)} files; {sdist.name}: {len(names)} files; none else")
+
+
+def try_out(wheel: Path, python: str) -> None:
+    """Install the wheel with an interpreter, and use it."""
+    with tempfile.TemporaryDirectory() as made:
+        place = Path(made)
+        outside = {
+            # No compiler is found, and nothing of what is installed here.
+            **dict.fromkeys(("CC", "CXX", "FC"), "/bin/false"),
+            "PATH": f"{place / 'env' / 'bin'}:/usr/bin:/bin",
+            "HOME": str(place),
+            "VIBROIMPACT_CACHE_DIR": str(place / "compiled"),
+        }
+        environment = {
+            **{name: v for name, v in os.environ.items() if not name.startswith("PYTHON")},
+            **outside,
+        }
+
+        def run(*words: object, where: Path = place) -> None:
+            done = subprocess.run([str(w) for w in words], cwd=where, env=environment)
+            if done.returncode:
+                sys.exit(f"{python}: {' '.join(map(str, words))} failed")
+
+        subprocess.run([python, "-m", "venv", place / "env"], check=True)
+        binary = place / "env" / "bin"
+        pip = [binary / "python", "-m", "pip", "install", "--quiet", "--only-binary=:all:"]
+        run(*pip, "-c", ROOT / "constraints.txt", wheel)
+        (place / "empty").mkdir()
+        run(binary / "vibroimpact", "--version", where=place / "empty")
+        run(binary / "vibroimpact", "sweep", "B2-G1-A3", where=place / "empty")
+        written = {path.name for path in (place / "empty" / "out").iterdir()}
+        assert {"B2-G1-A3-sweep.nc", "B2-G1-A3-sweep.png"} <= written, written
+        run(*pip, "-c", ROOT / "constraints.txt", *NEEDED)
+        (place / "user.py").write_bytes((ROOT / "tests" / "typing" / "user.py").read_bytes())
+        run(binary / "mypy", "--strict", "user.py")
+        run(binary / "python", "-m", "pytest", "-p", "no:cacheprovider", *QUICK, where=ROOT)
+    print(f"{python}: installed without a compiler, sweeps, is typed and passes its quick tests")
+
+
+if __name__ == "__main__":
+    folder = Path(sys.argv[1]).resolve()
+    (made,), (source,) = folder.glob("*.whl"), folder.glob("*.tar.gz")
+    check_contents(made, source)
+    for interpreter in sys.argv[2:]:
+        try_out(made, interpreter)
