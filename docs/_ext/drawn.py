@@ -64,8 +64,7 @@ GALLERY = {
     "show_signature": False,
     "download_all_examples": False,
     "write_computation_times": False,
-    # How long a picture took says more about the machine than about the program.
-    "min_reported_time": 3600,
+    "remove_config_comments": True,
     "thumbnail_size": (480, 360),
 }
 

@@ -10,7 +10,7 @@ its curves within it and asks no server: it can be mailed, or put into a report.
    <iframe src="../../explorer.html" title="One knob: the gap of a rig" loading="lazy"
      style="width: 100%; height: 44rem; border: 1px solid var(--pst-color-border)"></iframe>
 
-`Open it alone <../../explorer.html>`_. A page like it, of three gaps:
+`Open it alone <../../explorer.html>`_. The program writes a page like it, of three gaps.
 """
 
 # sphinx_gallery_thumbnail_path = 'docs/images/explorer-strip.png'
