@@ -30,8 +30,8 @@ from benchmarks.trajectory import many, peers, short_runs, trajectory
 def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
     """What is measured, in order, by name."""
     return {
-        "trajectory": lambda: trajectory(peers(), compiling().text()),
-        "short": lambda: (short_runs(peers()), many()),
+        "trajectory": lambda: (*trajectory(peers(), compiling().text()), many(peers())),
+        "short": lambda: (short_runs(peers()),),
         "laws": lambda: (laws(), yielding(), sampling(), *smooth()),
         "records": lambda: (records(), spectra()),
         "earthquakes": lambda: (earthquakes(),),
