@@ -1,7 +1,7 @@
 // The knobs: a slider and a text for each number of the rig, in groups, and the laws.
 
 const STEPS = 1000;
-const WORDS = { "kelvin-voigt": "bumper (spring and dashpot)", rigid: "rigid", power: "power law (Hertz)", jankowski: "Jankowski", none: "none" };
+const WORDS = { "kelvin-voigt": "spring and dashpot", rigid: "rigid", power: "power law (Hertz)", jankowski: "Jankowski", none: "none" };
 
 function made(tag, properties = {}, parent = null) {
   const node = Object.assign(document.createElement(tag), properties);

@@ -27,6 +27,8 @@ export class Motion {
   show(picture) {
     this.picture = picture;
     if (picture.words) this.verdict.textContent = picture.words;
+    // What takes care is that of the motion before, until the knob is let go.
+    for (const one of [this.verdict, this.lines.svg]) one.classList.toggle("old", !picture.words);
     this.draw();
   }
 

@@ -29,6 +29,11 @@ function decades(low, high) {
 }
 
 export const label = (value) => Number(value.toPrecision(6)).toString();
+const SMALL = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+const power = (value) => {
+  const digits = -Math.round(Math.log10(value));
+  return digits < 3 ? label(value) : `10⁻${[...digits.toString()].map((one) => SMALL[one]).join("")}`;
+};
 
 export class Chart {
   constructor(parent, { name, x, y, xlog = false, ylog = false, wide = false }) {
@@ -74,7 +79,7 @@ export class Chart {
     const group = this.layers.axes;
     group.replaceChildren();
     const [left, right, top, bottom] = [MARGIN.left, width - MARGIN.right, MARGIN.top, height - MARGIN.bottom];
-    const xs = this.xlog ? decades(...x) : ticks(...x, width / 75);
+    const xs = this.xlog ? decades(...x) : ticks(...x, Math.max(width / 75, 4));
     const ys = this.ylog ? decades(...y) : ticks(...y, height / 33);
     for (const value of xs) {
       element("path", { class: "grid", d: `M${this.toX(value)} ${top}V${bottom}` }, group);
@@ -82,7 +87,7 @@ export class Chart {
     }
     for (const value of ys) {
       element("path", { class: "grid", d: `M${left} ${this.toY(value)}H${right}` }, group);
-      element("text", { x: left - 5, y: this.toY(value) + 4, "text-anchor": "end" }, group, label(value));
+      element("text", { x: left - 5, y: this.toY(value) + 4, "text-anchor": "end" }, group, this.ylog ? power(value) : label(value));
     }
     element("path", { class: "axis", d: `M${left} ${top}V${bottom}H${right}` }, group);
     element("text", { x: (left + right) / 2, y: height - 6, "text-anchor": "middle", class: "soft" }, group, this.xlabel);

@@ -1,0 +1,45 @@
+"""A page that is left open does not grow: an accelerated day of moves, and what is kept after it."""
+
+from __future__ import annotations
+
+import gc
+
+import xarray as xr
+from benchmarks.page import TURNED
+
+from samples import sample
+from vibroimpact.explorer.session import Session
+from vibroimpact.explorer.state import MOST_STEPS, State
+
+MOVES = sample(2000, 60)
+
+
+def kept(page, devtools):
+    """Bytes of the page's programs and numbers, and its elements, once rubbish is collected."""
+    for _ in range(2):
+        devtools.send("HeapProfiler.collectGarbage")
+    found = {one["name"]: one["value"] for one in devtools.send("Performance.getMetrics")["metrics"]}
+    return found["JSHeapUsedSize"], page.evaluate("document.querySelectorAll('*').length")
+
+
+def living(kind):
+    gc.collect()
+    return sum(isinstance(one, kind) for one in gc.get_objects())
+
+
+def test_a_page_and_its_session_keep_no_more_after_many_moves(opened):
+    page = opened()
+    devtools = page.context.new_cdp_session(page)
+    devtools.send("Performance.enable")
+    turn = {"id": "knob-stops-gap", "moves": MOVES}
+    page.evaluate(TURNED, turn)  # as many as fill what is bounded
+    begun, elements = kept(page, devtools)
+    sweeps = living(xr.Dataset)
+    page.evaluate(TURNED, turn)
+    ended, after = kept(page, devtools)
+    assert ended - begun < 500_000
+    # Ticks come and go with the range.
+    assert abs(after - elements) < 60
+    assert living(xr.Dataset) <= sweeps + 4
+    assert living(Session) <= 3
+    assert living(State) < 4 * MOST_STEPS

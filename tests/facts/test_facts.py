@@ -1,0 +1,79 @@
+"""What was found, as plain values and in words: the same for command line, page and reports."""
+
+import json
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.facts import largest, scenario, sweeps
+from vibroimpact.facts.tables import as_text, plain_table, titled_table
+from vibroimpact.response.resonance import features
+from vibroimpact.scenario.kinds import Scenario
+
+
+@pytest.fixture(scope="module")
+def swept():
+    return vi.sweep("B2-G1-A3", np.round(np.arange(0.5, 3.51, 0.1), 10))
+
+
+def test_the_largest_is_that_of_the_sweep_and_where(swept):
+    found = largest.facts(swept)
+    one = found["acceleration"]
+    assert one["value"] == float(swept.peak_acceleration.max())
+    there = swept.sel(frequency=one["frequency"], direction=one["direction"])
+    assert float(there.peak_acceleration) == one["value"]
+    assert found["displacement_left"]["value"] == -float(swept.displacement_min.min())
+    assert not any(name.startswith("impulse") for name in found)  # no stop is rigid
+
+
+def test_the_largest_of_a_rig_that_touches_nothing_has_no_force():
+    found = largest.facts(vi.sweep("B2-G1-A3", [4.5], "backward"))
+    assert set(found) == {"displacement_right", "displacement_left", "acceleration"}
+
+
+def test_equal_sweeps_name_the_forward_one():
+    data = vi.sweep("B2-G1-A3", [3.0, 3.2])
+    assert {one["direction"] for one in largest.facts(data).values()} == {"forward"}
+
+
+def test_a_sweep_is_told_in_plain_values_and_in_the_same_words(swept):
+    found = features(swept)
+    told = sweeps.facts(swept, found, ["look closer"])
+    assert json.loads(json.dumps(told))["largest"] == told["largest"]  # plain numbers and texts
+    assert told["frequencies"] == {"from": 0.5, "to": 3.5, "count": 31}
+    text = as_text(sweeps.text(swept, found, ["look closer"]))
+    assert "31 frequencies from 0.5 to 3.5 Hz, forward and backward" in text
+    for jump in told["jumps"]:
+        low, high = jump["before"], jump["after"]
+        assert f"{low:g} and {high:g}" in text
+    (hysteresis,) = told["hysteresis"]
+    assert f"{hysteresis['low']:g} to {hysteresis['high']:g} Hz: right" in text
+    assert "Advice: look closer" in text
+
+
+def test_one_direction_has_no_hysteresis_to_seek():
+    data = vi.sweep("B2-G1-A3", [1.0, 1.2], "forward")
+    text = as_text(sweeps.text(data, features(data), []))
+    assert "2 frequencies from 1 to 1.2 Hz, forward" in text
+    assert "not sought, needs both directions" in text
+
+
+def test_each_scenario_has_a_meaning():
+    meanings = [scenario.meaning(one.label) for one in Scenario]
+    assert all(meanings)
+    assert len(set(meanings)) == len(meanings)
+    with pytest.raises(StopIteration):
+        scenario.meaning("S9")
+
+
+def test_tables_as_text_have_no_marks_of_a_terminal():
+    table = plain_table()
+    table.add_row("gap", "7.5 mm", "of both sides")
+    assert as_text(table).split() == ["gap", "7.5", "mm", "of", "both", "sides"]
+    titled = titled_table("Jumps", "sweep", "η_a")
+    titled.add_row("forward", "1 → 2")
+    lines = as_text(titled, width=40).splitlines()
+    assert lines[0].strip() == "Jumps"
+    assert "\x1b" not in "".join(lines)
+    assert all(line == line.rstrip() for line in lines)
