@@ -40,3 +40,10 @@ def test_a_pointer_reads_and_writes_the_array() -> None:
     array = np.arange(4.0)
     assert through_a_pointer(array) == 3.0
     np.testing.assert_array_equal(array, [0.0, 1.0, 3.0, 3.0])
+
+
+def test_without_the_compiler_a_square_array_is_one_row_as_well() -> None:
+    square = np.arange(4.0).reshape(2, 2)
+    memory = pointer(square)
+    memory[3] = 7.0
+    assert square[1, 1] == 7.0

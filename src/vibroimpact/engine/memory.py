@@ -28,9 +28,9 @@ def pointer(array: Vector) -> Vector:
     """The memory of a contiguous array of floats, indexed like it.
 
     The array must outlive the pointer: whoever makes one uses the array again behind it.
-    Without the compiler this is the array itself.
+    Without the compiler this is the array itself, in one row.
     """
-    return array
+    return array.reshape(-1)
 
 
 def stack(size: int) -> Callable[[], Vector]:
