@@ -20,13 +20,10 @@ ROOT = Path(__file__).parents[1]
 QUICK = (
     "tests/test_package.py::test_names_and_arguments_that_users_rely_on",
     "tests/model",
-    "tests/records",
     "tests/analytic/test_free_flight.py",
     "tests/cli/test_main.py",
     "tests/cli/test_cache.py",
-    "tests/cli/test_sweep.py",
     "tests/response/test_files.py",
-    "tests/explorer/test_family.py",
 )
 NEEDED = ("pytest", "hypothesis", "mpmath", "pyyaml", "mypy")
 
