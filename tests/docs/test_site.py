@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+import re
+from fnmatch import fnmatch
+
 from docs.check_links import broken
+
+from docs.snippets import ROOT
+
+CONTENTS = re.compile(r"^```\{toctree\}\n(.*?)^```", re.M | re.S)
 
 
 def test_a_link_that_leads_nowhere_is_found(tmp_path):
@@ -13,3 +20,16 @@ def test_a_link_that_leads_nowhere_is_found(tmp_path):
     assert broken(tmp_path) == []
     (tmp_path / "page.html").write_text(page.format("there", "no.png"))
     assert broken(tmp_path) == ["page.html: no.png", "page.html: sub/other.html#there"]
+
+
+def test_every_page_stands_in_the_contents_of_another():
+    pages = [path for path in (ROOT / "docs").rglob("*.md") if path != ROOT / "docs/index.md"]
+    listed = {
+        str((page.parent / entry.split("<")[-1].strip("> ")).resolve())
+        for page in [*pages, ROOT / "docs/index.md"]
+        for contents in CONTENTS.findall(page.read_text(encoding="utf-8"))
+        for entry in contents.splitlines()
+        if entry and not entry.startswith(":")
+    }
+    left = {str(page.with_suffix("")) for page in pages}
+    assert {page for page in left if not any(fnmatch(page, entry) for entry in listed)} == set()

@@ -18,7 +18,9 @@ def kept(page, devtools):
     """Bytes of the page's programs and numbers, and its elements, once rubbish is collected."""
     for _ in range(2):
         devtools.send("HeapProfiler.collectGarbage")
-    found = {one["name"]: one["value"] for one in devtools.send("Performance.getMetrics")["metrics"]}
+    found = {
+        one["name"]: one["value"] for one in devtools.send("Performance.getMetrics")["metrics"]
+    }
     return found["JSHeapUsedSize"], page.evaluate("document.querySelectorAll('*').length")
 
 

@@ -29,7 +29,7 @@ def clearances(
     zoom: float | None = None,
     title: str | None = None,
 ) -> Panels:
-    """Draw the clearances G_R and G_L (eq. 4) against t/T, and magnified near zero.
+    """Draw the clearances of equation 4, G_R and G_L, against t/T, and magnified near zero.
 
     Parameters
     ----------
