@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.response.threads import Stopped
 from vibroimpact.scenario.behind import primary_branch, with_folds, with_kinds
 from vibroimpact.scenario.evidence import evidence
 
@@ -35,6 +36,19 @@ def test_a_motion_that_meets_the_event_limit_stays_unnamed(chaotic, monkeypatch)
     found, rig, data = chaotic
     named = with_kinds(found, *rig, data)
     assert [item.kinds for item in named.irregular] == [item.kinds for item in found.irregular]
+
+
+def test_naming_ends_where_it_is_not_wanted_any_more(chaotic):
+    found, rig, data = chaotic
+    asked = []
+
+    def check() -> None:
+        asked.append(1)
+        if len(asked) == 2:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        with_kinds(found, *rig, data, check=check)
 
 
 def test_folds_lie_where_the_sweeps_jump():

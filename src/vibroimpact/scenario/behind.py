@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import xarray as xr
 
@@ -20,6 +22,8 @@ _LONGER = 20
 """How many times as long a motion is followed that seems quasi-periodic."""
 _MAX_EVENTS = 10_000
 
+Check = Callable[[], None]
+
 
 def with_kinds(
     found: Evidence,
@@ -27,21 +31,28 @@ def with_kinds(
     shaken: Harmonic,
     data: xr.Dataset,
     cycles: int = KIND_CYCLES,
+    check: Check = lambda: None,
 ) -> Evidence:
     """Name the motions that are not periodic, by the growth of disturbances.
 
     Of each range, the motion in its middle is named; one that no verdict was found for stays
-    "not periodic".
+    "not periodic". `check` is called before each that is followed, and may raise to end it.
     """
-    named = tuple(_named(item, oscillator, shaken, data, cycles) for item in found.irregular)
+    named = tuple(_named(item, oscillator, shaken, data, cycles, check) for item in found.irregular)
     return found._replace(irregular=named)
 
 
 def _named(
-    item: Irregular, oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset, cycles: int
+    item: Irregular,
+    oscillator: Oscillator,
+    shaken: Harmonic,
+    data: xr.Dataset,
+    cycles: int,
+    check: Check,
 ) -> Irregular:
     if item.not_periodic is None:
         return item
+    check()
     inside = data.sel(direction=item.direction, frequency=slice(*item.not_periodic))
     wandering = np.flatnonzero(inside["period"].values == 0)
     i = int(wandering[len(wandering) // 2])
@@ -51,6 +62,7 @@ def _named(
     followed = Settled(oscillator, excitation, state, 0, 0, Status.NOT_SETTLED)
     judged, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
     if status is Status.DONE and judged.motion == "quasi-periodic":
+        check()
         # A slow transient, or chaos that is slow to show, looks the same for a while.
         judged, _, _, status = judge_wandering(followed, state, _LONGER * cycles, _MAX_EVENTS)
     kinds: dict[str, Kind] = {"chaotic": "chaotic", "quasi-periodic": "quasi-periodic"}

@@ -129,7 +129,15 @@ def classify(
             "curves are looked at"
         )
     found = evidence(oscillator, peak, data, 0.5 * used.prominence)
-    found = with_folds(with_kinds(found, oscillator, peak, data), oscillator, peak, data)
+    holds = data.sizes["frequency"] * data.sizes["direction"]
+
+    def check() -> None:
+        if progress is not None:
+            progress(holds, holds)  # which may raise, where the answer is not wanted any more
+
+    found = with_kinds(found, oscillator, peak, data, check=check)
+    check()
+    found = with_folds(found, oscillator, peak, data)
     return Classification(
         scenario(found, used).label,
         confidence(found, used),
