@@ -6,7 +6,6 @@ import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact.identification import given
-from vibroimpact.identification.history import doubt
 from vibroimpact.measurement.read import as_measured
 
 RIGHT = vi.Bumper("510 kN/m", "0.9 kN s/m", "9 mm")
@@ -118,16 +117,6 @@ def test_what_has_nothing_to_fit_is_refused():
     data = record(motion(1.5, 2), 0.0, ("base_acceleration",))
     with pytest.raises(vi.InputError, match="neither displacement nor velocity"):
         vi.identify(data, RIG, "gap")
-
-
-def test_samples_beside_a_jump_count_less():
-    values = np.sin(np.arange(60) / 8.0)
-    smooth = doubt(values, 1e-3)
-    assert (smooth == 1.0).all()
-    values[30:] -= 0.4
-    jumped = doubt(values, 1e-3)
-    assert np.flatnonzero(jumped > 1.0).tolist() == [29, 30]
-    assert jumped[29] == pytest.approx(200.0, rel=0.2)  # half the jump
 
 
 def test_each_channel_is_weighed_by_its_own_noise():
