@@ -18,10 +18,6 @@ PAGES = ("docs/explorer.html",)
 """Pages that are in the repository as they are shown."""
 
 
-GALLERY = {"gallery/GALLERY_HEADER.rst": "gallery/index"}
-"""Pages that are made of more than one file."""
-
-
 def setup(app: Sphinx) -> dict[str, Any]:
     """Listen to what Sphinx does."""
     # Before Sphinx collects what is to be downloaded.
@@ -41,8 +37,8 @@ def _as_in_the_files(app: Sphinx, document: nodes.document) -> None:
         if target in PAGES:
             up = "../" * name.count("/")
             link.replace_self(nodes.reference("", "", *link.children, refuri=up + target))
-        elif target in GALLERY or (target.startswith("gallery/") and target.endswith(".py")):
-            where = "/docs/" + GALLERY.get(target, target.removesuffix(".py"))
+        elif target.startswith("gallery/") and target.endswith(".py"):
+            where = "/docs/" + target.removesuffix(".py")
             page = addnodes.pending_xref(
                 "",
                 *link.children,
