@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Where, Whole
-from vibroimpact.cli.parameters import PARAMETERS, option_range
+from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import StateOptions
 from vibroimpact.errors import InputError
 
@@ -16,28 +16,15 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 _SHARES = Group("Shares", sort_key=1)
-_WITH_UNITS = Parameter(group=_SHARES, allow_leading_hyphen=True)
 
 
 def basin_stability(
     rig: RigName,
     /,
     *,
-    parameter: Annotated[
-        str, Parameter(group=_SHARES, help=f"What is varied, if the rig has it: {PARAMETERS}.")
-    ] = "frequency",
-    start: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(
-            name="--from", help="Least value; of a frequency that of the sweep, as for branch."
-        ),
-    ] = None,
-    stop: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(name="--to", help="Largest value; of a frequency that of the sweep."),
-    ] = None,
+    parameter: Annotated[Varied, Parameter(group=_SHARES)] = "frequency",
+    start: Annotated[Least, Parameter(group=_SHARES)] = None,
+    stop: Annotated[Largest, Parameter(group=_SHARES)] = None,
     steps: Annotated[
         Whole, Parameter(group=_SHARES, help="How many values, both ends included.")
     ] = 25,

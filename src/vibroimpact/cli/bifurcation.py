@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Where, Whole
-from vibroimpact.cli.parameters import PARAMETERS, option_range
+from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import forcing
 from vibroimpact.errors import InputError
 
@@ -31,22 +31,9 @@ def bifurcation(
     rig: RigName,
     /,
     *,
-    parameter: Annotated[
-        str,
-        Parameter(group=_DIAGRAM, help=f"What is varied, if the rig has it: {PARAMETERS}."),
-    ] = "frequency",
-    start: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(
-            name="--from", help="Least value; of a frequency that of the sweep, as for branch."
-        ),
-    ] = None,
-    stop: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(name="--to", help="Largest value; of a frequency that of the sweep."),
-    ] = None,
+    parameter: Annotated[Varied, Parameter(group=_DIAGRAM)] = "frequency",
+    start: Annotated[Least, Parameter(group=_DIAGRAM)] = None,
+    stop: Annotated[Largest, Parameter(group=_DIAGRAM)] = None,
     steps: Annotated[
         Whole, Parameter(group=_DIAGRAM, help="How many values, both ends included.")
     ] = 401,

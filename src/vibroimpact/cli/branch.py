@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
-from vibroimpact.cli.parameters import PARAMETERS, option_range
+from vibroimpact.cli.parameters import Varied, option_range
 from vibroimpact.cli.states import state
 from vibroimpact.errors import InputError
 from vibroimpact.stability.labels import Quantity
@@ -31,13 +31,7 @@ def branch(
     rig: RigName,
     /,
     *,
-    parameter: Annotated[
-        str,
-        Parameter(
-            group=_BRANCH,
-            help=f"What is varied, if the rig has it: {PARAMETERS}.",
-        ),
-    ] = "frequency",
+    parameter: Annotated[Varied, Parameter(group=_BRANCH)] = "frequency",
     start: Annotated[
         str | None,
         _WITH_UNITS,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
 
 from vibroimpact.errors import InputError
 
@@ -21,6 +23,24 @@ PARAMETERS = (
     "gap-ratio, relaxation-time, damping-ratio"
 )
 """Those of the registry, written out: help loads nothing that computes."""
+
+Varied = Annotated[str, Parameter(help=f"What is varied, if the rig has it: {PARAMETERS}.")]
+Least = Annotated[
+    str | None,
+    Parameter(
+        name="--from",
+        allow_leading_hyphen=True,
+        help="Least value; of a frequency that of the sweep, as for branch.",
+    ),
+]
+Largest = Annotated[
+    str | None,
+    Parameter(
+        name="--to",
+        allow_leading_hyphen=True,
+        help="Largest value; of a frequency that of the sweep.",
+    ),
+]
 
 
 def option_range(
