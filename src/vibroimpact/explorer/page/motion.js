@@ -2,7 +2,15 @@
 
 import { Chart, element, range } from "./plot.js";
 
-const SLOW = 0.25; // of a second of the rig in a second of the page, so that impacts can be seen
+// Of a second of the rig in a second of the page, so that impacts can be seen; and seconds of the page
+// that a forcing cycle takes at least.
+const SLOW = 0.25;
+const CYCLE = 0.5;
+// A page that was not looked at for longer (s) goes on where it was.
+const PAUSE = 0.25;
+// Of a knock: how loud the hardest is, and what is no longer heard.
+const LOUD = 0.25;
+const FAINT = 0.003;
 
 export class Motion {
   constructor() {
@@ -20,7 +28,8 @@ export class Motion {
     this.play = document.getElementById("play");
     this.play.checked = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.sound = document.getElementById("sound");
-    this.begun = performance.now();
+    this.sound.addEventListener("change", () => this.listen(this.sound.checked));
+    this.passed = 0; // of the rig's time (s)
     requestAnimationFrame((now) => this.frame(now));
   }
 
@@ -72,15 +81,17 @@ export class Motion {
   // The mass where it is now; time goes on while it is looked at.
   frame(now) {
     requestAnimationFrame((next) => this.frame(next));
+    const since = Math.min((now - (this.before ?? now)) / 1000, PAUSE);
+    this.before = now;
     const { picture } = this;
     if (!picture || !this.across || document.hidden) return;
     const { time, displacement, right, left, contact } = picture;
     const length = time.at(-1) - time[0];
     if (!(length > 0)) return;
-    const passed = this.play.checked ? ((now - this.begun) / 1000) * SLOW : (this.halted ?? 0);
-    this.halted = passed;
-    if (!this.play.checked) this.begun = now - (passed / SLOW) * 1000;
-    const share = (passed / length) % 1;
+    const pace = Math.min(SLOW, 1 / (CYCLE * picture.frequency));
+    const begun = this.passed;
+    if (this.play.checked) this.passed += pace * since;
+    const share = (this.passed / length) % 1;
     const i = Math.min(Math.floor(share * (time.length - 1)), time.length - 1);
     const [low, high] = this.across;
     const half = 26;
@@ -92,32 +103,40 @@ export class Motion {
     this.parts.left.setAttribute("d", left ? `M${x(left[i]) - half} 34h-400v30h400z` : "");
     const side = contact[i];
     this.parts.spark.setAttribute("d", side ? `M${at + (side === -1 ? -half - 5 : half - 1)} 28h6v42h-6z` : "");
-    this.beat(share * length, length);
+    if (this.sound.checked && this.audio?.state === "running") this.beat(begun, this.passed, pace);
   }
 
-  // A short tone for each contact that has begun since the last frame, louder for a faster one.
-  beat(now, length) {
-    const before = this.heard ?? now;
-    this.heard = now;
-    if (!this.sound.checked || !this.play.checked || !this.picture.hits) return;
-    const [first] = this.picture.time;
-    const fastest = Math.max(...this.picture.hits.map((hit) => Math.abs(hit.speed)), 1e-9);
-    for (const hit of this.picture.hits) {
-      const when = (((hit.time - first) % length) + length) % length;
-      const passed = before <= now ? when > before && when <= now : when > before || when <= now;
-      if (passed) this.knock(hit.side, Math.abs(hit.speed) / fastest);
+  // A browser lets a page be heard only from where the user has asked for it.
+  listen(on) {
+    this.audio ??= new AudioContext();
+    if (on) this.audio.resume();
+    else this.audio.suspend();
+  }
+
+  // A short tone for each contact that begins within this stretch of the rig's time.
+  beat(begun, ended, pace) {
+    const { time, velocity, hits } = this.picture;
+    const length = time.at(-1) - time[0];
+    const fastest = Math.max(...velocity.map(Math.abs));
+    for (const hit of hits ?? []) {
+      const when = hit.time - time[0];
+      // In how many periods from the first it comes within the stretch for the first time.
+      for (let n = Math.ceil((begun - when) / length); when + n * length < ended; n++)
+        this.knock(hit.side, hit.speed / fastest, (when + n * length - begun) / pace);
     }
   }
 
-  knock(side, loudness) {
-    this.audio ??= new AudioContext();
-    const { currentTime } = this.audio;
+  // A share of the mass's largest speed is how loud it is, so that a grazing contact is hardly heard.
+  knock(side, share, delay) {
+    const loudness = LOUD * Math.min(share, 1);
+    if (!(loudness > FAINT)) return;
+    const start = this.audio.currentTime + delay;
     const [tone, gain] = [this.audio.createOscillator(), this.audio.createGain()];
     tone.frequency.value = side > 0 ? 330 : 220;
-    gain.gain.setValueAtTime(0.25 * Math.max(loudness, 0.05), currentTime);
-    gain.gain.exponentialRampToValueAtTime(1e-4, currentTime + 0.12);
+    gain.gain.setValueAtTime(loudness, start);
+    gain.gain.exponentialRampToValueAtTime(1e-4, start + 0.12);
     tone.connect(gain).connect(this.audio.destination);
-    tone.start();
-    tone.stop(currentTime + 0.13);
+    tone.start(start);
+    tone.stop(start + 0.13);
   }
 }

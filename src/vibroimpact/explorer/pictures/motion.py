@@ -48,7 +48,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 
 def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
-    """Return the motion named and measured."""
+    """Return the motion named and measured, with the impacts (mm/s) of what is drawn."""
     shaken, section, _ = at(state, data)
     motion = steady(
         state.oscillator, shaken, section, _SAMPLES, window=_WINDOW, exponent_cycles=_GROWTH
@@ -61,13 +61,14 @@ def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
         "table": as_text(told.text({shaken.frequency: {"motion": motion}}), WIDTH),
         "spectrum": _spectrum(motion),
         "hits": [
-            {"time": one(start), "side": int(side), "speed": one(speed)}
+            {"time": one(start), "side": int(side), "speed": one(1e3 * speed)}
             for start, side, speed in zip(
                 motion["contact_start"].values,
                 motion["contact_side"].values,
                 motion["contact_closing_speed"].values,
                 strict=True,
             )
+            if start < drawn["time"].values[-1]
         ],
     }
 
