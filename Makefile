@@ -73,8 +73,8 @@ dist: $(VENV)/.installed-release
 	$(BIN)/python -m twine check --strict dist/*
 	$(BIN)/python tests/distribution.py dist $(PYTHONS)
 
-# What pip builds the package with is pinned too: hatchling, and editables, which hatchling asks
-# for when pip installs with -e. The oldest Python needs the most packages.
+# What pip builds the package with is pinned too: hatchling, its plugin, and editables, which hatchling
+# asks for when pip installs with -e. The oldest Python needs the most packages.
 pins:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' || { \
 	    echo 'make: pins are made with the oldest Python that is supported;' \
@@ -82,8 +82,8 @@ pins:
 	rm -rf $(VENV)-pins
 	$(PYTHON) -m venv $(VENV)-pins
 	PIP_CONSTRAINT= PIP_BUILD_CONSTRAINT= \
-	    $(VENV)-pins/bin/python -m pip install -q -U setuptools hatchling editables \
-	    '.[test,lint,docs,bench,release]'
+	    $(VENV)-pins/bin/python -m pip install -q -U setuptools hatchling hatch-fancy-pypi-readme \
+	    editables '.[test,lint,docs,bench,release]'
 	$(VENV)-pins/bin/python -m pip freeze --all --exclude pip --exclude vibroimpact > $(VENV)-pins/constraints.txt
 	@! grep -vE '^[A-Za-z0-9._-]+==[A-Za-z0-9.!+_-]+$$' $(VENV)-pins/constraints.txt || { \
 	    echo 'make: these are not plain name==version lines' >&2; exit 1; }

@@ -9,6 +9,7 @@ tests that take little time.
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import tarfile
@@ -25,6 +26,8 @@ QUICK = (
     "tests/cli/test_cache.py",
     "tests/response/test_files.py",
 )
+# Make's constraints are a relative path; here they are named in full.
+WITHHELD = ("PYTHON", "PIP_CONSTRAINT", "PIP_BUILD_CONSTRAINT")
 NEEDED = ("pytest", "hypothesis", "mpmath", "pyyaml", "mypy")
 
 
@@ -37,7 +40,7 @@ def tracked(*under: str) -> set[str]:
 
 
 def check_contents(wheel: Path, sdist: Path) -> None:
-    """Refuse a file too many or too few."""
+    """Refuse a file too many or too few, and links that lead nowhere on an index."""
     inside = set(zipfile.ZipFile(wheel).namelist())
     code = {name.removeprefix("src/") for name in tracked("src")}
     about = {name for name in inside if ".dist-info/" in name}
@@ -45,6 +48,11 @@ def check_contents(wheel: Path, sdist: Path) -> None:
     files = {name.partition(".dist-info/")[2] for name in about}
     assert files == {"METADATA", "RECORD", "WHEEL", "entry_points.txt", "licenses/LICENSE"}, files
     assert wheel.name.endswith("-py3-none-any.whl"), wheel.name
+    (metadata,) = (name for name in about if name.endswith("/METADATA"))
+    description = zipfile.ZipFile(wheel).read(metadata).decode()
+    dead = re.findall(r"\]\((?!https?:)[^)]*\)", description)
+    assert "## In Python" in description
+    assert not dead, dead
     with tarfile.open(sdist) as packed:
         names = {one.name.partition("/")[2] for one in packed.getmembers() if one.isfile()}
     assert names == tracked() | {"PKG-INFO"}, names ^ tracked()
@@ -63,7 +71,7 @@ def try_out(wheel: Path, python: str) -> None:
             "VIBROIMPACT_CACHE_DIR": str(place / "compiled"),
         }
         environment = {
-            **{name: v for name, v in os.environ.items() if not name.startswith("PYTHON")},
+            **{name: v for name, v in os.environ.items() if not name.startswith(WITHHELD)},
             **outside,
         }
 

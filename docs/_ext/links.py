@@ -1,7 +1,7 @@
 """Links that read well in the plain files, made right for the site.
 
-A link to a script of the gallery leads to its page, one to an HTML file to that file, and one to a
-folder is only its text.
+A link to the gallery or to a script of it leads to its page, one to an HTML file to that file, and
+one to another folder is only its text.
 """
 
 from __future__ import annotations
@@ -29,27 +29,38 @@ def setup(app: Sphinx) -> dict[str, Any]:
 def _as_in_the_files(app: Sphinx, document: nodes.document) -> None:
     name = app.env.docname
     for link in list(document.findall(addnodes.pending_xref)):
-        if Path(app.srcdir, name).parent.joinpath(link["reftarget"]).is_dir():
-            link.replace_self(link.children)
+        target = _target(app, link)
+        if Path(app.srcdir, target).is_dir():
+            in_gallery = target.split("/")[0] == "gallery"
+            new = [_page(link, f"/docs/{target}/index", name)] if in_gallery else link.children
+            link.replace_self(new)
     for link in list(document.findall(addnodes.download_reference)):
-        target, _ = app.env.relfn2path(link["reftarget"], name)
-        target = PurePosixPath(target).as_posix()
+        target = _target(app, link)
         if target in PAGES:
             up = "../" * name.count("/")
             link.replace_self(nodes.reference("", "", *link.children, refuri=up + target))
         elif target.startswith("gallery/") and target.endswith(".py"):
-            where = "/docs/" + target.removesuffix(".py")
-            page = addnodes.pending_xref(
-                "",
-                *link.children,
-                refdomain="std",
-                reftype="doc",
-                reftarget=where,
-                refdoc=name,
-                refexplicit=True,
-                refwarn=True,
-            )
-            link.replace_self(page)
+            link.replace_self(_page(link, "/docs/" + target.removesuffix(".py"), name))
+
+
+def _target(app: Sphinx, link: nodes.Element) -> str:
+    """What a link leads to, from the repository's root."""
+    target, _ = app.env.relfn2path(link["reftarget"], app.env.docname)
+    return PurePosixPath(target).as_posix()
+
+
+def _page(link: nodes.Element, where: str, name: str) -> nodes.Node:
+    """The same link to a page of the site."""
+    return addnodes.pending_xref(
+        "",
+        *link.children,
+        refdomain="std",
+        reftype="doc",
+        reftarget=where,
+        refdoc=name,
+        refexplicit=True,
+        refwarn=True,
+    )
 
 
 def _pages(app: Sphinx, error: Exception | None) -> None:

@@ -9,7 +9,8 @@ flies free until it cannot. Between the two jumps, shaded, two motions exist at 
 import vibroimpact as vi
 from vibroimpact.figures import resonance_curves
 
-case = vi.laboratory.case("B2-G1-A3")  # a published rig: bumper 2, gap 1, acceleration 3
+# A published rig: bumper 2, gap 1, acceleration 3.
+case = vi.laboratory.case("B2-G1-A3")
 curves = vi.sweep(case, [k / 50 for k in range(25, 201)])
 resonance_curves(curves)
 

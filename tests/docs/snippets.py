@@ -122,5 +122,5 @@ def _renew(page: Path) -> None:
 
 
 if __name__ == "__main__":
-    for path in [Path(word) for word in sys.argv[1:]] or PAGES:
+    for path in [Path(word).resolve() for word in sys.argv[1:]] or PAGES:
         _renew(path)

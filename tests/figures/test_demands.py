@@ -40,5 +40,19 @@ def test_fragility_curves() -> None:
     assert at == pytest.approx(0.5, abs=1e-3)
     np.testing.assert_array_equal(marks.get_ydata(), found["probability"])
     assert len(ax.collections) == 1
+    _, band, share = (text.get_text() for text in ax.get_legend().get_texts())
+    assert (band, share) == ("its 90 % band", "share of the records")
     with pytest.raises(vi.InputError, match=r"^fragility: this is no fragility"):
         fragility_curves(data)
+
+
+def test_accelerations_are_drawn_in_g() -> None:
+    data = lognormal(np.random.default_rng(1), 12, SCALES, 0.4)
+    data["scale"].attrs["units"] = "m/s^2"
+    found = vi.fragility(data, "peak_displacement", 1.0)
+    ax = fragility_curves(found)
+    assert ax.get_xlabel().endswith("(g)")
+    np.testing.assert_allclose(ax.lines[1].get_xdata(), SCALES / 9.80665)
+    median = float(found["median_capacity"]) / 9.80665
+    assert f"= {median:.3g} g" in ax.get_legend().get_texts()[0].get_text()
+    np.testing.assert_allclose(incremental_curves(data).lines[0].get_xdata(), SCALES / 9.80665)

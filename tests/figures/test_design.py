@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 
@@ -30,6 +32,14 @@ def test_contours_over_two_parameters(data) -> None:
     at = np.argwhere(data["pareto"].transpose("bumper_stiffness", "gap").values)
     np.testing.assert_allclose(dots.get_xdata(), 1e3 * GAPS[at[:, 1]])
     np.testing.assert_allclose(dots.get_ydata(), 1e-3 * STIFFNESSES[at[:, 0]])
+
+
+def test_numbers_of_contours_stand_apart_and_inside(data) -> None:
+    for ax in design_chart(data):
+        boxes = [text.get_window_extent() for text in ax.texts]
+        assert len(boxes) > 3
+        assert not any(a.overlaps(b) for a, b in combinations(boxes, 2))
+        assert all(ax.bbox.x0 < box.x0 and box.x1 < ax.bbox.x1 for box in boxes)
 
 
 def test_the_line_where_nothing_is_hit_is_on_the_safe_side(data) -> None:

@@ -6,7 +6,7 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from vibroimpact.errors import InputError
@@ -162,7 +162,6 @@ def test_bad_scales(scales, message):
         from_dimensionless(20.0, 0.5, 0.01, 0.15, **scales)
 
 
-@settings(deadline=None)
 @given(peaked, sides, sides, scale, scale, scale)
 def test_dimensionless_to_physical_and_back(damping_ratio, right, left, mass, stiffness, amplitude):
     group = Dimensionless(damping_ratio, right, left)
@@ -172,7 +171,6 @@ def test_dimensionless_to_physical_and_back(damping_ratio, right, left, mass, st
     assert same_side(back.left, left)
 
 
-@settings(deadline=None)
 @given(
     st.builds(Isolator, scale, st.just(0.0)),
     peaked,

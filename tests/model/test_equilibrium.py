@@ -1,7 +1,7 @@
 """Where the mass stays while nothing shakes it."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from vibroimpact.errors import InputError
@@ -68,7 +68,6 @@ gaps = st.floats(-2.0, 2.0, allow_subnormal=False)
 stops = st.none() | st.builds(Bumper, stiffnesses, st.just(0.0), gaps)
 
 
-@settings(deadline=None)
 @given(stiffnesses, stops, stops)
 def test_forces_balance(stiffness, right, left):
     u = equilibrium(Oscillator(1.0, Isolator(stiffness, 0.0), right, left)).displacement

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from vibroimpact.errors import InputError
@@ -174,7 +174,6 @@ positive = st.floats(min_value=1e-100, max_value=1e100)
 not_negative = st.floats(min_value=0.0, max_value=1e100)
 
 
-@settings(deadline=None)
 @given(positive, not_negative, not_negative)
 def test_repr_gives_back_every_digit(stiffness, damping, gap):
     bumper = Bumper(stiffness, damping, gap)

@@ -31,7 +31,7 @@ def returned(mass: float, stiffness: float, damping: float) -> mpf:
     return -mp.exp(-beta * t) * v
 
 
-@settings(deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(
     st.floats(1e-12, 1.0, exclude_max=True),
     st.floats(-3, 6).map(lambda x: 10.0**x),

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from vibroimpact.errors import InputError
@@ -268,7 +268,6 @@ def test_pretty(value, quantity, text):
     assert pretty(value, quantity) == text
 
 
-@settings(deadline=None)
 @given(
     st.sampled_from(QUANTITIES),
     st.floats(min_value=1e-12, max_value=1e12),
@@ -279,7 +278,6 @@ def test_pretty_text_reads_back(quantity, size, sign):
     assert to_si(pretty(value, quantity), quantity, "x") == pytest.approx(value, rel=1e-5)
 
 
-@settings(deadline=None)
 @given(
     st.sampled_from(QUANTITIES),
     st.floats(min_value=1e-9, max_value=1e9),
@@ -294,7 +292,6 @@ def test_what_is_printed_reads_back_to_its_digits(quantity, size, digits):
         assert "e" not in text.split()[0]
 
 
-@settings(deadline=None)
 @given(st.floats(allow_nan=False, allow_infinity=False), st.sampled_from(QUANTITIES))
 def test_a_float_passes_unchanged(value, quantity):
     assert to_si(value, quantity, "x") == value
@@ -309,13 +306,11 @@ def check_read_or_refused(text, quantity):
     assert "\n" not in outcome if isinstance(outcome, str) else math.isfinite(outcome)
 
 
-@settings(deadline=None)
 @given(st.text(max_size=30), st.sampled_from(QUANTITIES))
 def test_any_text_is_read_or_refused(text, quantity):
     check_read_or_refused(text, quantity)
 
 
-@settings(deadline=None)
 @given(
     st.from_regex(r"[0-9][0-9.e]{0,3} ?[mskgNHz/*^ ()0-9-]{0,12}", fullmatch=True),
     st.sampled_from(QUANTITIES),

@@ -16,7 +16,7 @@ def sine(*parameters) -> Shaken:
     return one_sine(*vi.from_dimensionless(*parameters), "rig")
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     ratio=st.floats(0.3, 100.0),
     gap=st.floats(0.05, 1.0),

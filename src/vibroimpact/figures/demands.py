@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motions import axes_or_new
-from vibroimpact.figures.style import LEGEND, also_in_g
-from vibroimpact.model import to_si
+from vibroimpact.figures.style import LEGEND
+from vibroimpact.model import GRAVITY, to_si
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.seismic.suites import fractiles, known
 
@@ -17,7 +19,7 @@ _LABELS = {
     "peak_displacement": (1e3, "largest $|u|$ (mm)"),
     "peak_displacement_right": (1e3, "largest $u$ (mm)"),
     "peak_displacement_left": (1e3, "largest $-u$ (mm)"),
-    "peak_acceleration": (1.0, "largest $|\\ddot u + A_t|$ (m/s²)"),
+    "peak_acceleration": (1.0 / GRAVITY, "largest $|\\ddot u + A_t|$ (g)"),
     "peak_force": (1e-3, "largest contact force (kN)"),
     "peak_force_right": (1e-3, "largest force of the right stop (kN)"),
     "peak_force_left": (1e-3, "largest force of the left stop (kN)"),
@@ -59,7 +61,8 @@ def incremental_curves(
     _one_rig(values, "demands")
     ax = axes_or_new(ax, (5.6, 4.0), title)
     factor, label = _LABELS.get(quantity, (1.0, _plain_label(demands, quantity)))
-    level = demands["scale"].values
+    unit, symbol = _level_unit(demands)
+    level = unit * demands["scale"].values
     for one in values.transpose("record", "scale").values:
         finite = np.where(np.isfinite(one), one, np.nan)
         ax.plot(level, factor * finite, color="0.75", linewidth=0.6, zorder=2)
@@ -79,10 +82,8 @@ def incremental_curves(
         ax.axhline(factor * limit, color="#c8102e", linestyle=":", linewidth=1.2, label="limit")
     ax.set_xlim(level[0], level[-1])
     ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    ax.set_xlabel(_scale_label(demands))
+    ax.set_xlabel(_level_label(demands, symbol))
     ax.set_ylabel(label)
-    if quantity == "peak_acceleration":
-        also_in_g(ax)
     ax.legend(ncols=4, **LEGEND)
     return ax
 
@@ -90,7 +91,9 @@ def incremental_curves(
 def fragility_curves(
     fragility: xr.Dataset, ax: Axes | None = None, *, title: str | None = None
 ) -> Axes:
-    """Draw a fragility curve with its confidence band over the shares of the records.
+    """Draw a fragility curve, its confidence band, and the shares of the records as marks.
+
+    The legend has its median θ and its dispersion β.
 
     Parameters
     ----------
@@ -117,7 +120,8 @@ def fragility_curves(
             "one dim, are accepted"
         )
     ax = axes_or_new(ax, (5.6, 4.0), title)
-    level = fragility["scale"].values
+    unit, symbol = _level_unit(fragility)
+    level = unit * fragility["scale"].values
     fine = np.geomspace(level[0], level[-1], 400)
     every = (
         [(None, fragility)]
@@ -125,8 +129,8 @@ def fragility_curves(
         else [(one, fragility.sel({others[0]: one})) for one in fragility[others[0]].values]
     )
     for (name, one), (colour, dashes, mark) in zip(every, _LOOKS, strict=False):
-        median, spread = float(one["median_capacity"]), float(one["dispersion"])
-        words = f"$\\theta$ = {median:.3g}, $\\beta$ = {spread:.2g}"
+        median, spread = unit * float(one["median_capacity"]), float(one["dispersion"])
+        words = f"$\\theta$ = {median:.3g} {symbol}".rstrip() + f", $\\beta$ = {spread:.2g}"
         if name is not None:
             words = f"{_value(fragility, others[0], name)}: {words}"
         ax.plot(
@@ -139,7 +143,11 @@ def fragility_curves(
             zorder=3,
         )
         lower, upper = one["fitted_probability_bound"].transpose("bound", "scale").values
-        ax.fill_between(level, lower, upper, color=colour, alpha=0.15, linewidth=0.0, zorder=1)
+        sure = 100.0 * json.loads(fragility.attrs["parameters"])["confidence"]
+        band = f"its {sure:g} % band" if name is None else None
+        ax.fill_between(
+            level, lower, upper, color=colour, alpha=0.15, linewidth=0.0, label=band, zorder=1
+        )
         ax.plot(
             level,
             one["probability"].values,
@@ -148,13 +156,15 @@ def fragility_curves(
             markersize=4.0,
             color=colour,
             markerfacecolor="none",
+            label="share of the records" if name is None else None,
+            clip_on=False,
             zorder=4,
         )
     ax.set_xlim(level[0], level[-1])
     ax.set_ylim(-0.02, 1.02)
-    ax.set_xlabel(_scale_label(fragility))
+    ax.set_xlabel(_level_label(fragility, symbol))
     ax.set_ylabel("probability of exceeding the limit (–)")
-    ax.legend(ncols=1 if others else 2, **LEGEND)
+    ax.legend(ncols=1 if others else 3, **LEGEND)
     return ax
 
 
@@ -193,6 +203,10 @@ def _plain_label(data: xr.Dataset, quantity: str) -> str:
     return f"{about['long_name']} ({unit})"
 
 
-def _scale_label(data: xr.Dataset) -> str:
-    about = data["scale"].attrs
-    return f"{about['long_name']} ({'–' if about['units'] == '1' else 'm/s²'})"
+def _level_unit(data: xr.Dataset) -> tuple[float, str]:
+    """Factor and unit in which levels are drawn: accelerations as multiples of gravity."""
+    return (1.0, "") if data["scale"].attrs["units"] == "1" else (1.0 / GRAVITY, "g")
+
+
+def _level_label(data: xr.Dataset, symbol: str) -> str:
+    return f"{data['scale'].attrs['long_name']} ({symbol or '–'})"

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.labels import Names
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND, panels
 from vibroimpact.model import GRAVITY
@@ -262,15 +263,19 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
     x, y = _axis(ax.xaxis, data[first]), _axis(ax.yaxis, data[second])
     values = np.ma.masked_invalid(factor * data[name].values)
     ax.set_title(label, fontsize="medium")
+    levels: list[tuple[float, Any]] = []
     if np.ptp(values.compressed()) > 1e-9 * np.abs(values).max():
         filled = ax.contourf(x, y, values, levels=_LEVELS, cmap="YlGnBu", alpha=0.55, zorder=1)
         lines = ax.contour(x, y, values, levels=filled.levels, colors="0.15", linewidths=0.7)
-        ax.clabel(lines, fontsize="small", fmt=lambda level: f"{level:.3g}")
+        levels = list(zip(lines.levels, lines.allsegs, strict=True))
     hits = (data["hitting"].values > 0.0).astype(float)
-    handles = []
+    handles, edges = [], []
     if 0.0 < hits.mean() < 1.0:
         # Through the designs that just hit nothing: never on the side of those that hit.
-        ax.contour(x, y, hits, levels=[1e-3], colors="#c8102e", linewidths=2.0, linestyles="--")
+        edge = ax.contour(
+            x, y, hits, levels=[1e-3], colors="#c8102e", linewidths=2.0, linestyles="--"
+        )
+        edges = [Line2D(*part.T) for part in edge.allsegs[0]]
         handles.append(
             Line2D(
                 [],
@@ -293,6 +298,10 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
         label="beaten by no other",
         zorder=5,
     )
+    names = Names(ax, [dots, *edges])
+    for level, parts in levels:
+        for part in filter(len, parts):
+            names.write(part[:, 0], part[:, 1], f"{level:.3g}", "0.15", once=False)
     ax.legend(
         handles=[dots, *handles],
         loc="upper center",

@@ -21,8 +21,8 @@ _ON = 0.01
 """A curve that passes so close to a name has that name."""
 _STEP = 0.005
 """Spacing of the points that a curve is looked at."""
-_LETTER = 0.012
-"""Width of a letter."""
+_LETTER = 0.07
+"""Width of a letter, in inches."""
 
 
 class Names:
@@ -35,6 +35,7 @@ class Names:
         self.ax = ax
         ax.autoscale_view()  # which matplotlib would put off until it draws
         self._to_panel = ax.transData + ax.transAxes.inverted()
+        self._letter = _LETTER * ax.figure.dpi / ax.bbox.width
         self._names: list[_Array] = []
         self._marks = [
             spot for line in marks for spot in self._to_panel.transform(line.get_xydata())
@@ -49,7 +50,7 @@ class Names:
         at = self._visible(x, y)
         if once and any(np.hypot(*(at - spot).T).min(initial=np.inf) < _ON for spot in self._names):
             return
-        wide = _LETTER * len(name)
+        wide = self._letter * len(name)
         if len(at) * _STEP < 2.0 * wide:
             return
         for place in _PLACES:

@@ -45,7 +45,7 @@ def test_a_rising_zero_is_not_a_crossing() -> None:
 
 
 @given(st.lists(st.floats(-0.49, 0.49), min_size=1, max_size=6, unique=True))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_first_of_many(roots: list[float]) -> None:
     ordered = sorted(roots)
     if any(b - a < 1e-3 for a, b in pairwise(ordered)):

@@ -50,7 +50,7 @@ def test_it_is_what_following_leads_to(amplitude: float | str, load: float) -> N
         np.testing.assert_allclose(data["section"].values[:2], ended, rtol=0.0, atol=1e-12 * scale)
 
 
-@settings(max_examples=sample(400, 40), deadline=None)
+@settings(max_examples=sample(400, 40))
 @given(
     st.floats(0.01, 1.5),
     st.floats(0.005, 0.03),
