@@ -8,6 +8,7 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.response.threads import Stopped
 from vibroimpact.scenario.behind import primary_branch, with_folds, with_kinds
+from vibroimpact.scenario.curves import holds
 from vibroimpact.scenario.evidence import evidence
 
 
@@ -15,7 +16,7 @@ def looked_at(code: str, low: float, high: float, step: float):
     case = vi.laboratory.case(code)
     rig = case.oscillator, vi.Harmonic(case.amplitude, 1.0)
     data = vi.sweep(*rig, np.arange(round(low / step), round(high / step) + 1) * step)
-    return evidence(*rig, data, 0.01), rig, data
+    return evidence(*rig, data, 0.01), rig, holds(data)
 
 
 @pytest.fixture(scope="module")
@@ -24,22 +25,22 @@ def chaotic():
 
 
 def test_motions_that_are_not_periodic_are_named(chaotic):
-    found, rig, data = chaotic
+    found, rig, ended = chaotic
     assert any("not periodic" in item.kinds for item in found.irregular)
-    named = with_kinds(found, *rig, data)
+    named = with_kinds(found, *rig, ended)
     assert any("chaotic" in item.kinds for item in named.irregular)
     assert not any("quasi-periodic" in item.kinds for item in named.irregular)
 
 
 def test_a_motion_that_meets_the_event_limit_stays_unnamed(chaotic, monkeypatch):
     monkeypatch.setattr("vibroimpact.scenario.behind._MAX_EVENTS", 1)
-    found, rig, data = chaotic
-    named = with_kinds(found, *rig, data)
+    found, rig, ended = chaotic
+    named = with_kinds(found, *rig, ended)
     assert [item.kinds for item in named.irregular] == [item.kinds for item in found.irregular]
 
 
 def test_naming_ends_where_it_is_not_wanted_any_more(chaotic):
-    found, rig, data = chaotic
+    found, rig, ended = chaotic
     asked = []
 
     def check() -> None:
@@ -48,18 +49,18 @@ def test_naming_ends_where_it_is_not_wanted_any_more(chaotic):
             raise Stopped
 
     with pytest.raises(Stopped):
-        with_kinds(found, *rig, data, check=check)
+        with_kinds(found, *rig, ended, check=check)
 
 
 def test_folds_lie_where_the_sweeps_jump():
-    found, rig, data = looked_at("B2-G1-A3", 0.9, 4.0, 0.05)
-    exact = with_folds(found, *rig, data).folds
+    found, rig, ended = looked_at("B2-G1-A3", 0.9, 4.0, 0.05)
+    exact = with_folds(found, *rig, ended).folds
     (right,) = found.right
     assert right.below < exact[-2] < right.low
     assert right.high < exact[-1] < right.above
 
 
 def test_no_contact_no_branch():
-    found, rig, data = looked_at("B2-Ginf-A3", 0.9, 4.0, 0.1)
-    assert primary_branch(found, *rig, data) is None
-    assert with_folds(found, *rig, data).folds is None
+    found, rig, ended = looked_at("B2-Ginf-A3", 0.9, 4.0, 0.1)
+    assert primary_branch(found, *rig, ended) is None
+    assert with_folds(found, *rig, ended).folds is None

@@ -17,7 +17,7 @@ from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
+from vibroimpact.model import Oscillator, Repeated, State, to_si
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.rigs import (
@@ -30,15 +30,10 @@ from vibroimpact.model.rigs import (
     takes_rig,
 )
 from vibroimpact.response.cluster import THREADS, placed
-from vibroimpact.response.free_flight import (
-    check_each_bounded,
-    free_flight_excursions,
-    reference_excursions,
-)
 from vibroimpact.response.held import held
-from vibroimpact.response.own_flight import swept_flight
 from vibroimpact.response.reversal import judged
-from vibroimpact.response.start import as_state, engine_rig, engine_state
+from vibroimpact.response.rows import Patience, prepared, rows
+from vibroimpact.response.start import as_state
 from vibroimpact.response.threads import Progress, Tally, each
 from vibroimpact.response.variables import (
     COMPONENTS,
@@ -189,51 +184,16 @@ def sweeps(
     max_events = whole(max_events, "max_events")
     workers = placed(threads, where)
 
-    free = np.empty((2, len(pairs), len(grid)))
-    largest = np.empty((2, len(pairs)))
-    prepared = []
-    for r, (oscillator, shaken, sizes) in enumerate(pairs):
-        check_each_bounded(oscillator, shaken, grid)
-        levels = _levels(sizes, shaken, grid)
-        if oscillator.isolator.linear:
-            free[:, r] = free_flight_excursions(oscillator, shaken, grid)
-            free[:, r] *= levels / shaken.amplitude
-        else:
-            free[:, r] = swept_flight(oscillator, shaken, grid, levels)
-        largest[:, r] = reference_excursions(oscillator, shaken.replace(amplitude=levels.max()))
-        prepared.append(
-            (
-                engine_rig(oscillator, shaken),
-                levels,
-                engine_state(oscillator, state or equilibrium(oscillator)),
-            )
-        )
+    ready = [
+        prepared(oscillator, shaken, grid, sizes, state) for oscillator, shaken, sizes in pairs
+    ]
+    patience = Patience(angle, tolerance, max_cycles, window, max_events)
 
     def one(item: tuple[int, str], tally: Tally) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         r, direction = item
-        rig, levels, begin = prepared[r]
-        order = slice(None, None, 1 if direction == "forward" else -1)
-        found = np.empty((len(grid), hold.RESULTS))
-        reached = np.zeros((len(grid), layout.STATE))
-        batch.sweep(
-            rig,
-            np.ascontiguousarray(levels[order]),
-            np.ascontiguousarray(grid[order]),
-            angle,
-            begin.copy(),
-            tolerance,
-            max_cycles,
-            window,
-            max_events,
-            found,
-            reached,
-            tally,
-        )
-        return found[order], reached[order]
+        return rows(ready[r], direction, patience, tally)
 
-    batch.sweep.prepare(
-        *(rig for rig, _, _ in prepared)
-    )  # once, before the threads would queue for it
+    batch.sweep.prepare(*(one.rig for one in ready))  # once, before the threads would queue for it
     items = [(r, direction) for r in range(len(pairs)) for direction in directions]
     done = each(one, items, steps=len(grid) * len(items), threads=workers, progress=progress)
     shape = (len(pairs), len(directions), len(grid))
@@ -243,6 +203,8 @@ def sweeps(
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
         ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
         results[r][..., hold.OUTCOME] = ended
+    free = np.stack([one.free for one in ready], axis=1)
+    largest = np.stack([one.largest for one in ready], axis=1)
     data = held([oscillator for oscillator, _, _ in pairs], results, states, free, largest, angle)
     data = data.assign_coords(
         rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
@@ -299,20 +261,6 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
             "rising frequencies are accepted"
         )
     return grid
-
-
-def _levels(
-    sizes: tuple[float, ...] | None, shaken: Repeated, grid: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """The amplitude at each frequency."""
-    if sizes is None:
-        return np.full(len(grid), shaken.amplitude)
-    if len(sizes) != len(grid):
-        raise InputError(
-            f"amplitude: {len(sizes)} of them for {len(grid)} frequencies; one, or one for each "
-            "frequency, is accepted"
-        )
-    return np.array(sizes)
 
 
 def named_rigs(

@@ -9,8 +9,9 @@ import xarray as xr
 
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator
-from vibroimpact.response.start import as_state, engine_state
+from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.response.start import engine_state
+from vibroimpact.scenario.curves import DIRECTIONS, Holds
 from vibroimpact.scenario.evidence import Evidence, Irregular, Kind
 from vibroimpact.stability.branch import branch, turning_points
 from vibroimpact.stability.growth import judge_wandering
@@ -29,7 +30,7 @@ def with_kinds(
     found: Evidence,
     oscillator: Oscillator,
     shaken: Harmonic,
-    data: xr.Dataset,
+    ended: Holds,
     cycles: int = KIND_CYCLES,
     check: Check = lambda: None,
 ) -> Evidence:
@@ -38,7 +39,9 @@ def with_kinds(
     Of each range, the motion in its middle is named; one that no verdict was found for stays
     "not periodic". `check` is called before each that is followed, and may raise to end it.
     """
-    named = tuple(_named(item, oscillator, shaken, data, cycles, check) for item in found.irregular)
+    named = tuple(
+        _named(item, oscillator, shaken, ended, cycles, check) for item in found.irregular
+    )
     return found._replace(irregular=named)
 
 
@@ -46,18 +49,20 @@ def _named(
     item: Irregular,
     oscillator: Oscillator,
     shaken: Harmonic,
-    data: xr.Dataset,
+    ended: Holds,
     cycles: int,
     check: Check,
 ) -> Irregular:
     if item.not_periodic is None:
         return item
     check()
-    inside = data.sel(direction=item.direction, frequency=slice(*item.not_periodic))
-    wandering = np.flatnonzero(inside["period"].values == 0)
+    low, high = item.not_periodic
+    k = DIRECTIONS.index(item.direction)
+    inside = (low <= ended.frequency) & (ended.frequency <= high)
+    wandering = np.flatnonzero(inside & (ended.period[k] == 0))
     i = int(wandering[len(wandering) // 2])
-    start = as_state(inside["section"].isel(frequency=i, drop=True))
-    excitation = shaken.replace(frequency=float(inside["frequency"][i]), phase=start.phase or 0.0)
+    start = ended.state(item.direction, i)
+    excitation = shaken.replace(frequency=float(ended.frequency[i]), phase=start.phase or 0.0)
     state = engine_state(oscillator, start)
     followed = Settled(oscillator, excitation, state, 0, 0, Status.NOT_SETTLED)
     judged, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
@@ -72,18 +77,16 @@ def _named(
     )
 
 
-def with_folds(
-    found: Evidence, oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset
-) -> Evidence:
+def with_folds(found: Evidence, oscillator: Oscillator, shaken: Harmonic, ended: Holds) -> Evidence:
     """Find where the branch through the primary resonance turns back, where it can be followed."""
-    return found._replace(folds=_folds(oscillator, shaken, data, found))
+    return found._replace(folds=_folds(oscillator, shaken, ended, found))
 
 
 def _folds(
-    oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset, found: Evidence
+    oscillator: Oscillator, shaken: Harmonic, ended: Holds, found: Evidence
 ) -> tuple[float, ...] | None:
     """Where the branch through the primary resonance turns back (Hz), rising; None if unknown."""
-    first = _primary_orbit(found, shaken, data)
+    first = _primary_orbit(found, shaken, ended)
     if first is None:
         return None
     low, high = found.swept
@@ -95,14 +98,14 @@ def _folds(
 
 
 def primary_branch(
-    found: Evidence, oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset
+    found: Evidence, oscillator: Oscillator, shaken: Harmonic, ended: Holds
 ) -> xr.Dataset | None:
     """The branch of orbits through the primary resonance, over the frequencies that were swept.
 
     None where the mass hits no bumper, where the motion there is not of one forcing cycle, or
     where Newton's method finds no orbit, as on the edge of stability.
     """
-    first = _primary_orbit(found, shaken, data)
+    first = _primary_orbit(found, shaken, ended)
     if first is None:
         return None
     low, high = found.swept
@@ -113,13 +116,14 @@ def primary_branch(
 
 
 def _primary_orbit(
-    found: Evidence, shaken: Harmonic, data: xr.Dataset
-) -> tuple[Harmonic, xr.DataArray] | None:
+    found: Evidence, shaken: Harmonic, ended: Holds
+) -> tuple[Harmonic, State] | None:
     """The forcing at the primary resonance and the state there, where the branch begins."""
     tops = [p for p in found.peaks if p.primary and p.direction == "forward" and p.curve == "eta_a"]
     if found.contact is None or not tops:
         return None
-    hold = data.sel(direction="forward", frequency=tops[0].frequency)
-    if int(hold["period"]) != 1:
+    i = int(np.searchsorted(ended.frequency, tops[0].frequency))
+    if int(ended.period[0, i]) != 1:
         return None
-    return shaken.replace(frequency=tops[0].frequency, phase=0.0), hold["section"]
+    state = ended.state("forward", i)
+    return shaken.replace(frequency=tops[0].frequency, phase=0.0), state

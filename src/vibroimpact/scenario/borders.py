@@ -18,6 +18,7 @@ from vibroimpact.response.sweep import sweep
 from vibroimpact.response.variables import describe, excitation_from
 from vibroimpact.scenario.axes import Base, Shaken, one_sine
 from vibroimpact.scenario.behind import primary_branch
+from vibroimpact.scenario.curves import holds
 from vibroimpact.scenario.evidence import evidence
 from vibroimpact.scenario.frequencies import frequencies
 from vibroimpact.scenario.kinds import Scenario
@@ -101,7 +102,7 @@ def _cusp(rig: Shaken, along: str, value: float) -> float | None:
     data = sweep(oscillator, shaken, held)
     seen = evidence(oscillator, shaken, data, 0.02)
     try:
-        orbits = primary_branch(seen, oscillator, shaken, data)
+        orbits = primary_branch(seen, oscillator, shaken, holds(data))
         if orbits is None:
             return None
         kinds = orbits["bifurcation_kind"].values

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.response.peaks import Curve
-from vibroimpact.response.sweep import sweeps
 from vibroimpact.response.swept import Direction
-from vibroimpact.response.threads import Progress
+from vibroimpact.response.threads import Stopped, Tally
 from vibroimpact.scenario.axes import Shaken
 from vibroimpact.scenario.behind import with_folds, with_kinds
-from vibroimpact.scenario.evidence import Evidence, each_evidence
+from vibroimpact.scenario.curves import swept_alone
+from vibroimpact.scenario.evidence import Evidence, shown
 from vibroimpact.scenario.frequencies import cycles, grid, highest
 from vibroimpact.scenario.thresholds import Thresholds
 from vibroimpact.scenario.verdict import confidence, scenario
@@ -26,6 +26,8 @@ WINDOW = 100
 """Forcing cycles over which a motion that did not settle is measured."""
 KIND_CYCLES = 2000
 """Forcing cycles over which growth tells chaotic from quasi-periodic motions."""
+RIG = 10**9
+"""What a rig counts in a tally: more than its holds, which the sweeps count one by one."""
 
 Value = Callable[[Evidence, Thresholds], float]
 
@@ -64,24 +66,25 @@ def classified(
     thresholds: Thresholds,
     step: float,
     max_cycles: int | None,
-    progress: Progress | None = None,
+    tally: Tally | None = None,
 ) -> dict[str, NDArray[Any]]:
-    """Sweep some rigs of one natural frequency, on this thread, and name their scenarios.
+    """Sweep some rigs, on this thread, and name their scenarios.
 
     Returns
     -------
     dict
         ``scenario`` and the names of `VALUES` and `COUNTS`, each an array with a value a rig.
+
+    Raises
+    ------
+    Stopped
+        If the tally asks for it; a rig that is done counts as `RIG` in it.
     """
-    found: dict[int, Evidence] = {}
-    ways = [_way(rig, max_cycles) for rig in rigs]
-    for way in dict.fromkeys(ways):
-        mine = [i for i, own in enumerate(ways) if own == way]
-        high, waited = way
-        held = grid(high, step) * rigs[0].oscillator.natural_frequency
-        seen = _seen([rigs[i] for i in mine], held, thresholds, waited, progress)
-        found.update(zip(mine, seen, strict=True))
-    ordered = [found[i] for i in range(len(rigs))]
+    tally = np.zeros(2, dtype=np.int64) if tally is None else tally
+    ordered = []
+    for number, rig in enumerate(rigs, start=1):
+        ordered.append(_seen(rig, thresholds, step, max_cycles, tally))
+        tally[0] = number * RIG
     return {
         "scenario": np.array([scenario(one, thresholds) for one in ordered], dtype=np.int8),
         **{name: np.array([get(e, thresholds) for e in ordered]) for name, get in VALUES.items()},
@@ -92,28 +95,26 @@ def classified(
     }
 
 
-def _way(rig: Shaken, max_cycles: int | None) -> tuple[float, int]:
-    """Up to which frequency (over the natural one), and how long at most, a rig is swept."""
-    high = highest(*rig)
-    return high, cycles(*rig, high, MAX_CYCLES) if max_cycles is None else max_cycles
-
-
 def _seen(
-    rigs: list[Shaken],
-    held: NDArray[np.float64],
-    thresholds: Thresholds,
-    max_cycles: int,
-    progress: Progress | None,
-) -> Iterator[Evidence]:
-    """What the sweeps of some rigs over the same frequencies show."""
-    data = sweeps(rigs, held, max_cycles=max_cycles, window=WINDOW, threads=1, progress=progress)
-    few = data[["period", "section"]]  # selecting from all variables would take longer
-    for r, found in enumerate(each_evidence(rigs, data, 0.5 * thresholds.prominence)):
-        if any(item.not_periodic for item in found.irregular):
-            found = with_kinds(found, *rigs[r], few.isel(rig=r, drop=True), KIND_CYCLES)
-        if _rests_on_a_jump(found, thresholds):
-            found = with_folds(found, *rigs[r], few.isel(rig=r, drop=True))
-        yield found
+    rig: Shaken, thresholds: Thresholds, step: float, max_cycles: int | None, tally: Tally
+) -> Evidence:
+    """What the sweep of a rig shows, and the orbits behind it where the map needs them."""
+
+    def check() -> None:
+        if tally[1]:
+            raise Stopped
+
+    high = highest(*rig)
+    waited = cycles(*rig, high, MAX_CYCLES) if max_cycles is None else max_cycles
+    held = grid(high, step) * rig.oscillator.natural_frequency
+    curves, ended = swept_alone(rig, held, waited, WINDOW, tally)
+    check()
+    found = shown(rig, curves, 0.5 * thresholds.prominence)
+    found = with_kinds(found, *rig, ended, KIND_CYCLES, check)
+    if _rests_on_a_jump(found, thresholds):
+        check()
+        found = with_folds(found, *rig, ended)
+    return found
 
 
 def _rests_on_a_jump(found: Evidence, thresholds: Thresholds) -> bool:

@@ -15,6 +15,7 @@ from vibroimpact.response.sweep import sweep
 from vibroimpact.response.threads import Progress
 from vibroimpact.scenario.axes import one_sine
 from vibroimpact.scenario.behind import with_folds, with_kinds
+from vibroimpact.scenario.curves import holds
 from vibroimpact.scenario.evidence import Evidence, evidence
 from vibroimpact.scenario.frequencies import cycles, highest
 from vibroimpact.scenario.frequencies import frequencies as default_frequencies
@@ -129,15 +130,16 @@ def classify(
             "curves are looked at"
         )
     found = evidence(oscillator, peak, data, 0.5 * used.prominence)
-    holds = data.sizes["frequency"] * data.sizes["direction"]
+    total = data.sizes["frequency"] * data.sizes["direction"]
 
     def check() -> None:
         if progress is not None:
-            progress(holds, holds)  # which may raise, where the answer is not wanted any more
+            progress(total, total)  # which may raise, where the answer is not wanted any more
 
-    found = with_kinds(found, oscillator, peak, data, check=check)
+    ended = holds(data)
+    found = with_kinds(found, oscillator, peak, ended, check=check)
     check()
-    found = with_folds(found, oscillator, peak, data)
+    found = with_folds(found, oscillator, peak, ended)
     return Classification(
         scenario(found, used).label,
         confidence(found, used),

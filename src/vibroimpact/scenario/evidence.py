@@ -16,17 +16,14 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 import xarray as xr
 
-from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.response.free_flight import reference_excursions, resonance_ratio
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
-from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs, each_swept
+from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs
 from vibroimpact.scenario.axes import Shaken, at_rest, room
+from vibroimpact.scenario.curves import Curves, each_curves
 from vibroimpact.scenario.onset import foot_in_contact, onset, within
-
-UNEVEN = 1e-6
-"""Eccentricity, as a share of the excursion, that rounding does not explain."""
 
 KNOWN = 0.5
 """Share of the holds of either direction that must have a value."""
@@ -189,40 +186,14 @@ def each_evidence(
     rigs: Sequence[Shaken], data: xr.Dataset, prominence: float
 ) -> Iterator[Evidence]:
     """What the sweep of each rig of `sweeps` shows, one after the other."""
-    if data.sizes["direction"] != 2:
-        raise InputError(
-            f"data: the sweep went {data['direction'].values.tolist()}; one forward and backward "
-            "is accepted, for hysteresis is what tells the scenarios apart"
-        )
-    most = data["displacement_max"].max(["direction", "frequency"]).values
-    least = data["displacement_min"].min(["direction", "frequency"]).values
-    free = 0.5 * data["free_displacement_excursion"].values
-    order = ["rig", "direction", "frequency"]
-    ordered = data.sel(direction=["forward", "backward"]).transpose(*order, ...)
-    uneven = np.abs(ordered["eccentricity"].values) > UNEVEN * (
-        ordered["displacement_excursion"].values
-    )
-    for r, (rig, both) in enumerate(zip(rigs, each_swept(data), strict=True)):
-        yield _one(
-            rig,
-            both,
-            uneven[r] & rig.oscillator.symmetric,
-            free[r],
-            float(most[r]),
-            float(least[r]),
-            prominence,
-        )
+    for rig, curves in zip(rigs, each_curves(data), strict=True):
+        yield shown(rig, curves, prominence)
 
 
-def _one(
-    rig: Shaken,
-    both: Swept,
-    uneven: Flags,
-    free: Array,
-    most: float,
-    least: float,
-    prominence: float,
-) -> Evidence:
+def shown(rig: Shaken, curves: Curves, prominence: float) -> Evidence:
+    """What the curves of one rig show."""
+    both, uneven, free, most, least = curves
+    uneven = uneven & rig.oscillator.symmetric
     oscillator = rig.oscillator
     frequency = both.frequency
     rest = at_rest(oscillator)

@@ -15,10 +15,10 @@ from vibroimpact.model import from_dimensionless
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.rigs import AnyRig, as_rig
 from vibroimpact.response.cluster import THREADS, placed
-from vibroimpact.response.threads import Progress, Stopped, Tally, Workers, breadth, each
+from vibroimpact.response.threads import Progress, Tally, Workers, breadth, each
 from vibroimpact.response.variables import excitation_parameters, oscillator_parameters
 from vibroimpact.scenario.axes import Axis, Base, Shaken, axis, check_pair, one_sine
-from vibroimpact.scenario.cell import classified
+from vibroimpact.scenario.cell import RIG, classified
 from vibroimpact.scenario.frequencies import STEP
 from vibroimpact.scenario.nodes import UNKNOWN, Nodes, Scenarios
 from vibroimpact.scenario.store import MapStore, map_store
@@ -129,8 +129,8 @@ def scenario_map(
         start,
     )
 
-    def compute(rigs: list[Shaken], check: Progress) -> dict[str, NDArray[Any]]:
-        return classified(rigs, used, fine_step, max_cycles, check)
+    def compute(rigs: list[Shaken], tally: Tally) -> dict[str, NDArray[Any]]:
+        return classified(rigs, used, fine_step, max_cycles, tally)
 
     with map_store(store, fine, plan.chunk, refine + 1, settings) as held:
         if not held.finished():
@@ -163,7 +163,7 @@ class _Plan(NamedTuple):
         return self.base.rig({x.name: float(x.values[column]), y.name: float(y.values[row])})
 
 
-Compute = Callable[[list[Shaken], Progress], dict[str, NDArray[Any]]]
+Compute = Callable[[list[Shaken], Tally], dict[str, NDArray[Any]]]
 
 
 def _level(
@@ -215,17 +215,8 @@ def _parallel(
     few = max(1, min(_FEW, len(rigs) // (4 * breadth(workers))))
     parts = [rigs[i : i + few] for i in range(0, len(rigs), few)]
 
-    def task(part: list[Shaken], tally: Tally) -> dict[str, NDArray[Any]]:
-        def check(_done: int, _total: int | None) -> None:
-            if tally[1]:
-                raise Stopped
-
-        found = compute(part, check)
-        tally[0] = len(part)
-        return found
-
-    told = progress and (lambda done, _: progress(before + done, total))
-    results = each(task, parts, steps=len(rigs), threads=workers, progress=told)
+    told = progress and (lambda done, _: progress(before + done // RIG, total))
+    results = each(compute, parts, steps=len(rigs) * RIG, threads=workers, progress=told)
     return {name: np.concatenate([r[name] for r in results]) for name in results[0]}
 
 
