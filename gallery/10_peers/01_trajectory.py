@@ -18,7 +18,8 @@ ax = figure.subplots()
 colours = ["#1f4fbf" if "vibroimpact" in name else "0.65" for name in names]
 ax.barh(names, took, color=colours)
 for place, row in enumerate(table):
-    text = f" {took[place]:,.2f} µs, error {row['State error']}"
+    digits = 0 if took[place] > 100.0 else 2
+    text = f" {took[place]:,.{digits}f} µs, error {row['State error']}"
     ax.text(took[place], place, text, va="center", fontsize="small")
 ax.set_xscale("log")
 ax.set_xlim(0.1, 60.0 * max(took))

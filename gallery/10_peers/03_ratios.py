@@ -18,10 +18,13 @@ ax.hlines(range(len(names)), 1.0, ratios, color="0.8", linewidth=2.0)
 ax.plot(ratios, range(len(names)), "o", color="#1f4fbf")
 for place, ratio in enumerate(ratios):
     text = f"{ratio:,.0f}" if ratio > 100.0 else f"{ratio:.2g}"
-    ax.annotate(text, (ratio, place), (7, -3), textcoords="offset points", fontsize="small")
+    side, away = ("left", 7) if ratio > 1.0 else ("right", -7)
+    ax.annotate(
+        text, (ratio, place), (away, -3), textcoords="offset points", ha=side, fontsize="small"
+    )
 ax.axvline(1.0, color="black", linewidth=0.8)
 ax.set_xscale("log")
-ax.set_xlim(min(0.3, 0.5 * ratios[0]), 10.0 * ratios[-1])
+ax.set_xlim(0.2 * min(1.0, ratios[0]), 20.0 * ratios[-1])
 ax.set_yticks(range(len(names)), names, fontsize="small")
 ax.set_xlabel("time of the other over ours (–)")
 figure

@@ -9,6 +9,7 @@ from docs.check_links import broken
 
 from docs.snippets import ROOT
 
+CODE = re.compile(r"^(```+|~~~+).*?^\1", re.M | re.S)
 CONTENTS = re.compile(r"^```\{toctree\}\n(.*?)^```", re.M | re.S)
 
 
@@ -33,3 +34,14 @@ def test_every_page_stands_in_the_contents_of_another():
     }
     left = {str(page.with_suffix("")) for page in pages}
     assert {page for page in left if not any(fnmatch(page, entry) for entry in listed)} == set()
+
+
+def test_nothing_is_taken_for_a_comment_or_for_the_end_of_a_cell():
+    """A line that begins with % is not shown, and | ends a cell within a formula, too."""
+    for page in (ROOT / "docs").rglob("*.md"):
+        text = CODE.sub("", page.read_text(encoding="utf-8"))
+        for line in text.splitlines():
+            assert not line.lstrip().startswith("%"), f"{page.name}: {line}"
+            if line.startswith("|"):
+                cells = re.split(r"(?<!\\)\|", line)
+                assert not any(cell.count("$") % 2 for cell in cells), f"{page.name}: {line}"

@@ -151,9 +151,10 @@ def _label(one: xr.Dataset) -> str:
     if period:
         what = f"period {period}"
     size = 1e3 * float(one["displacement_excursion"])
+    wide = f"{size:.3g}" if size < 1000.0 else f"{size:.0f}"
     low, high = 100.0 * float(one["share_low"]), 100.0 * float(one["share_high"])
     return (
-        f"{int(one['attractor']) + 1}: {what}, {size:.3g} mm wide, "
+        f"{int(one['attractor']) + 1}: {what}, {wide} mm wide, "
         f"{100.0 * float(one['share']):.1f} % ({low:.1f}–{high:.1f})"
     )
 
