@@ -6,10 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, State
+from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State
 from vibroimpact.response.start import engine_state
 from vibroimpact.scenario.curves import DIRECTIONS, Holds
 from vibroimpact.scenario.evidence import Evidence, Irregular, Kind
@@ -22,6 +23,10 @@ KIND_CYCLES = 5000
 _LONGER = 20
 """How many times as long a motion is followed that seems quasi-periodic."""
 _MAX_EVENTS = 10_000
+_MANY, _SOON = 8, 300
+"""Motions of a range that do not settle, and forcing cycles that then are enough."""
+_RELAXATIONS = 20.0
+"""Relaxation times in a forcing cycle behind which a bumper has forgotten."""
 
 Check = Callable[[], None]
 
@@ -33,29 +38,55 @@ def with_kinds(
     ended: Holds,
     cycles: int = KIND_CYCLES,
     check: Check = lambda: None,
+    *,
+    brief: bool = False,
 ) -> Evidence:
     """Name the motions that are not periodic, by the growth of disturbances.
 
     Of each range, the motion in its middle is named; one that no verdict was found for stays
     "not periodic". `check` is called before each that is followed, and may raise to end it.
+
+    If `brief`, as a map counts them: of a range of the backward sweep that overlaps a chaotic one
+    of the forward sweep nothing is asked where only chaos could be found in it; and where many
+    motions of a range do not settle, so that it is no transient, growth is followed only until it
+    is plain.
     """
-    named = tuple(
-        _named(item, oscillator, shaken, ended, cycles, check) for item in found.irregular
+    named: list[Irregular] = []
+    for item in found.irregular:
+        told = brief and any(
+            "chaotic" in known.kinds and known.low <= item.high and item.low <= known.high
+            for known in named
+        )
+        if item.not_periodic is None or (told and _forgetful(oscillator, item.high)):
+            named.append(item)
+            continue
+        check()
+        kind = _kind(item, oscillator, shaken, ended, cycles, check, brief)
+        kinds = tuple(kind if known == "not periodic" else known for known in item.kinds)
+        named.append(item._replace(kinds=kinds))
+    return found._replace(irregular=tuple(named))
+
+
+def _forgetful(oscillator: Oscillator, frequency: float) -> bool:
+    """Whether all bumpers forget within a cycle: no motion is quasi-periodic (theory, 6.5)."""
+    return oscillator.isolator.linear and all(
+        isinstance(stop, RigidStop)
+        or (isinstance(stop, Bumper) and stop.damping * frequency * _RELAXATIONS <= stop.stiffness)
+        for stop in oscillator.stops
     )
-    return found._replace(irregular=named)
 
 
-def _named(
+def _kind(
     item: Irregular,
     oscillator: Oscillator,
     shaken: Harmonic,
     ended: Holds,
     cycles: int,
     check: Check,
-) -> Irregular:
-    if item.not_periodic is None:
-        return item
-    check()
+    brief: bool,
+) -> Kind:
+    """The kind of the motion in the middle of those of a range that are not periodic."""
+    assert item.not_periodic is not None
     low, high = item.not_periodic
     k = DIRECTIONS.index(item.direction)
     inside = (low <= ended.frequency) & (ended.frequency <= high)
@@ -63,18 +94,24 @@ def _named(
     i = int(wandering[len(wandering) // 2])
     start = ended.state(item.direction, i)
     excitation = shaken.replace(frequency=float(ended.frequency[i]), phase=start.phase or 0.0)
-    state = engine_state(oscillator, start)
-    followed = Settled(oscillator, excitation, state, 0, 0, Status.NOT_SETTLED)
-    judged, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
-    if status is Status.DONE and judged.motion == "quasi-periodic":
+    followed = Settled(
+        oscillator, excitation, engine_state(oscillator, start), 0, 0, Status.NOT_SETTLED
+    )
+
+    def judged(state: NDArray[np.float64], cycles: int) -> str:
+        told, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
+        return told.motion if status is Status.DONE else ""
+
+    if brief and len(wandering) >= _MANY and judged(followed.state.copy(), _SOON) == "chaotic":
+        return "chaotic"
+    state = followed.state.copy()
+    motion = judged(state, cycles)
+    if motion == "quasi-periodic":
         check()
         # A slow transient, or chaos that is slow to show, looks the same for a while.
-        judged, _, _, status = judge_wandering(followed, state, _LONGER * cycles, _MAX_EVENTS)
+        motion = judged(state, _LONGER * cycles)
     kinds: dict[str, Kind] = {"chaotic": "chaotic", "quasi-periodic": "quasi-periodic"}
-    kind = kinds.get(judged.motion, "not periodic") if status is Status.DONE else "not periodic"
-    return item._replace(
-        kinds=tuple(kind if known == "not periodic" else known for known in item.kinds)
-    )
+    return kinds.get(motion, "not periodic")
 
 
 def with_folds(found: Evidence, oscillator: Oscillator, shaken: Harmonic, ended: Holds) -> Evidence:

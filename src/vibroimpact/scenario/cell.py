@@ -110,7 +110,7 @@ def _seen(
     curves, ended = swept_alone(rig, held, waited, WINDOW, tally)
     check()
     found = shown(rig, curves, 0.5 * thresholds.prominence)
-    found = with_kinds(found, *rig, ended, KIND_CYCLES, check)
+    found = with_kinds(found, *rig, ended, KIND_CYCLES, check, brief=True)
     if _rests_on_a_jump(found, thresholds):
         check()
         found = with_folds(found, *rig, ended)
