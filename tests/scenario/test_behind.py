@@ -7,9 +7,10 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.response.threads import Stopped
-from vibroimpact.scenario.behind import primary_branch, with_folds, with_kinds
+from vibroimpact.scenario.behind import _SOON, KIND_CYCLES, primary_branch, with_folds, with_kinds
 from vibroimpact.scenario.curves import holds
 from vibroimpact.scenario.evidence import evidence
+from vibroimpact.stability.growth import judge_wandering
 
 
 def looked_at(code: str, low: float, high: float, step: float):
@@ -64,3 +65,48 @@ def test_no_contact_no_branch():
     found, rig, ended = looked_at("B2-Ginf-A3", 0.9, 4.0, 0.1)
     assert primary_branch(found, *rig, ended) is None
     assert with_folds(found, *rig, ended).folds is None
+
+
+@pytest.mark.parametrize("relaxation", [1.0, 1000.0])
+def test_a_map_asks_once_what_forgetful_bumpers_leave_only_chaos_for(
+    chaotic, relaxation, monkeypatch
+):
+    found, (rig, shaken), ended = chaotic
+    asked = []
+
+    def judged(followed, state, cycles, max_events):
+        asked.append(cycles)
+        return judge_wandering(followed, state, cycles, max_events)
+
+    monkeypatch.setattr("vibroimpact.scenario.behind.judge_wandering", judged)
+    monkeypatch.setattr("vibroimpact.scenario.behind._RELAXATIONS", 20.0 * relaxation)
+    whole = with_kinds(found, rig, shaken, ended)
+    all_of_them, asked[:] = len(asked), []
+    brief = with_kinds(found, rig, shaken, ended, brief=True)
+    again = [item for item in brief.irregular if "not periodic" in item.kinds]
+    assert (len(asked) < all_of_them) == bool(again) == (relaxation == 1.0)
+    for one, other in zip(whole.irregular, brief.irregular, strict=True):
+        assert one == other or one.direction == "backward"
+    chaos = [
+        e._replace(irregular=tuple(i for i in e.irregular if "chaotic" in i.kinds))
+        for e in (whole, brief)
+    ]
+    assert len({len(e.irregular_once) for e in chaos}) == 1
+
+
+def test_a_map_follows_growth_until_it_is_plain(chaotic, monkeypatch):
+    found, rig, ended = chaotic
+    asked = []
+
+    def judged(followed, state, cycles, max_events):
+        asked.append(cycles)
+        return judge_wandering(followed, state, cycles, max_events)
+
+    monkeypatch.setattr("vibroimpact.scenario.behind.judge_wandering", judged)
+    monkeypatch.setattr("vibroimpact.scenario.behind._MANY", 1)
+    brief = with_kinds(found, *rig, ended, brief=True)
+    assert asked == [_SOON]
+    asked.clear()
+    monkeypatch.setattr("vibroimpact.scenario.behind._SOON", 20)  # too few to tell
+    assert with_kinds(found, *rig, ended, brief=True).irregular == brief.irregular
+    assert asked == [20, KIND_CYCLES]

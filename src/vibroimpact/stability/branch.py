@@ -17,6 +17,7 @@ from vibroimpact.stability.first import first_orbit
 from vibroimpact.stability.fixed_points import HELD, Orbit
 from vibroimpact.stability.labelled import Followed, as_dataset
 from vibroimpact.stability.trace import CLOSED, Branch, Station
+from vibroimpact.stability.turning import FREE, InContact, bounded_by_flight, turns_into_flight
 
 
 @takes_rig
@@ -95,13 +96,18 @@ def turning_points(
     high: float,
     most_points: int = 5000,
 ) -> list[float]:
-    """Frequencies (Hz) at which a branch of orbits of one cycle turns back, along the branch.
+    """Frequencies (Hz) at which a branch of orbits of one cycle turns back.
 
     Where nothing else is asked of it: the arguments are those of `branch`.
     """
     _, span, first = _begun(oscillator, excitation, start, "frequency", low, high, 1)
-    stations, *_ = _both_ways(first, span, most_points)
-    return [one.orbit.value for one in bifurcations.find(stations, turning=True) if one.turns]
+    path = InContact if bounded_by_flight(first) else Branch
+    stations, ended, _ = _both_ways(first, span, most_points, path=path)
+    found = [one.orbit.value for one in bifurcations.find(stations, turning=True) if one.turns]
+    for last, why, sense in ((stations[0], ended[0], -1.0), (stations[-1], ended[1], 1.0)):
+        if why == FREE and turns_into_flight(last, sense):
+            found.append(last.orbit.value)
+    return found
 
 
 def _begun(
@@ -134,13 +140,17 @@ def follow_both_ways(
 
 
 def _both_ways(
-    first: Orbit, span: tuple[float, float], most_points: int, progress: Progress | None = None
+    first: Orbit,
+    span: tuple[float, float],
+    most_points: int,
+    progress: Progress | None = None,
+    path: type[Branch] = Branch,
 ) -> tuple[list[Station], tuple[str, str], bool]:
     """The orbits of a branch in its order, why it ends on either side, and whether it is closed."""
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
         start = Station(first, first.tangent(sense * HELD), 0.0, 0)
-        trace = arclength.follow(Branch(start, *span), start, most_points, told)
+        trace = arclength.follow(path(start, *span), start, most_points, told)
         traces.append(trace)
         if trace.ended == CLOSED:
             break

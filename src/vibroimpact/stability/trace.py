@@ -224,7 +224,7 @@ class Branch:
             middle = 0.5 * (good + bad)
             if middle in (good, bad):
                 break
-            if number == _LOOK and not _near_other_contacts(last, here.tangent, 4.0 * (bad - good)):
+            if number == _LOOK and not near_other_contacts(last, here.tangent, 4.0 * (bad - good)):
                 if grazing:
                     break
                 return []  # the step failed for another reason
@@ -305,7 +305,7 @@ def _born_grazing(met: Orbit) -> str:
     return f"it is born at {met.value:.9g}, in a grazing of the orbits {whose}"
 
 
-def _near_other_contacts(last: Orbit, along: _Array, ahead: float) -> bool:
+def near_other_contacts(last: Orbit, along: _Array, ahead: float) -> bool:
     """Whether the map has other contacts a little further along the branch."""
     point = last.point + ahead * last.tangent(along) * last.section.scale
     status, other, _ = evaluated(last.section, point, last.facts[section_map.MODE])
