@@ -49,8 +49,9 @@ myst_heading_anchors = 4
 myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "attrs_inline"]
 myst_dmath_double_inline = True
 
-# A name in single backticks is one of the package's, if there is one.
+# A name in single backticks is one of the package's; any other has two.
 default_role = "py:obj"
+nitpicky = True
 autosummary_generate = sorted(
     f"docs/reference/{path.name}" for path in ROOT.glob("docs/reference/*.md")
 )

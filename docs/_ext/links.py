@@ -1,7 +1,7 @@
 """Links that read well in the plain files, made right for the site.
 
 A link to the gallery or to a script of it leads to its page, one to an HTML file to that file, and
-one to another folder is only its text.
+one to another folder is only its text. Docstrings name what is public without the package.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import Any
 from docutils import nodes
 from sphinx import addnodes
 from sphinx.application import Sphinx
+from sphinx.environment import BuildEnvironment
 
 PAGES = ("docs/explorer.html",)
 """Pages that are in the repository as they are shown."""
@@ -22,6 +23,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     """Listen to what Sphinx does."""
     # Before Sphinx collects what is to be downloaded.
     app.connect("doctree-read", _as_in_the_files, priority=100)
+    app.connect("missing-reference", _public)
     app.connect("build-finished", _pages)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
@@ -61,6 +63,18 @@ def _page(link: nodes.Element, where: str, name: str) -> nodes.Node:
         refexplicit=True,
         refwarn=True,
     )
+
+
+def _public(
+    app: Sphinx, env: BuildEnvironment, link: addnodes.pending_xref, text: nodes.Element
+) -> nodes.Node | None:
+    """A name that a docstring of another module gives as ``vibroimpact`` has it."""
+    python = env.domains["py"]
+    name = f"vibroimpact.{link.get('reftarget')}"
+    if link.get("refdomain") != "py" or name not in python.objects:
+        return None
+    where = link["refdoc"]
+    return python.resolve_xref(env, where, app.builder, "obj", name, link, text)
 
 
 def _pages(app: Sphinx, error: Exception | None) -> None:

@@ -82,7 +82,7 @@ def basins(
         How many regions of states are followed at once; None for one a processor. No result depends
         on it.
     where
-        ``"threads"``, or a dask cluster: a `distributed.Client` or the address of its scheduler
+        ``"threads"``, or a dask cluster: a ``distributed.Client`` or the address of its scheduler
         (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread with the states done and all.

@@ -48,7 +48,7 @@ def clearances(
     Raises
     ------
     InputError
-        If a dataset is not that of a motion with samples and bumpers, or `zoom` is not positive.
+        If a dataset is not that of a motion with samples and bumpers, or ``zoom`` is not positive.
     """
     given_motions = named(motions)
     curves = shown(given_motions, cycles_shown(given_motions, cycles, 2))

@@ -51,7 +51,7 @@ def scenario_map(
     ax
         Axes to draw on. None makes a new figure.
     border
-        Dataset of `jump_border` for the same map: a line of points that are exact.
+        Dataset of ``jump_border`` for the same map: a line of points that are exact.
     marks
         Rigs to mark.
     lines

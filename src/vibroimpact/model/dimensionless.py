@@ -176,7 +176,7 @@ class Dimensionless(Model):
         ------
         InputError
             If a value cannot be used, or if a gap is not 0 while free flight has no finite
-            resonance peak to scale it by (see `peak_displacement`).
+            resonance peak to scale it by (see ``peak_displacement``).
         """
         m = to_si(mass, MASS, "mass", above=0.0)
         k = to_si(stiffness, STIFFNESS, "stiffness", above=0.0)
@@ -235,7 +235,7 @@ def from_dimensionless(
     ------
     InputError
         If a value cannot be used, or if a gap is not 0 while free flight has no finite
-        resonance peak to scale it by (see `peak_displacement`).
+        resonance peak to scale it by (see ``peak_displacement``).
 
     Examples
     --------
@@ -278,7 +278,7 @@ def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensio
     InputError
         If the isolator or a stop is not linear. If the amplitude cannot be used, or if a gap is
         not 0 while free flight has no finite resonance peak to scale it by (see
-        `peak_displacement`).
+        ``peak_displacement``).
     """
     a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
     oscillator.check_linear("dimensionless parameters")
@@ -331,7 +331,7 @@ def largest_free_flight(
 ) -> tuple[float, float]:
     """Return the largest amplitudes in free flight, over all frequencies.
 
-    Of the displacement A/(2ξ√(1-ξ²) ω0²) (see `peak_displacement`), or A/ω0², which it comes
+    Of the displacement A/(2ξ√(1-ξ²) ω0²) (see ``peak_displacement``), or A/ω0², which it comes
     close to at low frequencies, if ξ is at least 1/√2. Of the absolute acceleration
     A √(1 + 4ξ²r²)/√((1 - r²)² + 4ξ²r²) at r² = 2/(1 + √(1 + 8ξ²)).
 

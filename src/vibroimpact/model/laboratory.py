@@ -180,7 +180,7 @@ def case(code: str, parameters: Parameters = "table") -> Case:
         interpolated linearly between theirs; outside 0.03 to 0.05 g nothing was measured, and
         the case is refused.
         ``"identified"``: the fitted parameters of Section 5, for B2-G1-A3 and B2-G2-A2 only.
-        ``"refined"``: the bumpers of ``"table"`` and the first isolator of `REFINED`.
+        ``"refined"``: the bumpers of ``"table"`` and the first isolator of ``REFINED``.
 
     Returns
     -------

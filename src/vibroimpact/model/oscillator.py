@@ -33,8 +33,8 @@ class Oscillator(Model):
     isolator
         Its `Isolator`, `FrictionIsolator`, `BilinearIsolator`, `PolynomialIsolator`,
         `BoucWenIsolator` or `ExponentialIsolator`; or a mapping with the fields of one (with its
-        ``kind`` if it is not linear), or with the arguments of its `from_period` or
-        `from_strength` for this mass.
+        ``kind`` if it is not linear), or with the arguments of its ``from_period`` or
+        ``from_strength`` for this mass.
     right
         What is met at positive displacement: a `Bumper`, a `RigidStop`, a `PowerBumper`, a
         `JankowskiBumper`, a mapping with the fields of one (with its ``kind`` if it is no
@@ -149,7 +149,7 @@ class Oscillator(Model):
     def angular_frequency(self) -> float:
         """Undamped natural angular frequency without stops, ω0 = √(K/M), in rad/s; may be 0.
 
-        K is the isolator's `initial_stiffness`: that of small motions.
+        K is the isolator's ``initial_stiffness``: that of small motions.
         """
         return math.sqrt(self.isolator.initial_stiffness / self.mass)
 
@@ -218,7 +218,7 @@ class Oscillator(Model):
         ------
         InputError
             If the isolator, or one of the `stops`, follows another law; the line says that it has
-            no `what`.
+            no ``what``.
         """
         parts = {"isolator": self.isolator, "right": self.right, "left": self.left}
         for name, part in parts.items():

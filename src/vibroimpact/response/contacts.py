@@ -57,7 +57,7 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     Raises
     ------
     InputError
-        If the dataset is not that of a motion with samples, or `grazing` is negative.
+        If the dataset is not that of a motion with samples, or ``grazing`` is negative.
     """
     share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
     origin = any_recorded(motion)
@@ -81,7 +81,7 @@ def contact_log(
     rows
         What `phases.measured` found of each phase by itself; None if nobody has looked.
     share
-        As `grazing` of `contacts`.
+        As ``grazing`` of `contacts`.
     """
     lasting = [_lasting(every, origin, side, rows) for side in SIDES]
     every_kind = zip(*lasting, _impacts(motion, every, origin), strict=True)

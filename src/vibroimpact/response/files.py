@@ -107,7 +107,7 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     ------
     InputError
         If the file is missing, truncated, or not one of this package's; or if it holds several
-        datasets, and `group` names none of them.
+        datasets, and ``group`` names none of them.
     """
     if not Path(path).is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")

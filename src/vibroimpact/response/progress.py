@@ -15,7 +15,7 @@ _WIDTH = 24
 
 
 def progress_bar(what: str = "done", *, every: float = 0.2) -> Progress:
-    """Return a function that shows progress, for the argument `progress` of what takes long.
+    """Return a function that shows progress, for the argument ``progress`` of what takes long.
 
     In a notebook it writes one line, anew as things go on, and leaves it there; on a terminal one
     line on standard error, which it clears at the end. Elsewhere it writes nothing. It needs no

@@ -58,7 +58,7 @@ def simulate(
     samples
         Samples per forcing cycle, 256 unless said; or per step of a record, 1 unless said. They
         only look: no value depends on their number. With 0 only ``final_state`` is returned, and
-        memory does not grow with `cycles`.
+        memory does not grow with ``cycles``.
     tail
         How long the motion is followed behind a record, while the base stands still: seconds, or
         text such as ``"10 s"``; 0 unless said.
@@ -70,7 +70,7 @@ def simulate(
     -------
     xarray.Dataset
         Dims ``time`` (s; the end included) and ``event``. ``left_bumper`` and its clearance
-        have the paper's signs (eq. 4). ``final_state`` can be given as `start`. If the
+        have the paper's signs (eq. 4). ``final_state`` can be given as ``start``. If the
         motion was given up, what was found until then, and the attribute ``status``
         says why.
 

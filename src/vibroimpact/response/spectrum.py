@@ -52,7 +52,7 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     Raises
     ------
     InputError
-        If the dataset is not that of a motion with samples, or `highest` is not positive.
+        If the dataset is not that of a motion with samples, or ``highest`` is not positive.
     """
     limit = to_si(highest, DIMENSIONLESS, "highest", above=0.0)
     if motion.attrs.get("kind") == "history" and "event_time" not in motion:

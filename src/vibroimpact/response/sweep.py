@@ -157,7 +157,7 @@ def sweeps(
     threads
         How many sweeps run at once; None for one a processor. No result depends on it.
     where
-        ``"threads"``, or a dask cluster: a `distributed.Client` or the address of its scheduler
+        ``"threads"``, or a dask cluster: a ``distributed.Client`` or the address of its scheduler
         (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread while the sweeps run.

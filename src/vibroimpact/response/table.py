@@ -38,7 +38,7 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
     Raises
     ------
     InputError
-        If it is no dataset, or nothing in it goes along `rows`.
+        If it is no dataset, or nothing in it goes along ``rows``.
     """
     if not isinstance(dataset, xr.Dataset):
         raise InputError(f"dataset: {shown(dataset)} is no dataset; what sweep returns is accepted")

@@ -83,7 +83,7 @@ def scenario_map(
     threads
         How many rigs are computed at once; None for one a processor. No result depends on it.
     where
-        ``"threads"``, or a dask cluster: a `distributed.Client` or the address of its scheduler
+        ``"threads"``, or a dask cluster: a ``distributed.Client`` or the address of its scheduler
         (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread with the nodes done and those known so far to be wanted.

@@ -67,7 +67,7 @@ def demands(
     records
         One, or several: by name or as a list, whose names are those of their files.
     scales
-        Rising levels of shaking, greater than 0, in what `intensity` says; text with units, too.
+        Rising levels of shaking, greater than 0, in what ``intensity`` says; text with units, too.
     intensity
         What a scale is: ``"factor"``, the number that a record is multiplied by; ``"PGA"``, its
         peak (m/s²); or a natural period (s) and a damping ratio, by whose pseudo-acceleration
@@ -91,7 +91,7 @@ def demands(
     threads
         How many runs are done at once; None for one a processor. No result depends on it.
     where
-        ``"threads"``, or a dask cluster: a `distributed.Client` or the address of its scheduler
+        ``"threads"``, or a dask cluster: a ``distributed.Client`` or the address of its scheduler
         (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread with the runs done and all there are.

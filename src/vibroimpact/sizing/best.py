@@ -122,9 +122,9 @@ def least_acceleration(
     """Return the design with the least acceleration: which bumper for this gap.
 
     The acceleration jumps where the motion does and has several valleys, and each value is a whole
-    computation: differential evolution (Storn and Price 1997, as `scipy.optimize` has it) needs no
+    computation: differential evolution (Storn and Price 1997, by ``scipy.optimize``) needs no
     derivative, leaves valleys, and tries whole generations at once, on all threads. It is
-    repeatable by its seed. It is no proof: another `seed` may find a lower valley.
+    repeatable by its seed. It is no proof: another ``seed`` may find a lower valley.
 
     Parameters
     ----------

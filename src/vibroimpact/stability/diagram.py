@@ -53,7 +53,7 @@ def resonance_diagram(
 
     Branches are begun from where motions settle that are carried on up and down the range, from
     free flight, and from every symmetry breaking and period doubling that is found on the way. A
-    branch that none of these leads to is isolated: `random` starts at each value find it where
+    branch that none of these leads to is isolated: ``random`` starts at each value find it where
     some of its orbits are stable, and the more surely `basins`, however small theirs are.
 
     Parameters
@@ -88,7 +88,7 @@ def resonance_diagram(
     -------
     xarray.Dataset
         As `branch`, with the number of the ``branch`` of each point. Of a mirrored pair of
-        branches one is followed. The attribute ``complete`` is 0 if `most_branches` was reached.
+        branches one is followed. The attribute ``complete`` is 0 if ``most_branches`` was reached.
 
     Raises
     ------

@@ -60,7 +60,7 @@ def lyapunov_exponents(
 
     Disturbances go through each phase by its closed form and through contacts and detachments
     by their saltation matrices (docs/theory.md, section 6). Nothing waits for a motion to
-    settle: of a motion that does, the exponents are those of its orbit only if `transient` is
+    settle: of a motion that does, the exponents are those of its orbit only if ``transient`` is
     long enough.
 
     Parameters

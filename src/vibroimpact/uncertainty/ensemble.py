@@ -52,11 +52,11 @@ def ensemble(
         A laboratory case or its code, a `Rig` or a pair (oscillator, what shakes it); or an
         oscillator alone, for a response to records.
     distributions
-        By parameter, as of `branch`: frozen distributions of `scipy.stats` in SI units, or texts
+        By parameter, as of `branch`: frozen distributions of ``scipy.stats`` in SI units, or texts
         such as ``"normal:7.5 mm:0.5 mm"``, ``"lognormal:0.2"`` or ``"uniform:10%"`` (of the rig's
         own value). They are independent of each other.
     response
-        Called with up to `block` rigs at a time: pairs (oscillator, what shakes it), or
+        Called with up to ``block`` rigs at a time: pairs (oscillator, what shakes it), or
         oscillators if one was given.
     samples
         How many rigs are drawn; of Sobol's points a power of 2.
