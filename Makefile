@@ -63,6 +63,7 @@ format: $(VENV)/.installed-lint
 docs: $(VENV)/.installed-docs
 	$(BIN)/python -m sphinx -W --keep-going -q -j auto -c docs . out/site $(ARGS)
 	$(BIN)/python docs/check_links.py out/site
+	$(BIN)/python docs/check_widths.py out/site
 
 bench: $(VENV)/.installed-bench
 	$(BIN)/python -m benchmarks $(ARGS)

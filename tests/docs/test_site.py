@@ -5,7 +5,10 @@ from __future__ import annotations
 import re
 from fnmatch import fnmatch
 
+import pytest
+from benchmarks.page import chromium
 from docs.check_links import broken
+from docs.check_widths import wide
 
 from docs.snippets import ROOT
 
@@ -45,3 +48,17 @@ def test_nothing_is_taken_for_a_comment_or_for_the_end_of_a_cell():
             if line.startswith("|"):
                 cells = re.split(r"(?<!\\)\|", line)
                 assert not any(cell.count("$") % 2 for cell in cells), f"{page.name}: {line}"
+
+
+def test_a_page_that_is_wider_than_a_telephone_is_found(tmp_path):
+    browser = chromium()
+    if browser is None:
+        pytest.skip("no browser")
+    page = '<meta name="viewport" content="width=device-width"><div style="width:{}px">x</div>'
+    (tmp_path / "docs/gallery").mkdir(parents=True)
+    for name in ("page.html", "docs/gallery/index.html"):
+        (tmp_path / name).write_text(page.format(300))
+    assert wide(tmp_path, browser) == []
+    (tmp_path / "page.html").write_text(page.format(900))
+    (found,) = wide(tmp_path, browser)
+    assert re.match(r"page\.html: 9\d\d pixels wide", found)
