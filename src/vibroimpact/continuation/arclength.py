@@ -7,6 +7,7 @@ shorter otherwise. What is solved, and where the curve ends, a `Path` says.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
@@ -150,7 +151,12 @@ def strays(path: Path[P], found: Array, aim: Array, length: float) -> bool:
 
 def distance(path: Path[P], one: Array, other: Array) -> float:
     """Distance of two points in scaled components."""
-    return float(np.linalg.norm((one - other) / path.scale * path.seen))
+    return _length((one - other) / path.scale * path.seen)
+
+
+def _length(vector: Array) -> float:
+    """As `np.linalg.norm`, which takes longer to be called."""
+    return math.sqrt(vector @ vector)
 
 
 def unit_tangent(jacobian: Array, along: Array, seen: Array) -> Array:
@@ -165,12 +171,14 @@ def unit_tangent(jacobian: Array, along: Array, seen: Array) -> Array:
     seen
         See `Path.seen`.
     """
+    matrix = np.empty((len(along), len(along)))
+    matrix[:-1], matrix[-1] = jacobian, along * seen
     held: NDArray[Any] = np.zeros(len(along))
     held[-1] = 1.0
     try:
-        found: Array = np.linalg.solve(np.vstack([jacobian, along * seen]), held)
+        found: Array = np.linalg.solve(matrix, held)
     except np.linalg.LinAlgError:
         last: Array = np.linalg.svd(jacobian)[2][-1]
         found = last if last @ (along * seen) >= 0.0 else -last
-    unit: Array = found / np.linalg.norm(found * seen)
+    unit: Array = found / _length(found * seen)
     return unit

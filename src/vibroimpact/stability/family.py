@@ -56,6 +56,11 @@ class Family(NamedTuple):
         return self._replace(base=base, direction=direction)
 
     @property
+    def one_flow(self) -> bool:
+        """Whether the engine's numbers move in proportion, and one flow carries all rigs."""
+        return self.straight and not any(self.direction[at + par.GAP] for at in _BUMPERS)
+
+    @property
     def states(self) -> int:
         """Components of a state: the isolator's memory is one only where it has any."""
         remembers = self.base[par.HYSTERETIC] or self.direction[par.HYSTERETIC]

@@ -227,7 +227,8 @@ def corrected(
             found.carried,
             found.slope,
         )
-        if Status(outcome) is not Status.DONE and not fam.straight:
+        settled = Status(outcome) is Status.DONE
+        if (not settled and not fam.straight) or (settled and fam.one_flow):
             break
         there = fam.system(found.value)
         # From bumpers that are apart to such that overlap, it begins again from where it was.

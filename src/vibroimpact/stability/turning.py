@@ -19,8 +19,9 @@ from vibroimpact.stability.trace import Branch, Station, near_other_contacts
 
 FREE = "it leaves the stops"
 """Why a branch in contact is not followed further."""
-_HALVINGS = 24
-"""Of a step, to the last orbit in contact: it is then shorter than 1e-8."""
+_HALVINGS = 16
+"""Of a step, to the last orbit in contact: it is then shorter than 1e-6. Of what turns in between
+only pairs are missed, for the sense in which the branch must leave is known."""
 
 
 def bounded_by_flight(first: Orbit) -> bool:
