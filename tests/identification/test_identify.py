@@ -4,9 +4,12 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from identification.twins import FREE, curves, off, truth
+from identification.twins import FREE, PEAKS, curves, off, truth
+from samples import sample
 
 CASES = ("B2-G1-A3", "B2-G2-A2")
+OWN, THREE = ((), 10), (("0.03 g", "0.04 g", "0.05 g"), 5)
+"""Amplitudes, and cycles of a hold that are recorded."""
 
 
 def errors(result, rig):
@@ -39,6 +42,28 @@ def test_with_noise_within_its_own_errors(code):
     rig = vi.fitted(found)
     assert rig.oscillator.right.gap == pytest.approx(found.fitted_value.values[4])
     assert rig.amplitude == case.amplitude
+
+
+@pytest.mark.parametrize("code", CASES)
+@pytest.mark.parametrize(("sizes", "cycles"), sample([OWN, THREE], [OWN]))
+def test_what_a_test_records_of_each_hold_tells_a_bumper_to_a_hundredth(code, sizes, cycles):
+    """Maxima and minima of both quantities in each cycle, 2 % of noise, a guess half off."""
+    case = vi.laboratory.case(code, "identified")
+    kept = []
+    for seed in range(sample(20, 1)):
+        tests = {
+            f"{size}": curves(case.oscillator, size, 0.02, 100 * seed + k, PEAKS, cycles=cycles)
+            for k, size in enumerate(sizes or (case.amplitude,))
+        }
+        start = off(case.oscillator, np.random.default_rng(seed).choice([0.5, 1.5], 5))
+        found = vi.identify(tests, start, FREE, profiles=False, tried=8, starts=2, threads=2)
+        away = errors(found, case.oscillator)
+        kept.append((np.abs(away[:4]) < [0.01, 0.01, 0.01, 0.1]).all())
+        deviation = found.standard_error.values / truth(case.oscillator)
+        assert (np.abs(away) < 4.0 * deviation).all()
+        assert (deviation < [0.002, 0.003, 0.005, 0.04, 0.002]).all()
+        assert "times the noise" not in found.attrs["findings"]
+    assert np.mean(kept) >= 0.95
 
 
 def test_profiles_and_bootstrap_agree_with_the_covariance_where_it_is_normal(tmp_path):
@@ -121,6 +146,25 @@ def test_maxima_minima_and_eta_with_a_sensor_that_is_off():
     free = ["right_gap", "left_gap", "displacement_scale", "displacement_offset"]
     found = vi.identify(data, start, free, tried=0, starts=1, profiles=False)
     assert found.fitted_value.values == pytest.approx([0.009, 0.012, 1.03, 4e-4], rel=1e-6)
+
+
+def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
+    """Near 0.9 Hz it goes further to one side; to which one hangs on the last digits."""
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    data = curves(case.oscillator, "0.03 g", names=PEAKS)
+    turned = data.copy(deep=True)
+    at = {"frequency": 0.9, "direction": "forward"}
+    for kind in ("displacement", "acceleration"):
+        most, least = (float(data[f"{kind}_{end}"].sel(at)) for end in ("max", "min"))
+        assert abs(most + least) > 0.01 * most
+        turned[f"{kind}_max"].loc[at], turned[f"{kind}_min"].loc[at] = -least, -most
+    start = off(case.oscillator, (1.02, 1.0, 0.97, 1.0, 1.01))
+    for one in (data, turned):
+        found = vi.identify(
+            one, start, "stiffness,bumper_stiffness,gap", tried=0, starts=1, profiles=False
+        )
+        away = found.fitted_value.values / truth(case.oscillator)[[0, 2, 4]] - 1.0
+        assert np.abs(away).max() < 1e-6
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from vibroimpact.measurement.read import as_measured
 FREQUENCIES = np.round(np.arange(0.5, 5.01, 0.1), 10)
 FREE = ("stiffness", "damping", "bumper_stiffness", "bumper_damping", "gap")
 EXCURSIONS = ("displacement_excursion", "acceleration_excursion")
+PEAKS = ("displacement_max", "displacement_min", "acceleration_max", "acceleration_min")
 
 
 def truth(rig: vi.Oscillator) -> np.ndarray:
@@ -35,10 +36,13 @@ def curves(
     seed: int = 0,
     names: tuple[str, ...] = EXCURSIONS,
     frequencies: np.ndarray = FREQUENCIES,
+    cycles: int = 1,
 ) -> xr.Dataset:
-    """A stepped-sine test, each value with its own normal noise."""
+    """A stepped-sine test, each value of each cycle of a hold with its own normal noise."""
     data = vi.sweep(rig, amplitude, frequencies)
     draw = np.random.default_rng(seed)
+    if cycles > 1:
+        data = data[list(names)].expand_dims(repeat=cycles, axis=-1)
     noisy = {n: data[n] * (1.0 + noise * draw.normal(size=data[n].shape)) for n in names}
     return as_measured(
         xr.Dataset(noisy).assign_attrs(amplitude=vi.Harmonic(amplitude, 1).amplitude)

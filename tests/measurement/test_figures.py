@@ -41,9 +41,12 @@ def test_noise_is_that_of_repeated_values():
     values = np.linspace(1.0, 3.0, 10)[:, None]
     values = values * np.random.default_rng(1).normal(1.0, 0.02, size=(2, 1, 10, 4))
     dims = ("direction", "frequency", "repeat")
-    names = ("displacement_excursion", "acceleration_excursion")
-    again = xr.Dataset({n: (dims, v) for n, v in zip(names, values, strict=True)})
-    assert noise_of(again) == pytest.approx(0.02, rel=0.2)
+    for names, sign in (
+        (("displacement_excursion", "acceleration_excursion"), 1.0),
+        (("displacement_max", "displacement_min"), [[[[1.0]]], [[[-1.0]]]]),
+    ):
+        again = {n: (dims, v) for n, v in zip(names, values * sign, strict=True)}
+        assert noise_of(xr.Dataset(again)) == pytest.approx(0.02, rel=0.2)
 
 
 def test_features_are_told_with_the_step(curves):

@@ -66,6 +66,9 @@ def identify(
         _PAIRS,
         Parameter(help="Unit by variable or column, displacement-excursion mm."),
     ] = (),
+    group: Annotated[
+        str | None, Parameter(group=_FIT, help="Which of several tests of a file.")
+    ] = None,
     noise: Annotated[
         float | None, Parameter(group=_FIT, help="Noise as a share of a value, 0.02.")
     ] = None,
@@ -111,7 +114,7 @@ def identify(
         raise InputError("DATA: missing; the file of a test is accepted")
     named = {key.replace("-", "_"): value for key, value in columns}
     in_units = {key.replace("-", "_") if key.replace("-", "_") else key: v for key, v in units}
-    tests = [read_measurement(path, columns=named, units=in_units) for path in data]
+    tests = [read_measurement(path, columns=named, units=in_units, group=group) for path in data]
     what = subject(rig, changes or RigOptions(), out.name, _shaken(tests))
     asked: dict[str, Any] = {
         "each": [name.strip() for name in each.split(",")] if each else [],

@@ -37,6 +37,8 @@ _FACTORS = (0.5, 0.75, 1.0, 1.5, 2.0)
 _POINTS = 61
 _WILD = 0.5
 """Change of a logarithm over one deviation at which a jump may have been passed."""
+_LITTLE = 0.98
+"""Of a standard error, beyond which a hold is hardly worth it."""
 _NOISE = 0.02
 """Of a hold to come, where the fit's tests were no curves."""
 
@@ -203,6 +205,12 @@ def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
         where = (
             f"a hold at {float(best['frequency']):.3g} Hz ({best['direction'].item()}), {amplitude}"
         )
+        if what and float(best) > _LITTLE:
+            lines.append(
+                f"next test: no hold of a stepped sine would tell much more; {where}, would take "
+                f"the standard error of {what} to {100.0 * float(best):.1f} % of what it is"
+            )
+            break
         if what:
             lines.append(
                 f"next test: {where}, would take the standard error of {what} to "

@@ -17,6 +17,7 @@ from vibroimpact.measurement.names import CURVES
 from vibroimpact.model.access import Setting
 from vibroimpact.response.free_flight import reference_excursions
 from vibroimpact.response.resonance import APART, Jump
+from vibroimpact.response.swept import swept
 
 Array = NDArray[np.float64]
 
@@ -28,6 +29,8 @@ _NOISES = 4.0
 """Least change of a value at a jump, in standard deviations."""
 _LARGE = 0.7
 """Logarithm of the factor from which on a break of one curve is a jump."""
+_UNEVEN = 1e-9
+"""Share of its excursion by which a motion goes further to one side that is not its own image."""
 _COLUMNS = {
     "displacement_max": hold.U_MOST,
     "displacement_min": hold.U_LEAST,
@@ -181,13 +184,27 @@ class CurveTest:
             settled[here] = found.settled[at]
             shown = self._shown(found.rows, largest, sensors)
             values[here] = shown[at, self.points.variable[here]]
-            for place, row in found.other.items():
+            for place, row in self._others(setting, found):
                 here = (self.points.way == w) & (self.points.hold == place)
                 of = self.points.variable[here]
                 other = self._shown(row[np.newaxis], largest, sensors)[0, of]
                 if np.sum(self._off(other, here) ** 2) < np.sum(self._off(values[here], here) ** 2):
                     values[here] = other
         return values, settled
+
+    def _others(self, setting: Setting, found: Followed) -> list[tuple[int, Array]]:
+        """What else the rig may do at a hold: on another branch, or as the mirror image.
+
+        Which one of two mirrored motions a mass settles on hangs on the last digits of the rig.
+        """
+        others = list(found.other.items())
+        oscillator, shaken = setting
+        if oscillator.symmetric and shaken.half_wave and set(self.names) & set(_COLUMNS):
+            most, least = found.rows[:, hold.U_MOST], found.rows[:, hold.U_LEAST]
+            uneven = np.flatnonzero(np.abs(most + least) > _UNEVEN * (most - least))
+            every = [*((int(i), found.rows[i]) for i in uneven), *others]
+            others += [(place, _mirrored(row)) for place, row in every]
+        return others
 
     def _shown(self, rows: Array, largest: tuple[float, float], sensors: dict[str, float]) -> Array:
         """What is measured of holds, a column a quantity."""
@@ -240,6 +257,14 @@ class CurveTest:
         return np.concatenate([points, jumps]), np.concatenate([settled & ~lost, jumps > 0.0])
 
 
+def _mirrored(row: Array) -> Array:
+    """Extremes of the mirror image of a motion."""
+    found = row.copy()
+    for most, least in ((hold.U_MOST, hold.U_LEAST), (hold.A_MOST, hold.A_LEAST)):
+        found[most], found[least] = -row[least], -row[most]
+    return found
+
+
 def told_jumps(data: xr.Dataset) -> list[Jump]:
     """The jumps of measured curves that are no outlier and no steep part.
 
@@ -253,7 +278,7 @@ def told_jumps(data: xr.Dataset) -> list[Jump]:
     }
     wide = [h for h in seen.hysteresis if both or h.low < h.high]
     ends = {(h.high, h.above) for h in wide} | {(h.below, h.low) for h in wide}
-    least = max(APART, _NOISES * noise_of(data))
+    least = max(APART, _NOISES * noise_of(swept(data)))  # of the means of what was held again
     found = []
     for jump in seen.jumps:
         step = (min(jump.before, jump.after), max(jump.before, jump.after))

@@ -12,6 +12,7 @@ import math
 import numpy as np
 import xarray as xr
 
+from vibroimpact.measurement.names import CURVES as MEASURED
 from vibroimpact.response import resonance
 from vibroimpact.response.peaks import CURVES, PROMINENCE
 from vibroimpact.response.resonance import APART, Features
@@ -21,7 +22,6 @@ _NOISES = 6.0
 """Least difference of two motions, and least prominence of a peak, in standard deviations."""
 _ENOUGH = 8
 """Values that are needed for an estimate."""
-_EXCURSIONS = ("displacement_excursion", "acceleration_excursion", "eta_d", "eta_a")
 _LOW, _OF_NORMAL = 0.3, 0.3853
 """A quantile, and what it is of the size of a standard normal number."""
 
@@ -53,16 +53,15 @@ def noise_of(data: xr.Dataset | Swept) -> float:
 def _of_repeats(data: xr.Dataset) -> float:
     """Of values that were measured again; 0 if these are few."""
     squares, spare = 0.0, 0
-    for name in _EXCURSIONS:
+    for name in MEASURED:
         if name in data and "repeat" in data[name].dims:
             values = data[name].transpose(..., "repeat").values
-            with np.errstate(divide="ignore", invalid="ignore"):
-                logs = np.log(values.reshape(-1, values.shape[-1]))
-            for held in logs:
-                held = held[np.isfinite(held)]
-                if len(held) > 1:
-                    squares += float(((held - held.mean()) ** 2).sum())
-                    spare += len(held) - 1
+            held = values.reshape(-1, values.shape[-1])
+            held = held[(np.isfinite(held).sum(axis=1) > 1)]
+            mean = np.nanmean(held, axis=1, keepdims=True)
+            held, mean = held[mean[:, 0] != 0.0], mean[mean[:, 0] != 0.0]
+            squares += float(np.nansum((held / mean - 1.0) ** 2))
+            spare += int(np.isfinite(held).sum()) - len(held)
     return math.sqrt(squares / spare) if spare >= _ENOUGH else 0.0
 
 

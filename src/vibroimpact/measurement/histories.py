@@ -38,7 +38,8 @@ def history(table: Columns, known: Known, notes: list[str]) -> xr.Dataset:
     if not channels:
         raise InputError(
             f"measurement: {table.path!r} has no channel over time that is known; displacement, "
-            "acceleration or base acceleration is accepted, or columns={'displacement': NAME}"
+            "acceleration or base acceleration is accepted, or columns={'displacement': NAME} with "
+            f"one of {', '.join(repr(column.name) for column in table.columns)}"
         )
     if (lost := int((~usable).sum())) > 0:
         notes.append(f"{lost} rows without a time are left out")
@@ -59,6 +60,8 @@ def history(table: Columns, known: Known, notes: list[str]) -> xr.Dataset:
     if "displacement" not in data and {"mass_displacement", "base_displacement"} <= set(data):
         data["displacement"] = data["mass_displacement"] - data["base_displacement"]
         notes.append("displacement is that of the mass less that of the base")
+    elif "mass_displacement" in data and "displacement" not in data:
+        notes.append("the mass's displacement is absolute, and without that of the base no use")
     step = np.diff(data["time"].values)
     if len(step) > 1 and np.ptp(step) > _EVEN * np.median(step):
         notes.append(f"times are unevenly spaced, by {step.min():.4g} to {step.max():.4g} s")

@@ -14,6 +14,7 @@ from vibroimpact.measurement.columns import Array, Column, Columns
 from vibroimpact.measurement.curves import curves
 from vibroimpact.measurement.histories import history
 from vibroimpact.measurement.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
+from vibroimpact.measurement.sampling import timed
 from vibroimpact.model.quantities import ACCELERATION, FREQUENCY
 from vibroimpact.model.units import to_si
 from vibroimpact.response.files import load
@@ -85,8 +86,9 @@ def read_measurement(
         return _checked(load(file))
     tables = [t for t in _READERS.get(file.suffix.lower(), text.read)(file) if t.columns]
     tables = [part for table in tables for part in _runs(table)]
-    table = _chosen(str(path), tables, group)
     notes: list[str] = []
+    tables = [timed(table, notes) for table in tables]
+    table = _chosen(str(path), tables, group, set((columns or {}).values()), notes)
     known, left = _known(table, columns or {}, units or {}, notes)
     variables = {found.variable for found, _ in known.values()}
     if "frequency" in variables and variables & set(CURVES):
@@ -97,8 +99,8 @@ def read_measurement(
         names = ", ".join(repr(column.name) for column in table.columns)
         raise InputError(
             f"measurement: {str(path)!r} has the columns {names}; a frequency with excursions, "
-            "maxima and minima or η, or a time with displacements or accelerations, is accepted, "
-            "or columns={'frequency': NAME, ...}"
+            "maxima and minima or η, or a time (or a sampling rate fs) with displacements or "
+            "accelerations, is accepted, or columns={'frequency': NAME, ...}"
         )
     if left:
         notes.append(f"not understood, and left out: {', '.join(left)}")
@@ -171,13 +173,20 @@ def _runs(table: Columns) -> list[Columns]:
     ]
 
 
-def _chosen(path: str, tables: list[Columns], group: str | None) -> Columns:
-    """The test that is asked for."""
+def _chosen(
+    path: str, tables: list[Columns], group: str | None, wanted: set[str], notes: list[str]
+) -> Columns:
+    """The test that is asked for, or the only one that has a time or a frequency."""
     if not tables:
         raise InputError(f"measurement: {path!r} holds no columns of numbers; some are accepted")
     names = [table.said.get("group") or str(i + 1) for i, table in enumerate(tables)]
     if group is None and len(tables) == 1:
         return tables[0]
+    usable = [i for i, table in enumerate(tables) if _has_axis(table, wanted)]
+    if group is None and len(usable) == 1:
+        others = [name for i, name in enumerate(names) if i != usable[0]]
+        notes.append(f"without a time or a frequency, and left out: {', '.join(others)}")
+        return tables[usable[0]]
     if group in names:
         return tables[names.index(group)]
     given = f"{group!r} is none of them" if group is not None else "none is chosen"
@@ -185,6 +194,13 @@ def _chosen(path: str, tables: list[Columns], group: str | None) -> Columns:
         f"group: {path!r} holds {len(tables)} tests, and {given}; "
         f"{', '.join(map(repr, names))} are accepted"
     )
+
+
+def _has_axis(table: Columns, wanted: set[str]) -> bool:
+    """Whether a table has a time or a frequency, or columns that are asked for by name."""
+    said = [meaning(column.name) for column in table.columns]
+    known = any(one is not None and one.variable in AXES for one in said)
+    return known or bool(wanted & {column.name for column in table.columns})
 
 
 def _known(
