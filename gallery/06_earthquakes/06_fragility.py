@@ -2,8 +2,8 @@
 How likely is a hit?
 ====================
 
-The same records on the building with three gaps: the share that hits a wall, and a lognormal
-fragility curve through each, with its confidence band.
+The same records on the building with three gaps: marks are the shares that hit a wall, and through
+them goes a lognormal fragility curve with its median θ, its dispersion β and its confidence band.
 """
 
 import numpy as np

@@ -24,7 +24,7 @@ for place, ratio in enumerate(ratios):
     )
 ax.axvline(1.0, color="black", linewidth=0.8)
 ax.set_xscale("log")
-ax.set_xlim(0.2 * min(1.0, ratios[0]), 20.0 * ratios[-1])
+ax.set_xlim(0.03 * min(1.0, ratios[0]), 20.0 * ratios[-1])
 ax.set_yticks(range(len(names)), names, fontsize="small")
 ax.set_xlabel("time of the other over ours (–)")
 figure
