@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import math
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from vibroimpact.engine.linear.contact import contact
-from vibroimpact.engine.linear.flight import flight
+from vibroimpact.engine.linear.flight import flight, parted
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.linear.walk import ABOVE, BELOW, WITHIN, Bounds
@@ -98,3 +103,30 @@ def test_a_contact_with_a_dashpot_ends_with_its_force() -> None:
     assert x > 0.0
     assert 24.0 * x + 2.0 * v == pytest.approx(0.0, abs=1e-13)
     assert t < math.pi / w
+
+
+def test_a_motion_is_bent_no_more_than_is_said_of_it() -> None:
+    """By one sine, four and the line of a record; and little less, where |x″| itself is 1."""
+    script = Path(__file__).parent / "bent.py"
+    done = subprocess.run(
+        [sys.executable, script],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    results = [json.loads(line) for line in done.stdout.splitlines()]
+    assert len(results) == 9
+    for beyond, distance in results:
+        assert beyond <= 1e-12
+        assert distance < 3.0
+
+
+@pytest.mark.parametrize("rate", [0.05, 1.0, 40.0])
+@pytest.mark.parametrize("bend", [1e-3, 0.3, 2.0])
+def test_a_stop_just_left_is_not_met_before_it_is_said(rate: float, bend: float) -> None:
+    """It parts as fast as the stop relaxes, if that has a memory, and is bent towards it."""
+    for memory, speed in ((0.0, 0.0), (0.0, 0.2), *((m, rate * m) for m in (0.01, 1.0, 1e4))):
+        t = parted(memory, rate, speed, bend) * np.linspace(0.0, 1.0, 2001)
+        clearance = speed * t - 0.5 * bend * t * t + memory * np.expm1(-rate * t)
+        assert (clearance >= -1e-12 * (1.0 + speed * t)).all()

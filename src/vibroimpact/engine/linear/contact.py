@@ -114,7 +114,7 @@ def contact(
         fresh = False
         force = Watched(stiffness, damping * plan[table + RATE], FORCE, 5, TAYLOR_F)
         way, i, y, end, _, _ = walk(
-            plan, table, force, _PRESSING, f, band, row, span, math.inf, clear, 0.0, series
+            plan, table, force, _PRESSING, f, band, row, span, math.inf, clear, True, series
         )
         if way != WITHIN:
             return DETACHED, t + (i + y) * h, relieved(end, damping)

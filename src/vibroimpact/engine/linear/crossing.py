@@ -28,10 +28,9 @@ def quick_root(
     weight_v: float,
     level: float,
     y: float,
-    second: float,
     row: Row,
-) -> tuple[float, Row]:
-    """The first time at which weight_x·x + weight_v·x′ rises through `level`, if beyond doubt.
+) -> tuple[float, float, Row]:
+    """A time at which weight_x·x + weight_v·x′ rises through `level`, if it is soon found.
 
     Parameters
     ----------
@@ -40,15 +39,13 @@ def quick_root(
     y : float
         A guess, in steps after the node whose state is given; at the node the function is known
         to be below the level.
-    second : float
-        Bound on the second derivative, per step squared.
 
     Returns
     -------
-    y, row
-        The root and the state there; y = NONE where the root that is found is not certainly
-        the first one. At a root with slope m the function stays below the level for
-        2 m / second before it.
+    y, slope, row
+        The root, the function's slope per step and the state there; y = NONE where none is
+        found. It is for the caller to prove that no other comes before: with a slope m and a
+        second derivative of at most b the function has been below the level for 2 m / b.
     """
     for _ in range(4):
         k = min(max(int(y * FINE + 0.5), 0), FINE - 1)
@@ -88,10 +85,10 @@ def quick_root(
         q = d * (2.0 * b + 3.0 * d * (f3 * inverse))
         e = (level - f) * inverse * (1.0 - q * (1.0 - q)) if abs(q) < 0.01 else (level - f) / slope
         y = k * (1.0 / FINE) + d + e
-        if not abs(e) < 1e-8 or y < 0.0 or y > 1.0 or not 2.0 * slope > second * y:
+        if not abs(e) < 1e-8 or y < 0.0 or y > 1.0:
             break
         fx += e * (a1 + change)
         change += e * (2 * a2 + d * (6 * a3 + d * 12 * a4))
         fs, fc = nudged(plan, fs, fc, e * plan[table + SCALED_W])
-        return y, Row(fx, point.v + change * plan[table + RATE], fs, fc)
-    return NONE, row
+        return y, slope, Row(fx, point.v + change * plan[table + RATE], fs, fc)
+    return NONE, 0.0, row

@@ -16,6 +16,7 @@ from vibroimpact.engine.linear.layout import (
     BAND_0,
     BAND_V,
     BAND_X,
+    LATE,
     LATE_TABLES,
     NODE,
     NODES,
@@ -35,6 +36,7 @@ from vibroimpact.engine.linear.walk import (
     WITHIN,
     Bounds,
     Watched,
+    bends,
     ended,
     next_window,
     search,
@@ -44,6 +46,10 @@ from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
 
 _WEAK_PULL = 0.45  # theory, section 3.3
+_LEAST = 1e-300  # in place of no bend at all: nothing is divided by 0
+
+_AHEAD = 2.0
+"""How many steps after a detachment are bounded closely."""
 
 _DISPLACEMENT = Watched(1.0, 0.0, NODE, WIDTH, TAYLOR)
 
@@ -60,6 +66,19 @@ def faded(bounds: Bounds, t: float) -> Bounds:
         rate_upper,
         rate_lower,
     )
+
+
+@kernel
+def parted(memory: float, rate: float, speed: float, second: float) -> float:
+    """For how many steps a stop just left is surely not met again (theory, section 3.3).
+
+    `second` is the most that the motion is bent towards it, and all are per step.
+    """
+    second = max(second, _LEAST)
+    if memory > 0.0:
+        q = second / (rate * rate * memory)
+        return 2.0 * rate * memory * (1.0 - q) / second if q <= _WEAK_PULL else 0.0
+    return 2.0 * max(speed, 0.0) / second
 
 
 @kernel
@@ -180,13 +199,12 @@ def flight(
             above = launched == ABOVE
             memory = bounds.memory_upper if above else bounds.memory_lower
             rate = (bounds.rate_upper if above else bounds.rate_lower) * h
-            clear = 0.0
-            if memory > 0.0:
-                q = second / (rate * rate * memory)
-                if q <= _WEAK_PULL:
-                    clear = 2.0 * rate * memory * (1.0 - q) / second
-            else:
-                clear = 2.0 * max(-v if above else v, 0.0) * h / second
+            speed = (-v if above else v) * h
+            clear = parted(memory, rate, speed, second)
+            if clear < 1.0 and plan[table + LATE] == 0.0:
+                rise, fall = bends(plan, table, row, second, 0.0, _AHEAD)
+                near = parted(memory, rate, speed, rise if above else fall)
+                clear = max(clear, min(near, _AHEAD))
             if clear < 1.0:
                 high = min(0.5, span)
                 expand(plan, table + TAYLOR, row, series)
@@ -216,7 +234,7 @@ def flight(
             span,
             clear_upper,
             clear_lower,
-            max(clear_upper, clear_lower),
+            clear_upper == 0.0 and clear_lower == 0.0,
             series,
         )
         if way != WITHIN:

@@ -49,7 +49,9 @@ RATE = 15  # 1 / h
 RESTING = 16  # 1 where a rigid stop holds the mass
 WAVE_S = 17  # of one harmonic among several: what its sin nθ and cos nθ pull, times h²
 WAVE_C = 18
-HEADER = 19
+FOURTH = 19  # bound on |x⁗| h⁴ where |x″| h² ≤ b: FOURTH b + FOURTH_0
+FOURTH_0 = 20
+HEADER = 21
 
 # A node's rows: x and x′ as functions of the state row at the start, then the cosine and
 # sine of the angle that the forcing turns until there, then what the rounding of the first two

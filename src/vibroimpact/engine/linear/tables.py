@@ -27,6 +27,8 @@ from vibroimpact.engine.linear.layout import (
     FORCE_V,
     FORCE_X,
     FORGOTTEN,
+    FOURTH,
+    FOURTH_0,
     LATE,
     LATE_TABLES,
     MOST,
@@ -227,6 +229,9 @@ def _table(
         plan[at + FORCE_X] = (stiffness * second_x + damping * third_x) * eighth
         plan[at + FORCE_V] = (stiffness * second_v + damping * third_v) * eighth
         plan[at + FORCE_0] = (stiffness * second_0 + damping * third_0) * eighth
+        # |x‴| ≤ (c + √k) b + |A′| and |x⁗| ≤ c |x‴| + k b + |A″| of early tables, as √k |x′| ≤ b.
+        plan[at + FOURTH] = (c * (c + root) + k) * h * h
+        plan[at + FOURTH_0] = c * steepest * h**4
         for n in range(1, parts + 1):
             part = wave(plan, n, mirrored)
             there = at + plane(plan, n)
@@ -236,6 +241,10 @@ def _table(
             plan[there + SCALED_C], plan[there + SCALED_K] = c * h, k * h * h
             plan[there + SCALED_D], plan[there + SCALED_W] = d * h * h, part.rate * h
             plan[there + SCALED_A] = part.amplitude * h * h
+            swings = part.closes * plan[there + SCALED_W] * plan[there + SCALED_W]
+            plan[at + FOURTH_0] += (
+                swings * abs(plan[there + SCALED_A]) * math.hypot(part.sine, part.cosine)
+            )
             plan[there + WAVE_S] = plan[there + SCALED_A] * part.sine
             plan[there + WAVE_C] = plan[there + SCALED_A] * part.cosine
             if held:

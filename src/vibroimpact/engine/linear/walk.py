@@ -13,11 +13,11 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from vibroimpact.engine.forcing.dispatch import expand, product
+from vibroimpact.engine.forcing.dispatch import expand, product, short_series
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
 from vibroimpact.engine.linear.evaluate import moved, node, relaxed, travel
-from vibroimpact.engine.linear.layout import LATE, MIDDLE, NODE, NODES, WIDTH, H
+from vibroimpact.engine.linear.layout import FOURTH, FOURTH_0, LATE, MIDDLE, NODE, NODES, WIDTH, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.motion import Row
 
@@ -69,6 +69,22 @@ def search(
     return below, BELOW
 
 
+@kernel
+def bends(
+    plan: Vector, table: int, row: Row, second: float, low: float, high: float
+) -> tuple[float, float]:
+    """How much x″ and −x″ can be from `low` to `high` steps about a state, or 0 (early tables).
+
+    x″ and x‴ are known at the state, and x⁗ is bounded where |x″| is, here by `second` (all per
+    step): next to a stop this says far more than what the energy allows for a whole window.
+    """
+    _, _, a2, a3, _, _, _ = short_series(plan, table, row)
+    fourth = plan[table + FOURTH] * second + plan[table + FOURTH_0]
+    left_out = 0.5 * fourth * max(low * low, high * high)
+    one, two = 2.0 * a2 + 6.0 * a3 * low, 2.0 * a2 + 6.0 * a3 * high
+    return max(max(one, two) + left_out, 0.0), max(left_out - min(one, two), 0.0)
+
+
 @inlined
 def walk(
     plan: Vector,
@@ -81,7 +97,7 @@ def walk(
     span: float,
     clear_upper: float,
     clear_lower: float,
-    quick_from: float,
+    within: bool,
     series: Vector,
 ) -> tuple[int, int, float, Row, float, float]:
     """Walk over one window of NODES intervals, or `span` of them.
@@ -94,8 +110,8 @@ def walk(
         The state at the window's start.
     clear_upper, clear_lower : float
         Proven free of a crossing for so many steps.
-    quick_from : float
-        From which node on the function is known to lie within its range at the nodes.
+    within : bool
+        Whether the function lies within its range at the start, and not on its border.
 
     Returns
     -------
@@ -106,6 +122,8 @@ def walk(
     upper, lower, memory_upper, memory_lower, rate_upper, rate_lower = bounds
     h = plan[table + H]
     second = 8.0 * band  # per step squared
+    early = plan[table + LATE] == 0.0
+    closely = early and watched.weight_v == 0.0 and watched.weight_x == 1.0
     top = upper - band
     bottom = lower + band
     before = q
@@ -126,62 +144,80 @@ def walk(
             j += 1
         if j < 0:
             break
-        i = j - 1 if j - 1 > done else j
-        if i >= span or i == NODES:
-            break
+        if j - 1 <= done:  # what lies before it has been looked at
+            if j >= span or j == NODES:
+                break
+            earlier = before
+            before = q
+            q = product(plan, table + watched.rows + j * watched.apart, start)
+            j += 1
+        i = done = j - 1
         near = node(plan, table, i, start)
         up = relaxed(memory_upper, rate_upper, i * h)
         down = relaxed(memory_lower, rate_lower, i * h)
+        up_after = relaxed(memory_upper, rate_upper, j * h)
+        down_after = relaxed(memory_lower, rate_lower, j * h)
+        crossed = q > upper + up_after or q < lower - down_after
+        rise, fall = second, second
+        if closely and not crossed:
+            rise, fall = bends(plan, table, near, second, 0.0, 1.0)
+        # Where both ends lie within, it would have to bulge out between them.
+        over = not max(q, before) + 0.125 * fall < upper + up_after
+        under = not min(q, before) - 0.125 * rise > lower - down_after
+        if not (over or under):
+            continue
         y = NONE
         end = near
         way = WITHIN
-        if i == j - 1 and plan[table + LATE] == 0.0 and i >= quick_from:
-            # The usual case: a clean crossing, no memory left on that side.
-            if q > upper and up == 0.0 and before < upper:
+        if early and (i > 0 or within):
+            # The usual case: it has crossed at the next node, or at the one behind that.
+            first, from_up, from_down = near, up, down
+            older, here, there, back = earlier, before, q, 0.0
+            if not crossed and j < NODES and j < span:
+                first, from_up, from_down = node(plan, table, j, start), up_after, down_after
+                older, here, back = before, q, 1.0
+                there = product(plan, table + watched.rows + j * watched.apart, start)
+            inside = lower - from_down < here < upper + from_up
+            # No memory may be left on that side, and the other one is out of the question.
+            no_below = (back == 0.0 or not under) and min(here, upper) - band > lower
+            no_above = (back == 0.0 or not over) and max(here, lower) + band < upper
+            if inside and from_up == 0.0 and no_below and there > upper:
                 way = ABOVE
-                guess = crossing_guess(earlier, before, q, upper, j)
-                y, end = quick_root(
-                    plan, table, watched.weight_x, watched.weight_v, upper, guess, second, near
-                )
-            elif q < lower and down == 0.0 and before > lower:
+            elif inside and from_down == 0.0 and no_above and there < lower:
                 way = BELOW
-                guess = crossing_guess(earlier, before, q, lower, j)
-                y, end = quick_root(
-                    plan, table, -watched.weight_x, -watched.weight_v, -lower, guess, second, near
-                )
-            if y != NONE and i + y > span:
-                break
+            if way != WITHIN:
+                sign, level = (1.0, upper) if way == ABOVE else (-1.0, lower)
+                w, wv = sign * watched.weight_x, sign * watched.weight_v
+                guess = crossing_guess(older, here, there, level, j + int(back))
+                y, slope, end = quick_root(plan, table, w, wv, sign * level, guess, first)
+                # With a slope m it has been within for 2 m / bend before.
+                if y != NONE and not 2.0 * slope > second * (y + back):
+                    bend = second
+                    if closely:
+                        rise, fall = bends(plan, table, first, second, -back, 1.0)
+                        bend = rise if way == ABOVE else fall
+                    if not 2.0 * slope > bend * (y + back):
+                        y = NONE
+                if y != NONE:
+                    if i + back + y > span:
+                        break
+                    return way, i + int(back), y, end, from_up, from_down
         if y == NONE:
             expand(plan, table + watched.series, moved(plan, table + MIDDLE, near), series)
             low_upper = max(0.0, clear_upper - i)
             low_lower = max(0.0, clear_lower - i)
-            # A side is left out where both ends of the interval clear it.
-            first = before
-            if i != j - 1:
-                first = product(plan, table + watched.rows + i * watched.apart, start)
-            here = Bounds(
-                upper if max(q, first) > top else math.inf,
-                lower if min(q, first) < bottom else -math.inf,
+            bounded = Bounds(
+                upper if over else math.inf,
+                lower if under else -math.inf,
                 relaxed(up, rate_upper, low_upper * h),
                 relaxed(down, rate_lower, low_lower * h),
                 rate_upper,
                 rate_lower,
             )
             high = min(0.5, span - i - 0.5)
-            y, way = search(series, here, h, low_upper - 0.5, low_lower - 0.5, high)
+            y, way = search(series, bounded, h, low_upper - 0.5, low_lower - 0.5, high)
             if y != NONE:
-                y += 0.5
-                end = travel(plan, table, y, near)
-        if y != NONE:
-            return way, i, y, end, up, down
-        done = i
-        if i == j:
-            if j == NODES:
-                break
-            earlier = before
-            before = q
-            q = product(plan, table + watched.rows + j * watched.apart, start)
-            j += 1
+                return way, i, y + 0.5, travel(plan, table, y + 0.5, near), up, down
     return WITHIN, NODES, 0.0, start, 0.0, 0.0
 
 

@@ -168,7 +168,9 @@ def go(
                         cleared = -2.0 * slope >= bend_force
                 if found != LIMIT and not cleared:
                     guess = crossing_guess(earlier, before, now, level, j)
-                    y, end = quick_root(plan, table, weight_x, weight_v, level, guess, most, near)
+                    y, steep, end = quick_root(plan, table, weight_x, weight_v, level, guess, near)
+                    if not 2.0 * steep > most * y:
+                        y = NONE
                     if found == TURNS and way * end.x >= top:
                         y = NONE
                     elif y != NONE and i + y > span:
