@@ -52,10 +52,8 @@ def beside(one: Comparison, value: float) -> str:
 def difference(one: Comparison, value: float) -> str:
     """Of ours from theirs, over theirs."""
     share = value / one.value - 1.0
-    if share == 0.0:
-        return "0"
-    if abs(share) < ROUNDING:
-        return "below 1e-9"
+    if abs(share) < ROUNDING:  # the last digits are the processor's, but for counts
+        return "0" if value == round(value) == one.value else "below 1e-9"
     return f"{share:+.2%}" if abs(share) >= 1e-4 else f"{share:+.1e}"
 
 
