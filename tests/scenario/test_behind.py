@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.response.threads import Stopped
-from vibroimpact.scenario.behind import _SOON, KIND_CYCLES, primary_branch, with_folds, with_kinds
+from vibroimpact.scenario.behind import primary_branch, with_folds, with_kinds
 from vibroimpact.scenario.curves import holds
 from vibroimpact.scenario.evidence import evidence
 from vibroimpact.stability.growth import judge_wandering
@@ -92,21 +92,3 @@ def test_a_map_asks_once_what_forgetful_bumpers_leave_only_chaos_for(
         for e in (whole, brief)
     ]
     assert len({len(e.irregular_once) for e in chaos}) == 1
-
-
-def test_a_map_follows_growth_until_it_is_plain(chaotic, monkeypatch):
-    found, rig, ended = chaotic
-    asked = []
-
-    def judged(followed, state, cycles, max_events):
-        asked.append(cycles)
-        return judge_wandering(followed, state, cycles, max_events)
-
-    monkeypatch.setattr("vibroimpact.scenario.behind.judge_wandering", judged)
-    monkeypatch.setattr("vibroimpact.scenario.behind._MANY", 1)
-    brief = with_kinds(found, *rig, ended, brief=True)
-    assert asked == [_SOON]
-    asked.clear()
-    monkeypatch.setattr("vibroimpact.scenario.behind._SOON", 20)  # too few to tell
-    assert with_kinds(found, *rig, ended, brief=True).irregular == brief.irregular
-    assert asked == [20, KIND_CYCLES]

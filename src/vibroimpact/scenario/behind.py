@@ -23,8 +23,6 @@ KIND_CYCLES = 5000
 _LONGER = 20
 """How many times as long a motion is followed that seems quasi-periodic."""
 _MAX_EVENTS = 10_000
-_MANY, _SOON = 8, 300
-"""Motions of a range that do not settle, and forcing cycles that then are enough."""
 _RELAXATIONS = 20.0
 """Relaxation times in a forcing cycle behind which a bumper has forgotten."""
 
@@ -47,9 +45,7 @@ def with_kinds(
     "not periodic". `check` is called before each that is followed, and may raise to end it.
 
     If `brief`, as a map counts them: of a range of the backward sweep that overlaps a chaotic one
-    of the forward sweep nothing is asked where only chaos could be found in it; and where many
-    motions of a range do not settle, so that it is no transient, growth is followed only until it
-    is plain.
+    of the forward sweep nothing is asked where only chaos, already counted, could be found in it.
     """
     named: list[Irregular] = []
     for item in found.irregular:
@@ -61,7 +57,7 @@ def with_kinds(
             named.append(item)
             continue
         check()
-        kind = _kind(item, oscillator, shaken, ended, cycles, check, brief)
+        kind = _kind(item, oscillator, shaken, ended, cycles, check)
         kinds = tuple(kind if known == "not periodic" else known for known in item.kinds)
         named.append(item._replace(kinds=kinds))
     return found._replace(irregular=tuple(named))
@@ -83,7 +79,6 @@ def _kind(
     ended: Holds,
     cycles: int,
     check: Check,
-    brief: bool,
 ) -> Kind:
     """The kind of the motion in the middle of those of a range that are not periodic."""
     assert item.not_periodic is not None
@@ -102,8 +97,6 @@ def _kind(
         told, _, _, status = judge_wandering(followed, state, cycles, _MAX_EVENTS)
         return told.motion if status is Status.DONE else ""
 
-    if brief and len(wandering) >= _MANY and judged(followed.state.copy(), _SOON) == "chaotic":
-        return "chaotic"
     state = followed.state.copy()
     motion = judged(state, cycles)
     if motion == "quasi-periodic":
