@@ -16,6 +16,7 @@ from vibroimpact.engine.dispatch import (
     begin,
     coordinate,
     displacement,
+    enclosed,
     expanded,
     expanded_force,
     following,
@@ -174,28 +175,51 @@ def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
     series = workspace()
     sign = -1.0 if before.mode == LEFT else 1.0
     x = coordinate(plan, before)
-    x_least, x_most = x, x
+    # What was seen before, in the mode's own coordinate: a piece within it is passed over.
+    offset = displacement(plan, before.mode, 0.0)
+    seen_least, seen_most = sign * (u_least - offset), sign * (u_most - offset)
+    seen_low, seen_high = a_least, a_most
+    if before.mode == LEFT:
+        seen_least, seen_most = seen_most, seen_least
+        seen_low, seen_high = -a_most, -a_least
     a = sign * acceleration(plan, before)
-    least_a, most_a = a, a
+    x_least, x_most = min(seen_least, x), max(seen_most, x)
+    least_a, most_a = min(seen_low, a), max(seen_high, a)
     cursor = begin(plan, before, step)
     while more(plan, cursor):
+        held = enclosed(plan, cursor, before)
+        within = x_least <= held.x_least and held.x_most <= x_most
+        within &= least_a <= held.a_least and held.a_most <= most_a
+        if within and held.force <= (force_left if before.mode == LEFT else force_right):
+            cursor = following(plan, cursor)
+            continue
         high, s, c = expanded(plan, cursor, series)
         x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
         unit = accelerated(plan, cursor, s, c, series)
-        least, most, _, _ = series_extremes(series, -0.5, high, least_a / unit, most_a / unit)
-        least_a, most_a = least * unit, most * unit
+        low_was, high_was = least_a / unit, most_a / unit
+        least, most, _, _ = series_extremes(series, -0.5, high, low_was, high_was)
+        if least < low_was:
+            least_a = least * unit
+        if most > high_was:
+            most_a = most * unit
         part = Part(high, s, c)
         if before.mode & RIGHT:
             force_right = pushed(plan, cursor, before, RIGHT, part, series, force_right)
         if before.mode & LEFT:
             force_left = pushed(plan, cursor, before, LEFT, part, series, force_left)
         cursor = following(plan, cursor)
+    new_least, new_most = x_least < seen_least, x_most > seen_most
     if before.mode == LEFT:
+        new_least, new_most = new_most, new_least
         x_least, x_most, least_a, most_a = x_most, x_least, -most_a, -least_a
+    if new_least:
+        u_least = min(u_least, displacement(plan, before.mode, x_least))
+    if new_most:
+        u_most = max(u_most, displacement(plan, before.mode, x_most))
     right, left = struck(plan, stretch, RIGHT), struck(plan, stretch, LEFT)
     return Extremes(
-        min(u_least, displacement(plan, before.mode, x_least)),
-        max(u_most, displacement(plan, before.mode, x_most)),
+        u_least,
+        u_most,
         min(a_least, least_a),
         max(a_most, most_a),
         hits_right + (event == RIGHT),

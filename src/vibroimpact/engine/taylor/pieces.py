@@ -16,6 +16,7 @@ from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.layout import ORDER, RATE, RESTING, SCALED_W, H
+from vibroimpact.engine.linear.pieces import ANYWHERE, Enclosed
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
 from vibroimpact.engine.taylor.frame import (
@@ -200,6 +201,12 @@ def following(plan: Vector, cursor: Cursor) -> Cursor:
     if i + 1 < PIECES:
         return Cursor(table, i + 1, length, t, step, start)
     return following_window(plan, cursor)
+
+
+@kernel
+def enclosed(plan: Vector, cursor: Cursor, before: Motion) -> Enclosed:
+    """Bounds on a piece: none, for its series is there already."""
+    return ANYWHERE
 
 
 @kernel
