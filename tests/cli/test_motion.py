@@ -235,7 +235,9 @@ def test_chaotic_motion(run, tmp_path):
     first, second = data["exponents"].values
     spread = float(data["exponents_uncertainty"][0])
     assert 0.0 < 10.0 * spread < first
-    assert first + second == pytest.approx(-float(data["effective_damping"]), rel=1e-9)
+    # But for what a bumper remembers at the last section: less than one of a logarithm.
+    once = 1.06 / data.sizes["section_point"]
+    assert first + second == pytest.approx(-float(data["effective_damping"]), abs=once)
     assert f"{first:+.4g} ± {spread:.1g} and {second:+.4g} ± " in out
     assert data.sizes["time"] == 7 * 16 + 1
     assert data.sizes["section_point"] == 5000
