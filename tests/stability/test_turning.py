@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 import vibroimpact as vi
@@ -51,3 +53,12 @@ def test_with_rigid_stops_all_is_followed():
     family = followed.family(stiff, vi.Harmonic(1.0, 1.0), "frequency")
     first = followed.first_orbit(family, (0.0, 5.0), None, None)
     assert not followed.bounded_by_flight(first)
+
+
+def test_a_mass_that_stays_pressed_does_not_fly():
+    """It begins no contact, but its branch goes on: a constant force holds it on the stop."""
+    k = (2.0 * math.pi) ** 2
+    stop = vi.Bumper(3.0 * k, 0.5, 0.0)
+    rig = vi.Oscillator(1.0, vi.Isolator(stiffness=k, damping=0.3), right=stop, force=10.0)
+    turns = followed.turning_points(rig, vi.Harmonic(1.0, 2.0), None, 1.3, 2.3)
+    assert sorted(turns) == pytest.approx([1.80744, 1.92063], rel=1e-5)

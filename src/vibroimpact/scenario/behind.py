@@ -65,7 +65,8 @@ def with_kinds(
 
 def _forgetful(oscillator: Oscillator, frequency: float) -> bool:
     """Whether all bumpers forget within a cycle: no motion is quasi-periodic (theory, 6.5)."""
-    return oscillator.isolator.linear and all(
+    damped = oscillator.isolator.linear and oscillator.isolator.damping > 0.0
+    return damped and all(
         isinstance(stop, RigidStop)
         or (isinstance(stop, Bumper) and stop.damping * frequency * _RELAXATIONS <= stop.stiffness)
         for stop in oscillator.stops

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from vibroimpact.engine.section_map import PARAMETER
+from vibroimpact.engine.motion import FLIGHT
+from vibroimpact.engine.section_map import MODE, PARAMETER
 from vibroimpact.model import Harmonic
 from vibroimpact.response.free_flight import resonance_ratio
 from vibroimpact.stability.fixed_points import Orbit
@@ -31,6 +32,11 @@ def bounded_by_flight(first: Orbit) -> bool:
     return linear and not has_rigid_stop(first)
 
 
+def flies(orbit: Orbit) -> bool:
+    """Whether no stop is touched; a mass that stays pressed on one begins no contact either."""
+    return orbit.contacts == (0, 0) and orbit.facts[MODE] == FLIGHT
+
+
 @dataclass(frozen=True, eq=False)
 class InContact(Branch):
     """A branch over the frequency that is followed until the stops are not touched any more."""
@@ -40,15 +46,14 @@ class InContact(Branch):
 
     def corner(self, here: Station, length: float) -> list[Station]:
         """See `Path`: if the branch leaves the stops, the last orbit that touches them."""
-        flight = (0, 0)
-        if here.orbit.contacts == flight:
+        if flies(here.orbit):
             return super().corner(here, length)
         good, bad, last, middle = 0.0, length, here, length
         for _ in range(_HALVINGS):
             found = self.stepped(here, middle)
-            if found is None or found.contacts not in (flight, here.orbit.contacts):
+            if found is None or not (flies(found) or found.contacts == here.orbit.contacts):
                 return super().corner(here, length)
-            if found.contacts == flight:
+            if flies(found):
                 bad = middle
             else:
                 good, last = middle, self._after(here, found)

@@ -105,17 +105,26 @@ def test_a_contact_with_a_dashpot_ends_with_its_force() -> None:
     assert t < math.pi / w
 
 
-def test_a_motion_is_bent_no_more_than_is_said_of_it() -> None:
-    """By one sine, four and the line of a record; and little less, where |x″| itself is 1."""
-    script = Path(__file__).parent / "bent.py"
+def printed(script: str) -> list[str]:
+    """The lines of a script beside this file, run without the compiler."""
     done = subprocess.run(
-        [sys.executable, script],
+        [sys.executable, Path(__file__).parent / script],
         env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
         capture_output=True,
         text=True,
         check=True,
     )
-    results = [json.loads(line) for line in done.stdout.splitlines()]
+    return done.stdout.splitlines()
+
+
+def test_a_contact_shortly_before_a_record_s_line_ends() -> None:
+    """The node behind it is farther than the line, where the base would go on as steeply."""
+    assert printed("line_ends.py") == ["75 75"]
+
+
+def test_a_motion_is_bent_no_more_than_is_said_of_it() -> None:
+    """By one sine, four and the line of a record; and little less, where |x″| itself is 1."""
+    results = [json.loads(line) for line in printed("bent.py")]
     assert len(results) == 9
     for beyond, distance in results:
         assert beyond <= 1e-12

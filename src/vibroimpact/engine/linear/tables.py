@@ -182,6 +182,9 @@ def _table(
     for late in range(2):
         at = table + late * LATE_TABLES
         h = spacing(plan, slow if late else fast)
+        if wave(plan, 1, False).closes == 0.0 and not held:
+            # The last step of a line may reach beyond its end.
+            most = plan[MOST] + steepest * h
         plan[at + VALID_FROM] = 0.0
         if late:
             # Worth a table of its own only where steps become much longer.
