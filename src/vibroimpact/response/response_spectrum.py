@@ -113,7 +113,7 @@ def _found(
         mine = np.empty((omega[some].size, spectra.FOUND))
         one = records[n]
         spectra.respond(
-            one.acceleration,
+            np.array(one.acceleration),  # which is not to be written to: another type
             one.step,
             np.ascontiguousarray(omega[some]),
             np.ascontiguousarray(zeta[some]),
