@@ -34,7 +34,7 @@ PAGES = sorted(
     [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")],
 )
 
-_FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]+\]\(([^)\s]+)\)")
 _FILE = re.compile(r"# ([\w.-]+\.toml)\n")
 
@@ -58,7 +58,7 @@ class Shown(NamedTuple):
 
 def run_page(text: str, name: str = "page") -> Iterator[Shown]:
     """Run a page's blocks in the present folder, one after the other."""
-    blocks: list[re.Match[str] | None] = [*_FENCE.finditer(text), None]
+    blocks: list[re.Match[str] | None] = [*FENCE.finditer(text), None]
     script: dict[str, Any] = {"__name__": "__main__"}
     for block, following in pairwise(blocks):
         assert block

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import codeop
 import re
 from pathlib import Path
 
 import pytest
 
-from docs.snippets import PAGES, PICTURE, ROOT, run_page
+from docs.snippets import FENCE, PAGES, PICTURE, ROOT, run_page
 
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
 
@@ -27,6 +28,38 @@ def test_blocks_run_and_print_what_is_shown(page, tmp_path, monkeypatch):
         )
     if page.parent.name == "tutorials":
         assert all(any(Path().rglob(Path(target).name)) for target in PICTURE.findall(text))
+
+
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if page.name != "CONTRIBUTING.md"], ids=name
+)
+def test_blocks_can_be_pasted_into_the_prompt(page):
+    """Where a statement with a body ends at an empty line, and not before."""
+    text = page.read_text(encoding="utf-8")
+    for block in FENCE.finditer(text):
+        if block[1] in ("python", "py"):
+            line = text.count("\n", 0, block.start(2)) + 1
+            assert refused(block[2]) is None, f"{name(page)}:{line}: {refused(block[2])}"
+
+
+def refused(code: str) -> str | None:
+    """The line at which the interactive prompt refuses a block; None if it takes all."""
+    statement: list[str] = []
+    compiled = codeop.CommandCompiler()
+    for line in [*code.splitlines(), ""]:
+        statement.append(line)
+        try:
+            if compiled("\n".join(statement)) is not None:
+                statement.clear()
+        except SyntaxError:
+            return line
+    return "\n".join(statement) or None
+
+
+def test_what_the_prompt_refuses_is_noticed():
+    assert refused("for i in range(3):\n    print(i)\n\nprint(3)\n") is None
+    assert refused("for i in range(3):\n    print(i)\nprint(3)\n") == "print(3)"
+    assert refused("print(\n") == "print(\n"
 
 
 @pytest.mark.parametrize(
