@@ -59,7 +59,7 @@ def test_a_study_with_records(run, study):
     }
     records = {name: vi.Record.read(study / name) for name in RECORDS}
     vary = {"gap": np.linspace(0.02, 0.2, 3), "bumper_stiffness": np.geomspace(5e7, 1e9, 4)}
-    direct = vi.design(_rig(), records, vary, fractile=0.5)
+    direct = vi.design(_rig(), records, vary, fractile=0.5, limits={"penetration": 0.04})
     held = vi.load(out / "building-design.nc")
     for name in SIZES:
         np.testing.assert_allclose(held[name], direct[name], rtol=1e-12)
@@ -67,9 +67,29 @@ def test_a_study_with_records(run, study):
     words = " ".join(told.split())
     assert f"Required gap: {1e3 * float(need['required_gap']):.4g} mm to hit nothing" in words
     assert "The gap of 300 mm is " in words
-    assert "Designs: 3 × 4, over gap and bumper stiffness; " in words
+    within, front = (int(direct[name].sum()) for name in ("within_limits", "pareto"))
+    assert 0 < front <= within < 12
+    assert (
+        f"Designs: 3 × 4, over gap and bumper stiffness; {within} are within penetration 40 mm, "
+        f"and of these {front} are beaten by no other"
+    ) in words
     rows = (out / "building-design.csv").read_text().splitlines()
     assert len(rows) == 13
+
+
+def test_a_limit_holds_for_the_chart_too(run, study):
+    code, told, errors = run("building.toml", "--limit", "penetration", "20mm", "--json")
+    assert (code, errors) == (0, "")
+    facts = json.loads(told)
+    assert facts["limits"] == {"penetration": 0.02}
+    assert 0 < facts["designs_within_limits"] < facts["designs"]
+    assert all(one["penetration"] <= 0.02 for one in facts["front"])
+    words = ("--limit", "peak-displacement", "1mm", "--vary", "gap", "20mm:50mm:2")
+    code, told, errors = run("building.toml", *words)
+    assert (code, errors) == (0, "")
+    assert "over gap; none is within penetration 40 mm and peak displacement 1 mm." in " ".join(
+        told.split()
+    )
 
 
 def test_sines_best_and_json(run, study):
@@ -137,7 +157,7 @@ def test_three_measured_records(run, tmp_path):
         (("--vary", "gap", "0.2:0.1"), "--vary: 0.2 is not below 0.1"),
         (("--vary", "gap", "1kg:2"), "--vary: '1kg'"),
         (("--vary", "yield-force", "1:2"), "yield_force: unknown key"),
-        (("--limit", "penetration", "1mm"), "--limit: given without --best"),
+        (("--limit", "speed", "1"), "limits: 'speed'; one of "),
         (("--best", "--limit", "speed", "1"), "limits: 'speed'; one of "),
         (("--fractile", "2"), "--fractile: '2'"),
         (("--scale", "0"), "scale: 0"),

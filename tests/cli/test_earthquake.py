@@ -128,8 +128,27 @@ def test_what_is_said_in_place_of_a_file_is_told(run, tmp_path):
     assert "--unit: cm/s^2 instead of the " in errors
     assert all(line.startswith("vibroimpact: warning: ") for line in errors.splitlines())
     (tmp_path / "bare.csv").write_text("\n".join(f"{i % 3 - 1}" for i in range(50)) + "\n")
-    code, _, errors = run("B2-G1-A3", "bare.csv", "--step", "10ms", "--unit", "m/s^2")
-    assert (code, errors) == (0, "")
+    for unit in ("m/s^2", "gal"):
+        code, _, errors = run("B2-G1-A3", "bare.csv", "--step", "10ms", "--unit", unit)
+        assert (code, errors) == (0, "")
+
+
+def test_a_unit_that_nobody_says_is_told(run, tmp_path):
+    (tmp_path / "bare.csv").write_text("\n".join(f"{i % 3 - 1}" for i in range(50)) + "\n")
+    code, _, errors = run("B2-G1-A3", "bare.csv", "--step", "10ms")
+    note = "unit m/s², for the file says none"
+    assert code == 0
+    assert errors == f"vibroimpact: warning: 'bare.csv': {note}; --unit g says another\n"
+    (tmp_path / "rig.toml").write_text(
+        '[oscillator]\nmass = "550 kg"\nisolator = { stiffness = "26 kN/m", damping = 1000 }\n'
+        '[excitation]\nrecord = "bare.csv"\nstep = "10 ms"\n'
+    )
+    code, _, errors = run("rig.toml")
+    assert code == 0
+    assert errors == (
+        f"vibroimpact: warning: study 'rig.toml': excitation.record: {note}; excitation.unit says "
+        "another\n"
+    )
 
 
 @pytest.mark.parametrize(

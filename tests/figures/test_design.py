@@ -23,8 +23,8 @@ def data():
 
 def test_contours_over_two_parameters(data) -> None:
     left, right = design_chart(data, title="made")
-    assert left.get_title() == "largest $|u|$ (mm)"
-    assert right.get_title() == "largest $|\\ddot u + A_t|$ (g)"
+    assert left.get_title() == "largest displacement $|u|$ (mm)"
+    assert right.get_title() == "largest absolute acceleration $|\\ddot u + A_t|$ (g)"
     assert left.get_xlabel() == "gap of each side (mm)"
     assert left.get_ylabel() == "stiffness of both bumpers (kN/m)"
     assert left.get_yscale() == "log"
@@ -70,11 +70,44 @@ def test_the_front(data) -> None:
     u, a = (np.sort(data[f"peak_{what}"].values[best]) for what in ("displacement", "acceleration"))
     np.testing.assert_allclose(front.get_xdata(), 1e3 * u)
     np.testing.assert_allclose(front.get_ydata(), a[::-1] / GRAVITY)
-    told = ax.texts[-1].get_text()
-    assert told.startswith("gap of each side,")
+    told = " ".join(ax.texts[-1].get_text().split("\n"))
+    assert told.startswith("gap of each side, ")
     assert "1  " in told
     assert " mm, " in told
     assert " N/m" in told or " kN/m" in told
+
+
+def test_of_a_long_front_some_are_numbered() -> None:
+    long = vi.design(RIGS["bumpers"], noise(8, count=120), {"gap": np.linspace(0.01, 0.3, 25)})
+    count = int(long["pareto"].sum())
+    assert count > 5
+    told = " ".join(pareto_front(long).texts[-1].get_text().split("\n"))
+    assert told.startswith(f"5 of the {count} that are beaten by no other: gap of each side 1 ")
+
+
+def test_what_exceeds_a_limit_is_marked(data) -> None:
+    limited = vi.design(
+        RIGS["bumpers"],
+        noise(8, count=120),
+        {"gap": GAPS, "bumper_stiffness": STIFFNESSES},
+        limits={"peak_displacement": float(data["peak_displacement"].median())},
+    )
+    beyond = ~limited["within_limits"].values
+    ax = pareto_front(limited)
+    (crosses,) = (line for line in ax.lines if line.get_label() == "exceeds a limit")
+    np.testing.assert_allclose(
+        np.sort(crosses.get_xdata()), np.sort(1e3 * limited["peak_displacement"].values[beyond])
+    )
+    for panel in design_chart(limited):
+        assert "exceeds a limit" in [text.get_text() for text in panel.get_legend().get_texts()]
+    one = limited.isel(bumper_stiffness=1)
+    (ax,) = design_chart(one, quantities=("peak_force",))
+    (crosses,) = (line for line in ax.lines if line.get_label() == "exceeds a limit")
+    assert len(crosses.get_xdata()) == (~one["within_limits"].values).sum()
+    none = limited.assign(
+        within_limits=limited["within_limits"] & False, pareto=limited["pareto"] & False
+    )
+    assert len(pareto_front(none).lines) == 1
 
 
 def test_refused(data) -> None:

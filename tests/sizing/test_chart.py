@@ -11,6 +11,7 @@ import pytest
 import vibroimpact as vi
 from samples import sample
 from seismic.rigs import RIGS, noise
+from vibroimpact.sizing.front import non_dominated
 
 BUILDING = vi.Oscillator(
     "5000 t",
@@ -110,10 +111,39 @@ def test_what_no_other_beats_on_the_whole_grid() -> None:
     u, a = (data[name].values.ravel() for name in PEAKS[:2])
     by_hand = [
         not any((u <= u[i]) & (a <= a[i]) & ((u < u[i] - 1e-9) | (a < a[i] - 1e-9)))
+        and not any(np.isclose(u[:i], u[i], 1e-9) & np.isclose(a[:i], a[i], 1e-9))
         for i in range(len(u))
     ]
     assert data["pareto"].values.ravel().tolist() == by_hand
     assert 2 < sum(by_hand) < len(u)
+
+
+def test_what_exceeds_a_limit_beats_nobody() -> None:
+    vary = {"gap": np.linspace(0.01, 0.3, 8), "bumper_stiffness": np.geomspace(1e7, 1e9, 6)}
+    every = vi.design(BUILDING, RECORDS, vary)
+    limits = {"penetration": "10 mm", "peak-force": 2e7}
+    data = vi.design(BUILDING, RECORDS, vary, limits=limits)
+    within = ((every["penetration"] <= 0.01) & (every["peak_force"] <= 2e7)).values
+    assert 0 < within.sum() < within.size
+    np.testing.assert_array_equal(data["within_limits"], within)
+    for name in PEAKS:
+        np.testing.assert_array_equal(data[name], every[name])
+    assert not data["pareto"].values[~within].any()
+    kept = non_dominated(*(data[name].values[within] for name in PEAKS[:2]))
+    np.testing.assert_array_equal(data["pareto"].values[within], kept)
+    assert (data["pareto"] & ~every["pareto"]).any()
+    assert json.loads(data.attrs["parameters"])["limits"] == {
+        "penetration": 0.01,
+        "peak_force": 2e7,
+    }
+    none = vi.design(BUILDING, RECORDS, {"gap": [0.01]}, limits={"peak_displacement": 1e-6})
+    assert not none["pareto"].any()
+
+
+def test_designs_that_hit_nothing_count_once() -> None:
+    data = vi.design(BUILDING, RECORDS, {"gap": [2.0, 3.0], "bumper_stiffness": [1e7, 1e8]})
+    assert not data["hitting"].any()
+    assert data["pareto"].values.tolist() == [[True, False], [False, False]]
 
 
 def test_threads_change_no_bit_and_it_is_saved(tmp_path) -> None:
@@ -154,6 +184,7 @@ def test_what_has_no_bound_is_infinite() -> None:
         ({"frequencies": "1 Hz"}, "frequencies: '1 Hz'; the lowest"),
         ({"shaking": RECORDS, "fractile": 1.5}, "fractile: 1.5"),
         ({"step": 0.0}, "step: 0"),
+        ({"limits": {"speed": 1.0}}, "limits: 'speed'; one of peak_displacement, "),
         ({"shaking": RECORDS, "tail": -1.0}, "tail: -1"),
         ({"threads": 0}, "threads: 0"),
         ({"oscillator": 3}, "oscillator: 3"),

@@ -10,14 +10,16 @@ from vibroimpact.sizing.front import non_dominated
 
 
 def _by_pairs(first, second):
-    """Nobody is as good in both and better in one; every pair is looked at."""
+    """Nobody is as good in both and better in one, or the same before; every pair is looked at."""
     points = list(zip(first, second, strict=True))
     return [
         np.isfinite(p).all()
         and not any(
-            q[0] <= p[0] and q[1] <= p[1] and q != p for q in points if np.isfinite(q).all()
+            q[0] <= p[0] and q[1] <= p[1] and (q != p or k < i)
+            for k, q in enumerate(points)
+            if np.isfinite(q).all()
         )
-        for p in points
+        for i, p in enumerate(points)
     ]
 
 
@@ -36,4 +38,4 @@ def test_against_every_pair(points) -> None:
 def test_what_agrees_up_to_rounding_is_one() -> None:
     first = np.array([[1.0, 1.0 + 1e-15], [0.5, 2.0]])
     second = np.array([[2.0 + 4e-15, 2.0], [3.0, 2.0]])
-    np.testing.assert_array_equal(non_dominated(first, second), [[True, True], [True, False]])
+    np.testing.assert_array_equal(non_dominated(first, second), [[True, False], [True, False]])

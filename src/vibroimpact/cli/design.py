@@ -64,7 +64,10 @@ def design(
         _PAIRS,
         Parameter(
             show_default=False,
-            help="What it must not exceed: peak-force, penetration or peak-displacement; 5MN.",
+            help=(
+                "What no design may exceed: peak-force, penetration or peak-displacement, with "
+                "a value, such as 5MN."
+            ),
         ),
     ] = (),
     fractile: Annotated[
@@ -93,7 +96,7 @@ def design(
 
     Under records, or under sines of any frequency swept up and down. Writes NAME-design.nc and .csv
     with a row a design, NAME-design.png (over one or two parameters) and NAME-pareto.png, the
-    designs that no other one beats.
+    designs that no other one beats. Limits hold for these, and for the search.
 
     For example:
 
@@ -120,8 +123,6 @@ def design(
     }
     ranges = _ranges(what, vary or tuple(((table and table.vary) or {}).items()))
     limits: dict[str, Any] = {**((table and table.limits) or {}), **dict(limit)}
-    if limit and not best:
-        raise InputError("--limit: given without --best; it is accepted beside it")
 
     from vibroimpact.sizing.best import least_acceleration
     from vibroimpact.sizing.chart import design as chart
@@ -139,7 +140,9 @@ def design(
         with progress_bar("computing") as progress:
             gap = required_gap(what.oscillator, shaking, **asked)
             values = ranges or _usual(what, float(gap["required_gap"]))
-            data = chart(what.oscillator, shaking, values, **asked, progress=progress)
+            data = chart(
+                what.oscillator, shaking, values, limits=limits, **asked, progress=progress
+            )
             least = (
                 least_acceleration(
                     what.oscillator, shaking, limits=limits, **asked, progress=progress

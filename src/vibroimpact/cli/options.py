@@ -220,7 +220,7 @@ class RecordOptions:
     def read(self, files: Iterable[str]) -> dict[str, Record]:
         """Read the files of records, by their names.
 
-        Where it is said otherwise than a file says itself, that is told.
+        Where it is said otherwise than a file says itself, or nobody says a unit, that is told.
 
         Raises
         ------
@@ -242,9 +242,12 @@ class RecordOptions:
         from vibroimpact.cli.output import warn
         from vibroimpact.model import Record
         from vibroimpact.model.quantities import TIME
+        from vibroimpact.model.record import NO_UNIT
         from vibroimpact.model.units import pretty
 
         read = Record.read(file, self.component, unit=self.unit, step=self.step)
+        if NO_UNIT in read.about.notes:
+            warn(f"{file!r}: {NO_UNIT}; --unit g says another")
         for option, given in (("step", self.step), ("unit", self.unit)):
             if given is None:
                 continue
@@ -256,10 +259,9 @@ class RecordOptions:
             if option == "step" and own.step != read.step:
                 said, now = pretty(own.step, TIME), pretty(read.step, TIME)
                 warn(f"--step: {now} instead of the {said} that {file!r} says")
-            if option == "unit" and own.about.unit != read.about.unit:
-                warn(
-                    f"--unit: {read.about.unit} instead of the {own.about.unit} that {file!r} says"
-                )
+            own_unit = own.about.unit if NO_UNIT not in own.about.notes else read.about.unit
+            if option == "unit" and own_unit != read.about.unit:
+                warn(f"--unit: {read.about.unit} instead of the {own_unit} that {file!r} says")
         return read
 
 

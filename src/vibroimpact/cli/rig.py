@@ -28,6 +28,7 @@ from vibroimpact.model.excitation import sized
 from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, LENGTH, PERIOD
+from vibroimpact.model.record import NO_UNIT
 from vibroimpact.model.rigs import as_shaking
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.response.free_flight import reference_excursions
@@ -196,6 +197,8 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
         shaking = study.excitation.shaking(Path(path).parent)
     except InputError as error:
         raise InputError(f"study {path!r}: excitation.{error}") from None
+    if isinstance(shaking, Record) and NO_UNIT in shaking.about.notes:
+        warn(f"study {path!r}: excitation.record: {NO_UNIT}; excitation.unit says another")
     if study.case is not None:
         try:
             found = _of_case(study.case, parameters)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from typing import Any
 
@@ -16,6 +17,8 @@ from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
+from vibroimpact.response.vocabulary import VARIABLES
+from vibroimpact.sizing.limits import QUANTITIES
 
 _ROWS = 8
 """Designs of the front that are told, at most."""
@@ -27,6 +30,7 @@ def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[s
     return {
         **{name: float(gap[name]) for name in names},
         "designs": int(data["pareto"].size),
+        **_limits_facts(data),
         "front": [{str(name): _item(value) for name, value in one.items()} for one in _front(data)],
         "best": None
         if least is None
@@ -54,11 +58,10 @@ def text(
     rows = list(_front(data))
     dims = [str(dim) for dim in data["pareto"].dims]
     size = " × ".join(str(n) for n in data["pareto"].shape)
-    yield Text(
-        f"Designs: {size}, over {' and '.join(_words(dim) for dim in dims)}; "
-        f"{len(rows)} are beaten by no other in both displacement and acceleration."
-    )
-    yield _table(rows, dims)
+    over = " and ".join(_words(dim) for dim in dims)
+    yield Text(f"Designs: {size}, over {over}; {_which(data, len(rows))}.")
+    if rows:
+        yield _table(rows, dims)
     if least is not None:
         chosen = ", ".join(
             f"{_words(name)} {_value(name, float(least[name]))}"
@@ -67,6 +70,33 @@ def text(
         )
         yield Text()
         yield Text(f"Least acceleration for {_gaps(rig)}: {chosen}: {_demands(least)}.")
+
+
+def _limits_facts(data: xr.Dataset) -> dict[str, Any]:
+    """The limits, and how many designs keep them; nothing if there are none."""
+    if "within_limits" not in data:
+        return {}
+    limits = json.loads(data.attrs["parameters"])["limits"]
+    return {"limits": limits, "designs_within_limits": int(data["within_limits"].sum())}
+
+
+def _which(data: xr.Dataset, front: int) -> str:
+    """How many designs keep the limits, and how many of them no other one beats."""
+    best = f"{front} {_be(front)} beaten by no other in both displacement and acceleration"
+    told = _limits_facts(data)
+    if not told:
+        return best
+    limits = " and ".join(
+        f"{_words(name)} {pretty(value, QUANTITIES[VARIABLES[name].units])}"
+        for name, value in told["limits"].items()
+    )
+    count = told["designs_within_limits"]
+    kept = f"{count or 'none'} {_be(count or 1)} within {limits}"
+    return f"{kept}, and of these {best}" if count else kept
+
+
+def _be(count: int) -> str:
+    return "is" if count == 1 else "are"
 
 
 def _enough(rig: Oscillator, gap: xr.Dataset) -> str:
@@ -106,17 +136,12 @@ def _table(rows: list[xr.Dataset], dims: list[str]) -> Table:
 
 
 def _front(data: xr.Dataset) -> Iterator[xr.Dataset]:
-    """The designs that no other one beats, one of those that do the same, by displacement."""
+    """The designs that no other one beats, by displacement."""
     dims = [str(dim) for dim in data["pareto"].dims]
     at = np.argwhere(data["pareto"].values)
     u = data["peak_displacement"].values[tuple(at.T)]
-    last = None
     for k in np.argsort(u, kind="stable"):
-        one = data.isel(dict(zip(dims, map(int, at[k]), strict=True)))
-        here = f"{u[k]:.9g}", f"{float(one['peak_acceleration']):.9g}"
-        if here != last:
-            yield one.reset_coords()
-        last = here
+        yield data.isel(dict(zip(dims, map(int, at[k]), strict=True))).reset_coords()
 
 
 def _demands(one: xr.Dataset) -> str:

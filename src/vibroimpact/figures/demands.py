@@ -16,10 +16,10 @@ from vibroimpact.model.quantities import LENGTH
 from vibroimpact.seismic.suites import fractiles, known
 
 _LABELS = {
-    "peak_displacement": (1e3, "largest $|u|$ (mm)"),
-    "peak_displacement_right": (1e3, "largest $u$ (mm)"),
-    "peak_displacement_left": (1e3, "largest $-u$ (mm)"),
-    "peak_acceleration": (1.0 / GRAVITY, "largest $|\\ddot u + A_t|$ (g)"),
+    "peak_displacement": (1e3, "largest displacement $|u|$ (mm)"),
+    "peak_displacement_right": (1e3, "largest displacement $u$ to the right (mm)"),
+    "peak_displacement_left": (1e3, "largest displacement $-u$ to the left (mm)"),
+    "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration $|\\ddot u + A_t|$ (g)"),
     "peak_force": (1e-3, "largest contact force (kN)"),
     "peak_force_right": (1e-3, "largest force of the right stop (kN)"),
     "peak_force_left": (1e-3, "largest force of the left stop (kN)"),

@@ -5,10 +5,12 @@ from __future__ import annotations
 import textwrap
 from typing import Any
 
+import matplotlib
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
@@ -26,8 +28,8 @@ from vibroimpact.scenario.axes import logarithmic
 _Array = NDArray[np.float64]
 
 _QUANTITIES = {
-    "peak_displacement": (1e3, "largest $|u|$ (mm)"),
-    "peak_acceleration": (1.0 / GRAVITY, "largest $|\\ddot u + A_t|$ (g)"),
+    "peak_displacement": (1e3, "largest displacement $|u|$ (mm)"),
+    "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration $|\\ddot u + A_t|$ (g)"),
     "peak_force": (1e-3, "largest contact force (kN)"),
 }
 _LEVELS = 9
@@ -44,8 +46,9 @@ def design_chart(
 ) -> Panels:
     """Draw the demands on designs over one parameter, or as contours over two.
 
-    Dots mark designs that no other one beats; from the thick dashed line on nothing is hit by the
-    designs that were computed.
+    Dots mark designs that no other one beats. The thick dashed line goes through the first of the
+    designs that hit nothing: the gap that is needed lies before it, and is that of `required_gap`.
+    What is hatched exceeds a limit.
 
     Parameters
     ----------
@@ -84,6 +87,9 @@ def design_chart(
 def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw acceleration over displacement of all designs, with the front that none beats.
 
+    A few designs of the front, evenly along it, have numbers, and their parameters beside the axes.
+    Crosses exceed a limit.
+
     Parameters
     ----------
     data
@@ -104,19 +110,24 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
         for name in ("peak_displacement", "peak_acceleration")
     )
     best = data["pareto"].values.ravel().astype(bool)
-    if not best.any():
+    finite = np.isfinite(u) & np.isfinite(a)
+    if not finite.any():
         raise InputError("data: no design was done; a dataset with one or more is accepted")
     ax = axes_or_new(ax, (6.4, 4.8), title)
-    finite = np.isfinite(u) & np.isfinite(a)
     hits = data["hitting"].values.ravel() > 0.0
-    looks = ((hits, "0.75", 4.0, 2, "hits a stop"), (~hits, "none", 9.0, 5, "hits nothing"))
-    for mine, face, size, above, label in looks:
+    beyond = _beyond(data).ravel()
+    looks = (
+        (beyond, "x", "0.75", 4.0, 2, "exceeds a limit"),
+        (hits & ~beyond, "o", "0.75", 4.0, 2, "hits a stop"),
+        (~hits & ~beyond, "o", "none", 9.0, 5, "hits nothing"),
+    )
+    for mine, mark, face, size, above, label in looks:
         if (finite & mine).any():
             ax.plot(
                 u[finite & mine],
                 a[finite & mine],
                 linestyle="",
-                marker="o",
+                marker=mark,
                 markersize=size,
                 markerfacecolor=face,
                 markeredgecolor="0.5",
@@ -125,22 +136,24 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
                 zorder=above,
             )
     order = np.flatnonzero(best)[np.lexsort((a[best], u[best]))]
-    ax.plot(
-        u[order],
-        a[order],
-        color="black",
-        linewidth=1.2,
-        marker="s",
-        markersize=4.5,
-        label="beaten by no other",
-        zorder=4,
-    )
+    if best.any():
+        ax.plot(
+            u[order],
+            a[order],
+            color="black",
+            linewidth=1.2,
+            marker="s",
+            markersize=4.5,
+            label="beaten by no other",
+            zorder=4,
+        )
     ax.set_xlabel(_QUANTITIES["peak_displacement"][1])
     ax.set_ylabel(_QUANTITIES["peak_acceleration"][1])
     ax.set_ylim(bottom=0.0)
     ax.margins(x=0.08)
-    _name_points(ax, data, dims, order, u, a)
-    ax.legend(ncols=3, **LEGEND)
+    if best.any():
+        _name_points(ax, data, dims, order, u, a)
+    ax.legend(ncols=2 if beyond.any() else 3, **LEGEND)
     return ax
 
 
@@ -171,6 +184,8 @@ def _name_points(
             zorder=6,
         )
     names = ", ".join(str(data[dim].attrs["long_name"]) for dim in dims)
+    if len(chosen) < len(order):
+        names = f"{len(chosen)} of the {len(order)} that are beaten by no other: {names}"
     told_of = "\n".join([*textwrap.wrap(names, 26), *lines])
     ax.text(
         1.02,
@@ -186,6 +201,14 @@ def _name_points(
 
 def _told(name: str, value: float) -> str:
     return pretty(float(f"{value:.3g}"), PARAMETERS[name].quantity)
+
+
+def _beyond(data: xr.Dataset) -> NDArray[np.bool_]:
+    """Which designs exceed a limit."""
+    if "within_limits" not in data:
+        return np.zeros(data["pareto"].shape, dtype=bool)
+    found: NDArray[np.bool_] = ~data["within_limits"].values.astype(bool)
+    return found
 
 
 def _dims(data: Any) -> list[str]:
@@ -237,6 +260,9 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
     ax.plot(x, y, color="black", linewidth=1.4, zorder=3)
     best = data["pareto"].values.astype(bool)
     ax.plot(x[best], y[best], "o", color="black", markersize=4.0, label="beaten by no other")
+    beyond = _beyond(data)
+    if beyond.any():
+        ax.plot(x[beyond], y[beyond], "x", color="0.5", markersize=5.0, label="exceeds a limit")
     free = ~(data["hitting"].values > 0.0)
     ax.plot(
         x[free],
@@ -269,7 +295,8 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
         lines = ax.contour(x, y, values, levels=filled.levels, colors="0.15", linewidths=0.7)
         levels = list(zip(lines.levels, lines.allsegs, strict=True))
     hits = (data["hitting"].values > 0.0).astype(float)
-    handles, edges = [], []
+    handles: list[Line2D | Patch] = []
+    edges = []
     if 0.0 < hits.mean() < 1.0:
         # Through the designs that just hit nothing: never on the side of those that hit.
         edge = ax.contour(
@@ -283,9 +310,16 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
                 color="#c8102e",
                 linewidth=2.0,
                 linestyle="--",
-                label="from here on nothing is hit",
+                label="first of these designs to hit nothing",
             )
         )
+    beyond = _beyond(data)
+    if beyond.any():
+        with matplotlib.rc_context({"hatch.color": "0.55", "hatch.linewidth": 0.6}):
+            ax.contourf(x, y, beyond, levels=[0.5, 1.5], hatches=["////"], colors="none", zorder=2)
+            handles.append(
+                Patch(facecolor="none", edgecolor="0.55", hatch="////", label="exceeds a limit")
+            )
     best = np.argwhere(data["pareto"].values.astype(bool))
     (dots,) = ax.plot(
         x[best[:, 1]],

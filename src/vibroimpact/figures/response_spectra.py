@@ -14,7 +14,7 @@ from vibroimpact.figures.style import LEGEND, also_in_g
 _LABELS = {
     "spectral_displacement": (1e3, "largest $|u|$ (mm)"),
     "spectral_velocity": (1.0, "largest $|\\dot u|$ (m/s)"),
-    "spectral_acceleration": (1.0, "largest $|\\ddot u + A_t|$ (m/s²)"),
+    "spectral_acceleration": (1.0, "largest absolute acceleration $|\\ddot u + A_t|$ (m/s²)"),
     "pseudo_velocity": (1.0, "pseudo-velocity\n$\\omega\\,\\max |u|$ (m/s)"),
     "pseudo_acceleration": (1.0, "pseudo-acceleration\n$\\omega^2 \\max |u|$ (m/s²)"),
 }

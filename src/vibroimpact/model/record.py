@@ -18,6 +18,8 @@ _RESOLVED = 1.5
 """By how much the peak of a second derivative may grow when the samples left out are used."""
 
 
+NO_UNIT = "unit m/s², for the file says none"
+"""What is noted where neither file nor user says a unit."""
 _OFF = 0.05
 """Share of the peak from which on a mean that is left in is told."""
 _DEGREES = {"mean": 0, "line": 1}
@@ -124,7 +126,7 @@ class Record:
                     "--scale, makes it so"
                 )
             taken = "m/s^2"
-            notes.append("unit m/s², for the file says none")
+            notes.append(NO_UNIT)
         elif unit is not None and found.unit not in (None, unit):
             notes.append(f"unit {unit}, not the file's {found.unit}")
         try:

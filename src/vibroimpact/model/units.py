@@ -61,6 +61,8 @@ _UNITS = re.compile(
     rf"(?:1 ?/ ?)?(?:{_FACTOR}|{_GROUP})(?:{_TIMES}(?:{_FACTOR}|{_GROUP}))*", re.ASCII
 )
 _BARE_POWER = re.compile(r"(?<=[A-Za-z)])(-?[1-9])")
+_GAL = re.compile(r"(?<![A-Za-z_])(m?)gal(?![A-Za-z_])", re.IGNORECASE)
+"""To pint ``gal`` is a gallon, and its ``Gal`` has capitals."""
 _GRAVITY_SYMBOL = re.compile(r"(?<![A-Za-z_])(m?)[gG](?![A-Za-z_])")
 
 
@@ -296,6 +298,7 @@ def _from_text(text: str, quantity: Quantity) -> float:
             lambda m: ("milli" if m[1] else "") + "standard_gravity",
             rest,
         )
+        rest = _GAL.sub(lambda m: ("milli" if m[1] else "") + "galileo", rest)
     if quantity is MASS and _GRAVITY_SYMBOL.search(rest):
         raise _RefusalError("has a g, which is gravity here; write gram, kg or t")
     registry = _registry()

@@ -311,6 +311,7 @@ VARIABLES: dict[str, Variable] = {
     "penetration": Variable("m", "largest displacement beyond a gap"),
     "hitting": Variable("1", "share of the records that make it hit, or whether any sine does"),
     "pareto": Variable("1", "whether no other design beats it in displacement and acceleration"),
+    "within_limits": Variable("1", "whether it keeps all limits"),
     "displacement_frequency": Variable("Hz", "frequency of the largest displacement"),
     "acceleration_frequency": Variable("Hz", "frequency of the largest acceleration"),
     "unsettled_count": Variable("1", "number of holds without a periodic motion"),

@@ -12,21 +12,20 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, to_si
-from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
+from vibroimpact.model import Bumper, Oscillator
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.response.vocabulary import VARIABLES
 from vibroimpact.seismic.plan import Runs, runs
-from vibroimpact.sizing.shaking import PEAKS, AnyShaken, Asked, asked, one_rig
+from vibroimpact.sizing.limits import limits_of
+from vibroimpact.sizing.shaking import AnyShaken, Asked, asked, one_rig
 from vibroimpact.sizing.sines import STEP
 
 _Array = NDArray[np.float64]
 _Range = tuple[float | str, float | str]
 
-_QUANTITIES = {"m": LENGTH, "m s-2": ACCELERATION, "N": FORCE}
 _STIFFNESSES = (0.1, 100.0)
 """Of a bumper over that of the isolator, if no range is given."""
 _DAMPINGS = (0.01, 10.0)
@@ -162,7 +161,7 @@ def least_acceleration(
         rig = runs(rig, [gap], None).oscillator((0,))
     space = _space(rig, ranges)
     what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
-    most = _limits(limits)
+    most = limits_of(limits)
     known = _Known(what, space, placed(threads, where), progress)
     constraints = tuple(
         NonlinearConstraint(lambda x, name=name: known.of(name, x)[np.newaxis], -np.inf, limit)
@@ -242,18 +241,6 @@ def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
         "bumper_stiffness": (_STIFFNESSES[0] * spring, _STIFFNESSES[1] * spring),
         "bumper_damping": (_DAMPINGS[0] * critical, _DAMPINGS[1] * critical),
     }
-
-
-def _limits(limits: Any) -> dict[str, float]:
-    accepted = [name for name in PEAKS if name != "peak_acceleration"]
-    found = {}
-    for name, value in dict(limits or {}).items():
-        key = str(name).replace("-", "_")
-        if key not in accepted:
-            raise InputError(f"limits: {name!r}; one of {', '.join(accepted)} is accepted")
-        quantity = _QUANTITIES[VARIABLES[key].units]
-        found[key] = to_si(value, quantity, f"limits[{name!r}]", minimum=0.0)
-    return found
 
 
 def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:

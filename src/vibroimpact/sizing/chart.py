@@ -20,6 +20,7 @@ from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.seismic.plan import Runs, runs
 from vibroimpact.sizing.front import non_dominated
+from vibroimpact.sizing.limits import limits_of
 from vibroimpact.sizing.shaking import AnyShaken, asked, one_rig
 from vibroimpact.sizing.sines import STEP
 
@@ -29,6 +30,7 @@ def design(
     shaking: AnyShaken,
     vary: Mapping[str, ArrayLike],
     *,
+    limits: Mapping[str, float | str] | None = None,
     fractile: float = 1.0,
     frequencies: tuple[float | str, float | str] | None = None,
     step: float = STEP,
@@ -51,6 +53,10 @@ def design(
         Values of parameters by name, all combined, such as ``"gap"``, ``"bumper_stiffness"``,
         ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` or ``"yield_force"``. Those
         of stops are set on both sides, where the stop has them.
+    limits
+        What must not be exceeded, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
+        ``"peak_displacement"`` (m; ``_right``, ``_left``). A design that exceeds one is told as
+        the others are, and stands aside in ``pareto``.
     fractile
         Share of the records below; 1 for the largest of all.
     frequencies
@@ -75,7 +81,9 @@ def design(
         ``peak_acceleration`` (absolute, m/s²), ``peak_force`` of a stop (N), ``penetration`` beyond
         a gap (m), ``hitting``: the share of the records that make the mass hit, or whether any sine
         does. ``pareto``: whether no other design has less displacement without more acceleration,
-        or less acceleration without more displacement. Of sines also where the
+        or less acceleration without more displacement; of designs that do the same, such as hit
+        nothing, the first one counts. ``within_limits``, if there are limits: whether all are
+        kept. Of sines also where the
         largest are (``displacement_frequency``, ``acceleration_frequency``), and
         ``unsettled_count``, holds without a periodic motion, whose peaks are those of 100 cycles.
         ``status`` is 0 where a design was done; values of one that was given up are NaN, and
@@ -89,14 +97,16 @@ def design(
     rig = one_rig(oscillator)
     what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
     plan = _designs(rig, vary)
+    most = limits_of(limits)
     workers = placed(threads, where)
     places = list(itertools.product(*(range(n) for n in plan.shape)))
     found = what.peaks([plan.oscillator(at) for at in places], workers, progress)
-    data = _dataset(plan, found)
+    data = _dataset(plan, found, most)
     warn(found["status"], "design")
     parameters = {
         "oscillator": oscillator_parameters(rig),
         "varied": {one.name: one.values.tolist() for one in plan.varied},
+        "limits": most,
         **what.parameters(),
     }
     data = describe(data, "vibroimpact.design", parameters)
@@ -121,14 +131,21 @@ def _designs(oscillator: Oscillator, vary: Any) -> Runs:
     return runs(oscillator, None, vary)
 
 
-def _dataset(plan: Runs, found: Mapping[str, NDArray[Any]]) -> xr.Dataset:
+def _dataset(
+    plan: Runs, found: Mapping[str, NDArray[Any]], limits: Mapping[str, float]
+) -> xr.Dataset:
     """What was found of each design, over what was varied."""
-    shaped = {name: (plan.dims, values.reshape(plan.shape)) for name, values in found.items()}
-    best = non_dominated(found["peak_displacement"], found["peak_acceleration"])
-    return xr.Dataset(
-        {**shaped, "pareto": (plan.dims, best.reshape(plan.shape))},
-        {one.name: one.values for one in plan.varied},
+    within = np.ones(found["status"].shape, dtype=bool)
+    for name, limit in limits.items():
+        within &= found[name] <= limit
+    u, a = (
+        np.where(within, found[name], np.nan) for name in ("peak_displacement", "peak_acceleration")
     )
+    own = {"pareto": non_dominated(u, a), **({"within_limits": within} if limits else {})}
+    shaped = {
+        name: (plan.dims, values.reshape(plan.shape)) for name, values in {**found, **own}.items()
+    }
+    return xr.Dataset(shaped, {one.name: one.values for one in plan.varied})
 
 
 def warn(status: NDArray[Any], who: str) -> None:

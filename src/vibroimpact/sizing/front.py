@@ -12,7 +12,7 @@ _DIGITS = 9
 def non_dominated(first: ArrayLike, second: ArrayLike) -> NDArray[np.bool_]:
     """Which points no other one beats: smaller in one of the two, and not larger in the other.
 
-    Points that are the same are all kept; those that are not finite are not.
+    Of points that are the same the first is kept; those that are not finite are not.
 
     Parameters
     ----------
@@ -29,12 +29,11 @@ def non_dominated(first: ArrayLike, second: ArrayLike) -> NDArray[np.bool_]:
     kept = np.zeros(len(x), dtype=bool)
     known = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
     order = known[np.lexsort((y[known], x[known]))]
-    # Sorted by x, then by y: what lies before and has a smaller y, or as small a y at a smaller x.
-    least, at = np.inf, np.inf
+    # Sorted by x, then by y, then as given: whatever lies before has no larger x.
+    least = np.inf
     for i in order:
-        if y[i] < least:
-            least, at = y[i], x[i]
-        kept[i] = y[i] == least and x[i] == at
+        kept[i] = y[i] < least
+        least = min(least, y[i])
     return kept.reshape(one.shape)
 
 

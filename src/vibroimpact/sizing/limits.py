@@ -1,0 +1,33 @@
+"""What a design must not exceed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import to_si
+from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
+from vibroimpact.response.vocabulary import VARIABLES
+from vibroimpact.sizing.shaking import PEAKS
+
+QUANTITIES = {"m": LENGTH, "m s-2": ACCELERATION, "N": FORCE}
+"""Of a peak, by its unit."""
+
+
+def limits_of(limits: Any) -> dict[str, float]:
+    """Read limits by name, in SI units.
+
+    Raises
+    ------
+    InputError
+        If one is of nothing that is known of a design, or has a wrong unit.
+    """
+    accepted = [name for name in PEAKS if name != "peak_acceleration"]
+    found = {}
+    for name, value in dict(limits or {}).items():
+        key = str(name).replace("-", "_")
+        if key not in accepted:
+            raise InputError(f"limits: {name!r}; one of {', '.join(accepted)} is accepted")
+        quantity = QUANTITIES[VARIABLES[key].units]
+        found[key] = to_si(value, quantity, f"limits[{name!r}]", minimum=0.0)
+    return found
