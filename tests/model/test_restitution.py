@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper
+from vibroimpact.model import GRAVITY, Bumper, Oscillator, RigidStop
 
 
 def returned(mass: float, stiffness: float, damping: float) -> mpf:
@@ -78,3 +78,41 @@ def test_what_cannot_be_used_is_named(field, bad):
         Bumper.from_restitution(**values)
     with pytest.raises(InputError, match=r"^restitution: 1.1 is greater than 1"):
         Bumper.from_restitution(1.0, 1.0, 1.1, 0.0)
+
+
+ISOLATOR = {"period": "2.5 s", "damping_ratio": 0.15}
+WALL = {"stiffness": "2000 MN/m", "restitution": 0.6, "gap": "300 mm"}
+
+
+def test_a_table_may_have_it_in_place_of_the_damping():
+    direct = Bumper.from_restitution("5000 t", "2000 MN/m", 0.6, "300 mm")
+    for table in (WALL, {"kind": "kelvin-voigt", **WALL}):
+        for mass in ({"mass": "5000 t"}, {"weight": 5e6 * GRAVITY}):
+            rig = Oscillator.model_validate({**mass, "isolator": ISOLATOR, "left": table})
+            assert rig.left == direct
+    assert Oscillator("5000 t", ISOLATOR, right=WALL).right == direct
+    rigid = {"kind": "rigid", "restitution": 0.6, "gap": 1}
+    assert Oscillator("5000 t", ISOLATOR, right=rigid).right == RigidStop(0.6, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "line"),
+    [
+        ({"damping": 3}, "right.restitution: given beside damping; one of the two is accepted"),
+        ({"restitution": 1.6}, "right.restitution: 1.6 is greater than 1"),
+        ({"stiffness": "2 MN"}, "right.stiffness: '2 MN' is a force"),
+        ({"stiffness": None}, "right.stiffness: missing"),
+        ({"gap": None}, "right.gap: missing"),
+    ],
+)
+def test_what_of_a_table_cannot_be_used(changes, line):
+    table = {name: value for name, value in {**WALL, **changes}.items() if value is not None}
+    with pytest.raises(InputError, match=f"^{line}"):
+        Oscillator("5000 t", ISOLATOR, right=table)
+
+
+def test_a_bumper_alone_has_no_mass_for_it():
+    with pytest.raises(InputError, match=r"^restitution: unknown key"):
+        Bumper.model_validate(WALL)
+    with pytest.raises(InputError, match="mass: '3 m' is a length"):
+        Oscillator.model_validate({"mass": "3 m", "isolator": ISOLATOR, "right": WALL})

@@ -17,7 +17,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
 from vibroimpact.model.isolators.design import designed
 from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
-from vibroimpact.model.stops import STOPS, RigidStop, Stop
+from vibroimpact.model.stops import STOPS, Bumper, RigidStop, Stop
+from vibroimpact.model.stops.bumper import returning
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
@@ -38,7 +39,7 @@ class Oscillator(Model):
     right
         What is met at positive displacement: a `Bumper`, a `RigidStop`, a `PowerBumper`, a
         `JankowskiBumper`, a mapping with the fields of one (with its ``kind`` if it is no
-        `Bumper`), or None.
+        `Bumper`, which may have a ``restitution`` for this mass in place of its damping), or None.
     left
         What is met at negative displacement, likewise.
     force
@@ -94,6 +95,13 @@ class Oscillator(Model):
             return value
         assert issubclass(law, IsolatorLaw)
         return designed(value, law, info.data.get("mass"))
+
+    @field_validator("right", "left", mode="before")
+    @classmethod
+    def _returning_this_mass(cls, value: Any, info: ValidationInfo) -> Any:
+        if not isinstance(value, Mapping) or STOPS.kind_of(value) != Bumper.kind:
+            return value
+        return returning(value, info.data.get("mass"))
 
     @model_validator(mode="after")
     def _frequency_exists(self) -> Self:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Self
 
+from vibroimpact.errors import InputError
 from vibroimpact.model.kinds import Named
 from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS
 from vibroimpact.model.restitution import damping_ratio
@@ -90,6 +92,11 @@ class Bumper(Named):
         e = to_si(restitution, DIMENSIONLESS, "restitution", above=0.0, maximum=1.0)
         return cls(k, 2.0 * damping_ratio(e) * math.sqrt(k) * math.sqrt(m), gap)
 
+    @classmethod
+    def table_keys(cls) -> list[str]:
+        """What a table of it may hold."""
+        return [*super().table_keys(), "restitution"]
+
     @property
     def linear(self) -> bool:
         """Whether its force is K_j d + C_j d'."""
@@ -98,3 +105,24 @@ class Bumper(Named):
     def static_force(self, deformation: float) -> float:
         """Force in N of a bumper that is slowly pressed by a deformation in m."""
         return self.stiffness * max(deformation, 0.0)
+
+
+def returning(table: Mapping[str, Any], mass: float | None) -> Mapping[str, Any]:
+    """A table with the damping that a ``restitution`` in its place asks for, for a mass in kg.
+
+    Raises
+    ------
+    InputError
+        If it stands beside a damping, or cannot be used.
+    """
+    if "restitution" not in table:
+        return table
+    if "damping" in table:
+        raise InputError("restitution: given beside damping; one of the two is accepted")
+    if mass is None:
+        raise InputError("restitution: needs a mass to go with; a mass is accepted")
+    rest = {name: value for name, value in table.items() if name != "restitution"}
+    if "stiffness" not in rest:
+        return {**rest, "damping": 0.0}  # it is missed by who reads the table
+    made = Bumper.from_restitution(mass, rest["stiffness"], table["restitution"], 0.0)
+    return {**rest, "damping": made.damping}
