@@ -63,6 +63,7 @@ def test_a_study_need_not_say_the_amplitude_that_the_file_says(file, tmp_path, c
         (["--free", "gap", "--bounds", "stiffness", "1:2"], "is not free"),
         (["--free", "gap", "--bounds", "gap", "2"], "two values with a colon"),
         (["--free", "nothing"], "free: 'nothing'"),
+        (["--free", "bumper-stifness,gap"], "did you mean bumper_stiffness? A parameter"),
     ],
 )
 def test_wrong_words_are_told(file, tmp_path, capsys, words, told):

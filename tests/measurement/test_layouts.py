@@ -157,5 +157,5 @@ def test_a_rate_that_is_none_and_names_that_say_nothing(tmp_path):
     with pytest.raises(vi.InputError, match="fs"):
         vi.read_measurement(path)
     scipy.io.savemat(path, {"fs": RATE, "ai0": U, "ai1": BASE})
-    with pytest.raises(vi.InputError, match="with one of 'time', 'ai0', 'ai1'"):
+    with pytest.raises(vi.InputError, match="'ai0' is not understood, 'ai1' is not"):
         vi.read_measurement(path)

@@ -21,7 +21,23 @@ def written(folder, text, name="test.csv"):
 @pytest.mark.parametrize(
     ("name", "variable", "direction", "unit"),
     [
-        ("f (Hz)", "frequency", None, "hz"),
+        ("f (Hz)", "frequency", None, "Hz"),
+        ("f_kHz", "frequency", None, "kHz"),
+        ("frequency rad/s", "frequency", None, "rad/s"),
+        ("Ed_µm", "displacement_excursion", None, "µm"),
+        ("a/g", "acceleration", None, "g"),
+        ("a_g", "base_acceleration", None, None),
+        ("Ea m/s²", "acceleration_excursion", None, "m/s^2"),
+        ("Ea_m/s^2", "acceleration_excursion", None, "m/s^2"),
+        ("v_mm/s", "velocity", None, "mm/s"),
+        ("velocity m/s", "velocity", None, "m/s"),
+        ("contact force kN", "contact_force", None, "kN"),
+        ("Force_N", "contact_force", None, "N"),
+        ("acc_mV", "acceleration", None, "mV"),
+        ("displacement p-p", "displacement_excursion", None, None),
+        ("Ed p-p", "displacement_excursion", None, None),
+        ("Acceleration Pk-Pk", "acceleration_excursion", None, None),
+        ("disp p2p mm", "displacement_excursion", None, "mm"),
         ("Ed", "displacement_excursion", None, None),
         ("E_d forward", "displacement_excursion", "forward", None),
         ("Ed_up_mm", "displacement_excursion", "forward", "mm"),
@@ -38,6 +54,46 @@ def written(folder, text, name="test.csv"):
 def test_what_a_name_says(name, variable, direction, unit):
     found = meaning(name)
     assert (found.variable, found.direction, found.unit) == (variable, direction, unit)
+
+
+@pytest.mark.parametrize(
+    ("name", "size"),
+    [
+        *((name, 1.0) for name in ("f_Hz", "f/Hz", "frequency Hz", "Frequency_Hz", "f_hz")),
+        *((name, 1.0) for name in ("f (hz)", "f (HZ)", "Freq [Hz]", "FREQUENCY_HZ", "f (1/s)")),
+        *((name, 1e3) for name in ("f_kHz", "f (khz)", "f/kHz", "f (KHZ)")),
+        *((name, 1.0 / 60.0) for name in ("f (rpm)", "f (RPM)", "f_rpm")),
+    ],
+)
+def test_units_of_a_frequency_in_any_capitals(tmp_path, name, size):
+    data = vi.read_measurement(written(tmp_path, f"{name},Ed (mm)\n1.5,2\n"))
+    assert data.frequency.values == pytest.approx([1.5 * size])
+
+
+@pytest.mark.parametrize(
+    ("name", "size"),
+    [
+        *((name, 1e-3) for name in ("u (mm)", "u (MM)", "u_mm", "u/mm")),
+        *((name, 1e-2) for name in ("u (cm)", "u (Cm)", "u_cm")),
+        *((name, 1e-6) for name in ("u (µm)", "u_µm", "u_um")),
+        *((name, 9.80665) for name in ("acc (g)", "acc (G)", "acc_g", "a/g")),
+        *((name, 9.80665e-3) for name in ("acc (mg)", "acc (MG)")),
+        *((name, 1.0) for name in ("acc (m/s2)", "acc (M/S^2)", "acc (ms-2)", "acc m/s²")),
+        *((name, 1e3) for name in ("force (kN)", "force (KN)", "force (kn)", "force_kN")),
+        *((name, 1.0) for name in ("force (N)", "force (n)", "force_N")),
+        *((name, size) for name, size in (("force (MN)", 1e6), ("force (mN)", 1e-3))),
+    ],
+)
+def test_units_of_a_history_in_any_capitals(tmp_path, name, size):
+    data = vi.read_measurement(written(tmp_path, f"Time (S),{name}\n0,2\n1,3\n"))
+    (channel,) = data.data_vars
+    assert data[channel].values == pytest.approx([2.0 * size, 3.0 * size])
+
+
+def test_a_line_of_units_in_any_capitals(tmp_path):
+    data = vi.read_measurement(written(tmp_path, "f,Ed\nkHz,CM\n0.002,1\n"))
+    assert data.frequency.values == pytest.approx([2.0])
+    assert data.displacement_excursion.values.ravel() == pytest.approx([0.01])
 
 
 def test_a_name_that_says_nothing():
@@ -76,6 +132,27 @@ def test_decimal_commas_and_an_amplitude_beside_the_numbers(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("said", "mark", "amplitude"),
+    [
+        ("# amplitude = 0,04 g", ";", 0.04 * 9.80665),
+        ("# amplitude = 0.04 g", ";", 0.04 * 9.80665),
+        ("amplitude;0,04 g", ";", 0.04 * 9.80665),
+        ("# amplitude: 0,392", "\t", 0.392),
+        ("# amplitude = 1,000 g", ";", 9.80665),
+        ("# amplitude = 0,04 g", ",", 0.04 * 9.80665),
+    ],
+)
+def test_an_amplitude_with_a_decimal_comma(tmp_path, said, mark, amplitude):
+    path = written(tmp_path, f"{said}\nf_Hz{mark}Ed_mm\n1{mark}2\n")
+    assert vi.read_measurement(path).attrs["amplitude"] == pytest.approx(amplitude)
+
+
+def test_a_comma_that_may_part_thousands_is_refused(tmp_path):
+    with pytest.raises(vi.InputError, match="'1,000 mg' has a comma; write a decimal point"):
+        vi.read_measurement(written(tmp_path, "# amplitude = 1,000 mg\nf_Hz,Ed_mm\n1,2\n"))
+
+
+@pytest.mark.parametrize(
     ("rows", "directions", "told"),
     [
         ("1,10\n2,20\n3,5\n", ["forward"], "taken as forward"),
@@ -96,7 +173,20 @@ def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
     [
         ("f,Ed\n1,2\n3,4\n2,3\n5,6\n", "direction='forward'"),
         ("f,Ed\n1,2\n2,x\n3,4\n4,5\n", "line 3, column 'Ed': 'x' is no number"),
-        ("a,b\n1,2\n", "has the columns 'a', 'b'"),
+        ("b,c\n1,2\n", "'b' is not understood, 'c' is not understood; a frequency with"),
+        ("b,c\n1,2\n", "columns={'frequency': 'b', 'displacement_excursion': 'c'}"),
+        ("f,ch 3\n1,2\n", "'f' is read as frequency, 'ch 3' is not understood; what was measured"),
+        (
+            "f,ch 3\n1,2\n",
+            "columns={'displacement_excursion': 'ch 3'} (command line: --columns "
+            "displacement-excursion 'ch 3')",
+        ),
+        ("f,u (mm)\n1,2\n", "'u' is read as displacement; what was measured at each frequency"),
+        ("f,u (mm)\n1,2\n", "columns={'displacement_excursion': 'u'}"),
+        ("drive,Ed\n1,2\n", "such as columns={'frequency': 'drive'}"),
+        ("time,ch 3\n1,2\n", "such as columns={'displacement': 'ch 3'}"),
+        ("u,a\n1,2\n", "a time, or a sampling rate fs, is needed, such as columns={'time'"),
+        ("f,Ea (mV)\n1,2\n", "'1 mV' is not an acceleration"),
         ("", "is empty"),
         ("1,2\n2,3\n", "does not name its 2 columns"),
         ("f,Ed (kg)\n1,2\n", "is a mass"),
@@ -123,6 +213,8 @@ def test_columns_and_units_that_are_said(tmp_path):
     )
     assert data.displacement_excursion.sel(direction="backward").values.tolist() == [0.05, 0.06]
     assert data.attrs["amplitude"] == pytest.approx(0.03 * 9.80665)
+    with pytest.raises(vi.InputError, match="columns: 'frequenzy'; did you mean frequency"):
+        vi.read_measurement(path, columns={"frequenzy": "one"})
     with pytest.raises(vi.InputError, match="is no column"):
         vi.read_measurement(path, columns={"frequency": "four"})
 

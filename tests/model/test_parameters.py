@@ -75,6 +75,8 @@ def test_names_and_units():
     assert set(NAMES) <= set(PARAMETERS)
     with pytest.raises(vi.InputError, match=r"^along: 'mas'; one of frequency, .* is accepted$"):
         parameter("mas", "along")
+    with pytest.raises(vi.InputError, match=r"did you mean bumper_stiffness\? One of frequency, "):
+        parameter("Bumper-stifness")
 
 
 def test_sides_that_differ():

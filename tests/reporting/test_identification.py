@@ -83,6 +83,24 @@ def test_the_next_test_reduces_every_error(case, fit):
     assert (advice.information.values[np.isfinite(advice.information.values)] >= 0.0).all()
 
 
+def test_the_next_test_keeps_away_from_a_jump(case, fit):
+    near = np.arange(1.0, 3.6, 0.02)
+    rig = vi.fitted(fit)
+    curves = vi.sweep(rig.oscillator, rig.amplitude, near)
+    swing = np.log(curves.displacement_excursion.values)
+    jump = near[np.argmin(np.diff(swing[0]))]
+    last = {}
+    for margin in (0.0, 0.02, 0.1):
+        found = vi.next_test(fit, near, [case.amplitude], margin=margin)
+        gain = found.information.sel(direction="forward").isel(candidate_amplitude=0)
+        last[margin] = near[np.isfinite(gain.values) & (near < jump + 0.01)].max()
+        assert last[margin] * (1.0 + margin) < jump + 0.021  # the step in which it jumps
+    assert last[0.1] < last[0.02] <= last[0.0]
+    assert last[0.1] > 0.85 * jump
+    with pytest.raises(vi.InputError, match="margin: '2 m'"):
+        vi.next_test(fit, margin="2 m")
+
+
 def test_models_are_compared(case, data, fit):
     asked = {"tried": 0, "starts": 1, "profiles": False}
     again = vi.identify(data, case.oscillator, "bumper_stiffness", **asked)

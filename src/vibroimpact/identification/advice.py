@@ -22,6 +22,7 @@ from vibroimpact.identification.free import SENSORS
 from vibroimpact.identification.held import Rig, sizes
 from vibroimpact.identification.results import setting_of
 from vibroimpact.model.access import Setting
+from vibroimpact.model.counts import share as fraction
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.units import pretty
@@ -34,7 +35,7 @@ _MOST = 0.2
 """Of a value, by which it is moved at most: where it is hardly known, one deviation is too far."""
 _FACTORS = (0.5, 0.75, 1.0, 1.5, 2.0)
 """Of the amplitude."""
-_POINTS = 61
+_POINTS = 241
 _WILD = 0.5
 """Change of a logarithm over one deviation at which a jump may have been passed."""
 _LITTLE = 0.98
@@ -50,6 +51,7 @@ def next_test(
     *,
     test: str | None = None,
     noise: float | None = None,
+    margin: float = 0.02,
 ) -> xr.Dataset:
     """Say which hold of a stepped sine would reduce the uncertainty of a fit most.
 
@@ -58,7 +60,7 @@ def next_test(
     result
         Dataset of `identify`.
     frequencies
-        Candidates in Hz; None for 61 from half the natural frequency to five times it.
+        Candidates in Hz; None for 241 from half the natural frequency to five times it.
     amplitudes
         Candidates, peak base accelerations (m/s², or text); None for half to twice that of the
         test.
@@ -66,6 +68,9 @@ def next_test(
         Whose rig would be tested; None for the first.
     noise
         Of the test to come, a share of a value; None for that of the fit.
+    margin
+        Share of its frequency by which a hold keeps away from the jump that lies ahead of it in its
+        direction; 0 to go as close as the fit knows the jump.
 
     Returns
     -------
@@ -73,7 +78,7 @@ def next_test(
         Dims ``candidate_amplitude``, ``direction``, ``frequency`` and ``parameter``:
         ``remaining_error``, each standard error behind the hold over that before it, and
         ``information`` about all parameters together (nats). NaN where the motion does not settle,
-        or lies next to a jump. The attribute ``findings`` says the best holds in words.
+        or a jump lies too near. The attribute ``findings`` says the best holds in words.
 
     Raises
     ------
@@ -101,6 +106,7 @@ def next_test(
     own = float(result["noise"].sel(test=name))
     curves = str(result["test_kind"].sel(test=name).values) == "curves"
     share = noise if noise is not None else max(own, 1e-4) if curves else _NOISE
+    margin = 0.0 if margin == 0 else fraction(margin, "margin")
     keys = [str(key) for key in result["parameter"].values]
     covariance = result["covariance"].values
     shape = (len(levels), 2, len(grid))
@@ -111,6 +117,8 @@ def next_test(
     for a, level in enumerate(levels):
         setting = (oscillator, shaken.replace(amplitude=level))
         slopes, known = _slopes(setting, keys, name, grid, axes)
+        if margin:
+            known &= _far_from_jumps(setting, grid, margin)
         for d, k in np.argwhere(known):
             rows = slopes[d, k] / share
             seen = np.eye(2) + rows @ rows.T
@@ -177,6 +185,22 @@ def _slopes(
         bent = np.abs(above + below - 2.0 * here[0]) + np.abs(above - below)
         known = known & settled & also & (bent.max(axis=-1) < _WILD)
     return slopes, known
+
+
+def _far_from_jumps(setting: Setting, grid: Array, margin: float) -> NDArray[np.bool_]:
+    """Where a sweep can go on by a share of its frequency without a jump; by direction."""
+    rig = Rig(setting)
+    clear = np.ones((2, len(grid)), dtype=bool)
+    for row, sign in enumerate((1.0, -1.0)):
+        ahead = [grid * (1.0 + sign * margin * part) for part in (0.0, 0.5, 1.0)]
+        path = np.unique(np.concatenate(ahead))[:: int(sign)]
+        wild = np.abs(np.diff(sizes(rig.sweep(path)[0]), axis=0)).max(axis=1) > _WILD
+        for step in np.flatnonzero(wild):
+            first, second = sorted((path[step], path[step + 1]))
+            clear[row] &= (np.maximum(ahead[0], ahead[2]) <= first) | (
+                np.minimum(ahead[0], ahead[2]) >= second
+            )
+    return clear
 
 
 def _swept(setting: Setting, grid: Array) -> tuple[Array, NDArray[np.bool_]]:

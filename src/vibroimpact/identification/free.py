@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, meant
 from vibroimpact.model.access import Setting
 from vibroimpact.model.parameters import PARAMETERS, Parameter, parameter
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, Quantity
@@ -112,9 +112,10 @@ def _name(name: str) -> str:
     key = name.replace("-", "_") if isinstance(name, str) else name
     if key in SENSORS or key in PARAMETERS:
         return str(key)
+    hint = meant(name, [*PARAMETERS, *SENSORS])
     raise InputError(
-        f"free: {name!r}; a parameter of a rig ({', '.join(PARAMETERS)}) or of a sensor "
-        f"({', '.join(SENSORS)}) is accepted"
+        f"free: {name!r}; {hint}{'A' if hint else 'a'} parameter of a rig "
+        f"({', '.join(PARAMETERS)}) or of a sensor ({', '.join(SENSORS)}) is accepted"
     )
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import xarray as xr
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.identification.curves import CurveTest
 from vibroimpact.identification.history import HistoryTest
 from vibroimpact.identification.problem import Test
@@ -114,6 +114,6 @@ def ties_of(ties: Mapping[str, str] | None) -> dict[str, str]:
     for tied, to in (ties or {}).items():
         for name in (tied, to):
             if name.replace("-", "_") not in PARAMETERS:
-                raise InputError(f"ties: {name!r}; one of {', '.join(PARAMETERS)} is accepted")
+                raise InputError(f"ties: {unknown(name, PARAMETERS)}")
         found[tied.replace("-", "_")] = to.replace("-", "_")
     return found

@@ -16,9 +16,10 @@ from vibroimpact.identification.free import frees
 from vibroimpact.identification.given import tests_of, ties_of
 from vibroimpact.identification.posterior import posterior as sampled
 from vibroimpact.identification.problem import Problem
+from vibroimpact.identification.profiles import Profile, profile
 from vibroimpact.identification.robust import noises, weighed
 from vibroimpact.identification.search import local, search
-from vibroimpact.identification.uncertainty import Profile, bootstrap, profile, spread
+from vibroimpact.identification.uncertainty import bootstrap, spread
 from vibroimpact.model import Rig
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.excitation import Harmonic

@@ -11,10 +11,11 @@ from scipy.stats import t as student
 
 from vibroimpact.identification import words
 from vibroimpact.identification.problem import Array, Problem
+from vibroimpact.identification.profiles import Profile
 from vibroimpact.identification.search import Found
 from vibroimpact.identification.shown import Shown
 from vibroimpact.identification.structure import TOLD, Row, Structure, structure
-from vibroimpact.identification.uncertainty import Profile, Spread
+from vibroimpact.identification.uncertainty import Spread
 from vibroimpact.model import Oscillator
 from vibroimpact.model.access import Setting
 from vibroimpact.response.variables import (

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.measurement import binary, text
 from vibroimpact.measurement.columns import Array, Column, Columns
 from vibroimpact.measurement.curves import curves
@@ -93,15 +93,10 @@ def read_measurement(
     variables = {found.variable for found, _ in known.values()}
     if "frequency" in variables and variables & set(CURVES):
         data, kind = curves(table, known, direction, notes), "curves"
-    elif "time" in variables:
+    elif "time" in variables and variables & set(HISTORIES):
         data, kind = history(table, known, notes), "history"
     else:
-        names = ", ".join(repr(column.name) for column in table.columns)
-        raise InputError(
-            f"measurement: {str(path)!r} has the columns {names}; a frequency with excursions, "
-            "maxima and minima or η, or a time (or a sampling rate fs) with displacements or "
-            "accelerations, is accepted, or columns={'frequency': NAME, ...}"
-        )
+        raise InputError(f"measurement: {str(path)!r}{_untold(table, known, left)}")
     if left:
         notes.append(f"not understood, and left out: {', '.join(left)}")
     told = {"amplitude": (amplitude, ACCELERATION), "frequency": (frequency, FREQUENCY)}
@@ -216,7 +211,7 @@ def _known(
             if variable.endswith(f"_{end}"):
                 bare, way = variable.removesuffix(f"_{end}"), end
         if bare not in accepted:
-            raise InputError(f"columns: {variable!r}; one of {', '.join(accepted)} is accepted")
+            raise InputError(f"columns: {unknown(variable, accepted)}")
         if name not in names:
             raise InputError(
                 f"columns[{variable!r}]: {name!r} is no column of {table.path!r}; one of "
@@ -248,6 +243,39 @@ def _known(
             notes.append(told)
         found[i] = (said, values)
     return found, left
+
+
+def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: list[str]) -> str:
+    """What each column is read as, what is missing, and how to say it."""
+    names = [column.name for column in table.columns]
+    read = {names[i]: found.variable for i, (found, _) in known.items()}
+    variables = set(read.values())
+    moving = [name for name, found in read.items() if found in HISTORIES]
+    if variables & set(CURVES):
+        missing, wanted, listed = "a frequency", ["frequency"], ["frequency"]
+    elif "frequency" in variables:
+        missing, listed = "what was measured at each frequency", list(CURVES)
+        wanted = ["displacement_excursion"]
+    elif "time" in variables:
+        missing, wanted, listed = "what was measured over time", ["displacement"], list(HISTORIES)
+    elif moving:
+        missing, wanted, listed = "a time, or a sampling rate fs,", ["time"], list(AXES)
+    else:
+        missing = (
+            "a frequency with excursions, maxima and minima or η, or a time (or a sampling rate "
+            "fs) with displacements or accelerations,"
+        )
+        wanted, listed = ["frequency", "displacement_excursion"], [*AXES, *CURVES, *HISTORIES]
+    spare = [*left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
+    told = [f"{name!r} is read as {found}" for name, found in read.items()]
+    told += [f"{name!r} is not understood" for name in left]
+    pairs = list(zip(wanted, spare, strict=False))
+    said = ", ".join(f"{key!r}: {name!r}" for key, name in pairs)
+    typed = " ".join(f"--columns {key.replace('_', '-')} {name!r}" for key, name in pairs)
+    return (
+        f": {', '.join(told)}; {missing} is needed, such as columns={{{said}}} (command line: "
+        f"{typed}), by the name {' or '.join(listed)}"
+    )
 
 
 def _taken(

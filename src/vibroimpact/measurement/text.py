@@ -18,11 +18,12 @@ from vibroimpact.errors import InputError
 from vibroimpact.measurement.columns import Column, Columns
 
 _SAID = re.compile(r"^\s*([A-Za-z][\w ]*?)\s*[=:]\s*(.+?)\s*$")
+_COMMA = re.compile(r"[+-]?\d+,\d+(?![\d,.])")
 _ABSENT = {"", "nan", "na", "n/a", "none", "null", "-", "--", "#n/a", "missing"}
 _UNIT = re.compile(r"[\[(]\s*([^\[\]()]*?)\s*[\])]\s*$")
 _UNIT_LIKE = re.compile(
-    r"^[\[(]?\s*(hz|s|ms|mm|m|cm|µm|um|g|mg|kn|n|%|-|–|1|rad/s|rpm|m/s\S*|mm/s\S*|m s-\d|in|inch)?"
-    r"\s*[\])]?$",
+    r"^[\[(]?\s*(k?hz|s|sec|ms|mm|m|cm|µm|um|g|mg|kn|n|m?v|%|-|–|1|rad/s|rpm|[cm]?m/s\S*"
+    r"|m ?s-\d|in|inch)?\s*[\])]?$",
     re.IGNORECASE,
 )
 
@@ -50,13 +51,14 @@ def read(path: Path) -> list[Columns]:
     mark = _delimiter([line for _, line in kept])
     rows = [(number, _parts(line, mark)) for number, line in kept]
     decimal = "," if mark != "," else "."
+    said = {key: _pointed(value, decimal) for key, value in said.items()}
     first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, decimal)), None)
     if first is None:
         raise InputError(f"measurement: {str(path)!r} has no numbers; a table of them is accepted")
     head = [cells for _, cells in rows[:first]]
     for cells in head:
         if len(cells) <= 2 and (found := _SAID.match(" = ".join(c for c in cells if c))):
-            said.setdefault(_key(found[1]), found[2])
+            said.setdefault(_key(found[1]), _pointed(found[2], decimal))
     width = len(rows[first][1])
     named = [cells for cells in head if len(cells) == width and any(cells)]
     units: list[str] = []
@@ -96,6 +98,14 @@ def parted(name: str) -> tuple[str, str | None]:
     if not found:
         return name, None
     return name[: found.start()].strip(), found[1]
+
+
+def _pointed(text: str, decimal: str) -> str:
+    """A number with a decimal point; 1,000 where columns are parted by commas stays."""
+    found = _COMMA.match(text)
+    if not found or (decimal == "." and re.fullmatch(r"[+-]?[1-9]\d*,\d{3}", found[0])):
+        return text
+    return found[0].replace(",", ".") + text[found.end() :]
 
 
 def _key(text: str) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import access
 from vibroimpact.model.access import Read, Write
 from vibroimpact.model.excitation import QUANTITIES, Of
@@ -112,7 +112,7 @@ def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> P
     """
     key = name.replace("-", "_") if isinstance(name, str) else name
     if key not in PARAMETERS:
-        raise InputError(f"{field}: {name!r}; one of {', '.join(PARAMETERS)} is accepted")
+        raise InputError(f"{field}: {unknown(name, PARAMETERS)}")
     if key == "amplitude" and of != "acceleration":
         return PARAMETERS[key]._replace(quantity=QUANTITIES[of], long_name=_PEAKS[of])
     return PARAMETERS[key]

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import (
     Bumper,
     Harmonic,
@@ -100,7 +100,7 @@ def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
         )
     name, values = given[:2]
     if name not in NAMES:
-        raise InputError(f"{field}: {name!r}; one of {', '.join(NAMES)} is accepted")
+        raise InputError(f"{field}: {unknown(name, NAMES)}")
     varied = parameter(name, of=of)
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise InputError(f"{field}: {values!r} is no list of values; at least two are accepted")
