@@ -35,7 +35,7 @@ _MOST = 0.2
 """Of a value, by which it is moved at most: where it is hardly known, one deviation is too far."""
 _FACTORS = (0.5, 0.75, 1.0, 1.5, 2.0)
 """Of the amplitude."""
-_POINTS = 241
+_POINTS = 121
 _WILD = 0.5
 """Change of a logarithm over one deviation at which a jump may have been passed."""
 _LITTLE = 0.98
@@ -60,7 +60,7 @@ def next_test(
     result
         Dataset of `identify`.
     frequencies
-        Candidates in Hz; None for 241 from half the natural frequency to five times it.
+        Candidates in Hz; None for 121 from half the natural frequency to five times it.
     amplitudes
         Candidates, peak base accelerations (m/s², or text); None for half to twice that of the
         test.
