@@ -82,11 +82,22 @@ def test_without_overlap_there_is_no_curve() -> None:
     below, above = np.array([0.5, 0.6, 2.0]), np.array([0.5, 3.0, 2.0])
     scales = np.array([1.0, 2.0, 3.0])
     none = suite(np.array([below, below, below]), scales)
-    with pytest.raises(vi.InputError, match=r"^limit: 1.0; at no scale"):
+    finer = r"^limit: 1.0; there are no two levels .*; finer levels between 2 and 3 are accepted"
+    with pytest.raises(vi.InputError, match=finer):
         vi.fragility(none, "peak_displacement", 1.0)
     one = suite(np.array([below, above, below]), scales)
-    with pytest.raises(vi.InputError, match=r"^limit: 1.0; at no scale"):
+    with pytest.raises(vi.InputError, match=finer.replace("2 and 3", "1 and 3")):
         vi.fragility(one, "peak_displacement", 1.0)
+    with pytest.raises(vi.InputError, match=r"at no level is a record above the limit; higher"):
+        vi.fragility(one, "peak_displacement", 10.0)
+    with pytest.raises(vi.InputError, match=r"at every level all records are above the limit; lo"):
+        vi.fragility(one, "peak_displacement", 0.1)
+    counted = one.assign(impact_count=one["peak_displacement"] * 0.0)
+    counted["impact_count"].attrs["units"] = "1"
+    with pytest.raises(
+        vi.InputError, match=r"^demands: at no level is a record above 0 in impact_"
+    ):
+        vi.fragility(counted, "impact_count")
     # With a scale more of each kind there is one; without the decisive record there is none.
     scales = np.array([1.0, 2.0, 3.0, 4.0])
     early, late = np.array([0.5, 2.0, 2.0, 2.0]), np.array([0.5, 0.6, 0.7, 2.0])

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.counts import share
+from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS
+from vibroimpact.model.units import pretty
 from vibroimpact.seismic.suites import described, exceedance, known, limit_of
 
 _Array = NDArray[np.float64]
@@ -99,11 +101,10 @@ def fragility(
             for name, value in one.items():
                 found[name][(..., *at)] = value
     if np.isnan(found["median_capacity"]).all():
-        raise InputError(
-            f"limit: {limit!r}; at no scale some records exceed it and others do not so that a "
-            "curve is determined; other scales, closer to one another, or another limit are "
-            "accepted"
-        )
+        beginning, what = f"limit: {limit!r};", "above the limit"
+        if limit is None:
+            beginning, what = "demands:", f"above 0 in {quantity}"
+        raise InputError(f"{beginning} {_undetermined(above, demands['scale'], what)}")
     others = order[2:]
     dims = {
         "fitted_probability": ("scale", *others),
@@ -122,6 +123,23 @@ def fragility(
     for name in ("median_capacity", "median_capacity_bound"):
         data[name].attrs["units"] = demands["scale"].attrs["units"]
     return data
+
+
+def _undetermined(above: NDArray[np.bool_], scale: xr.DataArray, what: str) -> str:
+    """Why no rig has a curve, and which levels would give one."""
+    shares = above.mean(axis=0).reshape(len(scale), -1)
+    if not above.any():
+        return f"at no level is a record {what}; higher levels are accepted"
+    if above.all():
+        return f"at every level all records are {what}; lower levels are accepted"
+    none, every = (shares == 0.0).all(axis=1), (shares == 1.0).all(axis=1)
+    low = float(scale[np.flatnonzero(none)[-1] if none.any() else 0])
+    high = float(scale[np.flatnonzero(every)[0] if every.any() else -1])
+    quantity = DIMENSIONLESS if scale.attrs["units"] == "1" else ACCELERATION
+    return (
+        f"there are no two levels at which some records are {what} and others are not; finer "
+        f"levels between {pretty(low, quantity)} and {pretty(high, quantity)} are accepted"
+    )
 
 
 def _curve(
