@@ -65,6 +65,23 @@ def run(code: str, cache: Path, **environment: str) -> str:
     return error
 
 
+def test_an_entry_is_compiled_for_one_signature(tmp_path: Path) -> None:
+    """What may not be written to is another type: refused, not compiled half a minute for."""
+    refused = """
+kept = free_rig()
+kept.flags.writeable = False
+made = Entry(first, "f8(f8[::1])")
+made(free_rig())
+try:
+    made(kept)
+except TypeError:
+    pass
+else:
+    raise AssertionError("compiled")
+"""
+    run(SMALL + refused, tmp_path)
+
+
 def test_processes_share_the_cache_safely(tmp_path: Path) -> None:
     """Two at once on an empty cache: one compiles, one waits and loads; so does a third."""
     (tmp_path / "small.py").write_text(ENTRY)

@@ -9,7 +9,6 @@ import pytest
 
 import vibroimpact as vi
 from seismic.rigs import RIGS, noise
-from vibroimpact.engine import earthquakes, recorded, spectra
 from vibroimpact.seismic.free import free_tail
 
 RECORD = noise(8)
@@ -189,14 +188,3 @@ def test_what_is_given_up_is_told() -> None:
 def test_wrong_input(arguments: dict, line: str) -> None:
     with pytest.raises(vi.InputError, match=f"^{line}"):
         vi.seismic_response(RIGS["bumpers"], **arguments)
-
-
-def test_the_engine_is_compiled_for_one_type_of_record() -> None:
-    """A record is not to be written to, which to the compiler is another type."""
-    assert not RECORD.acceleration.flags.writeable
-    vi.seismic_response(RIGS["bumpers"], RECORD, tail=3.0)
-    vi.response_spectrum(RECORD, [0.5, 1.0])
-    vi.simulate(RIGS["bumpers"], RECORD)
-    for entry in (earthquakes.respond, recorded.follow, spectra.respond):
-        for compiled in entry._compiled.values():
-            assert len(compiled.signatures) == 1, entry

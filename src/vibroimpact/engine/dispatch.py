@@ -38,7 +38,7 @@ from typing import Any
 
 from numba.extending import overload
 
-from vibroimpact.engine.jit import OPTIONS
+from vibroimpact.engine.jit import CHOSEN
 from vibroimpact.engine.parameters import LINEAR, laws
 
 _MODULES: dict[int, tuple[ModuleType, ...]] = {}
@@ -63,7 +63,7 @@ def _by_flow(name: str) -> Callable[..., Any]:
 
     plain.__name__ = name
 
-    @overload(plain, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]
+    @overload(plain, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
     def _chosen(plan: Any, *args: Any) -> Any:
         return _found(getattr(plan, "laws", LINEAR), name).py_func
 

@@ -86,15 +86,17 @@ class Entry:
             dispatcher = numba.njit(cache=True, **jit.OPTIONS)(self.function)
         finally:
             config.CACHE_DIR = before  # type: ignore[attr-defined]
-        with emission.only(self.function.__qualname__):
-            dispatcher.compile(signature)
-        return dispatcher  # type: ignore[no-any-return]
+        return self._compiled_for(signature, dispatcher)
 
     def _for_this_process(self, signature: Any) -> Callable[..., Any]:
         jit.say()
-        dispatcher = numba.njit(**jit.OPTIONS)(self.function)
+        return self._compiled_for(signature, numba.njit(**jit.OPTIONS)(self.function))
+
+    def _compiled_for(self, signature: Any, dispatcher: Any) -> Callable[..., Any]:
+        """Compile for this signature and refuse others, which would take half a minute unseen."""
         with emission.only(self.function.__qualname__):
             dispatcher.compile(signature)
+        dispatcher.disable_compile()
         return dispatcher  # type: ignore[no-any-return]
 
 

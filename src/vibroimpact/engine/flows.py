@@ -22,7 +22,7 @@ from numba.extending import intrinsic, overload, register_model
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import answer
 from vibroimpact.engine.forcing import several
-from vibroimpact.engine.jit import OPTIONS, Vector
+from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.linear import advance as linear_advance
 from vibroimpact.engine.linear import carry as linear_carry
 from vibroimpact.engine.linear import forces, pieces, tables, undisturbed
@@ -227,7 +227,7 @@ def planned(given: Any, rig: Vector) -> Vector:
     return plan  # type: ignore[no-any-return]
 
 
-@overload(planned, jit_options=OPTIONS)  # type: ignore[arg-type]
+@overload(planned, jit_options=CHOSEN)  # type: ignore[arg-type]
 def _planned(given: Any, rig: Any) -> Any:
     def implementation(given: Any, rig: Any) -> Any:
         plan: Any = _plan(given)  # type: ignore[call-arg]
@@ -251,6 +251,6 @@ def advance(plan: Vector, motion: Motion, limit: float) -> Ended:
     return chosen(plan, motion, limit)  # type: ignore[no-any-return]
 
 
-@overload(advance, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]
+@overload(advance, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
 def _advance(plan: Any, motion: Any, limit: Any) -> Any:
     return _ADVANCE[plan.flow].py_func  # type: ignore[attr-defined]

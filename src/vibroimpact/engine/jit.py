@@ -38,7 +38,10 @@ OPTIONS: dict[str, Any] = {
     "nogil": True,
 }
 
-WITHIN: dict[str, Any] = {**OPTIONS, "no_cfunc_wrapper": True, "no_cpython_wrapper": True}
+CHOSEN: dict[str, Any] = {**OPTIONS, "no_cfunc_wrapper": True}
+"""Of what is chosen by a type, which numba itself gives no wrapper for Python."""
+
+WITHIN: dict[str, Any] = {**CHOSEN, "no_cpython_wrapper": True}
 """Of kernels, which only compiled code calls. Tests, which call them, ask for the second wrapper
 before the engine is imported."""
 
@@ -93,6 +96,6 @@ def say() -> None:
     if not _announced.is_set():
         _announced.set()
         announce(
-            "vibroimpact: compiling the engine, once per installation; each part takes about "
-            "10 s when it is first used ..."
+            "vibroimpact: compiling the engine: each part once, when it is first used, which "
+            "takes about 10 s ..."
         )

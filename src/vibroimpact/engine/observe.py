@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from numba.extending import overload
 
-from vibroimpact.engine.jit import OPTIONS, Vector, kernel
+from vibroimpact.engine.jit import CHOSEN, Vector, kernel
 from vibroimpact.engine.motion import Stretch
 
 _OBSERVERS: dict[type, Any] = {}
@@ -35,7 +35,7 @@ def observe(plan: Vector, notes: Any, stretch: Stretch) -> Any:
     return _OBSERVERS[type(notes)](plan, notes, stretch)
 
 
-@overload(observe, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]
+@overload(observe, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
 def _observe(plan: Any, notes: Any, stretch: Any) -> Any:
     return _OBSERVERS[notes.instance_class].py_func
 

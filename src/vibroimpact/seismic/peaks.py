@@ -108,7 +108,7 @@ def peaks(
         rests = residuals and settles(rig)
         found.respond(
             vectors[n],
-            np.array(record.acceleration),  # which is not to be written to: another type
+            np.array(record.acceleration),  # which is not to be written to: another type, refused
             record.step,
             chosen,
             free_tail(rig, record) if tail is None else tail,

@@ -12,8 +12,8 @@ import numpy as np
 
 from vibroimpact.engine.flows import flow_of, planned
 from vibroimpact.engine.forcing.dispatch import short_series
-from vibroimpact.engine.linear.evaluate import node, travel
-from vibroimpact.engine.linear.layout import BAND_0, BAND_V, BAND_X, NODES, TABLES
+from vibroimpact.engine.linear.evaluate import band, node, travel
+from vibroimpact.engine.linear.layout import NODES, TABLES
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.linear.walk import bends
 from vibroimpact.engine.motion import Row
@@ -31,8 +31,7 @@ def bent(rig: np.ndarray, omega: float, row: Row, low: float, high: float) -> tu
     of x″; and the bounds' distance over that size."""
     plan = planned(flow_of(rig), rig)
     build(plan, 1.0, omega)
-    band = plan[TABLES + BAND_X] * abs(row.x) + plan[TABLES + BAND_V] * abs(row.v)
-    second = 8.0 * (band + plan[TABLES + BAND_0])
+    second = 8.0 * band(plan, TABLES, row.x, row.v)
     found = []
     for y in np.linspace(0.0, high - low, 41):
         i = min(int(y), NODES - 1)

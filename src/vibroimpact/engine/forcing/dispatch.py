@@ -33,7 +33,7 @@ from numba.extending import overload
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing import harmonic, ramp, several
-from vibroimpact.engine.jit import OPTIONS
+from vibroimpact.engine.jit import CHOSEN
 
 FORCINGS: dict[float, ModuleType] = {
     par.HARMONIC: harmonic,
@@ -48,7 +48,7 @@ def _by_forcing(name: str) -> Callable[..., Any]:
 
     plain.__name__ = name
 
-    @overload(plain, jit_options=OPTIONS, strict=False)  # type: ignore[arg-type]
+    @overload(plain, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
     def _chosen(plan: Any, *args: Any) -> Any:
         return getattr(FORCINGS[getattr(plan, "forcing", par.HARMONIC)], name).py_func
 

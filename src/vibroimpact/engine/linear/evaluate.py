@@ -8,6 +8,9 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand, product, pull, short_series, spun, turn
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import (
+    BAND_0,
+    BAND_V,
+    BAND_X,
     FINE,
     FINE_NODE,
     FORGOTTEN,
@@ -18,6 +21,7 @@ from vibroimpact.engine.linear.layout import (
     ORDER,
     RADIUS,
     RATE,
+    REST,
     RESTING,
     ROW_V,
     SCALED_C,
@@ -62,6 +66,13 @@ def node(plan: Vector, table: int, i: int, row: Row) -> Row:
     if i == 0:
         return row
     return moved(plan, table + NODE + (i - 1) * WIDTH, row)
+
+
+@kernel
+def band(plan: Vector, table: int, x: float, v: float) -> float:
+    """A bound on |x″| h²/8 for a window from the state at its start (theory, section 3)."""
+    displaced = plan[table + BAND_X] * abs(x - plan[table + REST])
+    return displaced + plan[table + BAND_V] * abs(v) + plan[table + BAND_0]  # type: ignore[no-any-return]
 
 
 @kernel

@@ -11,17 +11,13 @@ import math
 
 from vibroimpact.engine.forcing.dispatch import expand
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import relaxed, travel
+from vibroimpact.engine.linear.evaluate import band, relaxed, travel
 from vibroimpact.engine.linear.layout import (
-    BAND_0,
-    BAND_V,
-    BAND_X,
     LATE,
     LATE_TABLES,
     NODE,
     NODES,
     RATE,
-    REST,
     SIZE,
     TABLES,
     TAYLOR,
@@ -178,14 +174,10 @@ def flight(
         table = late if age + t >= plan[late + VALID_FROM] else early
         h = plan[table + H]
         x, v = row.x, row.v
-        band = (
-            plan[table + BAND_X] * abs(x - plan[table + REST])
-            + plan[table + BAND_V] * abs(v)
-            + plan[table + BAND_0]
-        )
-        second = 8.0 * band  # per step squared
+        bound = band(plan, table, x, v)
+        second = 8.0 * bound  # per step squared
         span = (limit - t) * plan[table + RATE]
-        if not launched and t == 0.0 and (x > bounds.upper - band or x < band + bounds.lower):
+        if not launched and t == 0.0 and (x > bounds.upper - bound or x < bound + bounds.lower):
             # The mass may touch a bumper: about the start itself the series is exact there,
             # and the signs of its coefficients tell a contact from a parting.
             high = min(0.5, span)
@@ -229,7 +221,7 @@ def flight(
             _DISPLACEMENT,
             bounds,
             x,
-            band,
+            bound,
             row,
             span,
             clear_upper,

@@ -19,18 +19,14 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand, pull_series, turned, value
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner, moved, node
+from vibroimpact.engine.linear.evaluate import absolute_acceleration, band, horner, moved, node
 from vibroimpact.engine.linear.layout import (
-    BAND_0,
-    BAND_V,
-    BAND_X,
     LATE_TABLES,
     MIDDLE,
     NODE,
     NODES,
     ORDER,
     RATE,
-    REST,
     RESTING,
     SCALED_C,
     SCALED_D,
@@ -140,12 +136,11 @@ def enclosed(plan: Vector, cursor: Cursor, before: Motion) -> Enclosed:
     if mode == BOTH or plan[table + RESTING] != 0.0 or plan[par.BASE] == 0.0:
         return ANYWHERE
     x, v, _, _ = here = node(plan, table, cursor.i, cursor.start)
-    band = plan[table + BAND_X] * abs(x - plan[table + REST]) + plan[table + BAND_V] * abs(v)
-    band += plan[table + BAND_0]
+    bound = band(plan, table, x, v)
     x, v, _, _ = moved(plan, table + MIDDLE, here)
     h, rate = plan[table + H], plan[table + RATE]
     k, c = plan[table + SCALED_K], plan[table + SCALED_C]
-    way, faster = 0.5 * abs(v) * h + band, 4.0 * band
+    way, faster = 0.5 * abs(v) * h + bound, 4.0 * bound
     a = plan[table + SCALED_D] - k * x - c * (v * h)
     other = k * way + c * faster
     force = -math.inf
