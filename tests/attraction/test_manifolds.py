@@ -215,3 +215,23 @@ def test_what_remembers_has_no_curves_in_the_plane():
     rig = vi.Oscillator(550.0, CASE.oscillator.isolator, slow, slow)
     with pytest.raises(vi.InputError, match="remembers more than a cycle"):
         vi.manifolds(rig, EXCITATION)
+
+
+def test_a_saddle_that_presses_a_stop_with_a_restitution_is_refused_at_that_phase():
+    stop = vi.PowerBumper(stiffness=10e6, gap="5 mm", exponent=1.5, restitution=0.7)
+    rig = CASE.oscillator.replace(right=stop, left=stop)
+    shaking = vi.Harmonic("0.05 g", "2.5 Hz")
+    with pytest.raises(vi.InputError, match="a phase at which it flies"):
+        vi.manifolds(rig, shaking)
+    data = vi.manifolds(rig, shaking.replace(phase=1.6), longest=1.0)
+    near = vi.State(
+        float(data["saddle_displacement"][0]), float(data["saddle_velocity"][0]), phase=1.6
+    )
+    saddle = vi.orbit(rig, shaking, near)
+    first = saddle["multiplier_real"].values[:2]
+    both = [float(data["multiplier_growing"][0]), float(data["multiplier_dying"][0])]
+    np.testing.assert_allclose(both, first, rtol=1e-6)
+    # The same orbit where it presses the stop, given.
+    there = vi.simulate(rig, shaking, 1.0 - 1.6 / (2.0 * np.pi), saddle)
+    with pytest.raises(vi.InputError, match="presses a stop whose force depends on the speed"):
+        vi.manifolds(rig, shaking, vi.orbit(rig, shaking, there))

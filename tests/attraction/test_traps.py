@@ -104,3 +104,52 @@ def test_motions_of_long_periods_have_a_trap_a_point():
         mine = ends[found.owner == number]
         away = np.abs(mine[:, None] - one.points[None, :, :2]).max(axis=2).min(axis=1)
         assert (away < 1e-6).all()
+
+
+@cache
+def restituting() -> Search:
+    """Two motions, one of which presses a stop at the section, not without its approach speed."""
+    stop = vi.PowerBumper(stiffness=10e6, gap="5 mm", exponent=1.5, restitution=0.7)
+    rig = CASE.oscillator.replace(right=stop, left=stop)
+    search = Search(Stage(rig, vi.Harmonic("0.05 g", "2.5 Hz")))
+    points = np.zeros((40, 5))
+    points[:, :2] = np.random.default_rng(4).uniform(-1.0, 1.0, (40, 2)) * [0.012, 0.2]
+    assert (search.label(points).owner >= 0).all()
+    return search
+
+
+def test_a_motion_that_presses_such_a_stop_at_the_section_has_a_trap_too():
+    search = restituting()
+    assert sorted(len(one.traps) for one in search.known) == [1, 1]
+    (pressed,) = (one for one in search.known if one.points[0, 2] > 0.0)
+    (trap,) = pressed.traps
+    # In three components: all of it is pressed, and met at some speed.
+    gap = search.stage.oscillator.right.gap
+    assert trap[CENTRE] - trap[REACH] > gap
+    assert trap[REACH] > 1e-4
+    form = trap[FORM:].reshape(5, 5)
+    kept = np.ix_([0, 1, 2], [0, 1, 2])
+    sphere = np.random.default_rng(5).normal(size=(sample(500, 100), 3))
+    sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)
+    offsets = sphere @ np.linalg.inv(np.linalg.cholesky(form[kept]))
+    points = np.tile(trap[CENTRE : CENTRE + 5], (len(sphere), 1))
+    points[:, :3] += offsets
+    assert (points[:, 2] > 0.0).all()
+    held = Traps(trap[None], NO_TRAPS.cells, NO_TRAPS.grid)
+    states = follow(search.stage, points, None, NO_TRAPS, 1).states
+    assert (follow(search.stage, None, states, held, 0).owner >= 0).all()
+    ends = follow(search.stage, None, states, NO_TRAPS, 60).states
+    np.testing.assert_allclose(
+        parts(ends), np.broadcast_to(pressed.points[0], (len(ends), 5)), atol=1e-10
+    )
+
+
+def test_what_settles_on_a_known_motion_is_not_described_again(monkeypatch):
+    def never(*_: object) -> None:
+        raise AssertionError("a known motion was described once more")
+
+    search = restituting()
+    states = np.array([one.found.state for one in search.known])
+    went = follow(search.stage, None, states, NO_TRAPS, 3).states
+    monkeypatch.setattr("vibroimpact.attraction.search.attractor", never)
+    assert [search._end_of(state)[0] for state in went] == [0, 1]

@@ -16,7 +16,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.response.follow import grown
 from vibroimpact.response.start import as_state, engine_rig, engine_state
-from vibroimpact.stability.settled import Settled, approach, later, reach
+from vibroimpact.stability.settled import Settled, later, reach
 from vibroimpact.stability.steady import describe_motion
 
 _Array = NDArray[np.float64]
@@ -53,18 +53,15 @@ class Attractor(NamedTuple):
         return reach(self.found, self.found.state)
 
 
-def attractor(stage: Stage, state: _Array, max_cycles: int, owner: int) -> Attractor | Status:
-    """Follow a state of the engine to the end; why it is given up if it has none.
+def attractor(stage: Stage, state: _Array, found: Settled, owner: int) -> Attractor | Status:
+    """Describe what a state of the engine settles on; why it is given up if that cannot be.
 
     Raises
     ------
     InputError
         If nothing dies out there, so that there is no end.
     """
-    oscillator, excitation, max_events = stage
-    found = approach(oscillator, excitation, state, max_cycles=max_cycles, max_events=max_events)
-    if found.status not in (Status.DONE, Status.NOT_SETTLED):
-        return found.status
+    max_events = stage.max_events
     motion = describe_motion(found, _SAMPLES, _WINDOW, _EXPONENTS, max_events)
     period = int(motion["period"])
     if str(motion["motion"].values) == "undecided" and not math.isfinite(
@@ -73,7 +70,7 @@ def attractor(stage: Stage, state: _Array, max_cycles: int, owner: int) -> Attra
         return Status.TOO_MANY_EVENTS
     _check_loses(motion, stage, state)
     if period and not found.period:  # it settles slowly, and was found by Newton's method
-        there = engine_state(oscillator, as_state(motion["final_state"]))
+        there = engine_state(stage.oscillator, as_state(motion["final_state"]))
         found = found._replace(state=there, period=period, status=Status.DONE)
     points = _points(found, stage)
     if points is None:

@@ -5,6 +5,9 @@ balls are traps. A ball of radius r is taken as long as on its surface, and on t
 ones that are looked at, P brings each point nearer to x: what is in the plane inside the image of a
 circle stays inside, for P is continuous and one to one there. The first circle on which a point is
 not brought nearer ends it (docs/decisions/0015-basins.md).
+
+Where the section falls into the contact with a stop whose force depends on the speed at which it
+was met, that speed is one more component, and all of the ball is pressed.
 """
 
 from __future__ import annotations
@@ -14,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_discrete_lyapunov
 
 from vibroimpact.attraction.followed import Stage, images
-from vibroimpact.attraction.memory import remembered
+from vibroimpact.attraction.memory import met, remembered
 from vibroimpact.engine.capture import CENTRE, FORM, OWNER, REACH, TRAP
 
 _Array = NDArray[np.float64]
@@ -58,19 +61,41 @@ def ellipsoids(stage: Stage, points: _Array, size: float, owner: int) -> _Array:
     parts = remembered(stage)
     if (points[:, 2:4] > 0.0)[:, parts[2:4]].any():
         return np.empty((0, TRAP))  # what is pressed at the section has no deformation of its own
-    kept = np.flatnonzero(parts)
-    points = np.where(parts, points, 0.0)
-    unit = np.array([1.0, stage.excitation.angular_frequency, 1.0, 1.0, 1.0])[kept] * size
-    rows = [
-        row
-        for point in points
-        if (row := _ellipsoid(stage, point, kept, unit, len(points), owner)) is not None
-    ]
+    omega = stage.excitation.angular_frequency
+    rows = []
+    for point in points:
+        speeds = met(stage, point)
+        kept = np.flatnonzero(parts | speeds)
+        unit = np.where(speeds, omega, [1.0, omega, 1.0, 1.0, 1.0])[kept] * size
+        # How far a ball may reach until some of it is not pressed.
+        free = np.full(len(kept), np.inf)
+        free[speeds[kept]] = point[kept][speeds[kept]]
+        for side in np.flatnonzero(speeds[2:4]):
+            free[0] = _depth(stage, point[0], int(side))
+        row = _ellipsoid(
+            stage, np.where(parts | speeds, point, 0.0), kept, unit, free / unit, len(points), owner
+        )
+        if row is not None:
+            rows.append(row)
     return np.array(rows).reshape(-1, TRAP)
 
 
+def _depth(stage: Stage, u: float, side: int) -> float:
+    """How deep a mass presses a stop, 0 being the right one (m)."""
+    stops = stage.oscillator.right, stage.oscillator.left
+    stop = stops[side]
+    assert stop is not None
+    return (u if side == 0 else -u) - stop.gap
+
+
 def _ellipsoid(
-    stage: Stage, point: _Array, kept: NDArray[np.int64], unit: _Array, period: int, owner: int
+    stage: Stage,
+    point: _Array,
+    kept: NDArray[np.int64],
+    unit: _Array,
+    free: _Array,
+    period: int,
+    owner: int,
 ) -> _Array | None:
     """The largest ball around one point in a norm in which P contracts; None if there is none."""
 
@@ -92,8 +117,10 @@ def _ellipsoid(
     root = np.linalg.cholesky(form).T  # |root x| is the norm
     sphere = _sphere(len(kept))
     around = sphere @ np.linalg.inv(root).T
+    reach = np.sqrt(np.diag(np.linalg.inv(form)))
+    most = min(_LARGEST, float((free / reach).min()))
     radius, held = _SMALLEST, 0.0
-    while radius < _LARGEST:
+    while radius < most:
         image, there = mapped(radius * around)
         if not there or not _nearer(image @ root.T / radius, ordered=len(kept) == 2):
             break
@@ -105,7 +132,7 @@ def _ellipsoid(
     metric = np.zeros((5, 5))
     metric[np.ix_(kept, kept)] = form / held**2 / np.outer(unit, unit)
     row[FORM:] = metric.ravel()
-    row[REACH] = held * unit[0] * np.sqrt(np.linalg.inv(form)[0, 0]) * (1.0 + 1e-12)
+    row[REACH] = held * unit[0] * reach[0] * (1.0 + 1e-12)
     return row
 
 

@@ -86,7 +86,8 @@ def manifolds(
     ------
     InputError
         If a value cannot be used, an orbit is no saddle, or a state is more than displacement and
-        velocity: bumpers that relax slowly, isolators with a memory.
+        velocity: bumpers that relax slowly, isolators with a memory, power-law stops with a
+        restitution that the saddle presses at the phase of the excitation.
     """
     check_bounded(oscillator, excitation)
     period = whole(period, "period")

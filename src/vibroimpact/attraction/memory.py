@@ -26,6 +26,20 @@ def remembered(stage: Stage) -> NDArray[np.bool_]:
     return parts
 
 
+def met(stage: Stage, point: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which parts of one point hold the speed at which a stop was met.
+
+    A power-law stop with a restitution divides by it as long as it is pressed, and keeps it where
+    others keep their deformation.
+    """
+    rig = engine_rig(stage.oscillator, stage.excitation)
+    parts = np.zeros(PARTS, dtype=bool)
+    for i, at in enumerate((par.BUMPER, par.BUMPER + par.WIDTH)):
+        curved = rig[at + par.KIND] in (par.POWER_LAW, par.JANKOWSKI)
+        parts[2 + i] = curved and rig[at + par.DISSIPATION] < 0.0 and point[2 + i] != 0.0
+    return parts
+
+
 def forgets(stage: Stage) -> bool:
     """Whether u and u̇ at the section tell all of a motion."""
     return not remembered(stage)[2:].any()

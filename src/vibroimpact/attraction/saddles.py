@@ -14,6 +14,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.attraction.followed import NO_TRAPS, Stage, follow
+from vibroimpact.attraction.memory import met
 from vibroimpact.attraction.search import Search
 from vibroimpact.attraction.window import Window, lattice
 from vibroimpact.errors import InputError
@@ -81,6 +82,26 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
     return found
 
 
+def check_flies(stage: Stage, orbit: Orbit) -> None:
+    """Check that no point of an orbit has more to it than the plane shows.
+
+    Raises
+    ------
+    InputError
+        If one presses a stop whose force depends on the speed at which it was met.
+    """
+    one = Section(orbit.section.family, 1, False, orbit.section.scale)
+    point = orbit.point
+    for _ in range(orbit.section.period):
+        if met(stage, point).any():
+            raise InputError(
+                f"excitation.phase: {stage.excitation.phase:.6g} rad, at which the saddle at "
+                f"{point[0]:.6g} m presses a stop whose force depends on the speed at which it was "
+                "met, so that no plane holds its curves; a phase at which it flies is accepted"
+            )
+        _, _, point = evaluated(one, point, orbit.facts[0])
+
+
 def relaxed(point: _Array) -> _Array:
     """A point of the section map with relaxed bumpers."""
     found = point.copy()
@@ -102,7 +123,9 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
                 f"{where}: its phase is {phase:.6g}, that of the excitation "
                 f"{stage.excitation.phase:.6g}; the same is accepted"
             )
-    return first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
+    found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
+    check_flies(stage, found)
+    return found
 
 
 def border_saddles(search: Search, window: Window) -> list[Orbit]:
@@ -120,6 +143,7 @@ def border_saddles(search: Search, window: Window) -> list[Orbit]:
             continue
         if any((np.abs(orbit.point[:2] - one) <= _SAME * span).all() for one in known):
             continue
+        check_flies(search.stage, orbit)
         try:
             cycle = saddle_points(orbit, "saddles")
         except InputError:

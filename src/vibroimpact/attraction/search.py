@@ -26,6 +26,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.stability.same import ALIKE, distance, same
+from vibroimpact.stability.settled import Settled, approach
 
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.int64]
@@ -122,14 +123,22 @@ class Search:
 
     def _end_of(self, state: _Array) -> tuple[int, int]:
         """The motion that a state leads to, entered if it is new; -1 and why if there is none."""
-        met = attractor(self.stage, state, self.max_cycles, len(self.known))
+        oscillator, excitation, max_events = self.stage
+        found = approach(
+            oscillator, excitation, state, max_cycles=self.max_cycles, max_events=max_events
+        )
+        if found.status not in (Status.DONE, Status.NOT_SETTLED):
+            return -1, int(found.status)
+        # A motion is described once: what repeats and is known already needs no more.
+        number = self._known_as(found) if found.period else -1
+        if number >= 0:
+            return number, int(Status.DONE)
+        met = attractor(self.stage, state, found, len(self.known))
         if isinstance(met, Status):
             return -1, int(met)
-        for number, one in enumerate(self.known):
-            if one.found.period == met.found.period and same(
-                one.found, met.found, self.stage.max_events
-            ):
-                return number, int(Status.DONE)
+        number = self._known_as(met.found)
+        if number >= 0:
+            return number, int(Status.DONE)
         if len(self.known) == MOST:
             raise InputError(
                 f"oscillator: more than {MOST} motions were found, each of which may be a motion "
@@ -139,6 +148,13 @@ class Search:
         self.known.append(met)
         self._set_traps()
         return len(self.known) - 1, int(Status.DONE)
+
+    def _known_as(self, found: Settled) -> int:
+        """Number of the motion that this is; -1 if it is new."""
+        for number, one in enumerate(self.known):
+            if one.found.period == found.period and same(one.found, found, self.stage.max_events):
+                return number
+        return -1
 
     def _rest(self, left: _Whole, states: _Array, owner: _Whole, outcome: _Whole) -> None:
         """Tell what no trap has caught by what it visits, or by following it to its end."""

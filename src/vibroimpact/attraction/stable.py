@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.attraction.curve import Curve, Measure
+from vibroimpact.attraction.followed import Stage
+from vibroimpact.attraction.memory import met
 from vibroimpact.attraction.saddles import Saddle
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import Section, evaluated
@@ -59,6 +61,9 @@ class _Chains:
     ) -> None:
         self.section, self.measure, self.factor = section, measure, factor
         self.value = saddle.orbit.value
+        along = section.family
+        # Where an image presses such a stop it has more to it than the plane of its preimages.
+        self.hidden = met(Stage(along.oscillator, along.excitation), np.ones(5))
         self.origin = saddle.point
         self.way = side * saddle.stable / np.linalg.norm(measure.scaled(saddle.stable))
         self.parameters = list(np.linspace(0.0, 1.0, _FIRST))
@@ -160,7 +165,9 @@ class _Chains:
         return found if best <= 1e3 * _EXACT else None
 
     def _map(self, point: _Array) -> tuple[_Array, _Array] | None:
-        """Image and derivative; None if a limit is met."""
+        """Image and derivative; None if a limit is met, or the image lies beside the plane."""
         begun = np.array([point[0], point[1], 0.0, 0.0, 0.0, self.value])
         status, here, image = evaluated(self.section, begun, 0.0)
-        return (image[:2], here.own[:2, :2]) if status is Status.DONE else None
+        if status is not Status.DONE or image[:5][self.hidden].any():
+            return None
+        return image[:2], here.own[:2, :2]
