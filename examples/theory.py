@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 import vibroimpact as vi
-from vibroimpact.figures import bifurcation_diagram, save_figure, time_history
+from vibroimpact.figures import branch_diagram, save_figure, time_history
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
 folder.mkdir(parents=True, exist_ok=True)
@@ -148,7 +148,7 @@ def branches():
     case = vi.laboratory.case("B2-G1-A3")
     shaking = vi.Harmonic(case.amplitude, "4 Hz")
     branch = vi.branch(case.oscillator, shaking, low="1 Hz", high="4 Hz")
-    ax = bifurcation_diagram(branch, quantity="eta_a")
+    ax = branch_diagram(branch, quantity="eta_a")
     inside = branch["frequency"] < 4.0
     ax.plot(branch["frequency"][inside], branch["eta_a"][inside], "|", color=BLUE, markersize=9)
     ax.set_xlim(1.0, 3.2)

@@ -12,7 +12,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 import vibroimpact as vi
-from vibroimpact.figures import bifurcation_diagram, phase_portrait, save_figure
+from vibroimpact.figures import branch_diagram, phase_portrait, save_figure
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
 folder.mkdir(parents=True, exist_ok=True)
@@ -28,7 +28,7 @@ motions = {
 
 figure = Figure(figsize=(10.0, 4.2), layout="constrained")
 left, right = figure.subplots(1, 2, width_ratios=[1.4, 1.0])
-bifurcation_diagram(orbits, left, quantity="eta_a", sweep=curves)
+branch_diagram(orbits, left, quantity="eta_a", sweep=curves)
 left.set_ylabel("excursion of acceleration $\\eta_a$ (–)")
 phase_portrait(motions, right)
 print(save_figure(figure, folder / "two-motions.png"))

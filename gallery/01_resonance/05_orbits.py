@@ -8,9 +8,9 @@ are one curve, folded twice.
 """
 
 import vibroimpact as vi
-from vibroimpact.figures import bifurcation_diagram
+from vibroimpact.figures import branch_diagram
 
 case = vi.laboratory.case("B2-G1-A3")
 orbits = vi.resonance_diagram(case.oscillator, case.amplitude, "0.8 Hz", "3.4 Hz")
 swept = vi.sweep(case, [k / 20 for k in range(16, 69)])
-bifurcation_diagram(orbits, quantity="eta_a", sweep=swept)
+branch_diagram(orbits, quantity="eta_a", sweep=swept)

@@ -8,8 +8,8 @@ double again, on the way to the chaos in between.
 """
 
 import vibroimpact as vi
-from vibroimpact.figures import bifurcation_diagram
+from vibroimpact.figures import branch_diagram
 
 case = vi.laboratory.case("B3-10mm-A3")
 orbits = vi.resonance_diagram(case.oscillator, case.amplitude, "0.95 Hz", "1.3 Hz", random=0)
-bifurcation_diagram(orbits, quantity="eccentricity")
+branch_diagram(orbits, quantity="eccentricity")

@@ -12,7 +12,8 @@ from matplotlib.colors import same_color
 from matplotlib.figure import Figure
 
 import vibroimpact as vi
-from vibroimpact.figures import bifurcation_curves, bifurcation_diagram, save_figure
+from vibroimpact import figures
+from vibroimpact.figures import bifurcation_curves, branch_diagram, save_figure
 from vibroimpact.figures.style import SWEEPS
 
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -83,7 +84,7 @@ def test_solid_where_stable_and_dashed_where_not(made):
     x, y = (1e3 if along.attrs["units"] == "m" else 1.0) * along.values, data["eta_d"].values
     branch, stable = data["branch"].values, data["stable"].values
     drawn = {}
-    for line in curves(bifurcation_diagram(data)):
+    for line in curves(branch_diagram(data)):
         assert line.get_linestyle() in ("-", "--")
         solid = line.get_linestyle() == "-"
         assert same_color(line.get_color(), "black")
@@ -104,7 +105,7 @@ def test_solid_where_stable_and_dashed_where_not(made):
 def test_the_line_changes_at_the_folds():
     data = diagram()
     upper, lower = data["bifurcation_value"].values[:2]
-    first, between, last = curves(bifurcation_diagram(data))
+    first, between, last = curves(branch_diagram(data))
     looks = [line.get_linestyle() for line in (first, between, last)]
     assert looks == ["-", "--", "-"]
     assert points(first)[-1, 0] == points(between)[0, 0] == upper
@@ -113,7 +114,7 @@ def test_the_line_changes_at_the_folds():
 
 
 def test_free_flight_ends_where_it_swings_from_gap_to_gap():
-    ax = bifurcation_diagram(diagram(), quantity="displacement_excursion")
+    ax = branch_diagram(diagram(), quantity="displacement_excursion")
     ((frequency, excursion),) = points(marks(ax)["grazing"])
     assert excursion == pytest.approx(15.0, rel=1e-9)  # mm
     rig, omega = CASE.oscillator, 2.0 * np.pi * frequency
@@ -133,7 +134,7 @@ def test_free_flight_ends_where_it_swings_from_gap_to_gap():
 )
 def test_quantities_and_labels(quantity, factor, label):
     data = several()
-    ax = bifurcation_diagram(data, quantity=quantity, title="a title")
+    ax = branch_diagram(data, quantity=quantity, title="a title")
     assert ax.get_xlabel() == FREQUENCY
     assert ax.get_ylabel() == label
     assert ax.figure.get_suptitle() == "a title"
@@ -152,7 +153,7 @@ def test_quantities_and_labels(quantity, factor, label):
 
 
 def test_marks_differ_and_are_named():
-    ax = bifurcation_diagram(several())
+    ax = branch_diagram(several())
     assert named(ax)[:2] == ["stable", "unstable"]
     assert named(ax)[2:] == list(marks(ax))
     looks = [
@@ -160,13 +161,13 @@ def test_marks_differ_and_are_named():
         for line in marks(ax).values()
     ]
     assert len(set(looks)) == len(looks) >= 3
-    assert named(bifurcation_diagram(gaps()))[2:] == ["fold", "symmetry breaking", "grazing"]
+    assert named(branch_diagram(gaps()))[2:] == ["fold", "symmetry breaking", "grazing"]
     # What is not there is not named.
-    assert named(bifurcation_diagram(diagram())) == ["stable", "unstable", "fold", "grazing"]
+    assert named(branch_diagram(diagram())) == ["stable", "unstable", "fold", "grazing"]
 
 
 def test_a_fold_is_seen_inside_the_grazing_beside_it():
-    ax = bifurcation_diagram(diagram())
+    ax = branch_diagram(diagram())
     fold, grazing = marks(ax)["fold"], marks(ax)["grazing"]
     assert grazing.get_markerfacecolor() == "none"
     room = grazing.get_markersize() - 2.0 * grazing.get_markeredgewidth()
@@ -174,7 +175,7 @@ def test_a_fold_is_seen_inside_the_grazing_beside_it():
 
 
 def test_unstable_mirror_images_are_dashed_where_they_coincide():
-    lines = curves(bifurcation_diagram(several()))
+    lines = curves(branch_diagram(several()))
     dashed = [line for line in lines if line.get_linestyle() == "--"]
     solid = [line for line in lines if line.get_linestyle() == "-"]
     assert all(same_color(line.get_gapcolor(), "white") for line in dashed)
@@ -182,29 +183,27 @@ def test_unstable_mirror_images_are_dashed_where_they_coincide():
 
 
 def test_branches_are_named_by_their_impacts():
-    texts = [text.get_text() for text in bifurcation_diagram(diagram()).texts]
+    texts = [text.get_text() for text in branch_diagram(diagram()).texts]
     assert sorted(texts) == ["1R 1L", "free flight"]
-    several_texts = {text.get_text() for text in bifurcation_diagram(several()).texts}
+    several_texts = {text.get_text() for text in branch_diagram(several()).texts}
     assert {"1R 1L", "3R 2L, period 2"} <= several_texts
 
 
 def test_branches_are_named_under_a_sweep_too():
-    ax = bifurcation_diagram(diagram(), sweep=swept())
+    ax = branch_diagram(diagram(), sweep=swept())
     assert {"1R 1L", "free flight"} <= {text.get_text() for text in ax.texts}
 
 
 def test_a_dense_sweep_leaves_the_branches_to_be_seen():
     dense = vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(1.0, 4.0, 0.01))
-    line = marks(bifurcation_diagram(diagram(), sweep=dense))["forward sweep"]
+    line = marks(branch_diagram(diagram(), sweep=dense))["forward sweep"]
     assert len(line.get_xdata()) / line.get_markevery() < 100
-    assert (
-        marks(bifurcation_diagram(diagram(), sweep=swept()))["forward sweep"].get_markevery() == 1
-    )
+    assert marks(branch_diagram(diagram(), sweep=swept()))["forward sweep"].get_markevery() == 1
 
 
 @pytest.mark.parametrize("made", [diagram, several, gaps])
 def test_names_stand_clear_of_marks_and_of_each_other_inside_the_panel(made):
-    ax = bifurcation_diagram(made())
+    ax = branch_diagram(made())
     ax.figure.draw_without_rendering()
     inside = ax.get_window_extent()
     for text in ax.texts:
@@ -219,9 +218,9 @@ def test_names_stand_clear_of_marks_and_of_each_other_inside_the_panel(made):
 
 
 def test_other_parameters_are_named_with_their_units():
-    assert bifurcation_diagram(gaps()).get_xlabel().startswith("gap of each side (")
+    assert branch_diagram(gaps()).get_xlabel().startswith("gap of each side (")
     data = vi.branch(CASE.oscillator, SHAKEN, parameter="stiffness_ratio", low=10.0, high=30.0)
-    label = bifurcation_diagram(data).get_xlabel()
+    label = branch_diagram(data).get_xlabel()
     assert label.startswith("stiffness ratio")
     assert label.endswith(" (–)")
 
@@ -235,7 +234,7 @@ def test_other_parameters_are_named_with_their_units():
     ],
 )
 def test_a_sweep_is_laid_over_in_its_colours(quantity, factor):
-    ax = bifurcation_diagram(diagram(), quantity=quantity, sweep=swept())
+    ax = branch_diagram(diagram(), quantity=quantity, sweep=swept())
     for direction, look in SWEEPS.items():
         line = marks(ax)[look.label]
         assert line.get_color() == look.colour
@@ -246,13 +245,13 @@ def test_a_sweep_is_laid_over_in_its_colours(quantity, factor):
         scale = held.max() or 1.0  # of η within what a grid misses of the largest free flight
         np.testing.assert_allclose(y, held, atol=0.01 * scale if factor == 1.0 else 0.0)
     assert named(ax)[-2:] == ["forward sweep", "backward sweep"]
-    one = bifurcation_diagram(diagram(), sweep=swept().sel(direction=["backward"]))
+    one = branch_diagram(diagram(), sweep=swept().sel(direction=["backward"]))
     assert named(one)[-1] == "backward sweep"
     assert "forward sweep" not in named(one)
 
 
 def test_a_sweep_falls_on_the_solid_lines():
-    ax = bifurcation_diagram(diagram(), quantity="displacement_excursion", sweep=swept())
+    ax = branch_diagram(diagram(), quantity="displacement_excursion", sweep=swept())
     upper, _, lower = (points(line) for line in curves(ax))
     below = lower[np.argsort(lower[:, 0])]
     for look in SWEEPS.values():
@@ -273,7 +272,7 @@ def test_a_sweep_falls_on_the_solid_lines():
 def test_a_sweep_is_at_the_scale_of_the_branches(quantity, low):
     """Over the largest free flight at any frequency, though the sweep has not been there."""
     data = vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(low, 4.0, 0.05), "backward")
-    ax = bifurcation_diagram(diagram(), quantity=quantity, sweep=data)
+    ax = branch_diagram(diagram(), quantity=quantity, sweep=data)
     x, y = points(marks(ax)["backward sweep"]).T
     free = np.flatnonzero(x > 2.9)
     lower = points(curves(ax)[-1])
@@ -332,7 +331,7 @@ def test_curves_are_called_by_their_names():
 @pytest.mark.parametrize("kind", ["png", "pdf", "svg"])
 def test_the_same_file_every_time(kind, tmp_path):
     def drawn():
-        yield bifurcation_diagram(several(), sweep=swept(), title="branches")
+        yield branch_diagram(several(), sweep=swept(), title="branches")
         yield bifurcation_curves(curve("fold"), title="curves")
 
     first, second = (
@@ -351,7 +350,7 @@ def test_given_axes_are_drawn_on_and_the_rest_is_left_alone():
     settings = dict(matplotlib.rcParams)
     held = (diagram().copy(deep=True), swept().copy(deep=True), curve("fold").copy(deep=True))
     one, other = Figure().subplots(1, 2)
-    assert bifurcation_diagram(diagram(), one, sweep=swept()) is one
+    assert branch_diagram(diagram(), one, sweep=swept()) is one
     assert bifurcation_curves(curve("fold"), other) is other
     assert one.figure.axes == [one, other]
     assert dict(matplotlib.rcParams) == settings
@@ -375,24 +374,34 @@ def refused(call, begins: str, *holds: str) -> None:
 
 def test_what_is_no_branch_is_refused():
     for wrong in (xr.Dataset(), swept(), curve("fold")):
-        refused(lambda wrong=wrong: bifurcation_diagram(wrong), "data: ", "resonance_diagram")
+        refused(lambda wrong=wrong: branch_diagram(wrong), "data: ", "resonance_diagram")
+
+
+def test_sections_are_sent_to_their_own_figure():
+    data = vi.bifurcation_diagram("B3-10mm-A3", 1.12, "gap", 4.9e-3, 5e-3, 2, directions="up")
+    refused(lambda: branch_diagram(data), "data: ", "figures.section_diagram", "resonance_diagram")
+
+
+def test_the_former_name_says_what_it_is_now():
+    with pytest.warns(DeprecationWarning, match="is figures.branch_diagram now"):
+        assert figures.bifurcation_diagram is branch_diagram
 
 
 def test_other_quantities_are_refused():
     refused(
-        lambda: bifurcation_diagram(diagram(), quantity="jerk"),
+        lambda: branch_diagram(diagram(), quantity="jerk"),
         "quantity: 'jerk'; ",
         "eta_d, eta_a",
     )
 
 
 def test_a_sweep_over_another_parameter_or_none_is_refused():
-    refused(lambda: bifurcation_diagram(gaps(), sweep=swept()), "sweep: ", "'gap'", "'frequency'")
+    refused(lambda: branch_diagram(gaps(), sweep=swept()), "sweep: ", "'gap'", "'frequency'")
 
 
 @pytest.mark.parametrize("wrong", [diagram, xr.Dataset])
 def test_what_is_no_sweep_is_refused(wrong):
-    refused(lambda: bifurcation_diagram(diagram(), sweep=wrong()), "sweep: ")
+    refused(lambda: branch_diagram(diagram(), sweep=wrong()), "sweep: ")
 
 
 def test_what_is_no_curve_is_refused():

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
-from vibroimpact.figures import bifurcation_diagram, resonance_curves
+from vibroimpact.figures import branch_diagram, resonance_curves
 from vibroimpact.model import GRAVITY
 
 ISOLATOR = vi.Isolator.from_period("5000 t", "2.5 s", 0.15)
@@ -94,9 +94,9 @@ def test_a_branch_in_engineers_units() -> None:
         ("peak_displacement", "(mm)", 1e3),
         ("peak_force_right", "(MN)", 1e-6),
     ):
-        ax = bifurcation_diagram(data, quantity=quantity)
+        ax = branch_diagram(data, quantity=quantity)
         assert ax.get_ylabel().endswith(unit)
         most = max(line.get_ydata().max() for line in ax.lines if len(line.get_ydata()) > 1)
         assert most == pytest.approx(factor * float(data[quantity].max()), rel=1e-12)
     stiff = vi.branch(BUILDING, shaken, start, parameter="stiffness", low=31e6, high=32e6)
-    assert bifurcation_diagram(stiff).get_xlabel().endswith("(MN/m)")
+    assert branch_diagram(stiff).get_xlabel().endswith("(MN/m)")

@@ -59,6 +59,24 @@ def test_points_are_those_of_the_data(section, quantity, factor):
     assert labels == ["up", "down", "from other starts"]
 
 
+def test_what_has_no_period_is_told_apart():
+    kinds = ["periodic", "chaotic", "undecided", "chaotic", "periodic", "periodic", "periodic"]
+    data = diagram().isel(start=[0])
+    data = data.assign(
+        motion=(data["motion"].dims, np.array([kinds])),
+        period=(data["period"].dims, np.array([[1, 0, 0, 0, 2, 4, 4]])),
+    )
+    _, middle, _ = section_diagram(data)
+    rows = dict(
+        zip([t.get_text() for t in middle.get_yticklabels()], middle.get_yticks(), strict=True)
+    )
+    assert list(rows) == ["undecided", "chaotic", "1", "2", "4"]
+    (line,) = middle.lines
+    assert list(line.get_ydata()) == [
+        rows.get(kind, p) for kind, p in zip(kinds, [1, 0, 0, 0, 2, 4, 4], strict=True)
+    ]
+
+
 def test_bifurcations_of_branches_are_marked():
     top, _, _ = section_diagram(diagram(), branches=branch(), title="B3-10mm-A3")
     kinds = branch()["bifurcation_kind"].values
@@ -80,7 +98,8 @@ def test_a_logarithmic_axis():
 @pytest.mark.parametrize(
     ("data", "options", "told"),
     [
-        (lambda: branch(), {}, "data: "),
+        (lambda: branch(), {}, "data: this is branches, which figures.branch_diagram draws"),
+        (lambda: xr.Dataset(), {}, "data: this is no such diagram"),
         (lambda: diagram(), {"quantity": "contact_start_phase"}, "quantity: "),
         (lambda: diagram(), {"branches": diagram().assign_attrs(parameter="mass")}, "branches: "),
         (lambda: diagram(), {"axes": [None]}, "axes: 1 given"),

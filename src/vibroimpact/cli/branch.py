@@ -160,7 +160,7 @@ def branch(
 
         from vibroimpact.cli import summary
         from vibroimpact.cli.bifurcations import facts, text
-        from vibroimpact.figures import bifurcation_diagram, save_figure
+        from vibroimpact.figures import branch_diagram, save_figure
         from vibroimpact.response.files import save
 
         with warnings.catch_warnings(record=True) as caught, progress_bar("following") as progress:
@@ -176,7 +176,7 @@ def branch(
             warn(message)
         data.attrs["title"] = what.name
         drawn = _PHYSICAL.get(quantity, quantity) if physical else quantity
-        axes = bifurcation_diagram(data, quantity=drawn, sweep=swept, title=what.title)
+        axes = branch_diagram(data, quantity=drawn, sweep=swept, title=what.title)
         stem = folder / f"{what.slug}-{along.replace('_', '-')}-branches"
         files = {
             "data": save(data, f"{stem}.nc"),

@@ -5,10 +5,13 @@ without given axes a figure is made of its own, which the returned axes carry as
 A notebook shows what is returned; `save_figure` writes it to a file.
 """
 
+import warnings
+from typing import Any
+
 from vibroimpact.figures.accelerogram import accelerogram
 from vibroimpact.figures.basin_shares import basin_shares
 from vibroimpact.figures.basins import basin_portrait
-from vibroimpact.figures.branches import bifurcation_diagram
+from vibroimpact.figures.branches import branch_diagram
 from vibroimpact.figures.cases import scenario_cases
 from vibroimpact.figures.clearance import clearances
 from vibroimpact.figures.curves import bifurcation_curves
@@ -40,7 +43,7 @@ __all__ = [
     "basin_portrait",
     "basin_shares",
     "bifurcation_curves",
-    "bifurcation_diagram",
+    "branch_diagram",
     "clearances",
     "design_chart",
     "earthquake_page",
@@ -71,3 +74,16 @@ __all__ = [
     "spectrum_lines",
     "time_history",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """The former name of `branch_diagram`, which `vibroimpact.bifurcation_diagram` is not for."""
+    if name == "bifurcation_diagram":
+        warnings.warn(
+            "figures.bifurcation_diagram is figures.branch_diagram now; what "
+            "vibroimpact.bifurcation_diagram computes is drawn by figures.section_diagram",
+            DeprecationWarning,
+            stacklevel=2,
+        )
+        return branch_diagram
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -45,7 +45,7 @@ MARKS = {
 }
 
 
-def bifurcation_diagram(
+def branch_diagram(
     data: xr.Dataset,
     ax: Axes | None = None,
     *,
@@ -80,8 +80,11 @@ def bifurcation_diagram(
         another parameter than the frequency.
     """
     if "parameter" not in data.attrs or "branch" not in data:
+        another = (
+            "sections, which figures.section_diagram draws" if "start" in data.dims else "no branch"
+        )
         raise InputError(
-            "data: this is no branch; a dataset of branch or resonance_diagram is accepted"
+            f"data: this is {another}; a dataset of branch or resonance_diagram is accepted"
         )
     if quantity not in QUANTITIES:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(QUANTITIES)} is accepted")

@@ -33,8 +33,8 @@ _WAYS = {
 _ELSE = Look("from other starts", "0.35", "-.", 0.8, "x", 4.0, True)
 
 _HEIGHTS = (3.2, 1.0, 1.4)
-_LOST = 0.5
-"""Where motions that are not periodic stand on the axis of periods: below a period of 1."""
+_NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")
+"""Motions that have a row each on the axis of periods, below a period of 1, where there are any."""
 
 
 def section_diagram(
@@ -70,7 +70,12 @@ def section_diagram(
     """
     held = [name for name in _LABELS if name in data]
     if "start" not in data.dims or not held:
-        raise InputError("data: this is no such diagram; one of bifurcation_diagram is accepted")
+        another = (
+            "branches, which figures.branch_diagram draws"
+            if "branch" in data
+            else "no such diagram"
+        )
+        raise InputError(f"data: this is {another}; one of bifurcation_diagram is accepted")
     if quantity is None:
         quantity = "contact_start_velocity" if "contact_side" in data else held[0]
     if quantity not in held:
@@ -87,11 +92,15 @@ def section_diagram(
     x = scale * data[name].values
     factor, label = _LABELS[quantity]
     # What is drawn last must leave the dots below it seen: those that go up come last.
+    rows = _rows(data["motion"].values)
     for start in reversed(data["start"].values):
         one, look = data.sel(start=start), _WAYS.get(str(start), _ELSE)
         _points(top, x, factor * one[quantity].values, look)
-        period = one["period"].values
-        _line(middle, x, np.where(period > 0, period, _LOST), look)
+        heights = [
+            rows.get(str(motion), float(period))
+            for motion, period in zip(one["motion"].values, one["period"].values, strict=True)
+        ]
+        _line(middle, x, np.array(heights), look)
         _line(bottom, x, one["exponents"].values[:, 0], look, dots=False)
     spacing = np.diff(x)
     for ax in drawn:
@@ -108,7 +117,7 @@ def section_diagram(
     above = {**LEGEND, "bbox_to_anchor": (0.5, 1.03)}
     top.legend(handles=handles, ncols=4, **above)
     top.set_ylabel(label)
-    _periods(middle, data["period"].values)
+    _periods(middle, data["period"].values, rows)
     bottom.axhline(0.0, color="0.3", linewidth=0.7, zorder=1)
     bottom.set_ylabel("largest\nexponent (1/s)")
     bottom.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
@@ -168,15 +177,20 @@ def _handle(look: Look) -> Line2D:
     )
 
 
-def _periods(ax: Axes, periods: NDArray[np.int64]) -> None:
-    """An axis of periods on which each doubling is a step; below it what has none."""
+def _rows(motions: NDArray[np.str_]) -> dict[str, float]:
+    """Where motions without a period stand on the axis of periods."""
+    held = [motion for motion in _NO_PERIOD if (motions == motion).any()]
+    return {motion: 0.5 ** (k + 1) for k, motion in enumerate(held)}
+
+
+def _periods(ax: Axes, periods: NDArray[np.int64], rows: dict[str, float]) -> None:
+    """An axis of periods on which each doubling is a step; below it what has none, by its kind."""
     ax.set_yscale("log", base=2)
     most = max(int(periods.max()), 2)
     powers = [2**k for k in range(most.bit_length())]
-    ticks: list[float] = [float(p) for p in (powers if len(powers) <= 5 else powers[::2])]
-    labels = [f"{tick:g}" for tick in ticks]
-    if (periods == 0).any():
-        ticks, labels = [_LOST, *ticks], ["none", *labels]
+    chosen = powers if len(powers) + len(rows) <= 5 else powers[::2]
+    ticks = [*reversed(rows.values()), *map(float, chosen)]
+    labels = [*reversed(rows), *(f"{power:g}" for power in chosen)]
     ax.set_yticks(ticks, labels)
     ax.yaxis.set_minor_locator(NullLocator())
     ax.yaxis.set_minor_formatter(NullFormatter())
