@@ -25,7 +25,8 @@ from vibroimpact.engine.status import NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_
 
 
 @entry(
-    "void(f8[::1], f8[::1], f8[::1], f8, f8[::1], f8, i8, i8, i8, f8[:, ::1], f8[:, ::1], i8[::1])"
+    "void(f8[::1], f8[::1], f8[::1], f8, f8[::1], f8, i8, i8, i8, f8,"
+    " f8[:, ::1], f8[:, ::1], i8[::1])"
 )
 def sweep(
     given: Any,
@@ -38,6 +39,7 @@ def sweep(
     max_cycles: int,
     window: int,
     max_events: int,
+    transient: float,
     results: Vector,
     states: Vector,
     progress: NDArray[np.int64],
@@ -52,14 +54,14 @@ def sweep(
         m/s² or what the rig's vector says, Hz in the order of the sweep, rad at the section.
     state : ndarray, shape (motion.STATE,)
         Where the sweep starts; carried on in place.
-    tolerance, max_cycles, window, max_events
+    tolerance, max_cycles, window, max_events, transient
         See `hold.settle`.
     results, states : ndarray, shape (frequency, hold.RESULTS), (frequency, motion.STATE)
         Written: the measurements, and the state at the end of each hold.
     progress : ndarray, shape (2,)
         [0] is raised by one a hold; the sweep stops when [1] becomes nonzero.
     """
-    options = (tolerance, max_cycles, window, max_events)
+    options = (tolerance, max_cycles, window, max_events, transient)
     plan = planned(given, rig)
     clock = (math.sin(phase), math.cos(phase))
     motion = unpacked(state, clock)

@@ -30,6 +30,7 @@ from vibroimpact.engine.status import (
     TOO_MANY_EVENTS,
     TOO_MUCH_WORK,
 )
+from vibroimpact.engine.wandering import runs_away
 
 LONGEST = 16
 """Longest period, in forcing cycles, that is recognised."""
@@ -39,10 +40,15 @@ _STALLED_CYCLES = 96
 _ROUNDING = 4e-15
 _STALLED = 1e-11
 _SAME = 1e-8  # states closer than this are one point of the section when counting a period
+_SOON = 24.0
+"""Cycles in which most motions have settled: none is asked sooner whether it is chaotic."""
 _SAFETY = 4.0  # on the estimated distance
 _PATIENCE = 50  # times max_cycles, for a motion that keeps closing in
 _CLOSING = 1e-3  # closer than this share of its size, a motion may be closing in
 _RECENT = 0.2  # share of the cycles so far in which it must have come twice as close
+
+PATIENT = math.inf
+"""As a transient: all motions are waited for."""
 
 # What a hold writes.
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME = range(9)
@@ -96,8 +102,9 @@ def settle(
     tolerance: float,
     max_cycles: int,
     max_events: int,
+    transient: float,
 ) -> tuple[int, int, int, Motion]:
-    """Follow the motion until it repeats itself.
+    """Follow the motion until it repeats itself, or is plainly chaotic behind its transient (s).
 
     Returns
     -------
@@ -105,11 +112,14 @@ def settle(
         `n` is the period in forcing cycles, 0 if the motion did not settle.
     """
     weight = stiff_rate(plan)
-    found, gone, motion = pursue(
-        plan, motion, clock, period, weight, tolerance, max_cycles, max_events
+    asked = max(transient / period, _SOON)
+    found, plain, gone, motion = pursue(
+        plan, motion, clock, period, weight, tolerance, max_cycles, max_events, asked
     )
     if found:
         return DONE, 1, gone, motion
+    if plain:
+        return NOT_SETTLED, 0, gone, motion
     past = past_memory()
     block, former = distances(), distances()
     recent, earlier = distances(), distances()  # ratios of successive blocks
@@ -123,11 +133,19 @@ def settle(
     k = 0
     n = 0
     outcome = NOT_SETTLED
+    if gone > asked:
+        asked = PATIENT
     while gone + k < max_cycles or (
         _STALLED_CYCLES <= k < _PATIENCE * max_cycles
         and stalled * _BLOCK < _RECENT * k
         and best <= _CLOSING * scale
     ):
+        if k % _BLOCK == 0 and gone + k >= asked:
+            asked = PATIENT
+            plain, beside, motion = runs_away(plan, motion, clock, period, weight, max_events)
+            gone += beside
+            if plain:
+                break
         at = k % LONGEST
         past[at * 4], past[at * 4 + 1] = motion.u, motion.v
         past[at * 4 + 2], past[at * 4 + 3] = motion.right, motion.left
@@ -222,7 +240,7 @@ def hold(
     amplitude: float,
     frequency: float,
     clock: Clock,
-    options: tuple[float, int, int, int],
+    options: tuple[float, int, int, int, float],
     result: Vector,
 ) -> Motion:
     """Hold one frequency: settle, then measure; return the motion at the end.
@@ -238,11 +256,11 @@ def hold(
     clock : Clock
         The forcing at the stroboscopic section.
     options : tuple
-        tolerance, max_cycles, window, max_events.
+        tolerance, max_cycles, window, max_events, transient.
     result : ndarray, shape (RESULTS,)
         Written.
     """
-    tolerance, max_cycles, window, max_events = options
+    tolerance, max_cycles, window, max_events, transient = options
     period = 1.0 / frequency
     for i in range(RESULTS):
         result[i] = math.nan
@@ -262,7 +280,9 @@ def hold(
         result[OUTCOME] = TOO_MUCH_WORK
         return motion
     motion = aged(motion, 0.0)  # the forcing has changed: what had died out is a transient again
-    outcome, n, k, motion = settle(plan, motion, clock, period, tolerance, max_cycles, max_events)
+    outcome, n, k, motion = settle(
+        plan, motion, clock, period, tolerance, max_cycles, max_events, transient
+    )
     if outcome in (DONE, NOT_SETTLED):
         over, motion = measure(plan, motion, clock, period, n if n else window, max_events, result)
         k += n if n else window

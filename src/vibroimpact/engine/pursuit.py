@@ -22,6 +22,7 @@ from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, finite
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.section_map import placed
+from vibroimpact.engine.wandering import runs_away
 
 _HELD = 3
 """States that are held, the newest first: x and f of each."""
@@ -151,13 +152,17 @@ def pursue(
     tolerance: float,
     max_cycles: int,
     max_events: int,
-) -> tuple[bool, int, Motion]:
+    asked: float,
+) -> tuple[bool, bool, int, Motion]:
     """Follow a motion of one cycle, and go ahead where it is seen where it leads.
+
+    Behind `asked` cycles it is asked whether it is plainly chaotic.
 
     Returns
     -------
-    found, cycles, motion
-        Whether it was reached to the tolerance; else the motion is one that following gave.
+    found, plain, cycles, motion
+        Whether it was reached to the tolerance, and whether it is plainly chaotic; if not found,
+        the motion is one that following gave.
     """
     room = pursuit_room()
     kept = motion  # what following gave, before going ahead
@@ -175,11 +180,18 @@ def pursue(
             if most > 0.9 * was_most:
                 break
             most, was_most = 0.0, most if k else math.inf
+        if k >= asked and not ahead:
+            asked = math.inf
+            plain, beside, motion = runs_away(plan, motion, clock, period, weight, max_events)
+            k += beside
+            if plain:
+                return False, True, k, motion
+            stepped, alike, filled, last = False, 0, 0, math.inf
         section = motion
         events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
         k += 1
         if events > max_events or not finite(motion):
-            return False, k, kept if ahead else section
+            return False, False, k, kept if ahead else section
         alike = alike + 1 if events == former else 0
         former = events
         scale = max(0.5 * scale, weight * abs(motion.u), abs(motion.v))
@@ -216,5 +228,5 @@ def pursue(
             used, found, motion = close_in(
                 plan, motion, clock, period, weight, tolerance, scale, max_events
             )
-            return found, k + used, motion if found else kept
-    return False, k, kept if ahead else motion
+            return found, False, k + used, motion if found else kept
+    return False, False, k, kept if ahead else motion

@@ -56,6 +56,7 @@ def swept_flight(
         2000,
         64,
         10_000,
+        hold.PATIENT,
         results,
         states,
         np.zeros(2, dtype=np.int64),

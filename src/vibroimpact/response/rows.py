@@ -48,6 +48,8 @@ class Patience(NamedTuple):
     max_cycles: int
     window: int
     max_events: int
+    transient: float = hold.PATIENT
+    """Time (s) after which a motion that is plainly chaotic is waited for no longer."""
 
 
 def prepared(

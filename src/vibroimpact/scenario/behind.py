@@ -88,6 +88,8 @@ def _kind(
     inside = (low <= ended.frequency) & (ended.frequency <= high)
     wandering = np.flatnonzero(inside & (ended.period[k] == 0))
     i = int(wandering[len(wandering) // 2])
+    if ended.plain[k, i]:
+        return "chaotic"
     start = ended.state(item.direction, i)
     excitation = shaken.replace(frequency=float(ended.frequency[i]), phase=start.phase or 0.0)
     followed = Settled(

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.engine.hold import PATIENT
 from vibroimpact.response.peaks import Curve
 from vibroimpact.response.swept import Direction
 from vibroimpact.response.threads import Stopped, Tally
@@ -105,9 +106,12 @@ def _seen(
             raise Stopped
 
     high = highest(*rig)
-    waited = cycles(*rig, high, MAX_CYCLES) if max_cycles is None else max_cycles
+    waited, transient = max_cycles, PATIENT
+    if waited is None:
+        waited = cycles(*rig, high, MAX_CYCLES)
+        transient = cycles(*rig, high, 1) / (high * rig.oscillator.natural_frequency)
     held = grid(high, step) * rig.oscillator.natural_frequency
-    curves, ended = swept_alone(rig, held, waited, WINDOW, tally)
+    curves, ended = swept_alone(rig, held, waited, WINDOW, tally, transient)
     check()
     found = shown(rig, curves, 0.5 * thresholds.prominence)
     found = with_kinds(found, *rig, ended, KIND_CYCLES, check, brief=True)

@@ -13,6 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import hold
+from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.response.rows import Patience, prepared, rows
@@ -52,6 +53,8 @@ class Holds(NamedTuple):
     """0 where the motion did not settle."""
     section: Array
     """`COMPONENTS` of the state at the end of each."""
+    plain: Flags
+    """Whether the motion was seen to be chaotic while it was held."""
 
     def state(self, direction: Direction, i: int) -> State:
         """The state at the end of a hold."""
@@ -93,15 +96,24 @@ def holds(data: xr.Dataset) -> Holds:
         one["frequency"].values,
         one["period"].transpose("direction", "frequency").values,
         section.transpose("direction", "frequency", "component").values,
+        np.zeros(section.shape[:2], dtype=bool),
     )
 
 
 def swept_alone(
-    rig: Shaken, frequencies: Array, max_cycles: int, window: int, tally: Tally
+    rig: Shaken,
+    frequencies: Array,
+    max_cycles: int,
+    window: int,
+    tally: Tally,
+    transient: float = hold.PATIENT,
 ) -> tuple[Curves, Holds]:
-    """Sweep a rig on this thread, as `sweeps` does; of no use if the tally has stopped it."""
+    """Sweep a rig on this thread, as `sweeps` does; of no use if the tally has stopped it.
+
+    A motion that is plainly chaotic behind its transient (s) is measured at once.
+    """
     ready = prepared(*rig, frequencies)
-    patience = Patience(0.0, _TOLERANCE, max_cycles, window, _MAX_EVENTS)
+    patience = Patience(0.0, _TOLERANCE, max_cycles, window, _MAX_EVENTS, transient)
     shape = (2, len(frequencies))
     found, states = np.empty((*shape, hold.RESULTS)), []
     for k, direction in enumerate(DIRECTIONS):
@@ -126,7 +138,11 @@ def swept_alone(
         float(np.fmax.reduce(high, axis=None)),
         float(np.fmin.reduce(low, axis=None)),
     )
-    return curves, Holds(frequencies, period, components(np.array(states), 0.0))
+    section = components(np.array(states), 0.0)
+    plain = (found[..., hold.OUTCOME] == Status.NOT_SETTLED) & (
+        found[..., hold.CYCLES] < max_cycles
+    )
+    return curves, Holds(frequencies, period, section, plain)
 
 
 def _uneven(eccentricity: Array, excursion: Array) -> Flags:

@@ -138,6 +138,7 @@ class _Search:
             self.max_cycles,
             _WINDOW,
             _MAX_EVENTS,
+            hold.PATIENT,
             results,
             states,
             np.zeros(2, dtype=np.int64),

@@ -75,6 +75,7 @@ def approach(
         max_cycles,
         1,
         max_events,
+        hold.PATIENT,
         result,
         reached := np.zeros((1, layout.STATE)),
         np.zeros(2, dtype=np.int64),

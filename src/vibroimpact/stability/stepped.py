@@ -123,6 +123,7 @@ def _held(rig: Oscillator, shaken: Repeated, state: _Array, patience: Patience) 
         shaken.phase,
         state.copy(),
         *patience,
+        hold.PATIENT,
         results,
         reached,
         np.zeros(2, dtype=np.int64),
