@@ -73,7 +73,8 @@ def scenario_map(
     thresholds
         See `Thresholds`.
     max_cycles
-        Forcing cycles to wait for a steady motion. None for 300, and more where damping is light.
+        Forcing cycles to wait for a steady motion. None for 300, and more where damping is light;
+        what is plainly chaotic when its transient has died is then not waited for.
     store
         Folder for the map as a Zarr group, written block by block. If it holds the same map,
         unfinished, that is completed. None keeps the map in memory.
