@@ -19,7 +19,7 @@ def test_without_noise_to_rounding_from_half_as_much_again(code):
     case = vi.laboratory.case(code, "identified")
     start = off(case.oscillator, (1.5, 0.5, 1.5, 0.5, 1.5))
     found = vi.identify(
-        curves(case.oscillator, case.amplitude), start, FREE, profiles=False, tried=8, starts=2,
+        curves(case.oscillator, case.amplitude), start, FREE, profiles=False, tried=16, starts=3,
         threads=2,
     )  # fmt: skip
     assert np.abs(errors(found, case.oscillator)).max() < 1e-6
