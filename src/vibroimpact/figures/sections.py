@@ -92,7 +92,7 @@ def section_diagram(
     x = scale * data[name].values
     factor, label = _LABELS[quantity]
     # What is drawn last must leave the dots below it seen: those that go up come last.
-    rows = _rows(data["motion"].values)
+    rows = _rows(data["motion"].values, data["period"].values)
     for start in reversed(data["start"].values):
         one, look = data.sel(start=start), _WAYS.get(str(start), _ELSE)
         _points(top, x, factor * one[quantity].values, look)
@@ -177,10 +177,12 @@ def _handle(look: Look) -> Line2D:
     )
 
 
-def _rows(motions: NDArray[np.str_]) -> dict[str, float]:
+def _rows(motions: NDArray[np.str_], periods: NDArray[np.int64]) -> dict[str, float]:
     """Where motions without a period stand on the axis of periods."""
     held = [motion for motion in _NO_PERIOD if (motions == motion).any()]
-    return {motion: 0.5 ** (k + 1) for k, motion in enumerate(held)}
+    # As far apart as their names are high, however many doublings the axis shows.
+    step = max(1.0, 0.25 * np.log2(max(int(periods.max()), 2)))
+    return {motion: float(2.0 ** (-step * (k + 1))) for k, motion in enumerate(held)}
 
 
 def _periods(ax: Axes, periods: NDArray[np.int64], rows: dict[str, float]) -> None:
