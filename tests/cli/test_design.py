@@ -75,6 +75,11 @@ def test_a_study_with_records(run, study):
     ) in words
     rows = (out / "building-design.csv").read_text().splitlines()
     assert len(rows) == 13
+    assert "bumper_damping (N s m-1)" in rows[0]
+    assert (
+        "All keep the bumpers' damping of 5 MN s/m; --vary stiffness-at-restitution keeps their "
+        "restitution instead."
+    ) in words
 
 
 def test_a_limit_holds_for_the_chart_too(run, study):
@@ -90,6 +95,24 @@ def test_a_limit_holds_for_the_chart_too(run, study):
     assert "over gap; none is within penetration 40 mm and peak displacement 1 mm." in " ".join(
         told.split()
     )
+
+
+def test_dampings_follow_at_a_restitution_and_are_told(run, study):
+    returning = STUDY.replace('damping = "5 MN s/m"', "restitution = 0.6")
+    (study / "wall.toml").write_text(returning)
+    vary = ("--vary", "stiffness-at-restitution", "50 MN/m:500 MN/m:2")
+    code, told, errors = run("wall.toml", "a.csv", "--gap", "20mm", *vary, "--json")
+    assert (code, errors) == (0, "")
+    data = vi.load(study / json.loads(told)["files"]["data"])
+    made = [vi.Bumper.from_restitution("5000 t", k, 0.6, 0.0).damping for k in (5e7, 5e8)]
+    np.testing.assert_allclose(data["bumper_damping"], made, rtol=1e-12)
+    assert data["bumper_damping"].attrs["units"] == "N s m-1"
+    code, told, _ = run("wall.toml", "a.csv", "--gap", "20mm", *vary)
+    assert code == 0
+    assert "bumper stiffness    bumper damping" in told
+    assert "All keep" not in told
+    code, told, _ = run("wall.toml", "a.csv", "--vary", "gap", "20mm:60mm:2")
+    assert "damping of" not in told
 
 
 def test_sines_best_and_json(run, study):

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import vibroimpact as vi
-from seismic.made import lognormal
+from seismic.made import lognormal, suite
 from vibroimpact.figures import fragility_curves, incremental_curves
 
 SCALES = np.linspace(0.2, 3.0, 10)
@@ -56,3 +57,33 @@ def test_accelerations_are_drawn_in_g() -> None:
     median = float(found["median_capacity"]) / 9.80665
     assert f"= {median:.3g} g" in ax.get_legend().get_texts()[0].get_text()
     np.testing.assert_allclose(incremental_curves(data).lines[0].get_xdata(), SCALES / 9.80665)
+
+
+def test_a_curve_that_one_record_decides_has_no_band() -> None:
+    scales = np.array([1.0, 2.0, 3.0, 4.0])
+    early, late = np.array([0.5, 2.0, 2.0, 2.0]), np.array([0.5, 0.6, 0.7, 2.0])
+    data = suite(np.array([early, late, early]), scales)
+    with pytest.warns(RuntimeWarning, match="one record decides"):
+        found = vi.fragility(data, "peak_displacement", 1.0)
+    ax = fragility_curves(found)
+    assert len(ax.collections) == 0
+    words = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert words[0].endswith("(no band: one record decides)")
+    assert words[1:] == ["share of the records"]
+    many = lognormal(np.random.default_rng(1), 20, scales, 0.9)
+    sound = vi.fragility(many, "peak_displacement", 2.0)
+    both = xr.concat([found, sound], "gap").assign_coords(gap=[0.1, 0.2])
+    both.attrs = found.attrs
+    ax = fragility_curves(both)
+    assert len(ax.collections) == 1
+    words = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert [text.endswith("one record decides)") for text in words] == [True, False]
+
+
+def test_what_are_no_axes_is_refused() -> None:
+    data = lognormal(np.random.default_rng(1), 12, SCALES, 0.4)
+    with pytest.raises(vi.InputError, match=r"^ax: 'peak_force'; .* a peak as quantity='peak_f"):
+        incremental_curves(data, "peak_force")
+    found = vi.fragility(data, "peak_displacement", 1.0)
+    with pytest.raises(vi.InputError, match=r"^ax: 3; axes of matplotlib, or None, are accepted"):
+        fragility_curves(found, 3)

@@ -196,5 +196,15 @@ def test_a_branch_follows_the_period_and_a_curve_does_not():
         state = data["section"].isel(point=k)
         after = vi.simulate(here, shaken, 1, state, samples=0)["final_state"]
         assert after[:2].values == pytest.approx(state[:2].values, abs=1e-9)
+    data = vi.branch(case, "2 Hz", parameter="stiffness_at_restitution", low=3e5, high=1e6)
+    begun = case.oscillator.right
+    for k in (0, data.sizes["point"] // 2, -1):
+        stiffness = float(data["stiffness_at_restitution"][k])
+        damping = begun.damping * (stiffness / begun.stiffness) ** 0.5
+        bumper = begun.replace(stiffness=stiffness, damping=damping)
+        here = case.oscillator.replace(right=bumper, left=bumper)
+        state = data["section"].isel(point=k)
+        after = vi.simulate(here, shaken, 1, state, samples=0)["final_state"]
+        assert after[:2].values == pytest.approx(state[:2].values, abs=1e-9)
     with pytest.raises(vi.InputError, match=r"^parameters: 'isolator_period' does not count in"):
         plane(case.oscillator, shaken, ("frequency", "isolator_period"))

@@ -8,6 +8,7 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.cli import main
 from vibroimpact.model.parameters import PARAMETERS, bounds, parameter
+from vibroimpact.model.varied import written
 from vibroimpact.scenario.axes import NAMES
 
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -182,3 +183,21 @@ def test_of_a_bumper_beside_a_wall_the_numbers_are_its_own() -> None:
     shaken = vi.Harmonic(0.5, 1.0)
     assert parameter("bumper_stiffness").read(rig, shaken) == 510.0e3
     assert parameter("restitution").read(rig, shaken) == 0.7
+
+
+def test_a_stiffness_at_restitution_is_that_of_bumpers_made_by_it():
+    def wall(stiffness):
+        return vi.Bumper.from_restitution(RIG.mass, stiffness, 0.6, "7.5 mm")
+
+    one = parameter("stiffness-at-restitution")
+    begun = RIG.replace(right=wall(5e5), left=None)
+    rig, _ = one.write(begun, SHAKEN, 8e4)
+    assert rig.right.stiffness == 8e4
+    assert rig.right.damping == pytest.approx(wall(8e4).damping, rel=1e-14)
+    with pytest.raises(vi.InputError, match=r"keeps its restitution at any stiffness; 'bumper_st"):
+        one.read(RIG.replace(right=HERTZ, left=HERTZ), SHAKEN)
+    # A damping that is named is had, whichever is named first.
+    pairs = [(parameter("bumper_damping"), 700.0), (one, 8e4)]
+    for order in (pairs, pairs[::-1]):
+        rig, _ = written(begun, SHAKEN, order)
+        assert (rig.right.stiffness, rig.right.damping) == (8e4, 700.0)

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import vibroimpact as vi
 from samples import sample
@@ -101,10 +102,38 @@ def test_without_overlap_there_is_no_curve() -> None:
     # With a scale more of each kind there is one; without the decisive record there is none.
     scales = np.array([1.0, 2.0, 3.0, 4.0])
     early, late = np.array([0.5, 2.0, 2.0, 2.0]), np.array([0.5, 0.6, 0.7, 2.0])
-    found = vi.fragility(suite(np.array([early, late, early]), scales), "peak_displacement", 1.0)
+    decided = suite(np.array([early, late, early]), scales)
+    with pytest.warns(
+        RuntimeWarning, match=r"^fragility: no interval where one .* one: finer levels between 1 an"
+    ):
+        found = vi.fragility(decided, "peak_displacement", 1.0)
+    assert found.attrs["unbounded"].endswith("finer levels between 1 and 4")
     assert 1.0 < float(found["median_capacity"]) < 4.0
     assert found["median_capacity_bound"].values.tolist() == [0.0, np.inf]
     assert found["fitted_probability_bound"].values[0].tolist() == [0.0] * 4
+
+
+def test_what_would_bound_an_interval_is_told_by_curve() -> None:
+    """Of three gaps: levels are too coarse, or end too early, or begin too late."""
+    scales = np.array([1.0, 2.0, 3.0, 4.0])
+    first, second, third = (
+        np.array([[float(s >= begin) * 2.0 for s in scales] for begin in begins])
+        for begins in ((2.0, 4.0, 2.0), (3.0, 5.0, 5.0), (2.0, 1.0, 1.0))
+    )
+    second[0, 3] = third[0, 0] = 0.5
+    third[0, 2] = 0.5
+    second[0] = [0.5, 0.5, 2.0, 0.5]
+    data = xr.concat([suite(one, scales) for one in (first, second, third)], "gap")
+    data = data.assign_coords(gap=[0.2, 0.3, 0.4]).transpose("record", "scale", "gap")
+    with pytest.warns(RuntimeWarning, match="^fragility: no interval"):
+        told = vi.fragility(data, "peak_displacement", 1.0).attrs["unbounded"]
+    assert told == (
+        "no interval where one record decides; what would give one: for gap 200 mm finer levels "
+        "between 1 and 4; for gap 300 mm higher levels; for gap 400 mm lower levels"
+    )
+    rng = np.random.default_rng(5)
+    sound = vi.fragility(lognormal(rng, 20, SCALES, BETA), "peak_displacement", 1.0)
+    assert "unbounded" not in sound.attrs
 
 
 def test_wrong_input() -> None:

@@ -45,8 +45,9 @@ def design(
             show_default=False,
             help=(
                 "Parameter and range, NAME LOW:HIGH[:log][:VALUES], 15 values if none are given; "
-                "once or twice. Such as gap, bumper-stiffness, bumper-damping, isolator-period, "
-                "damping-ratio, yield-force."
+                "once or twice. Such as gap, bumper-stiffness (keeps the damping), "
+                "stiffness-at-restitution, bumper-damping, isolator-period, damping-ratio, "
+                "yield-force."
             ),
         ),
     ] = (),

@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 
 PARAMETERS = (
     "frequency, amplitude, force, gap, right-gap, left-gap, bumper-stiffness, right-stiffness, "
-    "left-stiffness, proportional-stiffness, bumper-damping, right-damping, left-damping, "
-    "restitution, right-restitution, left-restitution, bumper-exponent, right-exponent, "
+    "left-stiffness, proportional-stiffness, stiffness-at-restitution, bumper-damping, "
+    "right-damping, left-damping, restitution, right-restitution, left-restitution, "
+    "bumper-exponent, right-exponent, "
     "left-exponent, dissipation, right-dissipation, left-dissipation, bumper-mass, right-mass, "
     "left-mass, stiffness, damping, damping-exponent, friction, elastic-stiffness, "
     "post-yield-stiffness, yield-force, cubic, quintic, beta, gamma, reversal-stiffness, "

@@ -20,6 +20,7 @@ from vibroimpact.model.units import pretty
 from vibroimpact.response.vocabulary import VARIABLES
 from vibroimpact.sizing.limits import QUANTITIES
 
+_HEADS = {"stiffness_at_restitution": "bumper stiffness"}
 _ROWS = 8
 """Designs of the front that are told, at most."""
 
@@ -60,8 +61,15 @@ def text(
     size = " × ".join(str(n) for n in data["pareto"].shape)
     over = " and ".join(_words(dim) for dim in dims)
     yield Text(f"Designs: {size}, over {over}; {_which(data, len(rows))}.")
+    dampings = data["bumper_damping"].values if "bumper_damping" in data.data_vars else np.zeros(1)
+    beside = ["bumper_damping"] if np.ptp(dampings) > 0.0 else []
+    if not beside and dampings.any():
+        yield Text(
+            f"All keep the bumpers' damping of {_value('bumper_damping', dampings.flat[0])}; "
+            "--vary stiffness-at-restitution keeps their restitution instead."
+        )
     if rows:
-        yield _table(rows, dims)
+        yield _table(rows, [*dims, *beside])
     if least is not None:
         chosen = ", ".join(
             f"{_words(name)} {_value(name, float(least[name]))}"
@@ -118,16 +126,16 @@ def _gaps(rig: Oscillator) -> str:
     return f"the gap of {' and '.join(gaps)}"
 
 
-def _table(rows: list[xr.Dataset], dims: list[str]) -> Table:
+def _table(rows: list[xr.Dataset], names: list[str]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2), header_style="")
-    heads = [_words(dim) for dim in dims]
+    heads = [_HEADS.get(name, _words(name)) for name in names]
     for head in (*heads, "displacement", "acceleration", "contact force"):
         table.add_column(head, justify="right")
     picked = np.unique(np.linspace(0, len(rows) - 1, min(_ROWS, len(rows))).round().astype(int))
     for i in picked:
         one = rows[i]
         table.add_row(
-            *(_value(dim, float(one[dim])) for dim in dims),
+            *(_value(name, float(one[name])) for name in names),
             _length(float(one["peak_displacement"])),
             f"{plain(float(one['peak_acceleration']) / GRAVITY, 4)} g",
             _force(float(one["peak_force"])),

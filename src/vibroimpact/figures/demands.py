@@ -57,6 +57,8 @@ def incremental_curves(
     InputError
         If it is no such dataset, has fewer than two scales, or holds several rigs.
     """
+    if isinstance(ax, str):
+        raise InputError(f"ax: {ax!r}; axes are accepted, and a peak as quantity={ax!r}")
     values = known(demands, quantity)
     _one_rig(values, "demands")
     ax = axes_or_new(ax, (5.6, 4.0), title)
@@ -93,7 +95,8 @@ def fragility_curves(
 ) -> Axes:
     """Draw a fragility curve, its confidence band, and the shares of the records as marks.
 
-    The legend has its median θ and its dispersion β.
+    The legend has its median θ and its dispersion β. A curve whose interval is unbounded, because
+    one record decides, has no band; the legend says so.
 
     Parameters
     ----------
@@ -133,6 +136,9 @@ def fragility_curves(
         words = f"$\\theta$ = {median:.3g} {symbol}".rstrip() + f", $\\beta$ = {spread:.2g}"
         if name is not None:
             words = f"{_value(fragility, others[0], name)}: {words}"
+        bounded = not np.isinf(one["median_capacity_bound"].values).any()
+        if not bounded:
+            words += " (no band: one record decides)"
         ax.plot(
             fine,
             ndtr((np.log(fine) - np.log(median)) / spread),
@@ -142,12 +148,13 @@ def fragility_curves(
             label=words,
             zorder=3,
         )
-        lower, upper = one["fitted_probability_bound"].transpose("bound", "scale").values
-        sure = 100.0 * json.loads(fragility.attrs["parameters"])["confidence"]
-        band = f"its {sure:g} % band" if name is None else None
-        ax.fill_between(
-            level, lower, upper, color=colour, alpha=0.15, linewidth=0.0, label=band, zorder=1
-        )
+        if bounded:
+            lower, upper = one["fitted_probability_bound"].transpose("bound", "scale").values
+            sure = 100.0 * json.loads(fragility.attrs["parameters"])["confidence"]
+            band = f"its {sure:g} % band" if name is None else None
+            ax.fill_between(
+                level, lower, upper, color=colour, alpha=0.15, linewidth=0.0, label=band, zorder=1
+            )
         ax.plot(
             level,
             one["probability"].values,
@@ -164,7 +171,7 @@ def fragility_curves(
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(_level_label(fragility, symbol))
     ax.set_ylabel("probability of exceeding the limit (–)")
-    ax.legend(ncols=1 if others else 3, **LEGEND)
+    ax.legend(ncols=1 if others else 3 if bounded else 2, **LEGEND)
     return ax
 
 

@@ -15,7 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import new_axes
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
 from vibroimpact.measurement.read import is_measured
-from vibroimpact.model import Record
+from vibroimpact.model import Record, units
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import any_recorded, phases, recorded, touches
 from vibroimpact.response.sine import forcing_sine, slope
@@ -130,10 +130,18 @@ def _seen(motion: xr.Dataset) -> bool:
     return is_measured(motion) and "event_time" not in motion
 
 
-def axes_or_new(ax: Axes | None, size: tuple[float, float], title: str | None) -> Axes:
-    """The given axes, or those of a new figure."""
-    if ax is not None:
+def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axes:
+    """The given axes, or those of a new figure.
+
+    Raises
+    ------
+    InputError
+        If something else is given.
+    """
+    if isinstance(ax, Axes):
         return ax
+    if ax is not None:
+        raise InputError(f"ax: {units.shown(ax)}; axes of matplotlib, or None, are accepted")
     made: Axes = new_axes(1, 1, size)[0, 0]
     if title:
         # Above the legend, which is above the axes.

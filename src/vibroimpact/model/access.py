@@ -143,6 +143,32 @@ def in_proportion(unit: Callable[[Oscillator], float]) -> tuple[Read, Write]:
     return read, write
 
 
+def at_restitution() -> tuple[Read, Write]:
+    """The bumpers' stiffness at a fixed restitution: C_j as √(K_j M), as `from_restitution`."""
+    stiffness_of, _ = bumpers("stiffness")
+
+    def read(rig: Oscillator, shaken: Repeated) -> float:
+        for stop in rig.stops:
+            if "stiffness" in type(stop).model_fields and not isinstance(stop, Bumper):
+                raise InputError(
+                    f"parameter: {stop} keeps its restitution at any stiffness; "
+                    "'bumper_stiffness' is accepted"
+                )
+        return stiffness_of(rig, shaken)
+
+    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
+        changed = {
+            side: bumper.replace(
+                stiffness=value, damping=bumper.damping * math.sqrt(value / bumper.stiffness)
+            )
+            for side, bumper in (("right", rig.right), ("left", rig.left))
+            if isinstance(bumper, Bumper)
+        }
+        return rig.replace(**changed), shaken
+
+    return read, write
+
+
 def scale_of(oscillator: Oscillator, shaken: Repeated) -> float:
     """Return the peak base acceleration (m/s²) by which gaps are scaled whatever shakes the mass.
 

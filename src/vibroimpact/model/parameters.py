@@ -227,6 +227,15 @@ PARAMETERS: dict[str, Parameter] = {
             *access.in_proportion(lambda rig: 1.0),
             False,
         ),
+        Parameter(
+            "stiffness_at_restitution",
+            STIFFNESS,
+            "stiffness of both bumpers, their restitution kept",
+            *access.at_restitution(),
+            False,
+            "C_j / √(K_j M) as it was",
+            straight=False,
+        ),
         *_of_stops("damping", "bumper_damping", DAMPING),
         *_of_stops("restitution", "restitution", DIMENSIONLESS, stop="stop", most=1.0),
         *_of_stops("exponent", "bumper_exponent", DIMENSIONLESS, False, least=1.0),
@@ -291,5 +300,5 @@ PARAMETERS: dict[str, Parameter] = {
     )
 }
 """By name. `bumper_stiffness` keeps the bumpers' damping C_j, `proportional_stiffness` and
-`stiffness_ratio` keep their C_j/K_j, `isolator_period` keeps the damping ratio, and the ratios keep
-what else they are made of."""
+`stiffness_ratio` keep their C_j/K_j, `stiffness_at_restitution` their C_j/√K_j, `isolator_period`
+keeps the damping ratio, and the ratios keep what else they are made of."""

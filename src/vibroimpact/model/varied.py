@@ -15,6 +15,9 @@ from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.units import shown, to_si
 
+_FIRST = ("proportional_stiffness", "stiffness_at_restitution")
+"""Parameters that set a damping too, which one that is named behind them replaces."""
+
 _LAST = ("stiffness_ratio", "damping_ratio", "gap_ratio", "relaxation_time")
 """Parameters that are made of others, which are set before; the last is made of the first."""
 
@@ -84,4 +87,4 @@ def written(
 
 def _turn(name: str) -> int:
     """When a parameter is set."""
-    return _LAST.index(name) + 1 if name in _LAST else 0
+    return _LAST.index(name) + 1 if name in _LAST else -int(name in _FIRST)

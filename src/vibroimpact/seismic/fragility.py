@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import NamedTuple
 
 import numpy as np
@@ -11,11 +12,15 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.counts import share
+from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS
 from vibroimpact.model.units import pretty
 from vibroimpact.seismic.suites import described, exceedance, known, limit_of
 
 _Array = NDArray[np.float64]
+
+_TOLD = 3
+"""Curves without an interval that are told by name, at most."""
 
 
 class Fit(NamedTuple):
@@ -65,7 +70,8 @@ def fragility(
         over the scales, each with its ends ``…_bound`` (dim ``bound``: lower, upper);
         ``exceeding`` and ``probability`` as those of `exceedance`. NaN where the records do not
         determine a curve (no scale has both records above and below that begin or end to exceed at
-        others); intervals are unbounded where they do not without one of the records.
+        others). Intervals are unbounded where they do not without one of the records: a warning,
+        and the attribute ``unbounded``, say of which curves, and which levels would give one.
 
     Raises
     ------
@@ -80,7 +86,7 @@ def fragility(
             f"demands: {values.sizes['record']} records; at least 3 are accepted for a curve with "
             "its uncertainty"
         )
-    order = ("record", "scale", *(dim for dim in values.dims if dim not in ("record", "scale")))
+    order = ("record", "scale", *_others(values))
     above = (values > least).transpose(*order).values
     logarithms = np.log(values["scale"].values)
     shape = above.shape[2:]
@@ -106,6 +112,9 @@ def fragility(
             beginning, what = "demands:", f"above 0 in {quantity}"
         raise InputError(f"{beginning} {_undetermined(above, demands['scale'], what)}")
     others = order[2:]
+    unbounded = _unbounded(found["median_capacity_bound"], values, above)
+    if unbounded:
+        warnings.warn(f"fragility: {unbounded}", RuntimeWarning, stacklevel=2)
     dims = {
         "fitted_probability": ("scale", *others),
         "fitted_probability_bound": ("bound", "scale", *others),
@@ -120,6 +129,8 @@ def fragility(
     data.attrs.clear()
     about = {"quantity": quantity, "limit": least, "confidence": level}
     data = described(data, "vibroimpact.fragility", demands, about)
+    if unbounded:
+        data.attrs["unbounded"] = unbounded
     for name in ("median_capacity", "median_capacity_bound"):
         data[name].attrs["units"] = demands["scale"].attrs["units"]
     return data
@@ -127,19 +138,57 @@ def fragility(
 
 def _undetermined(above: NDArray[np.bool_], scale: xr.DataArray, what: str) -> str:
     """Why no rig has a curve, and which levels would give one."""
-    shares = above.mean(axis=0).reshape(len(scale), -1)
     if not above.any():
         return f"at no level is a record {what}; higher levels are accepted"
     if above.all():
         return f"at every level all records are {what}; lower levels are accepted"
+    return (
+        f"there are no two levels at which some records are {what} and others are not; "
+        f"{_finer(above, scale)} are accepted"
+    )
+
+
+def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
+    """The levels between which the records begin to exceed."""
+    shares = above.mean(axis=0).reshape(len(scale), -1)
     none, every = (shares == 0.0).all(axis=1), (shares == 1.0).all(axis=1)
     low = float(scale[np.flatnonzero(none)[-1] if none.any() else 0])
     high = float(scale[np.flatnonzero(every)[0] if every.any() else -1])
     quantity = DIMENSIONLESS if scale.attrs["units"] == "1" else ACCELERATION
-    return (
-        f"there are no two levels at which some records are {what} and others are not; finer "
-        f"levels between {pretty(low, quantity)} and {pretty(high, quantity)} are accepted"
-    )
+    return f"finer levels between {pretty(low, quantity)} and {pretty(high, quantity)}"
+
+
+def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -> str:
+    """Which curves have no interval, and which levels would give one; nothing if all have."""
+    told = []
+    for at in np.argwhere(np.isinf(bounds[1])):
+        one = above[(slice(None), slice(None), *at)]
+        rest = one.sum(axis=0) - one
+        lacking = _finer(one, values["scale"])
+        if (rest == 0).all(axis=1).any():
+            lacking = "higher levels"
+        elif (rest == len(one) - 1).all(axis=1).any():
+            lacking = "lower levels"
+        whose = [_named(values[dim], i) for dim, i in zip(_others(values), at, strict=True)]
+        told.append(" ".join([*(["for", ", ".join(whose)] if whose else []), lacking]))
+    if not told:
+        return ""
+    more = [f"likewise {len(told) - _TOLD} more curves"] if len(told) > _TOLD else []
+    levels = "; ".join([*told[:_TOLD], *more])
+    return f"no interval where one record decides; what would give one: {levels}"
+
+
+def _others(values: xr.DataArray) -> list[str]:
+    return [str(dim) for dim in values.dims if dim not in ("record", "scale")]
+
+
+def _named(coordinate: xr.DataArray, at: int) -> str:
+    """One value of what is varied, such as gap 200 mm."""
+    name, value = str(coordinate.name), coordinate.values[at]
+    words = name.replace("_", " ")
+    if name not in PARAMETERS or PARAMETERS[name].measured is not None:
+        return f"{words} {value}"
+    return f"{words} {pretty(float(value), PARAMETERS[name].quantity)}"
 
 
 def _curve(

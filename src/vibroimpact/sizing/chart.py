@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Bumper, Oscillator
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.threads import Progress
@@ -23,6 +23,13 @@ from vibroimpact.sizing.front import non_dominated
 from vibroimpact.sizing.limits import limits_of
 from vibroimpact.sizing.shaking import AnyShaken, asked, one_rig
 from vibroimpact.sizing.sines import STEP
+
+_STIFFNESSES = {
+    "bumper_stiffness",
+    "proportional_stiffness",
+    "stiffness_at_restitution",
+    "stiffness_ratio",
+}
 
 
 def design(
@@ -52,7 +59,8 @@ def design(
     vary
         Values of parameters by name, all combined, such as ``"gap"``, ``"bumper_stiffness"``,
         ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` or ``"yield_force"``. Those
-        of stops are set on both sides, where the stop has them.
+        of stops are set on both sides, where the stop has them. ``"bumper_stiffness"`` keeps the
+        bumpers' damping, ``"stiffness_at_restitution"`` lets it follow, for the same restitution.
     limits
         What must not be exceeded, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
         ``"peak_displacement"`` (m; ``_right``, ``_left``). A design that exceeds one is told as
@@ -83,8 +91,8 @@ def design(
         does. ``pareto``: whether no other design has less displacement without more acceleration,
         or less acceleration without more displacement; of designs that do the same, such as hit
         nothing, the first one counts. ``within_limits``, if there are limits: whether all are
-        kept. Of sines also where the
-        largest are (``displacement_frequency``, ``acceleration_frequency``), and
+        kept. ``bumper_damping`` (N s/m) where a stiffness of both bumpers is varied. Of sines also
+        where the largest are (``displacement_frequency``, ``acceleration_frequency``), and
         ``unsettled_count``, holds without a periodic motion, whose peaks are those of 100 cycles.
         ``status`` is 0 where a design was done; values of one that was given up are NaN, and
         infinite where the motion had no bound.
@@ -100,9 +108,9 @@ def design(
     most = limits_of(limits)
     workers = placed(threads, where)
     places = list(itertools.product(*(range(n) for n in plan.shape)))
-    found = what.peaks([plan.oscillator(at) for at in places], workers, progress)
-    data = _dataset(plan, found, most)
-    warn(found["status"], "design")
+    rigs = [plan.oscillator(at) for at in places]
+    data = _dataset(plan, {**what.peaks(rigs, workers, progress), **_dampings(plan, rigs)}, most)
+    warn(data["status"].values, "design")
     parameters = {
         "oscillator": oscillator_parameters(rig),
         "varied": {one.name: one.values.tolist() for one in plan.varied},
@@ -129,6 +137,17 @@ def _designs(oscillator: Oscillator, vary: Any) -> Runs:
             '{"gap": ["200 mm", "300 mm"]}'
         )
     return runs(oscillator, None, vary)
+
+
+def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
+    """The damping of both bumpers beside the stiffness that is varied, if they share one."""
+    names = {one.name for one in plan.varied}
+    if "bumper_damping" in names or not names & _STIFFNESSES:
+        return {}
+    every = [{stop.damping for stop in rig.stops if isinstance(stop, Bumper)} for rig in rigs]
+    if any(len(one) != 1 for one in every):
+        return {}
+    return {"bumper_damping": np.array([one.pop() for one in every])}
 
 
 def _dataset(

@@ -53,8 +53,8 @@ def branch(
         "right_stiffness" and so on of one; "stiffness", "damping" and whatever other number the
         isolator has, such as "yield_force"; what other numbers the stops have, such as
         "dissipation", "bumper_exponent" or "bumper_mass"; "proportional_stiffness" and
-        "stiffness_ratio" (λ) of the bumpers at a fixed C_j/K_j, "gap_ratio" (δ0),
-        "relaxation_time" (τ) or "damping_ratio" (ξ).
+        "stiffness_ratio" (λ) of the bumpers at a fixed C_j/K_j, "stiffness_at_restitution" at a
+        fixed restitution, "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
     low, high
         Range of the parameter, in SI units or as text.
     period
