@@ -12,7 +12,6 @@ from matplotlib.colors import same_color
 from matplotlib.figure import Figure
 
 import vibroimpact as vi
-from vibroimpact import figures
 from vibroimpact.figures import bifurcation_curves, branch_diagram, save_figure
 from vibroimpact.figures.style import SWEEPS
 
@@ -380,11 +379,6 @@ def test_what_is_no_branch_is_refused():
 def test_sections_are_sent_to_their_own_figure():
     data = vi.bifurcation_diagram("B3-10mm-A3", 1.12, "gap", 4.9e-3, 5e-3, 2, directions="up")
     refused(lambda: branch_diagram(data), "data: ", "figures.section_diagram", "resonance_diagram")
-
-
-def test_the_former_name_says_what_it_is_now():
-    with pytest.warns(DeprecationWarning, match="is figures.branch_diagram now"):
-        assert figures.bifurcation_diagram is branch_diagram
 
 
 def test_other_quantities_are_refused():

@@ -5,9 +5,6 @@ without given axes a figure is made of its own, which the returned axes carry as
 A notebook shows what is returned; `save_figure` writes it to a file.
 """
 
-import warnings
-from typing import Any
-
 from vibroimpact.figures.accelerogram import accelerogram
 from vibroimpact.figures.basin_shares import basin_shares
 from vibroimpact.figures.basins import basin_portrait
@@ -74,16 +71,3 @@ __all__ = [
     "spectrum_lines",
     "time_history",
 ]
-
-
-def __getattr__(name: str) -> Any:
-    """The former name of `branch_diagram`, which `vibroimpact.bifurcation_diagram` is not for."""
-    if name == "bifurcation_diagram":
-        warnings.warn(
-            "figures.bifurcation_diagram is figures.branch_diagram now; what "
-            "vibroimpact.bifurcation_diagram computes is drawn by figures.section_diagram",
-            DeprecationWarning,
-            stacklevel=2,
-        )
-        return branch_diagram
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
