@@ -33,6 +33,8 @@ def test_one_command_makes_a_report_and_a_rig_that_sweep_takes(file, tmp_path, c
     assert abs(found["value"] - 31900.0) < 4.0 * found["standard_error"]
     low, high = found["interval"]
     assert low < found["value"] < high
+    assert told["amplitudes"] == {"test": "0.04 g, from test.csv"}
+    assert "0.04 g, from test.csv" in (tmp_path / "B2-G2-A2-fit.md").read_text()
     assert {"report", "markdown", "data"} < set(told["files"])
     assert any("next test" in line for line in told["next"])
     study = tmp_path / "B2-G2-A2-fit.toml"
@@ -54,6 +56,21 @@ def test_a_study_need_not_say_the_amplitude_that_the_file_says(file, tmp_path, c
     assert main([*words, "-o", str(tmp_path), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["parameters"]["stiffness"]
     assert found["value"] == pytest.approx(31900.0, rel=0.01)
+
+
+def test_an_amplitude_without_a_unit_is_told_and_named_where_nothing_fits(file, tmp_path, capsys):
+    path = tmp_path / "bare.csv"
+    path.write_text(file.read_text().replace("0.04 g", "0.04", 1))
+    words = ["identify", str(path), "--rig", "B2-G2-A2", "--free", "stiffness", "--starts", "1"]
+    assert main([*words, "-o", str(tmp_path)]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "amplitude of bare: 0.004079 g, from bare.csv" in told
+    assert "amplitude has no unit: taken as 0.04 m/s² (0.00408 g)" in told
+    assert "the amplitude was taken as 0.004079 g, from bare.csv" in told
+    assert main([*words, "-o", str(tmp_path), "--amplitude", "0.04 g", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["amplitudes"] == {"bare": "0.04 g, from the call"}
+    assert not any("the amplitude was taken" in line for line in found["findings"])
 
 
 @pytest.mark.parametrize(

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import vibroimpact as vi
 from identification.twins import FREE, PEAKS, curves, off, truth
 from samples import sample
+from vibroimpact.identification.repeats import stray_values
 
 CASES = ("B2-G1-A3", "B2-G2-A2")
 
@@ -202,3 +204,23 @@ def test_too_few_points_and_no_amplitude():
     del data.attrs["amplitude"]
     with pytest.raises(vi.InputError, match="amplitude: missing"):
         vi.identify(data, case.oscillator, "gap")
+
+
+@pytest.mark.parametrize(
+    ("low", "told"),
+    [
+        (1, "twice: forward, 3 Hz: 1 of 4 values lies far from the others, as on another motion"),
+        (2, "twice: forward, 3 Hz: its 4 values lie far apart, as on two motions"),
+    ],
+)
+def test_a_value_of_another_motion_is_named(low, told):
+    draw = np.random.default_rng(2)
+    values = draw.normal(1.0, 0.02, size=(1, 5, 4))
+    values[0, 4, :low] = 0.1
+    data = xr.Dataset(
+        {"displacement_excursion": (("direction", "frequency", "repeat"), values)},
+        {"direction": ["forward"], "frequency": [1.0, 1.5, 2.0, 2.5, 3.0]},
+    )
+    (line,) = stray_values("twice", data)
+    assert line.startswith(told)
+    assert stray_values("once", data.isel(repeat=3, drop=True)) == []

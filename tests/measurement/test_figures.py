@@ -6,7 +6,7 @@ import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact import figures
-from vibroimpact.measurement.features import in_words, measured_features, noise_of
+from vibroimpact.measurement.features import in_words, measured_features, noise_of, strays
 from vibroimpact.measurement.read import as_measured
 
 FREQUENCIES = np.round(np.arange(0.5, 5.01, 0.1), 10)
@@ -120,3 +120,43 @@ def test_maxima_and_minima_lie_over_computed_curves(computed):
     ):
         (line,) = [one for one in ax.lines if str(one.get_label()).startswith("measured, forward")]
         assert line.get_ydata() == pytest.approx(computed[name].sel(direction="forward").values)
+
+
+def test_excursions_lie_over_half_excursions():
+    """At 0.8 Hz this symmetric rig goes further to one side than to the other."""
+    bumper = vi.Bumper("510 kN/m", "0.9 kN s/m", gap="10 mm")
+    rig = vi.Oscillator("550 kg", vi.Isolator("31.9 kN/m", "1.1 kN s/m"), bumper, bumper)
+    computed = vi.sweep(rig, "0.04 g", np.round(np.arange(0.5, 2.01, 0.1), 10))
+    names = ["displacement_excursion", "acceleration_excursion"]
+    one = {"direction": "forward", "frequency": 0.8}
+    half = 0.5 * float(computed[names[1]].sel(one))
+    assert float(computed["peak_acceleration"].sel(one)) > 1.2 * half
+    panels = figures.resonance_curves(
+        computed, measured=as_measured(computed[names]), physical=True
+    )
+    words = ["half the excursion of absolute acceleration (g)",
+             "half the excursion of relative displacement (mm)"]  # fmt: skip
+    assert [ax.get_ylabel().replace("\n", " ") for ax in panels[:2]] == words
+    for ax in panels[:2]:
+        drawn = {str(line.get_label()): np.asarray(line.get_ydata()) for line in ax.lines}
+        for way in ("forward", "backward"):
+            curve = drawn[f"{way} sweep"]
+            assert drawn[f"measured, {way} sweep"] == pytest.approx(curve[np.isfinite(curve)])
+    assert any("gap" in str(line.get_label()) for line in panels[1].lines)
+    ends = ["displacement_max", "displacement_min", names[1]]
+    panels = figures.resonance_curves(computed, measured=as_measured(computed[ends]), physical=True)
+    assert panels[1].get_ylabel() == "largest relative\ndisplacement (mm)"
+
+
+def test_values_of_another_motion_are_found_and_are_no_noise():
+    draw = np.random.default_rng(5)
+    values = np.linspace(1.0, 3.0, 10)[:, None] * draw.normal(1.0, 0.02, size=(2, 1, 10, 4))
+    dims = ("direction", "frequency", "repeat")
+    at = {"direction": ["forward"], "frequency": np.arange(1.0, 11.0)}
+    names = ("displacement_excursion", "acceleration_excursion")
+    data = xr.Dataset({n: (dims, v) for n, v in zip(names, values, strict=True)}, at)
+    assert not any(one.any() for one in strays(data).values())
+    quiet = noise_of(data)
+    data[names[1]][0, 9, 2] *= 0.1
+    assert [int(one.sum()) for one in strays(data).values()] == [0, 1]
+    assert noise_of(data) == pytest.approx(quiet, rel=0.1)

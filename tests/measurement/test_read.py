@@ -147,6 +147,73 @@ def test_an_amplitude_with_a_decimal_comma(tmp_path, said, mark, amplitude):
     assert vi.read_measurement(path).attrs["amplitude"] == pytest.approx(amplitude)
 
 
+@pytest.mark.parametrize(
+    ("said", "amplitude", "told"),
+    [
+        ("# amplitude = 0.04", 0.04, "amplitude has no unit: taken as 0.04 m/s² (0.00408 g)"),
+        ("Amplitude;0,04 g", 0.392266, ""),
+        ("# amplitude_g = 0.04", 0.392266, ""),
+        ("# amplitude (m/s²) = 0.4", 0.4, ""),
+        ("# Amplitude [g]: 0,04", 0.392266, ""),
+        ("# amplitude;0.04 g", 0.392266, ""),
+        ("# amplitude_g = 0.04 g", 0.392266, ""),
+        ("# A_g = 0.04", None, "not understood, and left out: A_g = 0.04"),
+        ("# peak; 4 mm", None, "not understood, and left out: peak = 4 mm"),
+        ("# Date: 2024-05-01\n# at 12:30\n# table peak 0.04 g\n# by: us", None, ""),
+    ],
+)
+def test_numbers_beside_the_columns_are_read_or_told(tmp_path, said, amplitude, told):
+    path = written(tmp_path, f"{said}\nf (Hz);direction;Ed (mm)\n1;up;2\n2;down;3\n")
+    data = vi.read_measurement(path)
+    assert data.attrs.get("amplitude") == (amplitude and pytest.approx(amplitude))
+    assert data.attrs.get("amplitude_source") == (amplitude and "test.csv")
+    assert data.attrs["notes"].endswith(told)
+    assert bool(data.attrs["notes"]) == bool(told)
+    data = vi.read_measurement(path, amplitude="0.05 g")
+    assert data.attrs["amplitude"] == pytest.approx(0.4903325)
+    assert data.attrs["amplitude_source"] == "the call"
+
+
+@pytest.mark.parametrize("group", ["", "test"])
+@pytest.mark.parametrize(
+    ("beside", "amplitude", "told"),
+    [
+        ({"amplitude_g": 0.04}, 0.392266, ""),
+        ({"amplitude": "0.04 g"}, 0.392266, ""),
+        ({"amplitude": 0.04}, 0.04, "amplitude has no unit: taken as 0.04 m/s² (0.00408 g)"),
+        ({"A_g": 0.04, "name": "B2"}, None, "left out: A_g = 0.04"),
+    ],
+)
+def test_numbers_beside_the_vectors_of_matlab(tmp_path, group, beside, amplitude, told):
+    record = {"f_Hz": [1.0, 2.0, 3.0], "Ed_mm": [1.0, 2.0, 3.0], **beside}
+    scipy.io.savemat(tmp_path / "test.mat", {group: record} if group else record)
+    data = vi.read_measurement(tmp_path / "test.mat")
+    assert data.attrs.get("amplitude") == (amplitude and pytest.approx(amplitude))
+    assert told in data.attrs["notes"]
+    assert ("beside" in data.attrs["notes"]) == (amplitude is None)
+
+
+def test_numbers_and_letters_beside_the_vectors_of_hdf5(tmp_path):
+    letters = np.array([[ord(letter)] for letter in "0.04 g"], dtype="uint16")
+    for name, value, mark in (
+        ("units.h5", 0.04, {"units": "g"}),
+        ("letters.h5", letters, {"MATLAB_class": np.bytes_("char")}),
+    ):
+        with h5py.File(tmp_path / name, "w") as file:
+            file["f_Hz"], file["Ed_mm"] = [1.0, 2.0], [3.0, 4.0]
+            file["amplitude"] = value
+            file["amplitude"].attrs.update(mark)
+            file.attrs.update({"A_g": 0.04, "creator": "logger", "MATLAB_int_decode": 2})
+        data = vi.read_measurement(tmp_path / name)
+        assert data.attrs["amplitude"] == pytest.approx(0.392266)
+        assert data.attrs["notes"].endswith("not understood, and left out: A_g = 0.04")
+
+
+def test_a_folder_is_no_file(tmp_path):
+    with pytest.raises(vi.InputError, match="is a folder; a file of a test is accepted"):
+        vi.read_measurement(tmp_path)
+
+
 def test_a_comma_that_may_part_thousands_is_refused(tmp_path):
     with pytest.raises(vi.InputError, match="'1,000 mg' has a comma; write a decimal point"):
         vi.read_measurement(written(tmp_path, "# amplitude = 1,000 mg\nf_Hz,Ed_mm\n1,2\n"))

@@ -232,7 +232,7 @@ def _summary(
     from rich.text import Text
 
     from vibroimpact.identification.advice import next_test
-    from vibroimpact.reporting.identification import parameter_rows
+    from vibroimpact.reporting.identification import amplitude_of, parameter_rows
 
     table = Table(box=None, pad_edge=False, padding=(0, 2))
     share = f"{100.0 * float(found.attrs['confidence']):g} % interval"
@@ -241,12 +241,15 @@ def _summary(
     rows = parameter_rows(found)
     for row in rows:
         table.add_row(*row[:4])
-    notes = [line for test in tests for line in test.attrs.get("notes", "").splitlines()]
+    notes = [line for test in tests for line in _notes(test, many=len(tests) > 1)]
+    names = [str(test) for test in found["test"].values]
+    amplitudes = {name: amplitude_of(found, name) for name in names}
     findings = found.attrs["findings"].splitlines()
     advice = next_test(found).attrs["findings"].splitlines()
     compared = [] if comparison is None else comparison.attrs["findings"].splitlines()
     lines = [*findings, *compared, *advice]
-    parts: list[Any] = [table, Text(), *(Text(f"- {line}") for line in lines)]
+    parts: list[Any] = [Text(f"amplitude of {name}: {told}") for name, told in amplitudes.items()]
+    parts += [Text(), table, Text(), *(Text(f"- {line}") for line in lines)]
     if notes:
         parts += [Text(), Text("Reading"), *(Text(f"- {line}") for line in notes)]
     facts = {
@@ -258,9 +261,20 @@ def _summary(
             }
             for key in found["parameter"].values
         },
+        "amplitudes": amplitudes,
         "findings": findings,
         "comparison": compared,
         "next": advice,
         "reading": notes,
     }
     return Together(*parts), facts
+
+
+def _notes(test: xr.Dataset, *, many: bool) -> list[str]:
+    """What reading a test told; with the file's name where there are several."""
+    source = test.attrs.get("source", "")
+    lines = test.attrs.get("notes", "").splitlines()
+    return [
+        line if not many or line.startswith(f"{source}: ") else f"{source}: {line}"
+        for line in lines
+    ]

@@ -119,6 +119,15 @@ def points_of(values: xr.DataArray) -> tuple[_Array, _Array]:
     return grid[known], table[known]
 
 
+def halves_of(measured: xr.Dataset) -> set[str]:
+    """Of acceleration and displacement, those of which excursions alone were measured."""
+    return {
+        kind
+        for kind in ("acceleration", "displacement")
+        if f"{kind}_excursion" in measured and not {f"{kind}_max", f"{kind}_min"} <= set(measured)
+    }
+
+
 def measured_points(
     axes: Sequence[Axes], names: Sequence[str], computed: xr.Dataset, measured: xr.Dataset
 ) -> list[Any]:
@@ -183,7 +192,7 @@ def _on_panel(
     if len(ends) == 2:
         x, y = points_of(ends[0].copy(data=np.maximum(*(np.abs(end.values) for end in ends))))
         return x, factor * y
-    if f"{kind}_excursion" in measured:  # half of it, exact of a symmetric motion
+    if f"{kind}_excursion" in measured:  # half of it, as `halves_of` tells the curves
         x, y = points_of(measured[f"{kind}_excursion"])
         return x, 0.5 * factor * y
     return None

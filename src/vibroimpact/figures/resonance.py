@@ -14,7 +14,7 @@ from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from vibroimpact.figures.inline import Panels
-from vibroimpact.figures.measured import measured_curves, measured_points
+from vibroimpact.figures.measured import halves_of, measured_curves, measured_points
 from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
 from vibroimpact.measurement.read import as_measured, is_measured
@@ -66,8 +66,8 @@ def resonance_curves(
         stops the largest impulse.
     measured
         Curves of `vibroimpact.read_measurement`, drawn as open points over the computed ones.
-        Excursions are taken over the free flight of the computed rig; in physical units, half of
-        them stands for the largest value where that was not measured.
+        Excursions are taken over the free flight of the computed rig; in physical units, where
+        maxima and minima were not measured, half the excursion is drawn of both.
 
     Returns
     -------
@@ -83,7 +83,10 @@ def resonance_curves(
     if is_measured(data) and "motion" not in data:
         return measured_curves(data, axes, title=title)
     found = features(data) if found is None else found
-    drawn = physical_curves(data) if physical else normalised(data)
+    if measured is not None:
+        measured = as_measured(measured, "measured")
+    halves = halves_of(measured) if measured is not None else set()
+    drawn = physical_curves(data, halves) if physical else normalised(data)
     what = " and ".join(one.name for one in drawn)
     given = panels(axes, len(drawn), what, (7.2, 0.4 + 3.2 * len(drawn)), title)
     for ax, one in zip(given, drawn, strict=True):
@@ -95,7 +98,7 @@ def resonance_curves(
     entries += [line.entry() for one in drawn for line in one.levels]
     if measured is not None:
         names = [one.name for one in drawn]
-        entries += measured_points(given, names, data, as_measured(measured, "measured"))
+        entries += measured_points(given, names, data, measured)
     upper.legend(handles=entries, ncols=2 if len(entries) <= 4 else 3, **LEGEND)
     return given
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +20,9 @@ _Array = NDArray[np.float64]
 
 _SEEN = 2.0
 """A gap is drawn unless it is so many times as large as all displacements."""
+
+_NIL = 1e-9
+"""A rest (m) that is none."""
 
 
 class Level(NamedTuple):
@@ -71,8 +75,11 @@ def normalised(data: xr.Dataset) -> list[Drawn]:
     return found
 
 
-def physical_curves(data: xr.Dataset) -> list[Drawn]:
+def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Drawn]:
     """The largest absolute acceleration, displacement and, where there is one, contact force.
+
+    Of ``halves``, acceleration and displacement or one of them, half the excursion: what goes
+    further to one side than to the other is smaller in it.
 
     Raises
     ------
@@ -85,6 +92,7 @@ def physical_curves(data: xr.Dataset) -> list[Drawn]:
     rest = _rest(rig)
     swing = 0.5e3 * data["free_displacement_excursion"].values
     swings = _curves(data, "peak_displacement", 1e3)
+    gaps = _gaps(rig, _SEEN * max(np.nanmax(one, initial=0.0) for one in swings.values()))
     found = [
         Drawn(
             "acceleration",
@@ -97,9 +105,22 @@ def physical_curves(data: xr.Dataset) -> list[Drawn]:
             "largest relative\ndisplacement (mm)",
             swings,
             None if rest is None else swing + 1e3 * abs(rest),
-            _gaps(rig, _SEEN * max(np.nanmax(one, initial=0.0) for one in swings.values())),
+            gaps,
         ),
     ]
+    if "acceleration" in halves:
+        found[0] = found[0]._replace(
+            label="half the excursion of\nabsolute acceleration (g)",
+            curves=_curves(data, "acceleration_excursion", 0.5 / GRAVITY),
+        )
+    if "displacement" in halves:  # whose middle is that between the stops where all is symmetric
+        even = rig is not None and rig.left == rig.right and rest is not None and abs(rest) < _NIL
+        found[1] = found[1]._replace(
+            label="half the excursion of\nrelative displacement (mm)",
+            curves=_curves(data, "displacement_excursion", 0.5e3),
+            free=swing,
+            levels=gaps if even else (),
+        )
     for words, quantity in (("force", FORCE), ("impulse", IMPULSE)):
         right, left = (_curves(data, f"peak_{words}_{side}", 1.0) for side in ("right", "left"))
         sizes = {direction: np.fmax(right[direction], left[direction]) for direction in right}

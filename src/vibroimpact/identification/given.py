@@ -12,7 +12,7 @@ from vibroimpact.errors import InputError, unknown
 from vibroimpact.identification.curves import CurveTest
 from vibroimpact.identification.history import HistoryTest
 from vibroimpact.identification.problem import Test
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurement.read import CALL, as_measured
 from vibroimpact.model import Oscillator
 from vibroimpact.model.access import Setting
 from vibroimpact.model.excitation import Harmonic, Periodic
@@ -20,6 +20,9 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.rigs import as_rig, as_shaking
 from vibroimpact.model.units import to_si
+
+BASE = "the measured base"
+"""Where the amplitude of a history is from whose base was measured."""
 
 
 def tests_of(
@@ -41,7 +44,8 @@ def tests_of(
         given = _of(amplitude, name, list(named), "amplitude")
         share = _of(noise, name, list(named), "noise")
         share = None if share is None else to_si(share, DIMENSIONLESS, "noise", above=0.0)
-        setting = _setting(rig, given, measured, where)
+        setting, source = _setting(rig, given, measured, where)
+        measured = measured.assign_attrs(amplitude_source=source)
         if measured.attrs["kind"] == "curves":
             found.append(CurveTest(name, measured, setting, share))
         else:
@@ -80,17 +84,22 @@ def _of(given: Any, name: str, names: list[str], field: str) -> Any:
     return given
 
 
-def _setting(rig: Any, amplitude: Any, data: xr.Dataset, where: str) -> Setting:
+def _setting(rig: Any, amplitude: Any, data: xr.Dataset, where: str) -> tuple[Setting, str]:
+    """The rig with its shaking, and where that is from: the call, a file, or the rig given."""
     carried: Any = None
     if not isinstance(rig, Oscillator):
         rig, carried = as_rig(rig, "oscillator", "an oscillator, ")
-    chosen = amplitude
+    chosen, source = amplitude, CALL
     if chosen is None:
         chosen = data.attrs.get("amplitude")
+        source = str(data.attrs.get("amplitude_source", "the data"))
     if chosen is None:
-        chosen = carried
-    if chosen is None and data.attrs["kind"] == "history" and "base_acceleration" in data:
-        return rig, Harmonic(1.0, 1.0)  # the base was measured
+        chosen, source = carried, "the rig given"
+    base = data.attrs["kind"] == "history" and "base_acceleration" in data
+    if base:
+        source = BASE
+    if chosen is None and base:
+        return (rig, Harmonic(1.0, 1.0)), source
     if chosen is None:
         raise InputError(
             f"amplitude: missing, and {where} does not say it; the peak base acceleration of the "
@@ -99,7 +108,7 @@ def _setting(rig: Any, amplitude: Any, data: xr.Dataset, where: str) -> Setting:
     shaken, sizes = as_shaking(chosen, "amplitude")
     if sizes is not None or not isinstance(shaken, Harmonic | Periodic):
         raise InputError("amplitude: a list; one for each test is accepted, as a mapping by name")
-    return rig, shaken
+    return (rig, shaken), source
 
 
 def ties_of(ties: Mapping[str, str] | None) -> dict[str, str]:

@@ -129,6 +129,9 @@ def identify(
     threads = (os.cpu_count() or 1) if threads is None else whole(threads, "threads")
     tests = tests_of(data, oscillator, amplitude, noise, window, steady)
     given = frees(free, {t.name: t.setting for t in tests}, each, dict(priors or {}))
+    if any(one.name == "amplitude" for one in given):
+        for test in tests:
+            test.data = test.data.assign_attrs(amplitude_source="the fit")
     problem = Problem(tests, given, ties_of(ties), [max(t.noise, _COARSE) for t in tests], _TAIL)
     _enough(problem)
     steps = 3 + (len(given) if profiles else 0) + (1 if draws else 0)

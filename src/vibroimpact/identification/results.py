@@ -99,7 +99,7 @@ def labelled(
         "evaluations": found.evaluations,
         "robust": int(np.isfinite(problem.tail)),
     }
-    data.attrs["findings"] = "\n".join(words.findings(data, problem, found, judged))
+    data.attrs["findings"] = "\n".join(words.findings(data, problem, x, found, judged))
     return describe(
         data,
         "vibroimpact.identify",
@@ -159,6 +159,7 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
     data["data_noise"] = ("test", np.array([t.noise for t in problem.tests]))
     for name in ("correlation", "chance", "excess", "excess_chance"):
         data[f"residual_{name}"] = ("test", np.array([getattr(j, name) for j in judged]))
+    data["amplitude_source"] = ("test", [t.data.attrs["amplitude_source"] for t in problem.tests])
     data["test_kind"] = ("test", [t.kind for t in problem.tests])
     return judged
 

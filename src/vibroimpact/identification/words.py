@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
-from vibroimpact.identification.problem import Problem
+from vibroimpact.identification.given import BASE
+from vibroimpact.identification.problem import Array, Problem
+from vibroimpact.identification.repeats import stray_values
 from vibroimpact.identification.search import Found
 from vibroimpact.identification.structure import CERTAIN, HINT, Structure
+from vibroimpact.model.excitation import Harmonic
 from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.quantities import ACCELERATION
 from vibroimpact.model.units import pretty
 
 _WEAK = 0.25
@@ -16,10 +22,12 @@ _WEAK = 0.25
 _BOUND = 0.95
 """Correlation from which on two parameters are said to stand for each other."""
 _FEW = 2
+_FAR = 5.0
+"""So many times the noise: something is wrong with what was given, such as the amplitude."""
 
 
 def findings(
-    data: xr.Dataset, problem: Problem, found: Found, judged: list[Structure]
+    data: xr.Dataset, problem: Problem, x: Array, found: Found, judged: list[Structure]
 ) -> list[str]:
     """Lines about how well a fit is known, what is not determined, and what the model lacks."""
     lines = [
@@ -38,7 +46,11 @@ def findings(
                     f"{correlation[i, j]:.3f}): their {both} is known better than either"
                 )
     for test, what in zip(problem.tests, judged, strict=True):
-        lines += _shape(test.name, test.kind, what)
+        if test.kind == "curves":
+            lines += stray_values(test.name, test.data)
+        shaken = problem.setting(x, test)[0][1]
+        amplitude = amplitude_words(shaken, str(test.data.attrs["amplitude_source"]))
+        lines += _shape(test.name, test.kind, what, amplitude)
     return lines
 
 
@@ -62,7 +74,15 @@ def _of(data: xr.Dataset, problem: Problem, number: int) -> str:
     return f"{named} is poorly determined: {ends} fits as well"
 
 
-def _shape(name: str, kind: str, what: Structure) -> list[str]:
+def amplitude_words(shaken: Any, source: str) -> str:
+    """The peak base acceleration of a test, and where it is from; that alone if it was measured."""
+    told = f"from {source}" if source else ""
+    if source == BASE or not isinstance(shaken, Harmonic):
+        return told
+    return ", ".join(filter(None, [pretty(shaken.amplitude, ACCELERATION, 4), told]))
+
+
+def _shape(name: str, kind: str, what: Structure, amplitude: str) -> list[str]:
     unit = "Hz" if kind == "curves" else "s"
     lines = []
     if what.chance < CERTAIN:
@@ -79,5 +99,6 @@ def _shape(name: str, kind: str, what: Structure) -> list[str]:
     if what.excess_chance < CERTAIN and np.isfinite(what.excess):
         lines.append(
             f"{name}: the residuals are {what.excess:.3g} times the noise of the measurement"
+            + (f"; the amplitude was taken as {amplitude}" if what.excess > _FAR else "")
         )
     return lines

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.measurement.beside import with_unit
 from vibroimpact.measurement.columns import Column, Columns, of_one_length
 from vibroimpact.measurement.names import meaning
 from vibroimpact.measurement.text import parted
@@ -72,6 +73,8 @@ def read_hdf5(path: Path) -> list[Columns]:
             said[name] = _attributes(item)
             return
         values = item[()]
+        if item.attrs.get("MATLAB_class") == b"char":  # its letters, as numbers
+            values = "".join(chr(letter) for letter in np.ravel(values))
         groups.setdefault(group, {})[last] = values
         beside = _attributes(item)
         for key in ("units", "unit", "Unit", "Units"):
@@ -90,7 +93,7 @@ def read_hdf5(path: Path) -> list[Columns]:
 
 def _attributes(item: Any) -> dict[str, str]:
     """Single values that stand beside a group or a dataset."""
-    return {k: _text(np.squeeze(v)[()]) for k, v in item.attrs.items() if np.size(v) == 1}
+    return {k: _text(np.asarray(v).squeeze()[()]) for k, v in item.attrs.items() if np.size(v) == 1}
 
 
 def read_uff(path: Path) -> list[Columns]:
@@ -183,7 +186,7 @@ def _together(path: Path, tables: list[Columns]) -> Columns:
     beside: dict[str, str] = {}
     for table in tables:
         (column,) = table.columns
-        said = dict(table.said)
+        said = {key if key.lower() != "unit" else "unit": text for key, text in table.said.items()}
         name, unit = said.pop("group", column.name), said.pop("unit", None)
         columns.append(Column(name, column.unit or unit, column.values))
         beside |= said
@@ -210,7 +213,7 @@ def _columns(
         if values.dtype.kind == "S":
             values = np.char.decode(values, "utf-8")
         if values.ndim == 0 or values.dtype.kind not in "fiubU":
-            beside |= [_told(name, _text(value))]
+            beside |= [_told(name, with_unit(_text(values[()]), units.get(name)))]
         else:
             vectors[name] = values
     columns = []
@@ -237,7 +240,7 @@ def _columns(
 def _told(name: str, text: str) -> tuple[str, str]:
     """What stands beside the numbers, with the unit that its name ends in."""
     bare, unit = parted(name)
-    return bare.lower(), f"{text} {unit}" if unit else text
+    return bare, with_unit(text, unit)
 
 
 def _words(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -79,7 +80,8 @@ def curves(table: Columns, known: Known, direction: str | None, notes: list[str]
                 grid[place][: len(held_there)] = held_there
         dims = ("direction", "frequency", "repeat")
         data[name] = (dims, grid) if most > 1 else (dims[:2], grid[..., 0])
-    notes += [f"no {way} sweep was measured" for way in DIRECTIONS if way not in present]
+    file = Path(table.path).name
+    notes += [f"{file}: no {way} sweep was measured" for way in DIRECTIONS if way not in present]
     if len(frequency) == 1:
         notes.append("one frequency alone: there is no curve, and no jump can be told")
     return data

@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from vibroimpact.measurement.names import CURVES as MEASURED
 from vibroimpact.response import resonance
@@ -22,8 +23,39 @@ _NOISES = 6.0
 """Least difference of two motions, and least prominence of a peak, in standard deviations."""
 _ENOUGH = 8
 """Values that are needed for an estimate."""
+_APART = 8.0
+"""Standard deviations from the median of its hold from which on a value is no noise."""
+_QUIET = 1e-3
+"""Noise is taken as no smaller a share, and a share of a value is told of no smaller a one."""
 _LOW, _OF_NORMAL = 0.3, 0.3853
 """A quantile, and what it is of the size of a standard normal number."""
+
+
+def strays(data: xr.Dataset) -> dict[str, NDArray[np.bool_]]:
+    """Which values of a hold lie far from the median of the hold, as those of another motion do.
+
+    Returns
+    -------
+    dict
+        By variable that was measured again, over ``direction``, ``frequency`` and ``repeat``.
+    """
+    off: dict[str, NDArray[np.float64]] = {}
+    for name in MEASURED:
+        if name in data and "repeat" in data[name].dims:
+            held = data[name].transpose("direction", "frequency", "repeat").values
+            known = np.isfinite(held)
+            some = np.where(known.any(axis=2, keepdims=True), held, 0.0)
+            middle = np.nanmedian(some, axis=2, keepdims=True)
+            large = np.abs(middle) > _QUIET * np.abs(held[known]).max(initial=0.0)
+            off[name] = np.abs(
+                np.where(known & large, held / np.where(large, middle, 1.0) - 1.0, 0.0)
+            )
+    if not off:
+        return {}
+    apart = np.concatenate([one[one > 0.0] for one in off.values()])
+    few = len(apart) < _ENOUGH
+    size = _of_neighbours(swept(data)) if few else 1.4826 * float(np.median(apart))
+    return {name: one > _APART * max(size, _QUIET) for name, one in off.items()} if size else {}
 
 
 def noise_of(data: xr.Dataset | Swept) -> float:
@@ -33,7 +65,11 @@ def noise_of(data: xr.Dataset | Swept) -> float:
     """
     if isinstance(data, xr.Dataset) and (repeated := _of_repeats(data)):
         return repeated
-    both = data if isinstance(data, Swept) else swept(data)
+    return _of_neighbours(data if isinstance(data, Swept) else swept(data))
+
+
+def _of_neighbours(both: Swept) -> float:
+    """Of the differences between the directions, or between frequencies; 0 if these are few."""
     found: list[float] = []
     for name in CURVES:
         values = getattr(both, name)
@@ -53,9 +89,11 @@ def noise_of(data: xr.Dataset | Swept) -> float:
 def _of_repeats(data: xr.Dataset) -> float:
     """Of values that were measured again; 0 if these are few."""
     squares, spare = 0.0, 0
+    far = strays(data)
     for name in MEASURED:
         if name in data and "repeat" in data[name].dims:
-            values = data[name].transpose(..., "repeat").values
+            values = data[name].transpose("direction", "frequency", "repeat").values
+            values = np.where(far[name], np.nan, values) if name in far else values
             held = values.reshape(-1, values.shape[-1])
             held = held[(np.isfinite(held).sum(axis=1) > 1)]
             mean = np.nanmean(held, axis=1, keepdims=True)

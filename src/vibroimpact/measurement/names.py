@@ -158,6 +158,14 @@ def meaning(name: str) -> Meaning | None:
     return Meaning(what, direction, unit)
 
 
+def ended(name: str) -> tuple[str, str | None]:
+    """The words of a name, joined by low lines, and the unit that it ends in: ``amplitude_g``."""
+    words = [word for word in re.split(r"[^a-z0-9]+", _plain(name).lower()) if word]
+    if len(words) > 1 and words[-1] in _UNITS:
+        return "_".join(words[:-1]), _UNITS[words[-1]]
+    return "_".join(words), None
+
+
 def _plain(name: str) -> str:
     """A name in plain letters, its words apart, with short words for what takes several."""
     joined = re.sub("[µμ]", "u", name.strip().replace("η", "eta").replace("ü", "acc"))

@@ -10,13 +10,12 @@ import xarray as xr
 
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.measurement import binary, text
+from vibroimpact.measurement.beside import shaking
 from vibroimpact.measurement.columns import Array, Column, Columns
 from vibroimpact.measurement.curves import curves
 from vibroimpact.measurement.histories import history
 from vibroimpact.measurement.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
 from vibroimpact.measurement.sampling import timed
-from vibroimpact.model.quantities import ACCELERATION, FREQUENCY
-from vibroimpact.model.units import to_si
 from vibroimpact.response.files import load
 from vibroimpact.response.variables import describe
 
@@ -29,6 +28,8 @@ _READERS = {
     ".unv": binary.read_uff,
     ".tdms": binary.read_tdms,
 }
+CALL = "the call"
+"""Where an amplitude is from that the file does not say."""
 CREATED_BY = "vibroimpact.read_measurement"
 
 
@@ -61,18 +62,19 @@ def read_measurement(
     group
         Which of several tests of the file.
     amplitude
-        Peak base acceleration of the test (m/s², or text such as ``"0.05 g"``), where the file does
-        not say ``amplitude = ...``.
+        Peak base acceleration of the test (m/s², or text such as ``"0.05 g"``); comes before what
+        the file says (``amplitude = 0.05 g``, ``amplitude_g = 0.05``).
     frequency
-        Of the base's sine (Hz) in a time history, where the file does not say it.
+        Of the base's sine (Hz) in a time history; comes before what the file says.
 
     Returns
     -------
     xarray.Dataset
         Curves have the dims ``direction`` and ``frequency``, and ``repeat`` where a frequency was
         held more than once; histories have ``time``. Variables are named as in `sweep` and
-        `simulate`, in SI units. The attribute ``notes`` tells what was guessed and left out, a
-        line each; ``left_out`` names the columns that were not understood.
+        `simulate`, in SI units. The attribute ``notes`` tells what was guessed and left out, of
+        columns and of numbers beside them, a line each; ``left_out`` names the columns that were
+        not understood, ``amplitude_source`` says where the amplitude is from.
 
     Raises
     ------
@@ -80,6 +82,8 @@ def read_measurement(
         If the file cannot be read, or a column or unit cannot be told.
     """
     file = Path(path)
+    if file.is_dir():
+        raise InputError(f"measurement: {str(path)!r} is a folder; a file of a test is accepted")
     if not file.is_file():
         raise InputError(f"measurement: {str(path)!r} does not exist; a file of a test is accepted")
     if file.suffix.lower() == ".nc":
@@ -99,11 +103,9 @@ def read_measurement(
         raise InputError(f"measurement: {str(path)!r}{_untold(table, known, left)}")
     if left:
         notes.append(f"not understood, and left out: {', '.join(left)}")
-    told = {"amplitude": (amplitude, ACCELERATION), "frequency": (frequency, FREQUENCY)}
-    for name, (value, quantity) in told.items():
-        given = table.said.get(name) if value is None else value
-        if given is not None:
-            data.attrs[name] = to_si(given, quantity, name, above=0.0)
+    data.attrs |= shaking(table, {"amplitude": amplitude, "frequency": frequency}, notes)
+    if "amplitude" in data.attrs:
+        data.attrs["amplitude_source"] = file.name if amplitude is None else CALL
     data.attrs |= {
         "source": file.name,
         "kind": kind,

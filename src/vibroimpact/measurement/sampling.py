@@ -37,6 +37,11 @@ def timed(table: Columns, notes: list[str]) -> Columns:
     return table._replace(columns=(Column("time", "s", time), *table.columns))
 
 
+def is_sampling(name: str) -> bool:
+    """Whether a name is that of a sampling rate, or of its step."""
+    return re.sub(r"[^a-z]", "", name.lower()) in _RATES | _STEPS
+
+
 def _step(said: Mapping[str, str]) -> tuple[str, float] | None:
     """What a file calls its sampling, and the seconds between two samples."""
     for name, value in said.items():

@@ -1,8 +1,8 @@
 """Tables of text: CSV and its relatives.
 
 Apart by commas, semicolons, tabs or blanks; with decimal commas where no comma parts the columns.
-Lines that begin with ``#`` may say ``amplitude = 0.05 g``. The last line of words before the
-numbers names the columns; a line of units may follow it.
+Lines that begin with ``#`` may say ``amplitude = 0.05 g``, or ``amplitude; 0.05 g``. The last line
+of words before the numbers names the columns; a line of units may follow it.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.measurement.beside import is_number, with_unit
 from vibroimpact.measurement.columns import Column, Columns
 
-_SAID = re.compile(r"^\s*([A-Za-z][\w ]*?)\s*[=:]\s*(.+?)\s*$")
+_SAID = re.compile(r"^\s*([A-Za-z][\w ()\[\]/^²]*?)\s*([=:;])\s*(.+?)\s*$")
 _COMMA = re.compile(r"[+-]?\d+,\d+(?![\d,.])")
 _ABSENT = {"", "nan", "na", "n/a", "none", "null", "-", "--", "#n/a", "missing"}
 _UNIT = re.compile(r"[\[(]\s*([^\[\]()]*?)\s*[\])]\s*$")
@@ -42,8 +43,8 @@ def read(path: Path) -> list[Columns]:
     for number, line in enumerate(lines, 1):
         bare = line.strip()
         if bare.startswith(("#", "%", "//")):
-            if found := _SAID.match(bare.lstrip("#%/ ")):
-                said[_key(found[1])] = found[2].strip().strip('"')
+            if found := _said(bare.lstrip("#%/ ")):
+                said[found[0]] = found[1]
         elif bare:
             kept.append((number, line))
     if not kept:
@@ -57,8 +58,8 @@ def read(path: Path) -> list[Columns]:
         raise InputError(f"measurement: {str(path)!r} has no numbers; a table of them is accepted")
     head = [cells for _, cells in rows[:first]]
     for cells in head:
-        if len(cells) <= 2 and (found := _SAID.match(" = ".join(c for c in cells if c))):
-            said.setdefault(_key(found[1]), _pointed(found[2], decimal))
+        if len(cells) <= 2 and (found := _said("; ".join(c for c in cells if c))):
+            said.setdefault(found[0], _pointed(found[1], decimal))
     width = len(rows[first][1])
     named = [cells for cells in head if len(cells) == width and any(cells)]
     units: list[str] = []
@@ -108,8 +109,15 @@ def _pointed(text: str, decimal: str) -> str:
     return found[0].replace(",", ".") + text[found.end() :]
 
 
-def _key(text: str) -> str:
-    return "_".join(text.lower().split())
+def _said(text: str) -> tuple[str, str] | None:
+    """A name and what it is said to be; behind a semicolon, a number."""
+    found = _SAID.match(text)
+    if found is None or (found[2] == ";" and not is_number(found[3])):
+        return None
+    if found[2] == ":" and found[1][-1].isdigit():  # a time of day
+        return None
+    name, unit = parted(found[1])
+    return name, with_unit(found[3].strip().strip('"'), unit)
 
 
 def _decoded(path: Path) -> str:

@@ -18,6 +18,8 @@ from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
 from vibroimpact.identification.advice import next_test
 from vibroimpact.identification.free import SENSORS
 from vibroimpact.identification.identify import fitted
+from vibroimpact.identification.results import setting_of
+from vibroimpact.identification.words import amplitude_words
 from vibroimpact.measurement.read import as_measured
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS, Quantity
@@ -91,7 +93,8 @@ def fit_report(
             measured = measured_of(result, str(test))
             rig = fitted(result, str(test))
             curves = sweep(rig.oscillator, rig.amplitude, _dense(measured["frequency"].values))
-            drawn(key, resonance_curves(curves, measured=measured),
+            si = not any(str(name).startswith("eta_") for name in measured)
+            drawn(key, resonance_curves(curves, measured=measured, physical=si),
                   f"{test}: measured points over the curves of the fitted rig")  # fmt: skip
         else:
             drawn(key, fit_history(result, str(test)), f"{test}: measured, and the fitted motion")
@@ -147,6 +150,13 @@ def parameter_rows(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
             )
         )
     return rows
+
+
+def amplitude_of(result: xr.Dataset, test: str) -> str:
+    """The peak base acceleration that a fit took for a test, and where it is from, as text."""
+    known = "amplitude_source" in result  # not in fits of older versions
+    source = str(result["amplitude_source"].sel(test=test).values) if known else ""
+    return amplitude_words(setting_of(json.loads(result.attrs["rigs"])[test])[1], source)
 
 
 def _sensor(name: str) -> Quantity:
@@ -207,7 +217,7 @@ def _studies(result: xr.Dataset, name: str) -> Iterable[tuple[str, str, str]]:
         yield key, study_text(key, rig.oscillator, rig.amplitude, about), f"study {key}"
 
 
-def _tests(result: xr.Dataset) -> list[tuple[str, str, str, str]]:
+def _tests(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
     rows = []
     for test in result["test"].values:
         one = result.sel(test=test)
@@ -216,7 +226,7 @@ def _tests(result: xr.Dataset) -> list[tuple[str, str, str, str]]:
         noise = float(one["noise"])
         told = f"{100.0 * noise:.2g} % of a value" if curves else f"{noise:.3g} times its own noise"
         shape = "a shape" if float(one["residual_chance"]) < 1e-3 else "noise"
-        rows.append((str(test), str(points), told, shape))
+        rows.append((str(test), amplitude_of(result, str(test)), str(points), told, shape))
     return rows
 
 

@@ -130,6 +130,7 @@ VARIABLES: dict[str, Variable] = {
     "other_parameter": Variable("1", "what is fitted"),
     "test": Variable("1", "name of the test"),
     "test_kind": Variable("1", "curves or history"),
+    "amplitude_source": Variable("1", "where a test's amplitude is from"),
     "fitted_value": Variable("1", "fitted value", _OWN),
     "start_value": Variable("1", "where the fit began", _OWN),
     "standard_error": Variable("1", "standard error", _OWN),
