@@ -47,7 +47,8 @@ def resonance_curves(
 
     Forward sweep red and solid with dots, backward blue and dashed with squares, free flight
     black; vertical arrows where a sweep jumps; hysteresis shaded, left hysteresis hatched as
-    well; a cross where the motion did not settle. In physical units, the gaps are dotted lines.
+    well; crosses where motions did not settle, of neighbours some. In physical units, the gaps are
+    dotted lines.
 
     Parameters
     ----------
