@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import to_si
 from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
 from vibroimpact.response.vocabulary import VARIABLES
@@ -27,7 +27,7 @@ def limits_of(limits: Any) -> dict[str, float]:
     for name, value in dict(limits or {}).items():
         key = str(name).replace("-", "_")
         if key not in accepted:
-            raise InputError(f"limits: {name!r}; one of {', '.join(accepted)} is accepted")
+            raise InputError(f"limits: {unknown(name, accepted)}")
         quantity = QUANTITIES[VARIABLES[key].units]
         found[key] = to_si(value, quantity, f"limits[{name!r}]", minimum=0.0)
     return found
