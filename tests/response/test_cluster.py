@@ -11,7 +11,7 @@ import pytest
 import vibroimpact as vi
 from samples import sample
 from vibroimpact.cli import main
-from vibroimpact.response.cluster import LostError, placed
+from vibroimpact.response.threads import LostError
 
 distributed = pytest.importorskip("distributed")
 
@@ -130,20 +130,6 @@ def test_a_map_is_completed_when_the_scheduler_died(tmp_path, on_threads):
     )
     assert left[0] > 0  # what was done is not done again
     assert again.load().identical(on_threads)
-
-
-@pytest.mark.parametrize(
-    ("where", "said"),
-    [
-        ("treads", "where: 'treads'; 'threads', a dask Client, or the address"),
-        ("tcp://127.0.0.1:9", "no scheduler answers at tcp://127.0.0.1:9"),
-        (3, "where: 3; 'threads', a dask Client"),
-    ],
-)
-def test_what_is_no_cluster_is_refused(where, said, monkeypatch):
-    monkeypatch.setattr("vibroimpact.response.cluster._PATIENCE", "1s")
-    with pytest.raises(vi.InputError, match=said.split(";")[0]):
-        placed(None, where)
 
 
 def test_threads_and_a_cluster_exclude_one_another(cluster):

@@ -16,7 +16,9 @@ import zarr
 
 import vibroimpact as vi
 from scenario.small_map import OPTIONS, X, Y, rig_of, small
+from vibroimpact.response import places
 from vibroimpact.response.vocabulary import VARIABLES
+from vibroimpact.scenario import map as mapping
 from vibroimpact.scenario.axes import one_sine
 from vibroimpact.scenario.cell import COUNTS, VALUES
 from vibroimpact.scenario.frequencies import frequencies
@@ -72,6 +74,21 @@ def test_no_result_depends_on_threads_or_blocks_or_where_it_is_kept(tmp_path):
     for name, options in (("one", {"threads": 1, "block": 2}), ("big", {"threads": 3, "block": 9})):
         data = vi.scenario_map(X, Y, **{**OPTIONS, **options}, store=tmp_path / name)
         xr.testing.assert_equal(data.load(), small())
+
+
+def test_many_rigs_go_to_processes_by_themselves(monkeypatch):
+    asked = []
+
+    def placed(threads, where):
+        asked.append(where)
+        return places.placed(threads, where)
+
+    monkeypatch.setattr(mapping, "placed", placed)
+    for most in (len(X[1]) * len(Y[1]), len(X[1]) * len(Y[1]) + 1):
+        monkeypatch.setattr(mapping, "_MANY", most)
+        data = vi.scenario_map(X, Y, **OPTIONS, threads=2)
+        xr.testing.assert_identical(data, small())
+    assert asked == ["processes", "threads"]
 
 
 def test_a_map_that_was_stopped_is_completed_to_the_same(tmp_path):

@@ -23,8 +23,8 @@ from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 

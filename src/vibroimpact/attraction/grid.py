@@ -19,8 +19,8 @@ from vibroimpact.model import Oscillator, Repeated, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.scenario.nodes import UNKNOWN, Nodes
@@ -82,8 +82,8 @@ def basins(
         How many regions of states are followed at once; None for one a processor. No result depends
         on it.
     where
-        ``"threads"``, or a dask cluster: a ``distributed.Client`` or the address of its scheduler
-        (docs/how-to/many-machines.md). No result depends on it.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread with the states done and all.
 

@@ -24,8 +24,8 @@ from vibroimpact.model.counts import share, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import to_si
-from vibroimpact.response.cluster import placed
 from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.places import placed
 from vibroimpact.response.threads import Workers
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 

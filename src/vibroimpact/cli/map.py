@@ -13,7 +13,6 @@ from vibroimpact.cli.options import (
     RigName,
     RigOptions,
     ThresholdOptions,
-    Where,
     Whole,
 )
 from vibroimpact.errors import InputError
@@ -79,7 +78,14 @@ def scenario_map(
         Whole | None,
         Parameter(group=COMPUTATION, help="How many rigs are computed at once; one a processor."),
     ] = None,
-    where: Where = "threads",
+    where: Annotated[
+        str | None,
+        Parameter(
+            group=COMPUTATION,
+            help="threads, processes, or the address of a dask scheduler, such as "
+            "tcp://10.0.0.1:8786; processes where the first grid has at least 500 nodes.",
+        ),
+    ] = None,
     output: OutputOptions | None = None,
 ) -> int:
     """Map the scenarios of a rig over two of its parameters.

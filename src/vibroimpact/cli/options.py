@@ -55,7 +55,7 @@ Where: TypeAlias = Annotated[
     str,
     Parameter(
         group=COMPUTATION,
-        help="Address of a dask scheduler, such as tcp://10.0.0.1:8786; or threads.",
+        help="threads, processes, or the address of a dask scheduler, such as tcp://10.0.0.1:8786.",
     ),
 ]
 

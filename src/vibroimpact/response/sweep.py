@@ -29,8 +29,8 @@ from vibroimpact.model.rigs import (
     rig_name,
     takes_rig,
 )
-from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.held import held
+from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.rows import Patience, prepared, rows
 from vibroimpact.response.start import as_state
@@ -157,8 +157,8 @@ def sweeps(
     threads
         How many sweeps run at once; None for one a processor. No result depends on it.
     where
-        ``"threads"``, or a dask cluster: a ``distributed.Client`` or the address of its scheduler
-        (docs/how-to/many-machines.md). No result depends on it.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread while the sweeps run.
 

@@ -11,6 +11,8 @@ from typing import Any, Protocol, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.errors import InputError
+
 _Item = TypeVar("_Item")
 _Found = TypeVar("_Found")
 
@@ -22,7 +24,7 @@ Progress = Callable[[int, int | None], None]
 
 
 class Elsewhere(Protocol):
-    """Where tasks are done in the place of threads (`cluster`)."""
+    """Where tasks are done in the place of threads (`processes`, `cluster`)."""
 
     def width(self) -> int:
         """How many are done at once."""
@@ -36,7 +38,7 @@ class Elsewhere(Protocol):
 
 
 Workers: TypeAlias = int | Elsewhere | None
-"""So many threads, one a processor, or a cluster."""
+"""So many threads, one a processor, or what is in their place."""
 
 
 def counted(progress: Progress | None) -> Callable[[object], None] | None:
@@ -131,3 +133,12 @@ def each(
 
 class Stopped(Exception):  # noqa: N818 - nothing went wrong
     """Raised in a task whose result is not wanted any more."""
+
+
+class LostError(InputError):
+    """What the tasks ran on went away, or died again and again."""
+
+
+def alone(task: Callable[[_Item, Tally], _Found], item: _Item) -> _Found:
+    """A task where nobody stops it; its tally stays there."""
+    return task(item, np.zeros(2, dtype=np.int64))

@@ -14,7 +14,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import from_dimensionless
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.rigs import AnyRig, as_rig
-from vibroimpact.response.cluster import THREADS, placed
+from vibroimpact.response.places import PROCESSES, THREADS, placed
+from vibroimpact.response.processes import may_start
 from vibroimpact.response.threads import Progress, Tally, Workers, breadth, each
 from vibroimpact.response.variables import excitation_parameters, oscillator_parameters
 from vibroimpact.scenario.axes import Axis, Base, Shaken, axis, check_pair, one_sine
@@ -30,6 +31,9 @@ MOST_REFINED = 8
 """Levels of refinement: nodes 256 times as dense as those of the first grid."""
 _FEW = 10
 """Rigs that a thread sweeps at a time, at most."""
+_MANY = 500
+"""Nodes of the first grid for which it pays to start processes: two fifths of what a rig takes is
+Python's, which threads do in turn."""
 
 
 def scenario_map(
@@ -44,7 +48,7 @@ def scenario_map(
     store: Path | str | None = None,
     block: int = 10,
     threads: int | None = None,
-    where: Any = THREADS,
+    where: Any = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Name the scenarios over two parameters.
@@ -84,8 +88,9 @@ def scenario_map(
     threads
         How many rigs are computed at once; None for one a processor. No result depends on it.
     where
-        ``"threads"``, or a dask cluster: a ``distributed.Client`` or the address of its scheduler
-        (docs/how-to/many-machines.md). No result depends on it.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). None for processes where the first grid
+        has at least 500 nodes, else threads. No result depends on it.
     progress
         Called from the calling thread with the nodes done and those known so far to be wanted.
 
@@ -119,6 +124,9 @@ def scenario_map(
         "max_cycles": None if max_cycles is None else whole(max_cycles, "max_cycles"),
         "block": (block := whole(block, "block")),
     }
+    if where is None:
+        many = len(first.values) * len(second.values) >= _MANY and may_start()
+        where = PROCESSES if many else THREADS
     workers = placed(threads, where)
     fine = first.refined(refine), second.refined(refine)
     for end in (0, -1):  # refused before anything is computed

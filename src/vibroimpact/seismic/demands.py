@@ -20,7 +20,7 @@ from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.response.cluster import THREADS, placed
+from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.scenario.folder import Kind, create, finished, folder, read
@@ -91,8 +91,8 @@ def demands(
     threads
         How many runs are done at once; None for one a processor. No result depends on it.
     where
-        ``"threads"``, or a dask cluster: a ``distributed.Client`` or the address of its scheduler
-        (docs/how-to/many-machines.md). No result depends on it.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). No result depends on it.
     progress
         Called from the calling thread with the runs done and all there are.
 

@@ -14,7 +14,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.response.cluster import THREADS, placed
+from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.response.vocabulary import VARIABLES

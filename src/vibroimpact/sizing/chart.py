@@ -15,7 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.response.cluster import THREADS, placed
+from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.seismic.plan import Runs, runs
@@ -78,7 +78,8 @@ def design(
     threads
         How many designs are computed at once; None for one a processor. No result depends on it.
     where
-        ``"threads"``, or a dask cluster, as of `scenario_map`. No result depends on it.
+        ``"threads"``, ``"processes"``, or a dask cluster, as of `scenario_map`. No result depends
+        on it.
     progress
         Called from the calling thread with what is done and all there is.
 

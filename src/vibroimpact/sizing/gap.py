@@ -11,8 +11,8 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, equilibrium
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.free_flight import free_flight_excursions, peak_ratio
+from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.seismic.suites import quantiles

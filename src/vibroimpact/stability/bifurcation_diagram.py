@@ -18,8 +18,8 @@ from vibroimpact.model.counts import share, whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.held import sizes
+from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
 from vibroimpact.response.threads import Progress, Tally, each
 from vibroimpact.response.variables import (
@@ -103,7 +103,8 @@ def bifurcation_diagram(
         How many starts or blocks of values run at once; None for one a processor. No result
         depends on it.
     where
-        ``"threads"``, or a dask cluster, as of `scenario_map`. No result depends on it.
+        ``"threads"``, ``"processes"``, or a dask cluster, as of `scenario_map`. No result depends
+        on it.
     progress
         Called from the calling thread with the holds done and all.
 

@@ -19,9 +19,9 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.model.varied import Varied, varied, written
-from vibroimpact.response.cluster import THREADS, placed
 from vibroimpact.response.follow import grown
 from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.start import as_state, engine_rig, engine_state
 from vibroimpact.response.sweep import check_frequencies, named_rigs
 from vibroimpact.response.threads import Progress, Tally, each
@@ -85,7 +85,8 @@ def lyapunov_exponents(
     threads
         How many motions run at once; None for one a processor. No result depends on it.
     where
-        ``"threads"``, or a dask cluster, as of `scenario_map`. No result depends on it.
+        ``"threads"``, ``"processes"``, or a dask cluster, as of `scenario_map`. No result depends
+        on it.
     progress
         Called from the calling thread with the motions done and all.
 

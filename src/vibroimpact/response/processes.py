@@ -1,0 +1,62 @@
+"""The same tasks on processes of this machine, each with an interpreter of its own."""
+
+from __future__ import annotations
+
+import importlib
+import multiprocessing
+from collections.abc import Callable, Sequence
+from concurrent.futures import as_completed
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any, NamedTuple, TypeVar
+
+from vibroimpact.response.threads import LostError, Progress, Tally, alone, available
+
+_Item = TypeVar("_Item")
+_Found = TypeVar("_Found")
+
+_IDLE = 10.0
+"""Seconds after which processes that have nothing to do end."""
+
+
+def may_start() -> bool:
+    """Whether this process may start others; a daemon may not."""
+    return not multiprocessing.current_process().daemon
+
+
+class Processes(NamedTuple):
+    """Where tasks are done in the place of threads."""
+
+    number: int | None
+    """How many; None for one a processor."""
+
+    def width(self) -> int:
+        """How many tasks they do at once."""
+        return self.number or available()
+
+    def each(
+        self,
+        task: Callable[[_Item, Tally], _Found],
+        items: Sequence[_Item],
+        total: int,
+        progress: Progress | None,
+    ) -> list[_Found]:
+        """As `threads.each`; the tasks and what they find travel."""
+        loky: Any = importlib.import_module("loky")
+
+        # The same processes again, where they have not ended: starting takes a second.
+        pool = loky.get_reusable_executor(max_workers=self.width(), timeout=_IDLE)
+        try:
+            futures = [pool.submit(alone, task, item) for item in items]
+            for done, future in enumerate(as_completed(futures), 1):
+                future.result()  # raises what went wrong
+                if progress:
+                    progress(done * total // len(items), total)
+            return [future.result() for future in futures]
+        except BrokenProcessPool as died:
+            raise LostError(
+                f"where: a process died, perhaps for want of memory ({died}); the same call "
+                "completes what it has in a store"
+            ) from died
+        except BaseException:
+            pool.shutdown(wait=True, kill_workers=True)
+            raise
