@@ -166,7 +166,8 @@ def simulate(
 
 def _cycles(count: int, samples: int, length: float | None) -> NDArray[np.float64]:
     """Times of the samples in forcing cycles; `length` is the end where it was reached."""
-    cycle: NDArray[np.float64] = np.arange(count) / samples
+    cycle = np.arange(count, dtype=np.float64)  # whole numbers would take ten times as long
+    cycle /= samples
     if length is not None:  # the last value is the end itself, which need not lie on the grid
         cycle[-1] = length
     return cycle
@@ -177,7 +178,11 @@ def _shaking(
 ) -> tuple[str, NDArray[np.float64]]:
     """Base acceleration or force at the samples, every cycle the same but for the last sample."""
     angles = 2.0 * np.pi * (np.arange(samples) / samples) + phase
-    values: NDArray[np.float64] = np.resize(excitation.at(angles) + 0.0, len(cycle))
+    values = np.empty(len(cycle))
+    whole, rest = divmod(len(cycle), samples)
+    one = excitation.at(angles) + 0.0
+    values[: whole * samples].reshape(whole, samples)[:] = one
+    values[whole * samples :] = one[:rest]
     if len(cycle):
         values[-1] = excitation.at(2.0 * np.pi * (cycle[-1] % 1.0) + phase) + 0.0
     return "base_acceleration" if excitation.moves_base else "applied_force", values
