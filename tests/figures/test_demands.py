@@ -80,6 +80,33 @@ def test_a_curve_that_one_record_decides_has_no_band() -> None:
     assert [text.endswith("one record decides)") for text in words] == [True, False]
 
 
+def test_what_has_no_curve_says_which_levels_would_give_one() -> None:
+    scales = np.array([1.0, 2.0, 3.0, 4.0])
+    sound = lognormal(np.random.default_rng(1), 20, scales, 0.9)
+    coarse, below, above = (
+        suite(np.repeat([row], 20, axis=0), scales)
+        for row in ([0.5, 0.5, 3.0, 3.0], [0.5] * 4, [3.0] * 4)
+    )
+    data = xr.concat([coarse, sound, below, above], "gap").assign_coords(gap=[0.1, 0.2, 0.3, 0.4])
+    data["gap"].attrs["units"] = "m"
+    with pytest.warns(RuntimeWarning, match="no curve for gap 100 mm: "):
+        found = vi.fragility(data.transpose("record", "scale", "gap"), "peak_displacement", 2.0)
+    ax = fragility_curves(found)
+    words = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert words[0] == "gap 100 mm: no curve, finer levels needed"
+    assert words[1].startswith("gap 200 mm: $\\theta$ = ")
+    assert words[2:] == [
+        "gap 300 mm: no curve, higher levels needed",
+        "gap 400 mm: no curve, lower levels needed",
+    ]
+    # A line and a band of one, and the shares of all.
+    assert len(ax.collections) == 1
+    assert sum(len(line.get_xdata()) == 400 for line in ax.lines) == 1
+    assert sum(len(line.get_xdata()) == 4 for line in ax.lines) == 4
+    (text,) = fragility_curves(found.isel(gap=0)).get_legend().get_texts()
+    assert text.get_text() == "share of the records: no curve, finer levels needed"
+
+
 def test_what_are_no_axes_is_refused() -> None:
     data = lognormal(np.random.default_rng(1), 12, SCALES, 0.4)
     with pytest.raises(vi.InputError, match=r"^ax: 'peak_force'; .* a peak as quantity='peak_f"):

@@ -136,6 +136,61 @@ def test_what_would_bound_an_interval_is_told_by_curve() -> None:
     assert "unbounded" not in sound.attrs
 
 
+def _gaps(*begins) -> xr.Dataset:
+    """A gap each, and the level at which each record begins to hit it."""
+    scales = np.array([1.0, 2.0, 3.0, 4.0])
+    several = [
+        suite(np.array([[2.0 * float(s >= begin) for s in scales] for begin in one]), scales)
+        for one in begins
+    ]
+    data = xr.concat(several, "gap").assign_coords(gap=0.1 * np.arange(2, 2 + len(begins)))
+    return data.transpose("record", "scale", "gap")
+
+
+def test_which_of_several_have_no_curve_is_told() -> None:
+    """As of one alone, which raises: levels too coarse, or all below or above."""
+    fine = (1.0, 2.0, 3.0, 4.0, 2.0, 3.0)
+    data = _gaps((2.0, 3.0, 3.0, 3.0, 3.0, 3.0), fine, (9.0,) * 6, (0.0,) * 6, (3.0,) * 6)
+    with pytest.warns(RuntimeWarning, match=r"^fragility: no curve for gap 200 mm: ") as told:
+        found = vi.fragility(data, "peak_displacement", 1.0)
+    assert len(told) == 1
+    none = "there are no two levels at which some records are above the limit and others are not; "
+    reasons = {
+        0.2: none + "finer levels between 1 and 3 are accepted",
+        0.4: "at no level is a record above the limit; higher levels are accepted",
+        0.5: "at every level all records are above the limit; lower levels are accepted",
+        0.6: none + "finer levels between 2 and 3 are accepted",
+    }
+    assert found.attrs["undetermined"] == "; ".join(
+        f"no curve for gap {1e3 * gap:g} mm: {why}" for gap, why in reasons.items()
+    )
+    assert str(told[0].message) == f"fragility: {found.attrs['undetermined']}"
+    for i, gap in enumerate(data["gap"].values):
+        lone = data.isel(gap=i, drop=True)
+        if round(float(gap), 1) in reasons:
+            assert np.isnan(found["median_capacity"][i])
+            with pytest.raises(vi.InputError) as refused:
+                vi.fragility(lone, "peak_displacement", 1.0)
+            assert str(refused.value) == f"limit: 1.0; {reasons[round(float(gap), 1)]}"
+        else:
+            one = vi.fragility(lone, "peak_displacement", 1.0)
+            assert float(one["median_capacity"]) == float(found["median_capacity"][i])
+            assert "undetermined" not in one.attrs
+    with pytest.warns(RuntimeWarning, match=r"; likewise 4 more curves$"):
+        vi.fragility(_gaps(fine, *[(3.0,) * 6] * 9), "peak_displacement", 1.0)
+    with pytest.raises(
+        vi.InputError, match=r"^limit: 1.0; no curve for gap 200 mm: .*; no curve f"
+    ):
+        vi.fragility(data.isel(gap=[0, 2]), "peak_displacement", 1.0)
+
+
+def test_a_share_that_does_not_rise_has_no_curve() -> None:
+    scales = np.array([1.0, 2.0, 3.0])
+    falls = suite(np.array([[2.0, 2.0, 0.5], [2.0, 0.5, 0.5], [2.0, 0.5, 2.0]]), scales)
+    with pytest.raises(vi.InputError, match=r"that are above the limit does not rise with the lev"):
+        vi.fragility(falls, "peak_displacement", 1.0)
+
+
 def test_wrong_input() -> None:
     data = lognormal(np.random.default_rng(1), 5, SCALES, BETA)
     with pytest.raises(vi.InputError, match=r"^demands: 2 records; at least 3"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,6 +14,7 @@ from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND
 from vibroimpact.model import GRAVITY, to_si
 from vibroimpact.model.quantities import LENGTH
+from vibroimpact.seismic.fragility import lacking
 from vibroimpact.seismic.suites import fractiles, known
 
 _LABELS = {
@@ -96,7 +98,8 @@ def fragility_curves(
     """Draw a fragility curve, its confidence band, and the shares of the records as marks.
 
     The legend has its median θ and its dispersion β. A curve whose interval is unbounded, because
-    one record decides, has no band; the legend says so.
+    one record decides, has no band; the legend says so. Where the records determine no curve there
+    are marks alone, and the legend says which levels would give one.
 
     Parameters
     ----------
@@ -133,9 +136,24 @@ def fragility_curves(
     )
     for (name, one), (colour, dashes, mark) in zip(every, _LOOKS, strict=False):
         median, spread = unit * float(one["median_capacity"]), float(one["dispersion"])
+        shares = one["probability"].values
+        whole = _value(fragility, others[0], name) if name is not None else None
+        marks: dict[str, Any] = {
+            "linestyle": "",
+            "marker": mark,
+            "markersize": 4.0,
+            "color": colour,
+            "markerfacecolor": "none",
+            "clip_on": False,
+            "zorder": 4,
+        }
+        if np.isnan(median):
+            told = f"no curve, {lacking(shares)} needed"
+            ax.plot(level, shares, label=f"{whole or 'share of the records'}: {told}", **marks)
+            continue
         words = f"$\\theta$ = {median:.3g} {symbol}".rstrip() + f", $\\beta$ = {spread:.2g}"
-        if name is not None:
-            words = f"{_value(fragility, others[0], name)}: {words}"
+        if whole is not None:
+            words = f"{whole}: {words}"
         bounded = not np.isinf(one["median_capacity_bound"].values).any()
         if not bounded:
             words += " (no band: one record decides)"
@@ -155,23 +173,12 @@ def fragility_curves(
             ax.fill_between(
                 level, lower, upper, color=colour, alpha=0.15, linewidth=0.0, label=band, zorder=1
             )
-        ax.plot(
-            level,
-            one["probability"].values,
-            linestyle="",
-            marker=mark,
-            markersize=4.0,
-            color=colour,
-            markerfacecolor="none",
-            label="share of the records" if name is None else None,
-            clip_on=False,
-            zorder=4,
-        )
+        ax.plot(level, shares, label="share of the records" if whole is None else None, **marks)
     ax.set_xlim(level[0], level[-1])
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(_level_label(fragility, symbol))
     ax.set_ylabel("probability of exceeding the limit (–)")
-    ax.legend(ncols=1 if others else 3 if bounded else 2, **LEGEND)
+    ax.legend(ncols=1 if others else len(ax.get_legend_handles_labels()[1]), **LEGEND)
     return ax
 
 

@@ -19,8 +19,8 @@ from vibroimpact.seismic.suites import described, exceedance, known, limit_of
 
 _Array = NDArray[np.float64]
 
-_TOLD = 3
-"""Curves without an interval that are told by name, at most."""
+_TOLD = 5
+"""Curves without an interval, or curves that there are none of, that are told by name, at most."""
 
 
 class Fit(NamedTuple):
@@ -70,8 +70,9 @@ def fragility(
         over the scales, each with its ends ``…_bound`` (dim ``bound``: lower, upper);
         ``exceeding`` and ``probability`` as those of `exceedance`. NaN where the records do not
         determine a curve (no scale has both records above and below that begin or end to exceed at
-        others). Intervals are unbounded where they do not without one of the records: a warning,
-        and the attribute ``unbounded``, say of which curves, and which levels would give one.
+        others): a warning, and the attribute ``undetermined``, say of which rigs. Intervals are
+        unbounded where they do not without one of the records: a warning, and the attribute
+        ``unbounded``, say of which curves. Both say which levels would give one.
 
     Raises
     ------
@@ -106,11 +107,14 @@ def fragility(
         if one is not None:
             for name, value in one.items():
                 found[name][(..., *at)] = value
-    if np.isnan(found["median_capacity"]).all():
-        beginning, what = f"limit: {limit!r};", "above the limit"
-        if limit is None:
-            beginning, what = "demands:", f"above 0 in {quantity}"
-        raise InputError(f"{beginning} {_undetermined(above, demands['scale'], what)}")
+    none = np.isnan(found["median_capacity"])
+    what = "above the limit" if limit is not None else f"above 0 in {quantity}"
+    undetermined = _undetermined(none, values, above, what)
+    if none.all():
+        beginning = "demands:" if limit is None else f"limit: {limit!r};"
+        raise InputError(f"{beginning} {undetermined}")
+    if undetermined:
+        warnings.warn(f"fragility: {undetermined}", RuntimeWarning, stacklevel=2)
     others = order[2:]
     unbounded = _unbounded(found["median_capacity_bound"], values, above)
     if unbounded:
@@ -129,29 +133,61 @@ def fragility(
     data.attrs.clear()
     about = {"quantity": quantity, "limit": least, "confidence": level}
     data = described(data, "vibroimpact.fragility", demands, about)
-    if unbounded:
-        data.attrs["unbounded"] = unbounded
+    data.attrs.update(
+        {
+            name: told
+            for name, told in (("undetermined", undetermined), ("unbounded", unbounded))
+            if told
+        }
+    )
     for name in ("median_capacity", "median_capacity_bound"):
         data[name].attrs["units"] = demands["scale"].attrs["units"]
     return data
 
 
-def _undetermined(above: NDArray[np.bool_], scale: xr.DataArray, what: str) -> str:
-    """Why no rig has a curve, and which levels would give one."""
-    if not above.any():
-        return f"at no level is a record {what}; higher levels are accepted"
-    if above.all():
-        return f"at every level all records are {what}; lower levels are accepted"
+def _undetermined(
+    none: NDArray[np.bool_], values: xr.DataArray, above: NDArray[np.bool_], what: str
+) -> str:
+    """Which rigs have no curve, and which levels would give one; nothing if all have."""
+    told = []
+    for at in np.argwhere(none):
+        why = _why(above[(slice(None), slice(None), *at)], values["scale"], what)
+        whose = _whose(values, at)
+        told.append(f"no curve {whose}: {why}" if whose else why)
+    return _listed(told)
+
+
+def _why(above: NDArray[np.bool_], scale: xr.DataArray, what: str) -> str:
+    """Why a rig has no curve, and which levels would give one."""
+    match lacking(above.mean(axis=0)):
+        case "higher levels":
+            return f"at no level is a record {what}; higher levels are accepted"
+        case "lower levels":
+            return f"at every level all records are {what}; lower levels are accepted"
+        case "finer levels":
+            return (
+                f"there are no two levels at which some records are {what} and others are not; "
+                f"{_finer(above, scale)} are accepted"
+            )
     return (
-        f"there are no two levels at which some records are {what} and others are not; "
-        f"{_finer(above, scale)} are accepted"
+        f"the share of the records that are {what} does not rise with the level; levels at which "
+        "it does are accepted"
     )
+
+
+def lacking(shares: _Array) -> str:
+    """Which levels would give a curve where there is none, for the share that exceeds at each."""
+    if not shares.any():
+        return "higher levels"
+    if (shares == 1.0).all():
+        return "lower levels"
+    separate = np.flatnonzero(shares < 1.0)[-1] <= np.flatnonzero(shares > 0.0)[0]
+    return "finer levels" if separate else "other levels"
 
 
 def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
     """The levels between which the records begin to exceed."""
-    shares = above.mean(axis=0).reshape(len(scale), -1)
-    none, every = (shares == 0.0).all(axis=1), (shares == 1.0).all(axis=1)
+    none, every = ~above.any(axis=0), above.all(axis=0)
     low = float(scale[np.flatnonzero(none)[-1] if none.any() else 0])
     high = float(scale[np.flatnonzero(every)[0] if every.any() else -1])
     quantity = DIMENSIONLESS if scale.attrs["units"] == "1" else ACCELERATION
@@ -164,18 +200,26 @@ def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -
     for at in np.argwhere(np.isinf(bounds[1])):
         one = above[(slice(None), slice(None), *at)]
         rest = one.sum(axis=0) - one
-        lacking = _finer(one, values["scale"])
+        levels = _finer(one, values["scale"])
         if (rest == 0).all(axis=1).any():
-            lacking = "higher levels"
+            levels = "higher levels"
         elif (rest == len(one) - 1).all(axis=1).any():
-            lacking = "lower levels"
-        whose = [_named(values[dim], i) for dim, i in zip(_others(values), at, strict=True)]
-        told.append(" ".join([*(["for", ", ".join(whose)] if whose else []), lacking]))
+            levels = "lower levels"
+        told.append(f"{_whose(values, at)} {levels}".lstrip())
     if not told:
         return ""
+    return f"no interval where one record decides; what would give one: {_listed(told)}"
+
+
+def _listed(told: list[str]) -> str:
     more = [f"likewise {len(told) - _TOLD} more curves"] if len(told) > _TOLD else []
-    levels = "; ".join([*told[:_TOLD], *more])
-    return f"no interval where one record decides; what would give one: {levels}"
+    return "; ".join([*told[:_TOLD], *more])
+
+
+def _whose(values: xr.DataArray, at: NDArray[np.int64]) -> str:
+    """Of which rig a curve is, such as "for gap 200 mm"; nothing if there is one."""
+    names = [_named(values[dim], i) for dim, i in zip(_others(values), at, strict=True)]
+    return f"for {', '.join(names)}" if names else ""
 
 
 def _others(values: xr.DataArray) -> list[str]:
