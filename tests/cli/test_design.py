@@ -10,6 +10,7 @@ import pytest
 import vibroimpact as vi
 from measured import measured
 from seismic.rigs import noise
+from vibroimpact.cli import sized
 
 COMMAND = "design"
 STUDY = """
@@ -65,8 +66,19 @@ def test_a_study_with_records(run, study):
         np.testing.assert_allclose(held[name], direct[name], rtol=1e-12)
     need = vi.required_gap(_rig(), records, fractile=0.5)
     words = " ".join(told.split())
-    assert f"Required gap: {1e3 * float(need['required_gap']):.4g} mm to hit nothing" in words
-    assert "The gap of 300 mm is " in words
+    every = vi.required_gap(_rig(), records)
+    gap, right, left = (
+        1e3 * float(need[f"required_gap{side}"]) for side in ("", "_right", "_left")
+    )
+    assert (
+        f"Required gap: {gap:.4g} mm, the 50 % fractile over a.csv, b.csv (each side by itself: "
+        f"{right:.4g} mm to the right, {left:.4g} mm to the left); "
+        f"{1e3 * float(every['required_gap']):.4g} mm to hit nothing under all of them. "
+    ) in words
+    assert (
+        "All values are 50 % fractiles over the records, each by itself, and so is what limits are "
+        "held against."
+    ) in words
     within, front = (int(direct[name].sum()) for name in ("within_limits", "pareto"))
     assert 0 < front <= within < 12
     assert (
@@ -80,6 +92,67 @@ def test_a_study_with_records(run, study):
         "All keep the bumpers' damping of 5 MN s/m; --vary stiffness-at-restitution keeps their "
         "restitution instead."
     ) in words
+
+
+def test_of_all_records_no_fractile_is_told(run, study):
+    narrow = ("--vary", "gap", "20mm:60mm:2")
+    for words in (("--fractile", "1"), ("a.csv", "--fractile", "0.5")):
+        code, told, errors = run("building.toml", *words, *narrow)
+        assert (code, errors) == (0, "")
+        assert "to hit nothing under a.csv" in told
+        assert "fractile" not in told
+
+
+def test_a_gap_that_is_enough_for_a_fractile_is_hit_under_the_others(run, study):
+    """Between the two records: one reaches it. Each side's fractile alone would not tell."""
+    records = {name: vi.Record.read(study / name) for name in RECORDS}
+    every = vi.required_gap(_rig(), records)
+    sides = np.array([every[f"peak_displacement_{side}"].values for side in ("right", "left")])
+    less, more = sorted(1e3 * sides.max(axis=0))
+    middle = 0.5 * (less + more)
+    narrow = ("--vary", "gap", "20mm:60mm:2", "--fractile", "0.5")
+    tell = " the mass hits a stop under "
+    for gap, line in (
+        (0.5 * (middle + more), "is enough for the 50 % fractile;" + tell + "1 of the 2 records."),
+        (1.01 * more, "is enough for the 50 % fractile;" + tell + "none of the 2 records."),
+        (0.99 * less, f"is {middle - 0.99 * less:.4g} mm short for the 50 % fractile;"),
+    ):
+        code, told, errors = run("building.toml", *narrow, "--gap", f"{gap:.9g}mm")
+        assert (code, errors) == (0, "")
+        assert line in " ".join(told.split())
+    code, told, _ = run("building.toml", *narrow, "--json")
+    facts = json.loads(told)
+    assert facts["fractile"] == 0.5
+    assert facts["required_gap"] == pytest.approx(1e-3 * middle)
+    assert facts["required_gap_of_all_records"] == pytest.approx(1e-3 * more)
+
+
+def test_where_no_gap_is_enough_for_all_it_is_told():
+    """As of a spring that lets go of the mass under the stronger of two records."""
+    gap = vi.required_gap(_rig(), RECORDS, fractile=0.0)
+    gap["peak_displacement_left"][1] = np.inf
+    data = vi.design(_rig(), RECORDS, {"gap": [0.02, 0.06]}, fractile=0.0)
+    told = " ".join(str(line) for line in sized.text(_rig(), gap, data, None, list(RECORDS)))
+    assert "; no gap is enough for all of them. " in told
+    assert "the mass hits a stop under 1 of the 2 records." in told
+    assert sized.facts(gap, data, None)["required_gap_of_all_records"] is None
+
+
+def test_what_keeps_the_gap_is_told_where_the_chart_varies_it(run, study):
+    narrow = ("--vary", "gap", "20mm:60mm:2")
+    code, told, _ = run("building.toml", "--gap", "50mm", *narrow)
+    assert code == 0
+    assert "The designs vary the gap; the gap of 50 mm plays no part in them." in told
+    code, told, _ = run("building.toml", *narrow)
+    assert "The designs vary" not in told
+    limit = ("--limit", "penetration", "80mm")
+    code, told, _ = run("building.toml", "--best", "--gap", "50mm", *narrow, *limit)
+    assert code == 0
+    assert "The designs vary the gap; only the search keeps the gap of 50 mm." in told
+    assert told.rstrip().count("as 50 % fractiles.") == 1
+    stiff = ("--vary", "bumper-stiffness", "50MN/m:60MN/m:2")
+    code, told, _ = run("building.toml", "--gap", "50mm", *stiff)
+    assert "The designs vary" not in told
 
 
 def test_a_limit_holds_for_the_chart_too(run, study):

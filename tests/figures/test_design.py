@@ -110,6 +110,27 @@ def test_what_exceeds_a_limit_is_marked(data) -> None:
     assert len(pareto_front(none).lines) == 1
 
 
+def test_a_fractile_over_the_records_is_named() -> None:
+    vary = {"gap": GAPS}
+    records = [noise(8, count=120), noise(9, count=120)]
+    some = vi.design(RIGS["bumpers"], records, vary, fractile=0.84)
+    words = "\n84 % fractile over the records"
+    (ax,) = design_chart(some, quantities=("peak_force",))
+    assert ax.get_ylabel() == "largest contact force (kN)" + words
+    front = pareto_front(some)
+    assert front.get_xlabel().endswith(words)
+    assert front.get_ylabel().endswith(words)
+    both = vi.design(
+        RIGS["bumpers"], records, {**vary, "bumper_stiffness": STIFFNESSES}, fractile=0
+    )
+    assert design_chart(both)[0].get_title().endswith("\n0 % fractile over the records")
+    for one in (
+        vi.design(RIGS["bumpers"], records, vary),
+        vi.design(RIGS["bumpers"], records[0], vary, fractile=0.5),
+    ):
+        assert "fractile" not in pareto_front(one).get_xlabel()
+
+
 def test_refused(data) -> None:
     with pytest.raises(vi.InputError, match=r"^data: this is no design"):
         pareto_front(data.drop_vars("pareto"))

@@ -91,6 +91,7 @@ def test_fractiles_of_records() -> None:
     middle = vi.required_gap(RIG, records, fractile=0.5)
     assert float(middle["required_gap"]) == pytest.approx(np.sort(wide)[2])
     assert float(middle["required_gap_left"]) == pytest.approx(np.sort(left)[2])
+    assert float(middle["required_gap_right"]) == pytest.approx(np.sort(right)[2])
     # Nothing is hit from there on, and something is below.
     for share, gap in ((0.0, float(every["required_gap"])), (0.2, np.sort(wide)[-1] - 1e-6)):
         data = vi.design(RIG, records, {"gap": [gap + (1e-12 if share == 0.0 else 0.0)]})

@@ -158,12 +158,13 @@ def design(
             files["chart"] = save_figure(panels, folder / f"{stem}.{out.figure}")
         front = pareto_front(data, title=what.title)
         files["front"] = save_figure(front, folder / f"{what.slug}-pareto.{out.figure}")
+    chosen = changes is not None and changes.gap is not None
     about = summary.rig_facts(what)
     about.pop("record", None)
     tell(
         Together(
             summary.rig_text(what, shaking=not found),
-            *sized.text(what.oscillator, gap, data, least, list(found)),
+            *sized.text(what.oscillator, gap, data, least, list(found), chosen=chosen),
         ),
         {**about, **sized.facts(gap, data, least)},
         folder,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -18,9 +19,12 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
 from vibroimpact.response.vocabulary import VARIABLES
+from vibroimpact.seismic.suites import quantiles
 from vibroimpact.sizing.limits import QUANTITIES
+from vibroimpact.sizing.shaking import fractile_of
 
 _HEADS = {"stiffness_at_restitution": "bumper stiffness"}
+_SIDES = ("right", "left")
 _ROWS = 8
 """Designs of the front that are told, at most."""
 
@@ -30,6 +34,7 @@ def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[s
     names = ("required_gap", "required_gap_right", "required_gap_left")
     return {
         **{name: float(gap[name]) for name in names},
+        **_records_facts(gap),
         "designs": int(data["pareto"].size),
         **_limits_facts(data),
         "front": [{str(name): _item(value) for name, value in one.items()} for one in _front(data)],
@@ -45,22 +50,35 @@ def text(
     data: xr.Dataset,
     least: xr.Dataset | None,
     records: list[str],
+    *,
+    chosen: bool = False,
 ) -> Iterator[RenderableType]:
-    """Sentences, and a table of what no other design beats."""
-    under = f"under {', '.join(records)}" if records else "under the sines"
-    need = float(gap["required_gap"])
+    """Sentences, and a table of what no other design beats.
+
+    ``chosen`` says whether the gap of the rig was asked for, by an option.
+    """
+    share = fractile_of(gap)
     yield Text()
-    sides = " and ".join(
-        f"{_length(float(gap[f'required_gap_{side}']))} to the {side}" for side in ("right", "left")
-    )
-    yield Text(f"Required gap: {_length(need)} to hit nothing {under} ({sides}).")
+    if share is None:
+        yield Text(_needed(gap, records))
+    else:
+        yield Text(_needed_by_share(gap, records, share))
     if rig.stops:
-        yield Text(_enough(rig, gap))
+        yield Text(_enough(rig, gap) if share is None else _enough_for_share(rig, gap, share))
     rows = list(_front(data))
     dims = [str(dim) for dim in data["pareto"].dims]
     size = " × ".join(str(n) for n in data["pareto"].shape)
     over = " and ".join(_words(dim) for dim in dims)
     yield Text(f"Designs: {size}, over {over}; {_which(data, len(rows))}.")
+    if "gap" in dims and rig.stops and least is not None:
+        yield Text(f"The designs vary the gap; only the search keeps {_gaps(rig)}.")
+    elif "gap" in dims and rig.stops and chosen:
+        yield Text(f"The designs vary the gap; {_gaps(rig)} plays no part in them.")
+    if share is not None:
+        yield Text(
+            f"All values are {_percent(share)} fractiles over the records, each by itself, and so "
+            "is what limits are held against."
+        )
     dampings = data["bumper_damping"].values if "bumper_damping" in data.data_vars else np.zeros(1)
     beside = ["bumper_damping"] if np.ptp(dampings) > 0.0 else []
     if not beside and dampings.any():
@@ -71,13 +89,57 @@ def text(
     if rows:
         yield _table(rows, [*dims, *beside])
     if least is not None:
-        chosen = ", ".join(
+        best = ", ".join(
             f"{_words(name)} {_value(name, float(least[name]))}"
             for name in map(str, least.data_vars)
             if name in PARAMETERS
         )
         yield Text()
-        yield Text(f"Least acceleration for {_gaps(rig)}: {chosen}: {_demands(least)}.")
+        of = "" if share is None else f", as {_percent(share)} fractiles"
+        yield Text(f"Least acceleration for {_gaps(rig)}: {best}: {_demands(least)}{of}.")
+
+
+def _records_facts(gap: xr.Dataset) -> dict[str, Any]:
+    """The share of the records that count, and what all of them need; nothing of sines."""
+    if "record" not in gap.dims:
+        return {}
+    every = _every(gap)
+    return {
+        "fractile": json.loads(gap.attrs["parameters"])["fractile"],
+        # None where no gap is enough: JSON knows no infinity.
+        "required_gap_of_all_records": every if math.isfinite(every) else None,
+    }
+
+
+def _every(gap: xr.Dataset) -> float:
+    """The gap that hits nothing under any record; infinite if one moves the mass beyond limits."""
+    return max(float(gap[f"peak_displacement_{side}"].max()) for side in _SIDES)
+
+
+def _needed(gap: xr.Dataset, records: list[str]) -> str:
+    under = f"under {', '.join(records)}" if records else "under the sines"
+    need = _length(float(gap["required_gap"]))
+    sides = " and ".join(
+        f"{_length(float(gap[f'required_gap_{side}']))} to the {side}" for side in _SIDES
+    )
+    return f"Required gap: {need} to hit nothing {under} ({sides})."
+
+
+def _needed_by_share(gap: xr.Dataset, records: list[str], share: float) -> str:
+    """With what all records need: under the rest of them something is hit."""
+    need, every = _length(float(gap["required_gap"])), _every(gap)
+    sides = ", ".join(
+        f"{_length(float(gap[f'required_gap_{side}']))} to the {side}" for side in _SIDES
+    )
+    whole = (
+        f"{_length(every)} to hit nothing under all of them"
+        if math.isfinite(every)
+        else "no gap is enough for all of them"
+    )
+    return (
+        f"Required gap: {need}, the {_percent(share)} fractile over {', '.join(records)} (each "
+        f"side by itself: {sides}); {whole}."
+    )
 
 
 def _limits_facts(data: xr.Dataset) -> dict[str, Any]:
@@ -119,6 +181,33 @@ def _enough(rig: Oscillator, gap: xr.Dataset) -> str:
         return f"{_gaps(rig).capitalize()} is enough."
     told = " and ".join(f"{_length(by)} short on the {side}" for side, by in lacking.items())
     return f"{_gaps(rig).capitalize()} is {told}."
+
+
+def _enough_for_share(rig: Oscillator, gap: xr.Dataset, share: float) -> str:
+    """The same of a fractile, and how many records hit nevertheless.
+
+    What counts of a record is the side on which it goes farthest beyond: a gap that is enough for
+    the fractile of each side may not be for that of both.
+    """
+    beyond = np.max(
+        [
+            gap[f"peak_displacement_{side}"].values - stop.gap
+            for side, stop in (("right", rig.right), ("left", rig.left))
+            if stop is not None
+        ],
+        axis=0,
+    )
+    short = float(quantiles(beyond, [share], 0)[0])
+    told = "enough" if short <= 0.0 else f"{_length(short)} short"
+    hits = int((beyond > 0.0).sum())
+    return (
+        f"{_gaps(rig).capitalize()} is {told} for the {_percent(share)} fractile; the mass hits a "
+        f"stop under {hits or 'none'} of the {len(beyond)} records."
+    )
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:g} %"
 
 
 def _gaps(rig: Oscillator) -> str:

@@ -24,6 +24,7 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.units import pretty
 from vibroimpact.scenario.axes import logarithmic
+from vibroimpact.sizing.shaking import fractile_of
 
 _Array = NDArray[np.float64]
 
@@ -147,8 +148,8 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
             label="beaten by no other",
             zorder=4,
         )
-    ax.set_xlabel(_QUANTITIES["peak_displacement"][1])
-    ax.set_ylabel(_QUANTITIES["peak_acceleration"][1])
+    ax.set_xlabel(_quantity(data, "peak_displacement")[1])
+    ax.set_ylabel(_quantity(data, "peak_acceleration")[1])
     ax.set_ylim(bottom=0.0)
     ax.margins(x=0.08)
     if best.any():
@@ -217,6 +218,15 @@ def _dims(data: Any) -> list[str]:
     return [str(dim) for dim in data["pareto"].dims]
 
 
+def _quantity(data: xr.Dataset, name: str) -> tuple[float, str]:
+    """Factor and label of a quantity, with the fractile that it is where some records exceed it."""
+    factor, label = _QUANTITIES[name]
+    share = fractile_of(data)
+    return factor, label if share is None else (
+        f"{label}\n{100.0 * share:g} % fractile over the records"
+    )
+
+
 def _unit(name: str, values: _Array) -> tuple[float, str]:
     """Factor and unit in which a parameter is drawn, of fitting size; lengths in mm."""
     quantity = PARAMETERS[name].quantity
@@ -254,7 +264,7 @@ def _sorted(data: xr.Dataset) -> xr.Dataset:
 def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
     data = _sorted(data)
     (dim,) = _dims(data)
-    factor, label = _QUANTITIES[name]
+    factor, label = _quantity(data, name)
     x = _axis(ax.xaxis, data[dim])
     y = factor * np.where(np.isfinite(data[name].values), data[name].values, np.nan)
     ax.plot(x, y, color="black", linewidth=1.4, zorder=3)
@@ -285,7 +295,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
     if second == "gap":
         first, second = second, first
     data = data.transpose(second, first)
-    factor, label = _QUANTITIES[name]
+    factor, label = _quantity(data, name)
     x, y = _axis(ax.xaxis, data[first]), _axis(ax.yaxis, data[second])
     values = np.ma.masked_invalid(factor * data[name].values)
     ax.set_title(label, fontsize="medium")

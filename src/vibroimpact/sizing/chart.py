@@ -66,7 +66,8 @@ def design(
         ``"peak_displacement"`` (m; ``_right``, ``_left``). A design that exceeds one is told as
         the others are, and stands aside in ``pareto``.
     fractile
-        Share of the records below; 1 for the largest of all.
+        Share of the records below; 1 for the largest of all. It is taken of each quantity by
+        itself, interpolated between records, and limits are held against it.
     frequencies
         Lowest and highest frequency of the sines. None for a range about the primary resonance, of
         each design.

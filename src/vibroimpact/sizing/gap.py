@@ -37,10 +37,12 @@ def required_gap(
     Parameters
     ----------
     oscillator, shaking, fractile, frequencies, step, tail, threads, where, progress
-        As of `design`. Of sines and a linear isolator the worst frequency is known in closed form,
-        and the gap is that of the steady motion: exact at any frequency of the range, all of them
-        if none is given. Of other isolators it is that of sweeps up and down. A transient may reach
-        farther. Of records it is exact: each begins at rest.
+        As of `design`; the fractile is that of the larger side of each record, and of each side by
+        itself, so that the gap for both may exceed those of the two. Of sines and a linear isolator
+        the worst frequency is known in closed form, and the gap is that of the steady motion: exact
+        at any frequency of the range, all of them if none is given. Of other isolators it is that
+        of sweeps up and down. A transient may reach farther. Of records it is exact: each begins at
+        rest.
 
     Returns
     -------

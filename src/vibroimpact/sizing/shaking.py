@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
@@ -148,6 +150,16 @@ class ByRecords(NamedTuple):
 
 
 _SIDES = ("right", "left")
+
+
+def fractile_of(data: xr.Dataset) -> float | None:
+    """The fractile of a dataset of sizes; None where all records count, or there is one, or sines.
+
+    Of one record, or of all of them, the fractile is the value itself and needs no word.
+    """
+    about = json.loads(data.attrs.get("parameters", "{}"))
+    share = float(about.get("fractile", 1.0))
+    return share if share < 1.0 and len(about["records"]) > 1 else None
 
 
 def _penetration(rigs: Sequence[Oscillator], right: _Array, left: _Array) -> _Array:
