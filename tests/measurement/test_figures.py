@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 import xarray as xr
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import vibroimpact as vi
+from samples import sample
 from vibroimpact import figures
 from vibroimpact.measurement.features import in_words, measured_features, noise_of, strays
 from vibroimpact.measurement.read import as_measured
@@ -160,3 +163,120 @@ def test_values_of_another_motion_are_found_and_are_no_noise():
     data[names[1]][0, 9, 2] *= 0.1
     assert [int(one.sum()) for one in strays(data).values()] == [0, 1]
     assert noise_of(data) == pytest.approx(quiet, rel=0.1)
+
+
+EXTREMES = ("displacement_max", "displacement_min", "acceleration_max", "acceleration_min")
+
+
+def of_one_sided_rig(seed=7):
+    """A rig that goes further to one side, measured three times, 2 % of noise on every value."""
+    right, left = (vi.Bumper("300 kN/m", "0.6 kN s/m", gap) for gap in ("8 mm", "11 mm"))
+    rig = vi.Oscillator("420 kg", vi.Isolator("20 kN/m", "0.9 kN s/m"), right, left)
+    computed = vi.sweep(rig, "0.05 g", np.round(np.arange(0.5, 4.01, 0.1), 10))
+    draw = np.random.default_rng(seed)
+    noise = draw.normal(1.0, 0.02, size=(len(EXTREMES), *computed.eta_a.shape, 3))
+    dims = ("direction", "frequency", "repeat")
+    return as_measured(
+        xr.Dataset(
+            {
+                n: (dims, computed[n].transpose(*dims[:2]).values[..., None] * e)
+                for n, e in zip(EXTREMES, noise, strict=True)
+            },
+            {d: computed[d].values for d in dims[:2]},
+        )
+    )
+
+
+def mirrored(data):
+    """What a sensor shows that points the other way."""
+    ends = {"max": "min", "min": "max"}
+    return data.assign(
+        {f"{kind}_{ends[end]}": -data[f"{kind}_{end}"]
+         for kind in ("displacement", "acceleration") for end in ends
+         if f"{kind}_{end}" in data}
+    )  # fmt: skip
+
+
+def pictured(data):
+    """All that is drawn of measured curves."""
+    panels = figures.resonance_curves(data)
+    lines = [(line.get_label(), *line.get_data()) for ax in panels for line in ax.lines]
+    spans = [patch.get_xy() for ax in panels for patch in ax.patches]
+    return [ax.get_ylabel() for ax in panels], lines, spans
+
+
+@st.composite
+def measured_sides(draw):
+    """Whatever maxima and minima, of one direction or two, some missing."""
+    ways = draw(st.sampled_from([["forward"], ["backward"], ["forward", "backward"]]))
+    count, repeats = draw(st.integers(4, 30)), draw(st.integers(1, 3))
+    some = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    lost = draw(st.sampled_from([0.0, 0.1]))
+    kinds = draw(st.sampled_from([["displacement"], ["displacement", "acceleration"]]))
+    known = {}
+    for kind in kinds:
+        for end, sign in (("max", 1.0), ("min", -1.0)):
+            values = sign * some.uniform(0.1, 3.0, size=(len(ways), count, repeats))
+            values[some.uniform(size=values.shape) < lost] = np.nan
+            known[f"{kind}_{end}"] = (("direction", "frequency", "repeat"), values)
+    at = {"direction": ways, "frequency": np.arange(1.0, count + 1.0)}
+    return as_measured(xr.Dataset(known, at))
+
+
+@settings(max_examples=sample(100, 15), deadline=None)
+@given(measured_sides())
+def test_a_sensor_turned_round_tells_the_same(data):
+    other = mirrored(data)
+    assert in_words(other) == in_words(data)
+    assert measured_features(other) == measured_features(data)
+    assert noise_of(other) == noise_of(data)
+    labels, lines, spans = pictured(data)
+    turned_labels, turned_lines, turned_spans = pictured(other)
+    assert turned_labels == labels
+    assert np.array_equal(turned_spans, spans)
+    for (label, x, y), (turned_label, turned_x, turned_y) in zip(lines, turned_lines, strict=True):
+        assert turned_label.startswith("_") == label.startswith("_")
+        np.testing.assert_array_equal(turned_x, x)
+        np.testing.assert_array_equal(turned_y, y)
+
+
+def test_maxima_with_minima_are_judged_by_their_excursions():
+    """The maxima alone step at 0.8 Hz as at a jump, which excursions do not."""
+    data = of_one_sided_rig()
+    excursions = data.assign(
+        {f"{kind}_excursion": data[f"{kind}_max"] - data[f"{kind}_min"]
+         for kind in ("displacement", "acceleration")}
+    ).drop_vars(EXTREMES)  # fmt: skip
+    assert in_words(data)[2:] == in_words(excursions)[2:]
+    assert [j.direction for j in measured_features(data).jumps] == ["forward", "backward"]
+
+
+def test_the_larger_side_is_drawn():
+    data = of_one_sided_rig()
+    (upper, lower) = figures.resonance_curves(data)
+    for ax, kind, factor in ((upper, "acceleration", 1 / 9.80665), (lower, "displacement", 1e3)):
+        assert ax.get_ylabel().startswith("largest ")
+        drawn = next(x for x in ax.lines if x.get_label() == "backward sweep, measured").get_ydata()
+        sides = abs(data[[f"{kind}_max", f"{kind}_min"]]).to_array().max("variable")
+        expected = factor * sides.sel(direction="backward").values.ravel()
+        assert drawn[np.isfinite(drawn)] == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(("end", "side"), [("max", "maximum"), ("min", "minimum")])
+def test_one_side_alone_is_told(end, side):
+    data = of_one_sided_rig()[[f"displacement_{end}", f"acceleration_{end}"]]
+    told = "\n".join(in_words(as_measured(data)))
+    assert f"peak of the acceleration's {side} at" in told
+    assert "E_a" not in told
+    words = {"max": "maxima", "min": "minima"}[end]
+    assert f"displacement: {words} alone were measured" in told
+    upper, lower = figures.resonance_curves(as_measured(data))
+    assert upper.get_ylabel() == f"{side} of absolute\nacceleration (g)"
+    assert (lower.lines[0].get_ydata()[0] > 0.0) == (end == "max")
+
+
+def test_what_was_not_measured_has_no_peak():
+    words = "\n".join(in_words(as_measured(of_one_sided_rig()[["displacement_max",
+                                                               "displacement_min"]])))  # fmt: skip
+    assert "peak of E_d" in words
+    assert "E_a" not in words

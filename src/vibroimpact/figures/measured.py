@@ -22,26 +22,47 @@ _Array = NDArray[np.float64]
 class _Panel(NamedTuple):
     """One quantity that may have been measured."""
 
-    variable: str
-    factor: float
+    name: str
+    values: xr.DataArray
+    """In the units of the axis."""
     label: str
 
 
-_PANELS = (
-    (
-        _Panel(
-            "acceleration_excursion", 1.0 / GRAVITY, "excursion of absolute\nacceleration $E_a$ (g)"
-        ),
-        _Panel("eta_a", 1.0, "normalised excursion of\nabsolute acceleration $\\eta_a$ (–)"),
-        _Panel("acceleration_max", 1.0 / GRAVITY, "largest absolute\nacceleration (g)"),
-    ),
-    (
-        _Panel("displacement_excursion", 1e3, "excursion of relative\ndisplacement $E_d$ (mm)"),
-        _Panel("eta_d", 1.0, "normalised excursion of\nrelative displacement $\\eta_d$ (–)"),
-        _Panel("displacement_max", 1e3, "largest relative\ndisplacement (mm)"),
-    ),
-)
-"""Of acceleration and displacement: what is drawn, the first that was measured."""
+_KINDS = {
+    "acceleration": ("absolute\nacceleration", 1.0 / GRAVITY, "g"),
+    "displacement": ("relative\ndisplacement", 1e3, "mm"),
+}
+"""Words, and what a value is multiplied by for which unit."""
+
+
+def _panel(data: xr.Dataset, kind: str) -> _Panel | None:
+    """What is drawn of acceleration or displacement: the first that was measured.
+
+    Where maxima and minima were measured, the larger of the two sizes is drawn: whichever way the
+    sensor points, the picture is the same. One of them alone is drawn as it is.
+    """
+    words, factor, unit = _KINDS[kind]
+    if f"{kind}_excursion" in data:
+        symbol = f"$E_{kind[0]}$"
+        label = f"excursion of {words} {symbol} ({unit})"
+        return _Panel(f"{kind}_excursion", factor * data[f"{kind}_excursion"], label)
+    if (eta := f"eta_{kind[0]}") in data:
+        of = words.replace("\n", " ")
+        return _Panel(eta, data[eta], f"normalised excursion of\n{of} $\\eta_{kind[0]}$ (–)")
+    if (largest := _largest(data, kind)) is not None:
+        return _Panel(f"{kind}_max", factor * largest, f"largest {words} ({unit})")
+    for end, side in (("max", "maximum"), ("min", "minimum")):
+        if (name := f"{kind}_{end}") in data:
+            return _Panel(name, factor * data[name], f"{side} of {words} ({unit})")
+    return None
+
+
+def _largest(data: xr.Dataset, kind: str) -> xr.DataArray | None:
+    """The larger size of maximum and minimum; None unless both were measured."""
+    if not {f"{kind}_max", f"{kind}_min"} <= set(data):
+        return None
+    most, least = (abs(data[f"{kind}_{end}"]) for end in ("max", "min"))
+    return xr.DataArray(np.maximum(most, least))
 
 
 def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
@@ -61,12 +82,11 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
     InputError
         If nothing that is drawn was measured, or there are not as many axes.
     """
-    drawn = [next((p for p in some if p.variable in data), None) for some in _PANELS]
-    shown = [panel for panel in drawn if panel is not None]
+    shown = [panel for kind in _KINDS if (panel := _panel(data, kind)) is not None]
     if not shown:
-        raise InputError("data: it has neither excursions nor maxima nor η; measured curves do")
+        raise InputError("data: it has neither excursions, maxima, minima nor η; one is accepted")
     found = measured_features(data)
-    what = " and ".join(panel.variable for panel in shown)
+    what = " and ".join(panel.name for panel in shown)
     given = panels(axes, len(shown), what, (7.2, 0.4 + 3.2 * len(shown)), title)
     for ax, panel in zip(given, shown, strict=True):
         for item in found.hysteresis:
@@ -74,12 +94,12 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
         for direction, look in SWEEPS.items():
             if direction not in data["direction"]:
                 continue
-            x, y = points_of(data[panel.variable].sel(direction=direction))
+            x, y = points_of(panel.values.sel(direction=direction))
             jumps = [j for j in found.jumps if j.direction == direction]
             cuts = np.searchsorted(x, sorted(max(j.before, j.after) for j in jumps))
             ax.plot(
                 np.insert(x, cuts, np.nan),
-                panel.factor * np.insert(y, cuts, np.nan),
+                np.insert(y, cuts, np.nan),
                 color=look.colour,
                 linestyle=look.dashes,
                 linewidth=0.6,
@@ -89,13 +109,13 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
                 label=f"{look.label}, measured",
                 zorder=3,
             )
-            mean = data[panel.variable].sel(direction=direction)
+            mean = panel.values.sel(direction=direction)
             mean = mean.mean("repeat") if "repeat" in mean.dims else mean
             for jump in jumps:
                 ends = mean.sel(frequency=[jump.before, jump.after]).values
                 ax.plot(
                     [jump.before, jump.after],
-                    panel.factor * ends,
+                    ends,
                     color=look.colour,
                     linestyle=":",
                     linewidth=1.0,
@@ -187,10 +207,9 @@ def _on_panel(
         return x, y / float(computed[f"largest_free_{kind}_excursion"])
     if name != kind:
         return None
-    factor = 1e3 if kind == "displacement" else 1.0 / GRAVITY
-    ends = [measured[n] for n in (f"{kind}_max", f"{kind}_min") if n in measured]
-    if len(ends) == 2:
-        x, y = points_of(ends[0].copy(data=np.maximum(*(np.abs(end.values) for end in ends))))
+    factor = _KINDS[kind][1]
+    if (largest := _largest(measured, kind)) is not None:
+        x, y = points_of(largest)
         return x, factor * y
     if f"{kind}_excursion" in measured:  # half of it, as `halves_of` tells the curves
         x, y = points_of(measured[f"{kind}_excursion"])

@@ -17,7 +17,7 @@ from vibroimpact.measurement.names import CURVES as MEASURED
 from vibroimpact.response import resonance
 from vibroimpact.response.peaks import CURVES, PROMINENCE
 from vibroimpact.response.resonance import APART, Features
-from vibroimpact.response.swept import Swept, swept
+from vibroimpact.response.swept import Swept, judged, swept
 
 _NOISES = 6.0
 """Least difference of two motions, and least prominence of a peak, in standard deviations."""
@@ -27,6 +27,16 @@ _APART = 8.0
 """Standard deviations from the median of its hold from which on a value is no noise."""
 _QUIET = 1e-3
 """Noise is taken as no smaller a share, and a share of a value is told of no smaller a one."""
+_WORDS = {
+    "eta_a": "η_a",
+    "eta_d": "η_d",
+    "acceleration_excursion": "E_a",
+    "displacement_excursion": "E_d",
+    "acceleration_max": "the acceleration's maximum",
+    "acceleration_min": "the acceleration's minimum",
+    "displacement_max": "the displacement's maximum",
+    "displacement_min": "the displacement's minimum",
+}
 _LOW, _OF_NORMAL = 0.3, 0.3853
 """A quantile, and what it is of the size of a standard normal number."""
 
@@ -146,11 +156,18 @@ def in_words(data: xr.Dataset) -> list[str]:
             "not seen"
         )
     lines.append(f"noise: {100.0 * noise_of(data):.2g} % of a value")
+    names = {"eta_a": judged(data, "acceleration"), "eta_d": judged(data, "displacement")}
     lines += [
-        f"{peak.direction}: peak of {'E_a' if peak.curve == 'eta_a' else 'E_d'} at "
+        f"{peak.direction}: peak of {_WORDS[name]} at "
         f"{peak.frequency:.4g} Hz{' (the end of the curve)' if peak.at_end else ''}"
         for peak in found.peaks
-        if peak.primary
+        if peak.primary and (name := names[peak.curve]) is not None
+    ]
+    lines += [
+        f"{kind}: {side} alone were measured; what happens on the other side is not seen"
+        for kind in ("acceleration", "displacement")
+        for end, side in (("max", "maxima"), ("min", "minima"))
+        if f"{kind}_{end}" in names.values()
     ]
     for jump in found.jumps:
         way = "up" if jump.upward else "down"

@@ -41,14 +41,15 @@ class Swept(NamedTuple):
         )
 
 
+_KINDS: tuple[Literal["acceleration", "displacement"], ...] = ("acceleration", "displacement")
 _ARRAYS = ("eta_a", "eta_d", "settled", "period", "touching")
 
 
 def swept(data: xr.Dataset) -> Swept:
     """Arrays of the sweep of one rig, or of measured curves.
 
-    Of measured curves, η is taken over their own maximum where it was not measured; their motions
-    count as settled.
+    Of measured curves, η is taken over the largest value of their own where it was not measured:
+    of excursions, or of what `judged` names. Their motions count as settled.
 
     Raises
     ------
@@ -61,6 +62,25 @@ def swept(data: xr.Dataset) -> Swept:
     return one
 
 
+def judged(data: xr.Dataset, kind: Literal["acceleration", "displacement"]) -> str | None:
+    """Name what measured curves are judged by: η, the excursion, or the one side that is known.
+
+    Maximum and minimum together are an excursion, which is the same whichever way the sensor
+    points; one of them alone misses what the mass does on the other side.
+
+    Returns
+    -------
+    str or None
+        The name of a variable, which of an excursion need not be in the dataset; None if nothing
+        of this kind was measured.
+    """
+    for name in (f"eta_{kind[0]}", f"{kind}_excursion"):
+        if name in data:
+            return name
+    sides = [name for name in (f"{kind}_max", f"{kind}_min") if name in data]
+    return f"{kind}_excursion" if len(sides) == 2 else next(iter(sides), None)
+
+
 def _of_measured(data: xr.Dataset) -> Swept:
     """Arrays of measured curves: the mean of what was held more than once."""
     known: tuple[Direction, ...] = ("forward", "backward")
@@ -68,16 +88,17 @@ def _of_measured(data: xr.Dataset) -> Swept:
     one = data.sel(direction=list(directions))
     one = one.mean("repeat") if "repeat" in one.dims else one
     found = {}
-    for short, kind in (("a", "acceleration"), ("d", "displacement")):
-        for name in (f"eta_{short}", f"{kind}_excursion", f"{kind}_max"):
-            if name in one:
-                values = np.abs(one[name].transpose("direction", "frequency").values)
-                scale = 1.0 if name.startswith("eta") else np.nanmax(values)
-                found[short] = values / scale
-                break
+    for kind in _KINDS:
+        name = judged(one, kind)
+        if name is None:
+            continue
+        measured = one[name] if name in one else one[f"{kind}_max"] - one[f"{kind}_min"]
+        values = np.abs(measured.transpose("direction", "frequency").values)
+        found[kind[0]] = values / (1.0 if name.startswith("eta") else np.nanmax(values))
     if not found:
         raise InputError(
-            "data: the measured curves have neither excursions nor maxima nor η; one is accepted"
+            "data: the measured curves have neither excursions, maxima, minima nor η; one of these "
+            "is accepted"
         )
     a, d = (found.get(short, next(iter(found.values()))) for short in "ad")
     return Swept(
