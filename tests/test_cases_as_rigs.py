@@ -54,6 +54,78 @@ def test_one_rig_where_several_are_asked():
     )
 
 
+STUDY = """
+name = "found"
+[oscillator]
+mass = "550 kg"
+isolator = { stiffness = "26.8 kN/m", damping = "1.1 kN s/m" }
+right = { stiffness = "510 kN/m", damping = "0.9 kN s/m", gap = "7.5 mm" }
+%s
+[sweep]
+step = "0.01 Hz"
+"""
+
+
+@pytest.fixture
+def study(tmp_path):
+    def write(shaking='[excitation]\namplitude = "0.04 g"'):
+        path = tmp_path / "file.toml"
+        path.write_text(STUDY % shaking, encoding="utf-8")
+        return path
+
+    return write
+
+
+def test_a_study_file(study):
+    path = study()
+    bumper = vi.Bumper("510 kN/m", "0.9 kN s/m", gap="7.5 mm")
+    rig = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"), bumper)
+    expected = vi.sweep(rig, "0.04 g", GRID)
+    for given in (path, str(path)):
+        xr.testing.assert_equal(vi.sweep(given, GRID), expected)
+        xr.testing.assert_equal(vi.sweep(given, "0.05 g", GRID), vi.sweep(rig, "0.05 g", GRID))
+        assert vi.sweeps(given, GRID)["rig"].values.tolist() == ["found"]
+        assert vi.sweeps([CODE, given], GRID)["rig"].values.tolist() == [CODE, "found"]
+        motion = vi.simulate(given, "2 Hz", 5)
+        xr.testing.assert_identical(motion, vi.simulate(rig, vi.Harmonic("0.04 g", 2.0), 5))
+    guess = vi.identify(
+        expected, path, "stiffness", tried=0, starts=1, profiles=False, amplitude="0.04 g"
+    )
+    assert vi.fitted(guess).oscillator.right == bumper
+
+
+def test_a_study_of_a_case(tmp_path):
+    path = tmp_path / "one.toml"
+    path.write_text(f'case = "{CODE}"\nparameters = "identified"\n', encoding="utf-8")
+    expected = vi.sweep(vi.laboratory.case(CODE, "identified"), GRID)
+    xr.testing.assert_equal(vi.sweep(path, GRID), expected)
+
+
+def test_a_study_that_is_shaken_by_several_harmonics_or_not_at_all(study):
+    path = study('[excitation]\namplitudes = ["0.03 g", "0.01 g"]')
+    shaken = vi.Periodic(1.0, ["0.03 g", "0.01 g"])
+    rig = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"),
+                        vi.Bumper("510 kN/m", "0.9 kN s/m", gap="7.5 mm"))  # fmt: skip
+    xr.testing.assert_equal(vi.sweep(path, GRID), vi.sweep(rig, shaken, GRID))
+    path = study("")
+    xr.testing.assert_equal(vi.sweep(path, "0.04 g", GRID), vi.sweep(rig, "0.04 g", GRID))
+    with pytest.raises(vi.InputError, match="amplitude: missing, and the rig does not say it"):
+        vi.sweep(path, GRID)
+
+
+def test_a_study_that_cannot_be_used(study, tmp_path):
+    with pytest.raises(vi.InputError, match=r"none\.toml' cannot be read .*study file"):
+        vi.sweep(str(tmp_path / "none.toml"), GRID)
+    with pytest.raises(vi.InputError, match=r"file\.toml': excitation\.amplitud: unknown key"):
+        vi.sweep(study('[excitation]\namplitud = "0.04 g"'), GRID)
+    with pytest.raises(vi.InputError, match="path of a study file, such as "):
+        vi.sweep("somewhere/rig", GRID)
+    (tmp_path / "quake.txt").write_text("0.1\n0.2\n0.1\n", encoding="utf-8")
+    path = study('[excitation]\nrecord = "quake.txt"\nstep = "0.01 s"\nunit = "g"')
+    with pytest.raises(vi.InputError, match="a Record has no period"):
+        vi.sweep(path, GRID)
+
+
 @pytest.mark.parametrize("case", [CODE, CASE])
 def test_one_motion(case):
     expected = vi.simulate(RIG, SHAKEN, 5)

@@ -82,7 +82,7 @@ def test_a_study_takes_a_component(tmp_path, run):
     (tmp_path / "quake.V2").write_text("\n".join([*csmip(1, "90 DEG"), *csmip(2, "UP")]) + "\n")
     from pathlib import Path
 
-    from vibroimpact.cli.study import ExcitationTable
+    from vibroimpact.model.study import ExcitationTable
 
     shaking = ExcitationTable(record="quake.V2", component="up").shaking(Path(tmp_path))
     assert isinstance(shaking, vi.Record)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import assert_type
 
 import numpy as np
@@ -27,6 +28,8 @@ def swept() -> xr.Dataset:
     assert_type(vi.sweep(rig, shaking, frequencies=grid, tolerance=1e-8), xr.Dataset)
     assert_type(vi.sweep("B2-G1-A3", grid), xr.Dataset)
     assert_type(vi.sweep((rig, 0.5), grid), xr.Dataset)
+    assert_type(vi.sweep(Path("rig.toml"), grid), xr.Dataset)
+    assert_type(vi.sweeps(["rig.toml", Path("rig.toml")], grid), xr.Dataset)
     assert_type(vi.sweep(oscillator=rig, amplitude=0.5, frequencies=grid), xr.Dataset)
     assert_type(vi.sweeps(["B2-G1-A3", (rig, 0.5)], grid, threads=2), xr.Dataset)
     return vi.sweep(case, case.frequencies)

@@ -67,7 +67,7 @@ def basin_stability(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
     displacement, velocity
         Lowest and highest of the states, in m and m/s. None for what `basins` takes, around all
         motions along the parameter.

@@ -60,7 +60,7 @@ def basins(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
     displacement, velocity
         Lowest and highest of the grid, in m and m/s. None for 1.6 times what the steady motions
         take that a coarse grid of starts leads to.

@@ -58,7 +58,7 @@ def manifolds(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
     saddles
         Datasets of `orbit`, or states near saddle orbits. None for up to four saddles that the
         borders between basins lead to.

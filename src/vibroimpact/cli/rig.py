@@ -193,34 +193,18 @@ def _of_case(code: str, parameters: Parameters | None) -> _Named:
 
 def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
     parameters = options.parameters or study.parameters
-    try:
-        shaking = study.excitation.shaking(Path(path).parent)
-    except InputError as error:
-        raise InputError(f"study {path!r}: excitation.{error}") from None
-    if isinstance(shaking, Record) and NO_UNIT in shaking.about.notes:
-        warn(f"study {path!r}: excitation.record: {NO_UNIT}; excitation.unit says another")
-    if study.case is not None:
-        try:
-            found = _of_case(study.case, parameters)
-        except InputError as error:
-            raise InputError(f"study {path!r}: {error}") from None
-        title = study.name or Path(path).stem
-        first = slug(title)
-        if parameters != (study.parameters or (parameters and "table")):
-            title, first = f"{title}, {parameters} parameters", f"{first}-{parameters}"
-        given = shaking
-        if given is None and isinstance(found.shaking, Harmonic):
-            given = found.shaking.replace(phase=study.excitation.phase)
-        return _Named(title, first, found.oscillator, given, study, True)
-    # Study sees to it that there is one.
-    assert study.oscillator is not None
-    if parameters is not None:
+    if parameters is not None and study.case is None:
         raise InputError(
             f"--parameters: {parameters!r}, but {path!r} describes its own oscillator; "
             "a case has parameter sets"
         )
-    title = study.name or Path(path).stem
-    return _Named(title, slug(title), study.oscillator, shaking, study, False)
+    title, oscillator, shaking = study.rig(Path(path), parameters)
+    if isinstance(shaking, Record) and NO_UNIT in shaking.about.notes:
+        warn(f"study {path!r}: excitation.record: {NO_UNIT}; excitation.unit says another")
+    first = slug(title)
+    if study.case is not None and parameters != (study.parameters or (parameters and "table")):
+        title, first = f"{title}, {parameters} parameters", f"{first}-{parameters}"
+    return _Named(title, first, oscillator, shaking, study, study.case is not None)
 
 
 def doubts(oscillator: Oscillator, shaking: Repeated | Record) -> list[str]:

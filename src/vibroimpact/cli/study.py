@@ -21,67 +21,17 @@ A file names a case of the laboratory or describes an oscillator; the rest is op
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, Self
 
 from pydantic import Field, create_model, model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Model, Oscillator, Periodic, Record, Repeated, validate
-from vibroimpact.model.laboratory import Parameters
-from vibroimpact.model.quantities import ANGLE, DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
-from vibroimpact.model.rigs import as_shaking
+from vibroimpact.model import Model, study
+from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
 from vibroimpact.model.validation import Accepts
 
 _Frequency = Annotated[float | None, Accepts(FREQUENCY, above=0.0, optional=True)]
-
-
-class ExcitationTable(Model):
-    """``[excitation]``: what shakes the mass, at whatever frequency; or a record in a file.
-
-    An amplitude is one of acceleration, displacement or force, by its unit. A record stands beside
-    the study file; its `component` where the file has several, its `step` (s) and its `unit` where
-    the file does not say them; a unit may be one of length.
-    """
-
-    amplitude: float | str | None = None
-    amplitudes: list[float | str] | None = None
-    phases: list[Annotated[float, Accepts(ANGLE)]] | None = None
-    phase: Annotated[float, Accepts(ANGLE)] = 0.0
-    record: str | None = None
-    component: str | None = None
-    step: Annotated[float | None, Accepts(TIME, above=0.0, optional=True)] = None
-    unit: str | None = None
-
-    @model_validator(mode="after")
-    def _one_of_them(self) -> Self:
-        ways = {name: getattr(self, name) for name in ("amplitude", "amplitudes", "record")}
-        given = [name for name, value in ways.items() if value is not None]
-        if len(given) > 1:
-            raise InputError(f"{' and '.join(given)} are given; one of them is accepted")
-        beside = dict.fromkeys(("component", "step", "unit"), "record")
-        for name, needs in (("phases", "amplitudes"), *beside.items()):
-            if getattr(self, name) is not None and ways[needs] is None:
-                raise InputError(f"{name} is given without {needs}; it is accepted beside it")
-        return self
-
-    def shaking(self, folder: Path) -> Repeated | Record | None:
-        """What it describes; paths are relative to the folder.
-
-        Raises
-        ------
-        InputError
-            If the record cannot be read, or a value cannot be used.
-        """
-        if self.record is not None:
-            return Record.read(folder / self.record, self.component, unit=self.unit, step=self.step)
-        if self.amplitudes is not None:
-            return Periodic(1.0, self.amplitudes, self.phases, self.phase)
-        if self.amplitude is None:
-            return None
-        shaken, _ = as_shaking(self.amplitude, "amplitude")
-        return shaken.replace(phase=self.phase)
 
 
 class _SweepTable(Model):
@@ -158,54 +108,21 @@ class EnsembleTable(Model):
     seed: Annotated[int | None, Field(ge=0)] = None
 
 
-class Study(Model):
+class Study(study.RigStudy):
     """A study file: ``case`` or ``[oscillator]``, and tables for the commands."""
 
-    name: str | None = None
-    case: str | None = None
-    parameters: Parameters | None = None
-    oscillator: Oscillator | None = None
-    excitation: ExcitationTable = ExcitationTable()
     sweep: SweepTable = SweepTable()
     simulate: SimulateTable = SimulateTable()
     design: DesignTable = DesignTable()
     ensemble: EnsembleTable = EnsembleTable()
 
-    @model_validator(mode="after")
-    def _one_rig(self) -> Self:
-        if (self.case is None) == (self.oscillator is None):
-            given = "neither" if self.case is None else "both"
-            raise InputError(
-                f"{given} of case and oscillator given; one of them is accepted, "
-                'such as case = "B2-G1-A3"'
-            )
-        if self.parameters is not None and self.case is None:
-            raise InputError("parameters are given without a case; they are accepted beside one")
-        return self
-
 
 def read_study(path: Path) -> Study:
-    """Read a study file.
+    """Read a study file, with the tables of the commands.
 
     Raises
     ------
     InputError
-        If it cannot be read, is not TOML, has an unknown key or a value that cannot be used;
-        the line names the file and the path of the key in it.
+        As of `vibroimpact.model.study.read_study`.
     """
-    try:
-        # Some editors put a mark before the text, which "-sig" leaves out.
-        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise InputError(
-            f"study: {str(path)!r} cannot be read ({error.strerror or error}); "
-            "a study file or a case code is accepted"
-        ) from None
-    except UnicodeDecodeError:
-        raise InputError(f"study: {str(path)!r} is not UTF-8 text; TOML is accepted") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"study: {str(path)!r} is not TOML ({error}); TOML is accepted") from None
-    try:
-        return validate(Study, data)
-    except InputError as error:
-        raise InputError(f"study {str(path)!r}: {error}") from None
+    return study.read_study(path, Study)

@@ -96,7 +96,7 @@ def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
     Parameters
     ----------
     rig
-        A laboratory case or its code, a `Rig` or a pair (oscillator, amplitude).
+        A case, its code, a study file, a `Rig` or a pair (oscillator, amplitude).
     height
         Of the page, in pixels.
 

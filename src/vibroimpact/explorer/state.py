@@ -52,7 +52,7 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     Parameters
     ----------
     rig
-        A laboratory case or its code, a `Rig` or a pair of oscillator and amplitude.
+        A case, its code, a study file, a `Rig` or a pair of oscillator and amplitude.
     name
         What it is called; that of a case is its code.
     span

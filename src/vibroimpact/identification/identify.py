@@ -65,7 +65,7 @@ def identify(
         several, as a list or by name.
     oscillator
         What was tested, with the values that are known and a guess of the others: an `Oscillator`,
-        a case or a `Rig`; or one for each test, as a list or by name.
+        a case, a study file or a `Rig`; or one for each test, as a list or by name.
     free
         What is sought: names of parameters, such as ``"stiffness,bumper_damping"``; or a mapping
         from names to a start, to bounds (low, high), to both (``{"start": ..., "low": ...}``), or

@@ -264,7 +264,7 @@ def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensio
     Parameters
     ----------
     oscillator
-        The oscillator; or a laboratory case or its code, and then the amplitude may be left out.
+        The oscillator; or a case, its code or a study file, and then the amplitude may be left out.
     amplitude
         Peak base acceleration A in m/s², or text with units; it scales the gaps.
 

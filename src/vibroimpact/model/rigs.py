@@ -2,7 +2,8 @@
 
 A rig is an oscillator and the peak acceleration that shakes it. Functions ask for the two one
 after the other; whatever carries both may stand in their place: a laboratory case, its code as
-text, a `Rig` or a pair. `takes_rig` teaches that to a function, `as_rig` reads one item of a list.
+text, the path of a study file, a `Rig` or a pair. `takes_rig` teaches that to a function, `as_rig`
+reads one item of a list.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import contextlib
 import functools
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, Concatenate, NamedTuple, ParamSpec, Protocol, TypeAlias, TypeVar, overload
 
 from vibroimpact.errors import InputError
@@ -24,14 +26,15 @@ _Found = TypeVar("_Found", covariant=True)
 _Rest = ParamSpec("_Rest")
 
 _ACCEPTED = (
-    'a laboratory case or its code, such as "B2-G1-A3", a `Rig` or a pair (oscillator, amplitude) '
-    "is accepted"
+    'a laboratory case or its code, such as "B2-G1-A3", the path of a study file, such as '
+    '"rig.toml", a `Rig` or a pair (oscillator, amplitude) is accepted'
 )
 
 
 class _Given(NamedTuple):
     oscillator: Oscillator
-    amplitude: AnyShaking
+    amplitude: AnyShaking | Record | None
+    """None of a study that does not say it."""
 
 
 AnyShaking: TypeAlias = float | str | Harmonic | Periodic | Sequence[float | str]
@@ -51,12 +54,13 @@ class WithAmplitude(Protocol):
         """Peak base acceleration A in m/s²."""
 
 
-AnyRig: TypeAlias = WithAmplitude | tuple[Oscillator, AnyShaking] | str
-"""A laboratory case, its code, a `Rig` or a pair (oscillator, amplitude)."""
+AnyRig: TypeAlias = WithAmplitude | tuple[Oscillator, AnyShaking] | str | Path
+"""A laboratory case, its code, the path of a study file, a `Rig` or a pair (oscillator,
+amplitude)."""
 
 
 def as_rig(value: Any, where: str = "oscillator", otherwise: str = "") -> _Given:
-    """Read a rig: a laboratory case, its code, a `Rig` or a pair (oscillator, amplitude).
+    """Read a rig: a laboratory case, its code, a study file, a `Rig` or a pair with an amplitude.
 
     The amplitude is as it was given; whoever uses it reads it.
 
@@ -64,9 +68,13 @@ def as_rig(value: Any, where: str = "oscillator", otherwise: str = "") -> _Given
     ------
     InputError
         If it is none of these, or there is no such case; the line begins with `where`, and names
-        what is accepted `otherwise`.
+        what is accepted `otherwise`. If a study file cannot be used; the line names the file.
     """
     why = ""
+    if _is_study(value):
+        from vibroimpact.model.study import read_rig  # which itself needs what is here
+
+        return _Given(*read_rig(Path(value))[1:])
     if isinstance(value, str):
         from vibroimpact.model import laboratory  # which itself needs what is here
 
@@ -97,6 +105,11 @@ def as_shaking(value: Any, where: str) -> tuple[Repeated, tuple[float, ...] | No
     """
     if isinstance(value, Record):
         raise _without_period(where)
+    if value is None:
+        raise InputError(
+            f"{where}: missing, and the rig does not say it; an acceleration greater than 0 is "
+            'accepted, such as "0.05 g", or a displacement or a force'
+        )
     if isinstance(value, Harmonic | Periodic):
         if value.amplitude == 0.0:
             raise InputError(f"{where}: 0; an amplitude greater than 0 is accepted")
@@ -194,13 +207,13 @@ def _with_rig(function: Callable[..., Any], records: bool) -> Any:
         if not args:
             return function(**kwargs)  # Python says what is missing
         rig, *rest = args
-        amplitude: AnyShaking | None = None
+        amplitude: AnyShaking | Record | None = None
         if not isinstance(rig, Oscillator):
             try:
                 rig, amplitude = as_rig(rig, first, "an oscillator, ")
             except InputError as error:
                 if any(
-                    not isinstance(other, str) and is_rig(other)
+                    not isinstance(other, str | Path) and is_rig(other)
                     for other in (*rest, *kwargs.values())
                 ):
                     raise InputError(
@@ -252,7 +265,7 @@ def _told(
     return True
 
 
-def _second(name: str, value: Any, amplitude: AnyShaking | None, records: bool) -> Any:
+def _second(name: str, value: Any, amplitude: AnyShaking | Record | None, records: bool) -> Any:
     """The amplitude or the excitation, refused where it is something else."""
     if isinstance(value, Record):
         if records:
@@ -280,11 +293,15 @@ def is_rig(value: object) -> bool:
     """Whether something is one rig, or a text that should name one, rather than several."""
     pair = isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], Oscillator)
     carries = isinstance(getattr(value, "oscillator", None), Oscillator)
-    return pair or carries or isinstance(value, Oscillator | str)
+    return pair or carries or isinstance(value, Oscillator | str | Path)
 
 
 def rig_name(value: Any, otherwise: str) -> str:
-    """The code of a laboratory case; `otherwise` of a rig without one."""
+    """The code of a laboratory case, the name of a study; `otherwise` of a rig without one."""
+    if _is_study(value):
+        from vibroimpact.model.study import read_rig
+
+        return read_rig(Path(value)).name
     if isinstance(value, str):
         from vibroimpact.model import laboratory
 
@@ -292,6 +309,11 @@ def rig_name(value: Any, otherwise: str) -> str:
             return laboratory.case(value).code
         return value
     return str(getattr(value, "code", otherwise))
+
+
+def _is_study(value: object) -> bool:
+    """Whether it is the path of a study file; of text, only what ends as one does."""
+    return isinstance(value, Path) or (isinstance(value, str) and value.lower().endswith(".toml"))
 
 
 def _is_number(value: object) -> bool:

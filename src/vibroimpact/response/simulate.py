@@ -48,7 +48,7 @@ def simulate(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
     cycles
         How long, in forcing cycles, greater than 0; the last may be incomplete. Not for a record,
         which says itself how long it is.

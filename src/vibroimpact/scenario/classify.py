@@ -92,7 +92,7 @@ def classify(
     Parameters
     ----------
     oscillator
-        What vibrates; or a laboratory case or its code, and then the amplitude may be left out.
+        What vibrates; or a case, its code or a study file, and then the amplitude may be left out.
     amplitude
         What is held at all frequencies: the peak A of the base acceleration in m/s², greater
         than 0; or text such as ``"0.05 g"``, ``"5 mm"`` (displacement of the base) or ``"120 N"``

@@ -65,7 +65,7 @@ def scenario_map(
         δ0 is kept where it is not varied, beside a physical one the gap.
         ``"log"`` or ``"linear"`` behind the values says how they are refined, if they do not.
     base
-        A laboratory case or its code, a `Rig` or a pair of oscillator and amplitude, for all other
+        A case, its code, a study file, a `Rig` or a pair of oscillator and amplitude, for all other
         parameters; the amplitude is one of acceleration, displacement or force. None for ξ = 0.15,
         τ = 0.01, λ = 25.9 and δ0 = 0.5, on two sides.
     step

@@ -63,7 +63,7 @@ def demands(
     Parameters
     ----------
     oscillator
-        What vibrates; or a laboratory case or its code; or several, by name or as a list.
+        What vibrates; or a case, its code or a study file; or several, by name or as a list.
     records
         One, or several: by name or as a list, whose names are those of their files.
     scales

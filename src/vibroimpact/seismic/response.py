@@ -47,7 +47,7 @@ def seismic_response(
     Parameters
     ----------
     oscillator
-        What vibrates, with any isolator and any stops; or a laboratory case or its code.
+        What vibrates, with any isolator and any stops; or a case, its code or a study file.
     record
         What shakes its base.
     tail

@@ -51,7 +51,7 @@ def design(
     Parameters
     ----------
     oscillator
-        What vibrates, with any isolator and any stops; or a laboratory case or its code.
+        What vibrates, with any isolator and any stops; or a case, its code or a study file.
     shaking
         Sines, by their amplitude as in `sweep`: the worst steady motion counts of all frequencies,
         swept up and down. Or a record, or several by name or as a list: a fractile over them

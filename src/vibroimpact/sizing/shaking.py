@@ -201,7 +201,7 @@ def asked(
 
 
 def one_rig(oscillator: Any) -> Oscillator:
-    """Read what vibrates: an oscillator, or a laboratory case or its code.
+    """Read what vibrates: an oscillator, or a case, its code or a study file.
 
     Raises
     ------

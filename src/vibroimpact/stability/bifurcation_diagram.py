@@ -71,7 +71,7 @@ def bifurcation_diagram(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency. The
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency. The
         excitation's phase is that of the section.
     parameter
         What is varied, as of `branch`.

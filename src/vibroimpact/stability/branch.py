@@ -42,7 +42,7 @@ def branch(
     Parameters
     ----------
     oscillator, excitation
-        The rig and the forcing of the first orbit; or a laboratory case or its code, and a
+        The rig and the forcing of the first orbit; or a case, its code or a study file, and a
         frequency.
     start
         A state near that orbit, at the excitation's phase; None for where the motion from rest

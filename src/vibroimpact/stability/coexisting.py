@@ -65,7 +65,7 @@ def coexisting(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
     frequencies
         Frequencies of the sweeps in Hz, rising; those below the excitation's are held going up,
         those above going down. None for steps of a hundredth of the natural frequency from 0.3

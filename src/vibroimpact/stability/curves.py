@@ -71,7 +71,7 @@ def bifurcation_curve(
     ----------
     oscillator, excitation
         The rig and the forcing for which the bifurcation was found; the first parameter may have
-        any value. Or a laboratory case or its code, and a frequency.
+        any value. Or a case, its code or a study file, and a frequency.
     start
         One bifurcation of a dataset of `branch` or `resonance_diagram` along the first
         parameter: ``data.isel(bifurcation=i)``.

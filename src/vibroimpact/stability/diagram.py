@@ -59,7 +59,7 @@ def resonance_diagram(
     Parameters
     ----------
     oscillator
-        What vibrates; or a laboratory case or its code, and then the amplitude may be left out.
+        What vibrates; or a case, its code or a study file, and then the amplitude may be left out.
     amplitude
         As in `sweep`, the same all along.
     low, high

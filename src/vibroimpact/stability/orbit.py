@@ -32,7 +32,7 @@ def orbit(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
     guess
         A state near the orbit's, at the excitation's phase; None for where the motion from rest
         settles.

@@ -67,7 +67,7 @@ def steady(
     Parameters
     ----------
     oscillator, excitation
-        What vibrates, and what shakes it; or a laboratory case or its code, and a frequency.
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
     start
         Where the motion starts; None is rest.
     samples

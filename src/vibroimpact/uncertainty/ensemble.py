@@ -49,7 +49,7 @@ def ensemble(
     Parameters
     ----------
     rig
-        A laboratory case or its code, a `Rig` or a pair (oscillator, what shakes it); or an
+        A case, its code, a study file, a `Rig` or a pair (oscillator, what shakes it); or an
         oscillator alone, for a response to records.
     distributions
         By parameter, as of `branch`: frozen distributions of ``scipy.stats`` in SI units, or texts

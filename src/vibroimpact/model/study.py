@@ -1,0 +1,181 @@
+"""The rig of a study file, in TOML: a case of the laboratory, or an oscillator and what shakes it.
+
+The tables of the commands, such as ``[sweep]``, are theirs: see `vibroimpact.cli.study`.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple, Self, TypeVar
+
+from pydantic import model_validator
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import laboratory
+from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
+from vibroimpact.model.laboratory import Parameters
+from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.quantities import ANGLE, TIME
+from vibroimpact.model.record import Record
+from vibroimpact.model.rigs import as_shaking
+from vibroimpact.model.validation import Accepts, Model, validate
+
+_Study = TypeVar("_Study", bound="RigStudy")
+
+
+class ExcitationTable(Model):
+    """``[excitation]``: what shakes the mass, at whatever frequency; or a record in a file.
+
+    An amplitude is one of acceleration, displacement or force, by its unit. A record stands beside
+    the study file; its `component` where the file has several, its `step` (s) and its `unit` where
+    the file does not say them; a unit may be one of length.
+    """
+
+    amplitude: float | str | None = None
+    amplitudes: list[float | str] | None = None
+    phases: list[Annotated[float, Accepts(ANGLE)]] | None = None
+    phase: Annotated[float, Accepts(ANGLE)] = 0.0
+    record: str | None = None
+    component: str | None = None
+    step: Annotated[float | None, Accepts(TIME, above=0.0, optional=True)] = None
+    unit: str | None = None
+
+    @model_validator(mode="after")
+    def _one_of_them(self) -> Self:
+        ways = {name: getattr(self, name) for name in ("amplitude", "amplitudes", "record")}
+        given = [name for name, value in ways.items() if value is not None]
+        if len(given) > 1:
+            raise InputError(f"{' and '.join(given)} are given; one of them is accepted")
+        beside = dict.fromkeys(("component", "step", "unit"), "record")
+        for name, needs in (("phases", "amplitudes"), *beside.items()):
+            if getattr(self, name) is not None and ways[needs] is None:
+                raise InputError(f"{name} is given without {needs}; it is accepted beside it")
+        return self
+
+    def shaking(self, folder: Path) -> Repeated | Record | None:
+        """What it describes; paths are relative to the folder.
+
+        Raises
+        ------
+        InputError
+            If the record cannot be read, or a value cannot be used.
+        """
+        if self.record is not None:
+            return Record.read(folder / self.record, self.component, unit=self.unit, step=self.step)
+        if self.amplitudes is not None:
+            return Periodic(1.0, self.amplitudes, self.phases, self.phase)
+        if self.amplitude is None:
+            return None
+        shaken, _ = as_shaking(self.amplitude, "amplitude")
+        return shaken.replace(phase=self.phase)
+
+
+class Studied(NamedTuple):
+    """The rig of a study."""
+
+    name: str
+    oscillator: Oscillator
+    amplitude: Repeated | Record | None
+    """What shakes it, a frequency left open; None where nothing says it."""
+
+
+class RigStudy(Model):
+    """A study file, of which the tables of commands are let be."""
+
+    name: str | None = None
+    case: str | None = None
+    parameters: Parameters | None = None
+    oscillator: Oscillator | None = None
+    excitation: ExcitationTable = ExcitationTable()
+    sweep: Any = None
+    simulate: Any = None
+    design: Any = None
+    ensemble: Any = None
+
+    @model_validator(mode="after")
+    def _one_rig(self) -> Self:
+        if (self.case is None) == (self.oscillator is None):
+            given = "neither" if self.case is None else "both"
+            raise InputError(
+                f"{given} of case and oscillator given; one of them is accepted, "
+                'such as case = "B2-G1-A3"'
+            )
+        if self.parameters is not None and self.case is None:
+            raise InputError("parameters are given without a case; they are accepted beside one")
+        return self
+
+    def rig(self, path: Path, parameters: Parameters | None = None) -> Studied:
+        """The rig that is described.
+
+        Parameters
+        ----------
+        path
+            Of the file, from which records are found.
+        parameters
+            Of a case, instead of those that the study names.
+
+        Raises
+        ------
+        InputError
+            If there is no such case, a record cannot be read, or a value cannot be used.
+        """
+        where, name = f"study {str(path)!r}", self.name or path.stem
+        try:
+            shaking = self.excitation.shaking(path.parent)
+        except InputError as error:
+            raise InputError(f"{where}: excitation.{error}") from None
+        if self.case is None:
+            assert self.oscillator is not None  # one of the two is there
+            return Studied(name, self.oscillator, shaking)
+        try:
+            case = laboratory.case(self.case, parameters or self.parameters or "table")
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from None
+        usual = Harmonic(case.amplitude, 1.0, phase=self.excitation.phase)
+        return Studied(name, case.oscillator, usual if shaking is None else shaking)
+
+
+def read_study(path: Path, kind: type[_Study]) -> _Study:
+    """Read a study file.
+
+    Parameters
+    ----------
+    path
+        Where it is.
+    kind
+        What is read of it.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is not TOML, has an unknown key or a value that cannot be used;
+        the line names the file and the path of the key in it.
+    """
+    try:
+        # Some editors put a mark before the text, which "-sig" leaves out.
+        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise InputError(
+            f"study: {str(path)!r} cannot be read ({error.strerror or error}); "
+            "a study file or a case code is accepted"
+        ) from None
+    except UnicodeDecodeError:
+        raise InputError(f"study: {str(path)!r} is not UTF-8 text; TOML is accepted") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"study: {str(path)!r} is not TOML ({error}); TOML is accepted") from None
+    try:
+        return validate(kind, data)
+    except InputError as error:
+        raise InputError(f"study {str(path)!r}: {error}") from None
+
+
+def read_rig(path: Path) -> Studied:
+    """Read the rig of a study file.
+
+    Raises
+    ------
+    InputError
+        As of `read_study` and `RigStudy.rig`.
+    """
+    return read_study(path, RigStudy).rig(path)
