@@ -137,6 +137,21 @@ def test_refused(wrong, told):
         vi.bifurcation_curve(case().oscillator, vi.Harmonic(0.5, 2.0), **given)
 
 
+def test_no_symmetry_breaking_without_symmetry():
+    case = vi.laboratory.case("B3-10mm-A3")
+    found = vi.resonance_diagram(case.oscillator, case.amplitude, 0.9, 1.4)
+    row = int(np.flatnonzero(found["bifurcation_kind"].values == "symmetry breaking")[0])
+    with pytest.raises(vi.InputError, match="parameters: 'right_gap' leaves no symmetry"):
+        vi.bifurcation_curve(
+            case.oscillator,
+            vi.Harmonic(case.amplitude, 1.2),
+            found.isel(bifurcation=row),
+            parameters=("frequency", "right_gap"),
+            low=(0.5, 1e-3),
+            high=(2.0, 2e-2),
+        )
+
+
 def test_neimark_sacker():
     bumper = vi.Bumper(0.01, 0.2, 0.6)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), bumper, bumper)
@@ -203,4 +218,5 @@ def test_grazing_of_rigid_stops_in_closed_form(left, other, low, high):
     size = data[other].values if other == "amplitude" else shaken.amplitude
     gap = data[other].values if other == "gap" else 0.025
     swing = size / np.hypot(26.8e3 / 550.0 - omega**2, 2.0 * omega)
-    np.testing.assert_allclose(swing, gap * np.ones_like(omega), rtol=1e-8)
+    # Of the margin 1e-8 of the size is required, where differences across a kink lead no closer.
+    np.testing.assert_allclose(swing, gap * np.ones_like(omega), rtol=2e-8)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.stability import defining
 from vibroimpact.stability.defining import Defining, solve
 from vibroimpact.stability.first import scales
 from vibroimpact.stability.plane import plane
@@ -51,3 +54,30 @@ def test_far_from_any_there_is_none(fold):
     assert system.value(np.full(7, np.nan)) is None
     assert system.value(y + 1e4 * system.scale) is None
     assert solve(system, np.full(7, np.nan), HOLD_GAP) is None
+
+
+def test_what_no_step_leads_back_from_is_none(fold, monkeypatch):
+    """Such numbers overflow in the differences, where a warning would be an error."""
+    system, y = fold
+    orbit, _ = system.value(y)
+    for steep in (1e150, np.inf, np.nan):
+        steeper = replace(orbit, carried=np.full((5, 5), steep))
+        monkeypatch.setattr(defining, "evaluated", lambda *_, one=steeper: (0, one, one.point))
+        assert system.value(y) is None
+        assert solve(system, y, HOLD_GAP) is None
+
+
+def test_a_curve_of_folds_warns_of_nothing():
+    """On its way Newton's method meets maps so steep that squares of their slopes overflow."""
+    stop = vi.Bumper(stiffness=680e3, damping=1e3, gap=5e-3)
+    rig = vi.Oscillator(550.0, vi.Isolator(26.3e3, 1.14e3), stop, stop)
+    found = vi.branch(rig, vi.Harmonic("0.05 g", 4.0), low=1.5, high=4.0)
+    data = vi.bifurcation_curve(
+        rig,
+        vi.Harmonic("0.05 g", 2.0),
+        found.isel(bifurcation=1),
+        parameters=("frequency", "amplitude"),
+        low=(0.3, 0.05),
+        high=(8.0, 5.0),
+    )
+    assert data.attrs["ended_low"] == data.attrs["ended_high"] == "the range of amplitude ends at 5"

@@ -20,7 +20,8 @@ FIRST, LEAST, MOST = 0.01, 1e-9, 0.05
 """Length of the first step, of the least and of the largest one, in scaled components."""
 AGAIN = 1e-3
 """Length of the first step behind a corner, or in other coordinates."""
-_TURN = 0.97  # cosine of the largest turn of the tangent in a step
+TURN = 0.97
+"""Cosine of the largest turn of the tangent in a step."""
 _GENTLE = 0.997  # below this turn the step may grow
 _GROWN, _SHRUNK = 1.6, 0.25
 _SHORT = 1e-4  # where so short a step fails there may be a corner
@@ -108,7 +109,7 @@ def follow(
     while len(points) < most_points:
         there, corner = path.step(here, length)
         turn = 0.0 if there is None else float((there.tangent * path.seen) @ here.tangent)
-        if there is not None and turn >= _TURN:
+        if there is not None and turn >= TURN:
             if (last := path.end(here, there)) is not None:
                 return Trace([*points, *last[0]], last[1])
             points.append(there)

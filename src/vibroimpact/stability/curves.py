@@ -38,9 +38,7 @@ from vibroimpact.response.variables import (
     excitation_parameters,
     oscillator_parameters,
 )
-from vibroimpact.stability.bifurcations import (
-    BREAKING,
-)
+from vibroimpact.stability.bifurcations import BREAKING
 from vibroimpact.stability.defining import SEEN, Defining, Spot, solve
 from vibroimpact.stability.first import scales
 from vibroimpact.stability.labelled import state_of
@@ -120,6 +118,11 @@ def bifurcation_curve(
             f"low: {spans[1][0]:g} to {spans[1][1]:g} leaves out the rig's {parameters[1]}, "
             f"{over.value:g}; a range that holds it is accepted"
         )
+    if kind == BREAKING and not over.symmetric:
+        raise InputError(
+            f"parameters: {parameters[1]!r} leaves no symmetry to break; one that changes both "
+            "sides alike, such as 'gap', is accepted"
+        )
     system, y = _start(over, kind, start, spans)
     first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
     if first is None:
@@ -159,10 +162,13 @@ def _start(
     p = float(start["bifurcation_value"])
     point = np.array([*state[:4], state[6], p])
     scale = np.append(scales(over.family, spans[0], point), spans[1][1] - spans[1][0])
+    # Its own mirror image it stays only where the second parameter keeps the symmetry.
     own = kind == BREAKING or bool(int(start["bifurcation_antisymmetric"]))
     mode = float(record.TOUCHING.index(state[5]))
     period = int(start["bifurcation_period"])
-    return Defining(over, kind, period, own, mode, scale), np.append(point, over.value)
+    return Defining(over, kind, period, own and over.symmetric, mode, scale), np.append(
+        point, over.value
+    )
 
 
 def _dataset(

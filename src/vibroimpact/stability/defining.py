@@ -20,6 +20,9 @@ SEEN = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0])
 """Components of (z, p, q) by which lengths and angles are measured, as in `fixed_points`."""
 
 _FAR = 1e3  # scaled; Newton's method has lost its way
+_STEEP, _WORST = 1e20, 1e100
+"""Of the map's derivative and of the residual, above which no step leads back; so far the
+determinant, its differences and their squares are numbers."""
 _STEP = 1e-7
 _NEWTON = 12
 _GOOD = 1e-11
@@ -63,20 +66,19 @@ class Defining(NamedTuple):
             return None
         section = self.section(y[PARAMETER + 1])
         status, orbit, image = evaluated(section, y[: PARAMETER + 1], self.mode)
-        if status is not Status.DONE or not np.isfinite(orbit.carried).all():
+        if status is not Status.DONE or not np.abs(orbit.carried).max() < _STEEP:
             return None
         residual = np.empty(PARAMETER + 1)
         residual[:PARAMETER] = (image[:PARAMETER] - orbit.point[:PARAMETER]) / self.scale[
             :PARAMETER
         ]
         residual[PARAMETER] = self.test(orbit)
-        return (orbit, residual) if np.isfinite(residual).all() else None
+        return (orbit, residual) if np.abs(residual).max() < _WORST else None
 
     def test(self, orbit: Orbit) -> float:
         """The condition φ."""
         if self.kind == FOLD:
-            with np.errstate(all="ignore"):  # far from any orbit it may overflow
-                return float(np.linalg.det(orbit.carried - np.eye(PARAMETER)))
+            return float(np.linalg.det(orbit.carried - np.eye(PARAMETER)))
         if self.kind == NEIMARK:
             return spiral(orbit)
         if self.kind == GRAZING:

@@ -313,7 +313,11 @@ def seen_at(found: Orbit, phase: float) -> tuple[_Array, float] | None:
     """Point and mode of the same motion at another forcing phase; None if a limit is met there."""
     section = found.section
     system = section.family.system(found.value)
-    _, here = found.setting
+    # Of its numbers, since the family's own forcing is another where a second parameter varies.
+    here = section.family.excitation.replace(
+        amplitude=float(system[section_map.AMPLITUDE]),
+        frequency=float(system[section_map.FREQUENCY]),
+    )
     ahead = ((phase - here.phase) / (2.0 * math.pi)) % 1.0
     state = vector_of(found)
     if ahead > 0.0:

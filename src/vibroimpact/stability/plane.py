@@ -27,6 +27,8 @@ class Plane(NamedTuple):
     """q where the plane was made."""
     second: _Array
     """How the engine's system vector moves with q."""
+    symmetric: bool
+    """Whether each motion's mirror image is a motion, whatever p and q."""
 
     def at_vectors(self, q: float) -> Family:
         """The family along p at a value of q, as the engine sees it: its rig is still the old."""
@@ -55,7 +57,8 @@ def plane(oscillator: Oscillator, excitation: Repeated, names: tuple[str, str]) 
                 "and no curve follows it; the frequency, the amplitude, a gap, a force or another "
                 "stiffness or damping is accepted (a branch follows any)"
             )
-    made = Plane(first, other, second.value, second.direction)
+    both = first.symmetric and second.symmetric
+    made = Plane(first, other, second.value, second.direction, both)
     p, q = first.parameter.beside(first.value, 3.0), other.beside(second.value, 6.0)
     guess = made.at_vectors(q).system(p)
     writes = [(first.parameter, p), (other, q)]
