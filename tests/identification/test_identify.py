@@ -224,3 +224,16 @@ def test_a_value_of_another_motion_is_named(low, told):
     (line,) = stray_values("twice", data)
     assert line.startswith(told)
     assert stray_values("once", data.isel(repeat=3, drop=True)) == []
+
+
+def test_a_column_that_was_not_understood_is_named(tmp_path):
+    rig = vi.laboratory.case("B2-G2-A2", "identified")
+    swept = vi.sweep(rig, [1.0, 1.2, 1.4, 1.6])
+    rows = [
+        f"{f},{1e3 * float(swept.displacement_excursion.sel(direction='forward', frequency=f))},1"
+        for f in swept.frequency.values
+    ]
+    path = tmp_path / "own.csv"
+    path.write_text("\n".join(["f (Hz),Ed (mm),Kanal 7", *rows]), encoding="utf-8")
+    fit = vi.identify(path, rig, "stiffness", tried=0, starts=1, profiles=False)
+    assert "own: 'Kanal 7' of the file not understood, and not used" in fit.attrs["findings"]

@@ -46,6 +46,11 @@ def findings(
                     f"{correlation[i, j]:.3f}): their {both} is known better than either"
                 )
     for test, what in zip(problem.tests, judged, strict=True):
+        if left := str(test.data.attrs.get("left_out", "")).splitlines():
+            lines.append(
+                f"{test.name}: {', '.join(map(repr, left))} of the file not understood, and not "
+                "used; columns= of read_measurement says what a column holds"
+            )
         if test.kind == "curves":
             lines += stray_values(test.name, test.data)
         shaken = problem.setting(x, test)[0][1]
