@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -12,8 +13,10 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State
 from vibroimpact.response.start import engine_state
+from vibroimpact.response.swept import Swept
 from vibroimpact.scenario.curves import DIRECTIONS, Holds
 from vibroimpact.scenario.evidence import Evidence, Irregular, Kind
+from vibroimpact.scenario.unseen import unseen
 from vibroimpact.stability.branch import branch, turning_points
 from vibroimpact.stability.growth import judge_wandering
 from vibroimpact.stability.settled import Settled
@@ -110,24 +113,53 @@ def _kind(
     return kinds.get(motion, "not periodic")
 
 
-def with_folds(found: Evidence, oscillator: Oscillator, shaken: Harmonic, ended: Holds) -> Evidence:
-    """Find where the branch through the primary resonance turns back, where it can be followed."""
-    return found._replace(folds=_folds(oscillator, shaken, ended, found))
+def with_folds(
+    found: Evidence,
+    oscillator: Oscillator,
+    shaken: Harmonic,
+    ended: Holds,
+    both: Swept | None = None,
+) -> Evidence:
+    """Find where the branch through the primary resonance turns back, where it can be followed.
 
-
-def _folds(
-    oscillator: Oscillator, shaken: Harmonic, ended: Holds, found: Evidence
-) -> tuple[float, ...] | None:
-    """Where the branch through the primary resonance turns back (Hz), rising; None if unknown."""
+    With the curves of both directions it is followed only between those neighbouring frequencies
+    where it may turn unseen, as a map asks; of a hysteresis that shows, folds may then be missing.
+    """
     first = _primary_orbit(found, shaken, ended)
     if first is None:
-        return None
+        return found._replace(folds=None)
     low, high = found.swept
+    stretches = None if both is None else unseen(both, ended)
+    begins = None if stretches is None else [_within(ended, shaken, *one) for one in stretches]
+    if begins is None or None in begins:
+        parts = [(first, low, high)]
+    else:
+        parts = [one for one in begins if one is not None]
     try:
-        turns = turning_points(oscillator, *first, low, high)
+        turns = {
+            f for one, begin, end in parts for f in turning_points(oscillator, *one, begin, end)
+        }
     except InputError:
-        return None
-    return tuple(sorted(f for f in turns if low < f < high))
+        return found._replace(folds=None)
+    return found._replace(folds=tuple(sorted(f for f in turns if low < f < high)))
+
+
+_Begun: TypeAlias = tuple[tuple[Harmonic, State], float, float]
+
+
+def _within(ended: Holds, shaken: Harmonic, first: int, last: int) -> _Begun | None:
+    """Where a branch begins at one end of a stretch, and the frequencies of both; None if nowhere.
+
+    In contact, for beside the branches of a narrow gap free flight is another one.
+    """
+    for i in (first, last):
+        if ended.period[0, i] == 1 and ended.contacts[0, i].any():
+            return (
+                _orbit(ended, shaken, i),
+                float(ended.frequency[first]),
+                float(ended.frequency[last]),
+            )
+    return None
 
 
 def primary_branch(
@@ -156,7 +188,10 @@ def _primary_orbit(
     if found.contact is None or not tops:
         return None
     i = int(np.searchsorted(ended.frequency, tops[0].frequency))
-    if int(ended.period[0, i]) != 1:
-        return None
-    state = ended.state("forward", i)
-    return shaken.replace(frequency=tops[0].frequency, phase=0.0), state
+    return None if int(ended.period[0, i]) != 1 else _orbit(ended, shaken, i)
+
+
+def _orbit(ended: Holds, shaken: Harmonic, i: int) -> tuple[Harmonic, State]:
+    """The forcing of a hold, and the state at its end."""
+    at = shaken.replace(frequency=float(ended.frequency[i]), phase=0.0)
+    return at, ended.state("forward", i)

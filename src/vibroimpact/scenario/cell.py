@@ -117,7 +117,7 @@ def _seen(
     found = with_kinds(found, *rig, ended, KIND_CYCLES, check, brief=True)
     if _rests_on_a_jump(found, thresholds):
         check()
-        found = with_folds(found, *rig, ended)
+        found = with_folds(found, *rig, ended, curves.both)
     return found
 
 

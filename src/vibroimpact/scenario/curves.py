@@ -27,6 +27,7 @@ UNEVEN = 1e-6
 """Eccentricity, as a share of the excursion, that rounding does not explain."""
 _TOLERANCE, _MAX_EVENTS = 1e-12, 10_000
 """As of `sweeps`."""
+_CONTACTS = ("impacts_right", "impacts_left")
 DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
 
 
@@ -55,6 +56,8 @@ class Holds(NamedTuple):
     """`COMPONENTS` of the state at the end of each."""
     plain: Flags
     """Whether the motion was seen to be chaotic while it was held."""
+    contacts: Array
+    """With the right and the left stop per forcing cycle."""
 
     def state(self, direction: Direction, i: int) -> State:
         """The state at the end of a hold."""
@@ -96,7 +99,10 @@ def holds(data: xr.Dataset) -> Holds:
         one["frequency"].values,
         one["period"].transpose("direction", "frequency").values,
         section.transpose("direction", "frequency", "component").values,
-        np.zeros(section.shape[:2], dtype=bool),
+        np.zeros((2, one.sizes["frequency"]), dtype=bool),
+        np.stack(
+            [one[name].transpose("direction", "frequency").values for name in _CONTACTS], axis=-1
+        ),
     )
 
 
@@ -142,7 +148,8 @@ def swept_alone(
     plain = (found[..., hold.OUTCOME] == Status.NOT_SETTLED) & (
         found[..., hold.CYCLES] < max_cycles
     )
-    return curves, Holds(frequencies, period, section, plain)
+    contacts = found[..., [hold.HITS_RIGHT, hold.HITS_LEFT]]
+    return curves, Holds(frequencies, period, section, plain, contacts)
 
 
 def _uneven(eccentricity: Array, excursion: Array) -> Flags:

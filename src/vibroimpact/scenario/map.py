@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -18,7 +18,7 @@ from vibroimpact.response.places import PROCESSES, THREADS, placed
 from vibroimpact.response.processes import may_start
 from vibroimpact.response.threads import Progress, Tally, Workers, breadth, each
 from vibroimpact.response.variables import excitation_parameters, oscillator_parameters
-from vibroimpact.scenario.axes import Axis, Base, Shaken, axis, check_pair, one_sine
+from vibroimpact.scenario.axes import Axis, Base, axis, check_pair, one_sine
 from vibroimpact.scenario.cell import RIG, classified
 from vibroimpact.scenario.frequencies import STEP
 from vibroimpact.scenario.nodes import UNKNOWN, Nodes, Scenarios
@@ -135,11 +135,10 @@ def scenario_map(
         fine,
         Nodes((len(fine[1].values), len(fine[0].values)), refine),
         block << refine,
-        start,
     )
 
-    def compute(rigs: list[Shaken], tally: Tally) -> dict[str, NDArray[Any]]:
-        return classified(rigs, used, fine_step, max_cycles, tally)
+    def compute(nodes: list[Values], tally: Tally) -> dict[str, NDArray[Any]]:
+        return classified([start.rig(one) for one in nodes], used, fine_step, max_cycles, tally)
 
     with map_store(store, fine, plan.chunk, refine + 1, settings) as held:
         if not held.finished():
@@ -152,13 +151,16 @@ def scenario_map(
     return data.load() if store is None else data
 
 
+Values: TypeAlias = dict[str, float]
+"""The parameters of a node."""
+
+
 class _Plan(NamedTuple):
     axes: tuple[Axis, Axis]
     """x and y, with the values of the finest grid."""
     nodes: Nodes
     chunk: int
     """Nodes of the finest grid along each side of a block."""
-    base: Base
 
     def blocks(self) -> Iterator[tuple[int, int, tuple[slice, slice]]]:
         """Row, column and place of each block."""
@@ -167,12 +169,13 @@ class _Plan(NamedTuple):
             for c, column in enumerate(columns):
                 yield r, c, (slice(row, row + self.chunk), slice(column, column + self.chunk))
 
-    def rig(self, row: int, column: int) -> Shaken:
+    def values(self, row: int, column: int) -> Values:
+        """Of the two parameters at a node."""
         x, y = self.axes
-        return self.base.rig({x.name: float(x.values[column]), y.name: float(y.values[row])})
+        return {x.name: float(x.values[column]), y.name: float(y.values[row])}
 
 
-Compute = Callable[[list[Shaken], Tally], dict[str, NDArray[Any]]]
+Compute = Callable[[list[Values], Tally], dict[str, NDArray[Any]]]
 
 
 def _level(
@@ -191,8 +194,9 @@ def _level(
         mine = chosen[place]
         if mine.any() and not held.done(level, row, column):
             at = np.argwhere(mine) + np.array([place[0].start, place[1].start])
-            rigs = [plan.rig(int(i), int(j)) for i, j in at]
-            held.write(place, mine, level, _parallel(rigs, compute, workers, progress, done, total))
+            nodes = [plan.values(int(i), int(j)) for i, j in at]
+            found = _parallel(nodes, compute, workers, progress, done, total)
+            held.write(place, mine, level, found)
             held.mark(level, row, column)
         done += int(mine.sum())
         if progress:
@@ -213,19 +217,19 @@ def _known(plan: _Plan, held: MapStore, level: int) -> Scenarios:
 
 
 def _parallel(
-    rigs: list[Shaken],
+    nodes: list[Values],
     compute: Compute,
     workers: Workers,
     progress: Progress | None,
     before: int,
     total: int,
 ) -> dict[str, NDArray[Any]]:
-    """Compute some rigs, a few at a time on each thread."""
-    few = max(1, min(_FEW, len(rigs) // (4 * breadth(workers))))
-    parts = [rigs[i : i + few] for i in range(0, len(rigs), few)]
+    """Compute some nodes, a few at a time on each thread."""
+    few = max(1, min(_FEW, len(nodes) // (4 * breadth(workers))))
+    parts = [nodes[i : i + few] for i in range(0, len(nodes), few)]
 
     told = progress and (lambda done, _: progress(before + done // RIG, total))
-    results = each(compute, parts, steps=len(rigs) * RIG, threads=workers, progress=told)
+    results = each(compute, parts, steps=len(nodes) * RIG, threads=workers, progress=told)
     return {name: np.concatenate([r[name] for r in results]) for name in results[0]}
 
 
