@@ -218,5 +218,4 @@ def test_grazing_of_rigid_stops_in_closed_form(left, other, low, high):
     size = data[other].values if other == "amplitude" else shaken.amplitude
     gap = data[other].values if other == "gap" else 0.025
     swing = size / np.hypot(26.8e3 / 550.0 - omega**2, 2.0 * omega)
-    # Of the margin 1e-8 of the size is required, where differences across a kink lead no closer.
-    np.testing.assert_allclose(swing, gap * np.ones_like(omega), rtol=2e-8)
+    np.testing.assert_allclose(swing, gap * np.ones_like(omega), rtol=1e-8)

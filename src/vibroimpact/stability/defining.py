@@ -26,7 +26,7 @@ determinant, its differences and their squares are numbers."""
 _STEP = 1e-7
 _NEWTON = 12
 _GOOD = 1e-11
-_ACCEPTED = 1e-8
+_ACCEPTED = 5e-9
 
 
 class Spot(NamedTuple):
