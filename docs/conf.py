@@ -67,6 +67,7 @@ html_theme = "pydata_sphinx_theme"
 html_title = f"vibroimpact {release}"
 html_static_path = ["_static", f"{OFFLINE}/static"]
 html_css_files = ["site.css"]
+html_js_files = ["breaks.js"]
 html_additional_pages = {"index": "landing.html"}
 # Pages that are a section of their own have no contents of one beside them.
 html_sidebars = {"docs/validation": [], "docs/index": []}

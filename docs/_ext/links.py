@@ -1,11 +1,13 @@
 """Links that read well in the plain files, made right for the site.
 
 A link to the gallery or to a script of it leads to its page, one to an HTML file to that file, and
-one to another folder is only its text. Docstrings name what is public without the package.
+one to another folder is only its text. Docstrings name what is public without the package, and pages by their
+files.
 """
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -24,8 +26,15 @@ def setup(app: Sphinx) -> dict[str, Any]:
     # Before Sphinx collects what is to be downloaded.
     app.connect("doctree-read", _as_in_the_files, priority=100)
     app.connect("missing-reference", _public)
+    app.connect("autodoc-process-docstring", _pages_of_files, priority=100)
     app.connect("build-finished", _pages)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def _pages_of_files(
+    app: Sphinx, what: str, name: str, of: Any, options: Any, lines: list[str]
+) -> None:
+    lines[:] = [re.sub(r"\bdocs/([\w/-]+)\.md\b", r":doc:`/docs/\1`", line) for line in lines]
 
 
 def _as_in_the_files(app: Sphinx, document: nodes.document) -> None:
