@@ -1,8 +1,8 @@
 """Links that read well in the plain files, made right for the site.
 
 A link to the gallery or to a script of it leads to its page, one to an HTML file to that file, and
-one to another folder is only its text. Docstrings name what is public without the package, and pages by their
-files.
+one to another folder is only its text. Docstrings name what is public without the package, and
+pages by their files.
 """
 
 from __future__ import annotations
