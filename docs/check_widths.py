@@ -2,8 +2,9 @@
 
 python docs/check_widths.py FOLDER
 
-Nor may a page's text be wider than its column, which would scroll and hide its end. Without a
-browser, or what drives it, nothing is looked at.
+Nor may a page's text be wider than its column, which would scroll and hide its end. Of the pages
+of single names, which one template makes, those of the longest names are looked at, and of the
+gallery its first. Without a browser, or what drives it, nothing is.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ import sys
 from pathlib import Path
 
 WIDTH = 390
-LEFT_OUT = "_static/"
+ALIKE, LONGEST = "reference/api/", 12
+LEFT_OUT = ("docs/gallery/", "_static/")
 WIDEST = """() => {
     const column = document.querySelector(".bd-article-container");
     const beyond = column ? column.scrollWidth - column.clientWidth : 0;
@@ -26,12 +28,13 @@ def wide(site: Path, browser: str) -> list[str]:
     from playwright.sync_api import sync_playwright
 
     pages = [path.relative_to(site).as_posix() for path in sorted(site.rglob("*.html"))]
-    chosen = [name for name in pages if LEFT_OUT not in name]
+    chosen = [name for name in pages if not any(part in name for part in (ALIKE, *LEFT_OUT))]
+    chosen += sorted((name for name in pages if ALIKE in name), key=len)[-LONGEST:]
     found = []
     with sync_playwright() as driver:
         shown = driver.chromium.launch(executable_path=browser, args=["--no-sandbox"])
         page = shown.new_page(viewport={"width": WIDTH, "height": 800})
-        for name in chosen:
+        for name in [*chosen, "docs/gallery/index.html"]:
             page.goto((site / name).as_uri())
             page.evaluate("window.MathJax?.startup?.promise")
             width = page.evaluate(WIDEST)

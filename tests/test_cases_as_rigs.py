@@ -124,6 +124,18 @@ def test_a_study_that_cannot_be_used(study, tmp_path):
     path = study('[excitation]\nrecord = "quake.txt"\nstep = "0.01 s"\nunit = "g"')
     with pytest.raises(vi.InputError, match="a Record has no period"):
         vi.sweep(path, GRID)
+    with pytest.raises(vi.InputError, match="'2 Hz' beside a study whose shaking is a record"):
+        vi.simulate(path, "2 Hz", 5)
+
+
+def test_a_study_that_is_shaken_by_a_record(study, tmp_path):
+    (tmp_path / "quake.txt").write_text("0.1\n0.2\n-0.1\n", encoding="utf-8")
+    path = study('[excitation]\nrecord = "quake.txt"\nstep = "0.1 s"\nunit = "g"')
+    rig = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"),
+                        vi.Bumper("510 kN/m", "0.9 kN s/m", gap="7.5 mm"))  # fmt: skip
+    record = vi.Record.read(tmp_path / "quake.txt", step="0.1 s", unit="g")
+    xr.testing.assert_equal(vi.simulate(path, tail=1.0), vi.simulate(rig, record, tail=1.0))
+    xr.testing.assert_equal(vi.seismic_response(path), vi.seismic_response(rig, record))
 
 
 @pytest.mark.parametrize("case", [CODE, CASE])

@@ -51,7 +51,7 @@ def _figure_of(value: Any) -> Figure | None:
 
 def unannounced(gallery: dict[str, Any], script: str) -> None:
     """Have the engine compile without a word, which would stand among what a script prints."""
-    jit._announced.set()
+    jit.announce = lambda text: None
 
 
 GALLERY = {

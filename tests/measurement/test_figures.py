@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
@@ -11,6 +11,7 @@ from samples import sample
 from vibroimpact import figures
 from vibroimpact.measurement.features import in_words, measured_features, noise_of, strays
 from vibroimpact.measurement.read import as_measured
+from vibroimpact.response.swept import judged
 
 FREQUENCIES = np.round(np.arange(0.5, 5.01, 0.1), 10)
 
@@ -226,6 +227,8 @@ def measured_sides(draw):
 @settings(max_examples=sample(100, 15), deadline=None)
 @given(measured_sides())
 def test_a_sensor_turned_round_tells_the_same(data):
+    for kind in {name.split("_")[0] for name in data.data_vars}:
+        assume(judged(data, kind) == f"{kind}_excursion")
     other = mirrored(data)
     assert in_words(other) == in_words(data)
     assert measured_features(other) == measured_features(data)
@@ -273,6 +276,26 @@ def test_one_side_alone_is_told(end, side):
     upper, lower = figures.resonance_curves(as_measured(data))
     assert upper.get_ylabel() == f"{side} of absolute\nacceleration (g)"
     assert (lower.lines[0].get_ydata()[0] > 0.0) == (end == "max")
+
+
+@pytest.mark.parametrize("kept", [np.s_[:0], np.s_[:1], np.s_[:, -5:]], ids=["no", "up", "some"])
+def test_a_side_with_holes_hides_nothing_of_the_other(kept):
+    """Minima of no hold, of one direction, of some frequencies only."""
+    data = of_one_sided_rig()
+    alone = as_measured(data[["displacement_max", "acceleration_max"]])
+    holed = data.copy(deep=True)
+    for name in ("displacement_min", "acceleration_min"):
+        order = holed[name].transpose("direction", "frequency", ...)
+        values = np.full_like(order.values, np.nan)
+        values[kept] = order.values[kept]
+        holed[name] = order.copy(data=values).transpose(*holed[name].dims)
+    assert measured_features(holed) == measured_features(alone)
+    assert figures.resonance_curves(holed)[0].get_ylabel().startswith("maximum of")
+    for ax, of_alone in zip(
+        figures.resonance_curves(holed), figures.resonance_curves(alone), strict=True
+    ):
+        for line, expected in zip(ax.lines, of_alone.lines, strict=True):
+            np.testing.assert_array_equal(line.get_ydata(), expected.get_ydata())
 
 
 def test_what_was_not_measured_has_no_peak():

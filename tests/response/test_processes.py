@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -10,9 +11,10 @@ import time
 
 import numpy as np
 import pytest
+from loky import get_reusable_executor
 
 import vibroimpact as vi
-from vibroimpact.response.processes import Processes
+from vibroimpact.response.processes import Processes, may_start
 from vibroimpact.response.threads import LostError, each
 
 TWO = Processes(2)
@@ -64,6 +66,25 @@ def test_what_a_task_raises_is_raised_here():
     with pytest.raises(vi.InputError, match="gap: 3"):
         each(task, range(6), threads=TWO)
     assert each(lambda item, _: item, range(3), threads=TWO) == [0, 1, 2]
+
+
+def test_no_more_processes_than_tasks(monkeypatch):
+    asked = []
+
+    def executor(**how):
+        asked.append(how["max_workers"])
+        return get_reusable_executor(**how)
+
+    monkeypatch.setattr("loky.get_reusable_executor", executor)
+    for tasks in (1, 3):
+        assert each(lambda i, _: i, range(tasks), threads=TWO) == list(range(tasks))
+    assert asked == [1, 2]
+
+
+def test_a_daemon_may_start_none(monkeypatch):
+    assert may_start()
+    monkeypatch.setitem(multiprocessing.current_process()._config, "daemon", True)
+    assert not may_start()
 
 
 def test_a_process_that_dies_is_told_and_others_are_started():

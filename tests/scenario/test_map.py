@@ -79,7 +79,7 @@ def test_no_result_depends_on_threads_or_blocks_or_where_it_is_kept(tmp_path):
 def test_many_rigs_go_to_processes_by_themselves(monkeypatch):
     asked = []
 
-    def placed(threads, where):
+    def placed(threads, where="threads"):
         asked.append(where)
         return places.placed(threads, where)
 
@@ -88,7 +88,10 @@ def test_many_rigs_go_to_processes_by_themselves(monkeypatch):
         monkeypatch.setattr(mapping, "_MANY", most)
         data = vi.scenario_map(X, Y, **OPTIONS, threads=2)
         xr.testing.assert_identical(data, small())
-    assert asked == ["processes", "threads"]
+    assert asked == ["threads", "processes", "threads", "threads"]
+    monkeypatch.setattr(mapping, "_MANY", 1)
+    vi.scenario_map(X, Y, **OPTIONS, threads=1)
+    assert asked[4:] == ["threads", "threads"]
 
 
 def test_a_map_that_was_stopped_is_completed_to_the_same(tmp_path):

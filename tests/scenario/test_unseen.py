@@ -51,6 +51,14 @@ def test_a_cusp_shows_wherever_it_lies_between_two_frequencies(at, rise):
     assert sum(last - first for first, last in found) <= 4
 
 
+@pytest.mark.parametrize("given_up", [38, 39, 42, 43])
+def test_a_hold_that_was_given_up_hides_no_cusp_beside_it(given_up):
+    curve = 1.0 + np.cbrt(FREQUENCY - FREQUENCY[40] - 0.005)
+    curve[given_up] = np.nan
+    found = _looked_at(curve, period=np.where(np.arange(101) == given_up, 0, 1))
+    assert any(first <= 40 and last >= 41 for first, last in found)
+
+
 def test_where_the_contacts_change_it_is_looked_at():
     contacts = np.where(FREQUENCY > 1.305, 1.0, 0.0)
     assert _looked_at(SMOOTH, contacts) == [(30, 31)]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.engine.status import Status
 from vibroimpact.stability import defining
 from vibroimpact.stability.defining import Defining, solve
 from vibroimpact.stability.first import scales
@@ -60,11 +61,14 @@ def test_what_no_step_leads_back_from_is_none(fold, monkeypatch):
     """Such numbers overflow in the differences, where a warning would be an error."""
     system, y = fold
     orbit, _ = system.value(y)
-    for steep in (1e150, np.inf, np.nan):
-        steeper = replace(orbit, carried=np.full((5, 5), steep))
-        monkeypatch.setattr(defining, "evaluated", lambda *_, one=steeper: (0, one, one.point))
-        assert system.value(y) is None
-        assert solve(system, y, HOLD_GAP) is None
+    for steep, lost in ((1.0, False), (1e150, True), (np.inf, True), (np.nan, True)):
+        seen = Status.DONE, replace(orbit, carried=np.full((5, 5), steep)), orbit.point
+        monkeypatch.setattr(defining, "evaluated", lambda *_, seen=seen: seen)
+        assert (system.value(y) is None) is lost
+        assert solve(system, y, HOLD_GAP) is None or not lost
+    far = Status.DONE, orbit, 1e120 * system.scale
+    monkeypatch.setattr(defining, "evaluated", lambda *_: far)
+    assert system.value(y) is None
 
 
 def test_a_curve_of_folds_warns_of_nothing():

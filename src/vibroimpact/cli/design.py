@@ -158,7 +158,7 @@ def design(
             files["chart"] = save_figure(panels, folder / f"{stem}.{out.figure}")
         front = pareto_front(data, title=what.title)
         files["front"] = save_figure(front, folder / f"{what.slug}-pareto.{out.figure}")
-    chosen = changes is not None and changes.gap is not None
+    chosen = changes is not None and any((changes.gap, changes.right_gap, changes.left_gap))
     about = summary.rig_facts(what)
     about.pop("record", None)
     tell(

@@ -15,6 +15,7 @@ from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, SWEEPS, panels
 from vibroimpact.measurement.features import measured_features
 from vibroimpact.model.quantities import GRAVITY
+from vibroimpact.response.swept import judged
 
 _Array = NDArray[np.float64]
 
@@ -51,15 +52,17 @@ def _panel(data: xr.Dataset, kind: str) -> _Panel | None:
         return _Panel(eta, data[eta], f"normalised excursion of\n{of} $\\eta_{kind[0]}$ (–)")
     if (largest := _largest(data, kind)) is not None:
         return _Panel(f"{kind}_max", factor * largest, f"largest {words} ({unit})")
-    for end, side in (("max", "maximum"), ("min", "minimum")):
-        if (name := f"{kind}_{end}") in data:
-            return _Panel(name, factor * data[name], f"{side} of {words} ({unit})")
-    return None
+    name = judged(data, kind)
+    if name is None:
+        return None
+    side = "maximum" if name.endswith("max") else "minimum"
+    return _Panel(name, factor * data[name], f"{side} of {words} ({unit})")
 
 
 def _largest(data: xr.Dataset, kind: str) -> xr.DataArray | None:
-    """The larger size of maximum and minimum; None unless both were measured."""
-    if not {f"{kind}_max", f"{kind}_min"} <= set(data):
+    """The larger size of maximum and minimum; None unless both were measured at the same holds."""
+    both = {f"{kind}_max", f"{kind}_min"} <= set(data)
+    if not (both and judged(data[[f"{kind}_max", f"{kind}_min"]], kind) == f"{kind}_excursion"):
         return None
     most, least = (abs(data[f"{kind}_{end}"]) for end in ("max", "min"))
     return xr.DataArray(np.maximum(most, least))

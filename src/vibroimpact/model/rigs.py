@@ -221,6 +221,8 @@ def _with_rig(function: Callable[..., Any], records: bool) -> Any:
                         f"behind it: the two are swapped; {example} is accepted"
                     ) from error
                 raise
+            if records and isinstance(amplitude, Record) and not rest and second not in kwargs:
+                rest = [amplitude]
             if second == "amplitude" and not _told(signature, rig, rest, kwargs):
                 rest = [amplitude, *rest]
         if second in kwargs:
@@ -273,6 +275,11 @@ def _second(name: str, value: Any, amplitude: AnyShaking | Record | None, record
         raise _without_period(name)
     if name == "amplitude" or isinstance(value, Harmonic | Periodic):
         return value
+    if isinstance(amplitude, Record) and _is_number(value):
+        raise InputError(
+            f"{name}: {shown(value)} beside a study whose shaking is a record, which has no "
+            "frequency; the study alone, or with a Harmonic, is accepted"
+        )
     if amplitude is not None and _is_number(value):
         return as_shaking(amplitude, "amplitude")[0].replace(frequency=value)
     alone = "" if amplitude is not None else " (beside a laboratory case a frequency is enough)"

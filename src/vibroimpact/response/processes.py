@@ -6,7 +6,6 @@ import importlib
 import multiprocessing
 from collections.abc import Callable, Sequence
 from concurrent.futures import as_completed
-from concurrent.futures.process import BrokenProcessPool
 from typing import Any, NamedTuple, TypeVar
 
 from vibroimpact.response.threads import LostError, Progress, Tally, alone, available
@@ -44,7 +43,11 @@ class Processes(NamedTuple):
         loky: Any = importlib.import_module("loky")
 
         # The same processes again, where they have not ended: starting takes a second.
-        pool = loky.get_reusable_executor(max_workers=self.width(), timeout=_IDLE)
+        pool = loky.get_reusable_executor(
+            max_workers=min(self.width(), len(items)),
+            timeout=_IDLE,
+            env={"LOKY_MAX_MEMORY_LEAK_SIZE": "1e15"},  # what a task needs is no leak
+        )
         try:
             futures = [pool.submit(alone, task, item) for item in items]
             for done, future in enumerate(as_completed(futures), 1):
@@ -52,7 +55,7 @@ class Processes(NamedTuple):
                 if progress:
                     progress(done * total // len(items), total)
             return [future.result() for future in futures]
-        except BrokenProcessPool as died:
+        except loky.process_executor.TerminatedWorkerError as died:
             raise LostError(
                 f"where: a process died, perhaps for want of memory ({died}); the same call "
                 "completes what it has in a store"

@@ -282,6 +282,8 @@ def named_rigs(
         names = [rig_name(item, str(i)) for i, item in enumerate([rigs] if one else items)]
     if not items:
         raise InputError("rigs: the list is empty; at least one rig is accepted")
+    # As of two study files of one name in two folders.
+    names = [f"{name} ({i})" if names.count(name) > 1 else name for i, name in enumerate(names)]
     pairs = []
     for name, item in zip(names, items, strict=True):
         oscillator, amplitude = as_rig(item, f"rigs[{name}]")

@@ -41,7 +41,7 @@ class Swept(NamedTuple):
         )
 
 
-_KINDS: tuple[Literal["acceleration", "displacement"], ...] = ("acceleration", "displacement")
+_KINDS = ("acceleration", "displacement")
 _ARRAYS = ("eta_a", "eta_d", "settled", "period", "touching")
 
 
@@ -62,11 +62,12 @@ def swept(data: xr.Dataset) -> Swept:
     return one
 
 
-def judged(data: xr.Dataset, kind: Literal["acceleration", "displacement"]) -> str | None:
+def judged(data: xr.Dataset, kind: str) -> str | None:
     """Name what measured curves are judged by: η, the excursion, or the one side that is known.
 
     Maximum and minimum together are an excursion, which is the same whichever way the sensor
-    points; one of them alone misses what the mass does on the other side.
+    points; one of them alone misses what the mass does on the other side. It is judged alone where
+    the other was not measured at all its holds.
 
     Returns
     -------
@@ -77,8 +78,15 @@ def judged(data: xr.Dataset, kind: Literal["acceleration", "displacement"]) -> s
     for name in (f"eta_{kind[0]}", f"{kind}_excursion"):
         if name in data:
             return name
-    sides = [name for name in (f"{kind}_max", f"{kind}_min") if name in data]
-    return f"{kind}_excursion" if len(sides) == 2 else next(iter(sides), None)
+    sides = {
+        name: np.isfinite(data[name].values)
+        for name in (f"{kind}_max", f"{kind}_min")
+        if name in data
+    }
+    if len(sides) == 2 and np.array_equal(*sides.values()):
+        return f"{kind}_excursion"
+    # A side that was measured at some holds only would hide the other at the rest.
+    return max(sides, key=lambda name: int(sides[name].sum()), default=None)
 
 
 def _of_measured(data: xr.Dataset) -> Swept:

@@ -130,21 +130,26 @@ def with_folds(
         return found._replace(folds=None)
     low, high = found.swept
     stretches = None if both is None else unseen(both, ended)
-    begins = None if stretches is None else [_within(ended, shaken, *one) for one in stretches]
-    if begins is None or None in begins:
-        parts = [(first, low, high)]
-    else:
-        parts = [one for one in begins if one is not None]
-    try:
-        turns = {
-            f for one, begin, end in parts for f in turning_points(oscillator, *one, begin, end)
-        }
-    except InputError:
-        return found._replace(folds=None)
-    return found._replace(folds=tuple(sorted(f for f in turns if low < f < high)))
+    begins = [None] if stretches is None else [_within(ended, shaken, *one) for one in stretches]
+    parts = [one for one in begins if one is not None]
+    turns = _turns(oscillator, parts) if len(parts) == len(begins) else None
+    if turns is None:
+        turns = _turns(oscillator, [(first, low, high)])
+    folds = None if turns is None else tuple(sorted(f for f in turns if low < f < high))
+    return found._replace(folds=folds)
 
 
 _Begun: TypeAlias = tuple[tuple[Harmonic, State], float, float]
+
+
+def _turns(oscillator: Oscillator, parts: list[_Begun]) -> set[float] | None:
+    """Where a branch turns back in some parts of it (Hz); None where Newton's method fails."""
+    try:
+        return {
+            f for one, begin, end in parts for f in turning_points(oscillator, *one, begin, end)
+        }
+    except InputError:
+        return None
 
 
 def _within(ended: Holds, shaken: Harmonic, first: int, last: int) -> _Begun | None:

@@ -90,7 +90,7 @@ def scenario_map(
     where
         ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
         of its scheduler (docs/how-to/many-machines.md). None for processes where the first grid
-        has at least 500 nodes, else threads. No result depends on it.
+        has at least 500 nodes, and there is more than one, else threads. No result depends on it.
     progress
         Called from the calling thread with the nodes done and those known so far to be wanted.
 
@@ -125,8 +125,9 @@ def scenario_map(
         "block": (block := whole(block, "block")),
     }
     if where is None:
-        many = len(first.values) * len(second.values) >= _MANY and may_start()
-        where = PROCESSES if many else THREADS
+        many = len(first.values) * len(second.values) >= _MANY
+        several = breadth(placed(threads)) > 1 and may_start()
+        where = PROCESSES if many and several else THREADS
     workers = placed(threads, where)
     fine = first.refined(refine), second.refined(refine)
     for end in (0, -1):  # refused before anything is computed

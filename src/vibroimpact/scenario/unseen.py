@@ -50,9 +50,9 @@ def _steep(curve: Array) -> Flags:
     """Between which neighbours either direction rises or falls much more than beside them."""
     step = np.abs(np.diff(curve))
     around = np.pad(step, ((0, 0), (2, 2)))
-    beside = np.maximum(around[:, :-4], around[:, 4:])
-    steep: Flags = (step > _STEEP * beside + _FLAT * _height(curve)).any(axis=0)
-    return steep
+    beside = np.fmax(around[:, :-4], around[:, 4:])
+    gentle: Flags = (step <= _STEEP * beside + _FLAT * _height(curve)).all(axis=0)
+    return ~gentle  # of what was given up nothing is known
 
 
 def _apart(curve: Array) -> Flags:

@@ -191,7 +191,13 @@ def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
     low = float(scale[np.flatnonzero(none)[-1] if none.any() else 0])
     high = float(scale[np.flatnonzero(every)[0] if every.any() else -1])
     quantity = DIMENSIONLESS if scale.attrs["units"] == "1" else ACCELERATION
-    return f"finer levels between {pretty(low, quantity)} and {pretty(high, quantity)}"
+    beyond = " and ".join(
+        word for word, there in (("lower", none.any()), ("higher", every.any())) if not there
+    )
+    if low == high:
+        return f"{beyond} levels"
+    finer = f"finer levels between {pretty(low, quantity)} and {pretty(high, quantity)}"
+    return f"{finer}, and {beyond} ones" if beyond else finer
 
 
 def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -> str:
