@@ -176,7 +176,7 @@ def fitted(result: xr.Dataset, test: str | None = None) -> Rig:
     result
         Dataset of `identify`.
     test
-        Whose rig; None where there is one test.
+        Whose rig and shaking; None for the first test's, where the rig is the same in all.
 
     Raises
     ------
