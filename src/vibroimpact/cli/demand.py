@@ -51,7 +51,8 @@ def text(
     """A table of a response, and a sentence."""
     table = plain_table()
     shaken = f"{plain(record.peak, 5)} m/s² = {plain(record.peak / GRAVITY, 4)} g"
-    table.add_row("peak of the base", shaken, f"{plain(record.duration, 6)} s")
+    when = f"at {plain(record.peak_time, 6)} s of {plain(record.duration, 6)} s"
+    table.add_row("peak of the base", shaken, when)
     table.add_row("displacement", _both(response, "peak_displacement", LENGTHS), "")
     size = float(response["peak_acceleration"])
     ratio = f"{plain(size / record.peak, 4)} times the base's" if record.peak else ""
