@@ -60,7 +60,7 @@ def _panel(data: xr.Dataset, kind: str) -> _Panel | None:
 
 
 def _largest(data: xr.Dataset, kind: str) -> xr.DataArray | None:
-    """The larger size of maximum and minimum; None unless both were measured at the same holds."""
+    """The larger size of maximum and minimum; None unless it is judged by both."""
     both = {f"{kind}_max", f"{kind}_min"} <= set(data)
     if not (both and judged(data[[f"{kind}_max", f"{kind}_min"]], kind) == f"{kind}_excursion"):
         return None

@@ -32,7 +32,7 @@ MOST_REFINED = 8
 _FEW = 10
 """Rigs that a thread sweeps at a time, at most."""
 _MANY = 500
-"""Nodes of the first grid for which it pays to start processes: two fifths of what a rig takes is
+"""Nodes of the first grid for which it pays to start processes: a third of what a rig takes is
 Python's, which threads do in turn."""
 
 
@@ -90,7 +90,7 @@ def scenario_map(
     where
         ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
         of its scheduler (docs/how-to/many-machines.md). None for processes where the first grid
-        has at least 500 nodes, and there is more than one, else threads. No result depends on it.
+        has at least 500 nodes and more than one may run, else threads. No result depends on it.
     progress
         Called from the calling thread with the nodes done and those known so far to be wanted.
 
