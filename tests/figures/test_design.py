@@ -34,12 +34,19 @@ def test_contours_over_two_parameters(data) -> None:
     np.testing.assert_allclose(dots.get_ydata(), 1e-3 * STIFFNESSES[at[:, 0]])
 
 
-def test_numbers_of_contours_stand_apart_and_inside(data) -> None:
-    for ax in design_chart(data):
+def test_numbers_of_contours_stand_on_their_lines_apart_and_inside(data) -> None:
+    panels = design_chart(data)
+    panels[0].figure.draw_without_rendering()  # which moves them to where they stay
+    for ax in panels:
         boxes = [text.get_window_extent() for text in ax.texts]
-        assert len(boxes) > 3
+        assert len(boxes) > 5
         assert not any(a.overlaps(b) for a, b in combinations(boxes, 2))
         assert all(ax.bbox.x0 < box.x0 and box.x1 < ax.bbox.x1 for box in boxes)
+        (lines,) = (one for one in ax.collections if len(one.get_array()) > 1 and not one.filled)
+        for text, box in zip(ax.texts, boxes, strict=True):
+            level = np.abs(lines.levels - float(text.get_text())).argmin()
+            path = ax.transData.transform_path(lines.get_paths()[level]).interpolated(200)
+            assert np.hypot(*(path.vertices - (box.p0 + box.p1) / 2.0).T).min() < 2.0  # pixels
 
 
 def test_the_line_where_nothing_is_hit_is_on_the_safe_side(data) -> None:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels
-from vibroimpact.figures.labels import Names
+from vibroimpact.figures.levels import number_lines
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND, panels
 from vibroimpact.model import GRAVITY
@@ -47,9 +47,9 @@ def design_chart(
 ) -> Panels:
     """Draw the demands on designs over one parameter, or as contours over two.
 
-    Dots mark designs that no other one beats. The thick dashed line goes through the first of the
-    designs that hit nothing: the gap that is needed lies before it, and is that of `required_gap`.
-    What is hatched exceeds a limit.
+    A contour line has its value on it, where there is room. Dots mark designs that no other one
+    beats. The thick dashed line goes through the first of the designs that hit nothing: the gap
+    that is needed lies before it, and is that of `required_gap`. What is hatched exceeds a limit.
 
     Parameters
     ----------
@@ -302,7 +302,9 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
     levels: list[tuple[float, Any]] = []
     if np.ptp(values.compressed()) > 1e-9 * np.abs(values).max():
         filled = ax.contourf(x, y, values, levels=_LEVELS, cmap="YlGnBu", alpha=0.55, zorder=1)
-        lines = ax.contour(x, y, values, levels=filled.levels, colors="0.15", linewidths=0.7)
+        lines = ax.contour(
+            x, y, values, levels=filled.levels, colors="0.15", linewidths=0.7, zorder=3
+        )
         levels = list(zip(lines.levels, lines.allsegs, strict=True))
     hits = (data["hitting"].values > 0.0).astype(float)
     handles: list[Line2D | Patch] = []
@@ -310,7 +312,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
     if 0.0 < hits.mean() < 1.0:
         # Through the designs that just hit nothing: never on the side of those that hit.
         edge = ax.contour(
-            x, y, hits, levels=[1e-3], colors="#c8102e", linewidths=2.0, linestyles="--"
+            x, y, hits, levels=[1e-3], colors="#c8102e", linewidths=2.0, linestyles="--", zorder=3
         )
         edges = [Line2D(*part.T) for part in edge.allsegs[0]]
         handles.append(
@@ -342,10 +344,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
         label="beaten by no other",
         zorder=5,
     )
-    names = Names(ax, [dots, *edges])
-    for level, parts in levels:
-        for part in filter(len, parts):
-            names.write(part[:, 0], part[:, 1], f"{level:.3g}", "0.15", once=False)
+    number_lines(ax, levels, [dots, *edges])
     ax.legend(
         handles=[dots, *handles],
         loc="upper center",
