@@ -48,6 +48,7 @@ def test_a_long_period_is_found():
     points = np.tile(noise(37, 4), (600, 1))[:20_000]
     found = judge(growth(-0.1, 0.3), points)
     assert (found.motion, found.period) == ("periodic", 37)
+    assert found.evidence == "the section repeats after 37 cycles"
     assert recurrence(points) == 37
     assert recurrence(WANDERING) == 0
     # One near return is no period.

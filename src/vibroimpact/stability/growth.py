@@ -13,7 +13,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.response.follow import grown
 from vibroimpact.response.start import engine_rig
 from vibroimpact.stability.exponents import DISCARD
-from vibroimpact.stability.kind import Judgement, judge
+from vibroimpact.stability.kind import Judgement, judge, repeats
 from vibroimpact.stability.settled import Settled
 
 _Array = NDArray[np.float64]
@@ -54,7 +54,7 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
         found.period,
         first,
         spread,
-        f"the section repeats after {found.period}; largest multiplier {largest:.6g} in modulus",
+        f"{repeats(found.period)}; largest multiplier {largest:.6g} in modulus",
     )
     return kind, float(damping[0]) / found.period, 2 * found.period, Status.DONE
 

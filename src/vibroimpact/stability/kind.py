@@ -106,7 +106,7 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
         f"{mean[0]:+.3g} ± {uncertainty[0]:.1g} a cycle"
     )
     if n := recurrence(section):
-        return Judgement("periodic", n, mean, uncertainty, f"the section repeats after {n}")
+        return Judgement("periodic", n, mean, uncertainty, repeats(n))
     quarters = np.diff(np.concatenate([[0.0], total[np.arange(1, 5) * cycles // 4 - 1]]))
     if whole > CLEAR + margin and whole - half > CLEAR and quarters.min() > 0.0 and apart:
         return Judgement("chaotic", 0, mean, uncertainty, grown)
@@ -122,6 +122,11 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
             "quasi-periodic", 0, mean, uncertainty, f"{grown}: no more than on a torus"
         )
     return Judgement("undecided", 0, mean, uncertainty, f"{grown}: no clear trend")
+
+
+def repeats(period: int) -> str:
+    """The evidence for a periodic motion, in words."""
+    return f"the section repeats after {period} cycle{'' if period == 1 else 's'}"
 
 
 def forgets(logarithms: _Array, damping: _Array) -> bool:
