@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from response.curves import grid, made, primary, swept
+from vibroimpact.response.peaks import PROMINENCE
 from vibroimpact.response.resonance import (
     features,
     peaks,
@@ -14,8 +15,9 @@ from vibroimpact.response.resonance import (
 class TestPeaks:
     f = grid(1, 2, 0.1)
 
-    def found(self, curve, **options):
-        return [p for p in peaks(made(self.f, curve, **options)) if p.curve == "eta_a"]
+    def found(self, curve, *, prominence=PROMINENCE, **options):
+        found = peaks(made(self.f, curve, **options), prominence=prominence)
+        return [p for p in found if p.curve == "eta_a"]
 
     def test_prominence(self):
         first, second = self.found([0, 1, 3, 2, 1.5, 2, 5, 4, 1, 1, 1])
@@ -53,3 +55,29 @@ class TestPeaks:
         for direction in ("forward", "backward"):
             for curve in ("eta_a", "eta_d"):
                 primary(found, direction, curve)
+
+    def test_random_curves_by_the_definition_itself(self):
+        """Each summit against every point beside it, with plateaus."""
+        random = np.random.default_rng(7)
+        for _ in range(200):
+            y = random.integers(0, 5, size=11).astype(float)
+            expected = {self.f[i]: above for i, above in _by_definition(y).items()}
+            assert {p.frequency: p.prominence for p in self.found(y, prominence=0.0)} == expected
+
+
+def _by_definition(y):
+    """Prominence of each first point that is higher than what is beside it on both sides."""
+    told = {}
+    for i, height in enumerate(y):
+        valleys = []
+        for side in (y[:i][::-1], y[i + 1 :]):
+            lower = []
+            for other in side:
+                if other > height:
+                    break
+                lower.append(other)
+            valleys += [min(lower)] if lower else []
+        other = next((one for one in y[i:] if one != height), np.inf)
+        if (i > 0 and y[i - 1] < height and height > other) or i == int(y.argmax()):
+            told[i] = height - max(valleys, default=height)
+    return told

@@ -59,6 +59,8 @@ def equilibrium(oscillator: Oscillator) -> State:
 def _by_stiffness(oscillator: Oscillator) -> float:
     """The displacement of a linear spring between linear stops, in closed form."""
     assert isinstance(oscillator.isolator, Isolator)
+    if oscillator.force == 0.0 and all(stop.gap >= 0.0 for stop in oscillator.stops):
+        return 0.0  # nothing pushes, as on most rigs of a map
     spring = oscillator.isolator.stiffness
     sides = [(1, oscillator.right), (-1, oscillator.left)]
     bumpers = [(side, stop) for side, stop in sides if isinstance(stop, Bumper)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import takewhile
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -67,27 +68,22 @@ def peaks(data: xr.Dataset | Swept, *, prominence: float = PROMINENCE) -> tuple[
     for k, direction in enumerate(both.directions):
         for name in CURVES:
             curve: Array = getattr(both, name)[k]
-            known = np.flatnonzero(np.isfinite(curve))
+            known = np.isfinite(curve).nonzero()[0]
             if not len(known):
                 continue
             y = curve[known]
-            top = int(np.argmax(y))
-            places = [i for i in _summits(y) if i == top or _prominence(y, i) > prominence * y[i]]
-            if top not in places:  # at an end of the range
-                places = sorted([*places, top])
-            period = both.period[k][known]
-            primary = max(
-                (i for i in places if y[i] >= PRIMARY_HEIGHT * y[top] and period[i] <= 1),
-                default=top,
-            )
-            frequency = both.frequency[known]
+            top = int(y.argmax())
+            above = _prominences(y, top)
+            places = [i for i, height in above.items() if i == top or height > prominence * y[i]]
+            high = [i for i in places if y[i] >= PRIMARY_HEIGHT * y[top]]
+            primary = max((i for i in high if both.period[k, known[i]] <= 1), default=top)
             found += [
                 Peak(
                     direction,
                     name,
-                    float(frequency[i]),
+                    float(both.frequency[known[i]]),
                     float(y[i]),
-                    float(_prominence(y, i)),
+                    above[i],
                     i == primary,
                     i in (0, len(y) - 1),
                 )
@@ -96,19 +92,30 @@ def peaks(data: xr.Dataset | Swept, *, prominence: float = PROMINENCE) -> tuple[
     return tuple(found)
 
 
-def _summits(y: Array) -> list[int]:
-    """Interior local maxima; of a plateau, its first point."""
-    change = np.flatnonzero(np.diff(y) != 0.0)
-    rises = np.diff(y)[change] > 0.0
-    return [int(change[k]) + 1 for k in np.flatnonzero(rises[:-1] & ~rises[1:])]
+def _prominences(y: Array, top: int) -> dict[int, float]:
+    """Of the highest point and of each local maximum within; of a plateau, its first point's.
+
+    Only where the curve turns can a valley or what parts it from higher ground be.
+    """
+    steps = y[1:] - y[:-1]
+    change = steps.nonzero()[0]
+    rises = steps[change] > 0.0
+    turns = change[:-1][rises[:-1] != rises[1:]] + 1
+    end = len(y) - 1
+    places = sorted({0, top, end, *turns.tolist()})
+    heights = y[places].tolist()
+    return {
+        i: _prominence(heights, n)
+        for n, i in enumerate(places)
+        if i == top or (0 < i < end and heights[n - 1] < heights[n] > heights[n + 1])
+    }
 
 
-def _prominence(y: Array, i: int) -> float:
-    """Height of y[i] above the higher one of the valleys beside it; an end has one valley."""
-    valleys = []
-    for side in (y[i::-1], y[i:]):
-        higher = np.flatnonzero(side > y[i])
-        stretch = side[: higher[0]] if len(higher) else side
+def _prominence(heights: list[float], n: int) -> float:
+    """Of one height above the higher one of the valleys beside it; an end has one valley."""
+    height, valleys = heights[n], []
+    for side in (heights[n::-1], heights[n:]):
+        stretch = list(takewhile(height.__ge__, side))  # up to what is higher
         if len(stretch) > 1:
-            valleys.append(float(stretch.min()))
-    return float(y[i]) - max(valleys, default=float(y[i]))
+            valleys.append(min(stretch))
+    return height - max(valleys, default=height)

@@ -26,7 +26,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from vibroimpact.response.peaks import CURVES, PROMINENCE, Peak, peaks
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, swept
@@ -150,7 +149,7 @@ def features(
     apart_by = hysteresis(both, apart=apart, unsettled_apart=unsettled_apart)
     return Features(
         peaks(both, prominence=prominence),
-        _jumps(both, apart_by, apart, unsettled_apart, step),
+        jumps_beside(apart_by, both, apart, unsettled_apart, step),
         apart_by,
         ranges(both, ~both.settled),
         ranges(both, both.touching),
@@ -182,18 +181,19 @@ def hysteresis(
     both = _arrays(data)
     if len(both.directions) < 2:
         return ()
-    periodic: Flags = np.logical_and.reduce(both.settled)
-    excess = {name: _relative(*getattr(both, name)) for name in CURVES}
-    known = np.flatnonzero(np.isfinite(excess["eta_a"] + excess["eta_d"]))
-    settled = periodic[known]
-    least = np.where(settled, apart, unsettled_apart)
-    a, d = excess["eta_a"][known], excess["eta_d"][known]
-    differ = (np.abs(a) > least) | (np.abs(d) > least)
-    turns = (np.sign(a[1:]) != np.sign(a[:-1])) & (np.sign(d[1:]) != np.sign(d[:-1]))
+    a, d = _relative(*both.eta_a), _relative(*both.eta_d)
+    settled: Flags = both.settled[0] & both.settled[1]
+    differ = np.maximum(np.abs(a), np.abs(d)) > np.where(settled, apart, unsettled_apart)
+    if not differ.any():
+        return ()
+    known = np.isfinite(a + d)
+    a, d, settled, differ = a[known], d[known], settled[known], differ[known]
     frequency = both.frequency[known]
+    sides = np.sign(a), np.sign(d)
+    turned = (sides[0][1:] != sides[0][:-1]) & (sides[1][1:] != sides[1][:-1])
 
     found = []
-    for first, last in _runs(differ, turns):
+    for first, last in runs(differ, turned):
         right = a[first : last + 1].sum() > 0.0
         found.append(
             Hysteresis(
@@ -238,7 +238,7 @@ def jumps(
     """
     both = _arrays(data)
     found = hysteresis(both, apart=apart, unsettled_apart=unsettled_apart)
-    return _jumps(both, found, apart, unsettled_apart, step)
+    return jumps_beside(found, both, apart, unsettled_apart, step)
 
 
 def ranges(data: xr.Dataset | Swept, where: xr.DataArray | Flags) -> tuple[Range, ...]:
@@ -256,7 +256,7 @@ def ranges(data: xr.Dataset | Swept, where: xr.DataArray | Flags) -> tuple[Range
     return tuple(
         Range(direction, float(frequency[first]), float(frequency[last]), last - first + 1)
         for direction, true in zip(both.directions, flags, strict=True)
-        for first, last in _runs(true)
+        for first, last in runs(true)
     )
 
 
@@ -264,16 +264,17 @@ def _arrays(data: xr.Dataset | Swept) -> Swept:
     return data if isinstance(data, Swept) else swept(data)
 
 
-def _jumps(
-    both: Swept,
+def jumps_beside(
     apart_by: tuple[Hysteresis, ...],
-    apart: float,
-    unsettled_apart: float,
-    step: float,
+    both: Swept,
+    apart: float = APART,
+    unsettled_apart: float = UNSETTLED_APART,
+    step: float = STEP,
 ) -> tuple[Jump, ...]:
+    """Do what `jumps` does where the hysteresis is known."""
     places = {
-        direction: _breaks(both.of(direction), apart, unsettled_apart, step)
-        for direction in both.directions
+        direction: _breaks(both, k, apart, unsettled_apart, step)
+        for k, direction in enumerate(both.directions)
     }
     for found in apart_by:
         if found.above is not None:
@@ -290,23 +291,25 @@ def _jumps(
 def _relative(one: Array, other: Array) -> Array:
     """Return by how much one exceeds the other, as a share of the larger; 0 where both are 0."""
     larger = np.maximum(np.abs(one), np.abs(other))
-    return np.divide(one - other, larger, out=np.zeros_like(larger), where=larger != 0.0)
+    share: Array = (one - other) / (larger + (larger == 0.0))
+    return share
 
 
-def _runs(true: NDArray[np.bool_], split: NDArray[np.bool_] | None = None) -> list[tuple[int, int]]:
+def runs(true: Flags, split: Flags | None = None) -> list[tuple[int, int]]:
     """Return first and last index of each run; `split` parts a run between two neighbours."""
-    found: list[tuple[int, int]] = []
-    for i in np.flatnonzero(true):
-        joined = found and found[-1][1] == i - 1 and not (split is not None and split[i - 1])
-        if joined:
-            found[-1] = (found[-1][0], int(i))
-        else:
-            found.append((int(i), int(i)))
-    return found
+    (places,) = true.nonzero()
+    if not len(places):
+        return []
+    parted = places[1:] - places[:-1] > 1
+    if split is not None:
+        parted |= split[places[:-1]]
+    ends = parted.nonzero()[0]
+    first, last = places[ends + 1].tolist(), places[ends].tolist()
+    return list(zip([int(places[0]), *first], [*last, int(places[-1])], strict=True))
 
 
 def _breaks(
-    one: Swept, apart: float, unsettled_apart: float, step: float
+    both: Swept, k: int, apart: float, unsettled_apart: float, step: float
 ) -> dict[tuple[float, float], bool]:
     """Find the steps of one direction's curves that are far steeper than both neighbours.
 
@@ -319,26 +322,27 @@ def _breaks(
     """
     found: dict[tuple[float, float], bool] = {}
     for name in CURVES:
-        curve: Array = getattr(one, name)[0]
-        known = np.flatnonzero(np.isfinite(curve))
+        curve: Array = getattr(both, name)[k]
+        known = np.isfinite(curve).nonzero()[0]
         if len(known) < 4:
             continue
-        frequency, y = one.frequency[known], curve[known]
-        settled = one.settled[0][known]
-        slope = np.abs(np.diff(y) / np.diff(frequency))
+        frequency, y = both.frequency[known], curve[known]
+        slope = np.abs((y[1:] - y[:-1]) / (frequency[1:] - frequency[:-1]))
         steep = slope[1:-1] > step * np.maximum(slope[:-2], slope[2:])
-        least = np.where(settled[1:-2] & settled[2:-1], apart, unsettled_apart)
-        large = np.abs(_relative(y[1:-2], y[2:-1])) > least
-        # Near a fold the motion slows down: the last hold before a jump may not settle, but
-        # the one before it will.
-        evident = (settled[:-3] | settled[1:-2]) & (settled[2:-1] | settled[3:])
-        for i in np.flatnonzero(steep & large):
-            found[float(frequency[i + 1]), float(frequency[i + 2])] = bool(evident[i])
+        for i in steep.nonzero()[0].tolist():
+            settled = both.settled[k, known[i : i + 4]].tolist()
+            least = apart if settled[1] and settled[2] else unsettled_apart
+            one, other = y[i + 1 : i + 3].tolist()
+            if abs(one - other) / max(abs(one), abs(other)) > least:
+                # Near a fold the motion slows down: the last hold before a jump may not settle,
+                # but the one before it will.
+                evident = any(settled[:2]) and any(settled[2:])
+                found[float(frequency[i + 1]), float(frequency[i + 2])] = evident
     return found
 
 
 def _jump(both: Swept, direction: Direction, before: float, after: float, settled: bool) -> Jump:
     k = both.directions.index(direction)
-    at = np.searchsorted(both.frequency, [before, after])
+    at = both.frequency.searchsorted([before, after])
     (a0, a1), (d0, d1) = (getattr(both, name)[k][at].tolist() for name in CURVES)
     return Jump(direction, before, after, (a0, a1), (d0, d1), settled)

@@ -73,7 +73,7 @@ def prepared(
         free *= levels / shaken.amplitude
     else:
         free = np.array(swept_flight(oscillator, shaken, frequencies, levels))
-    most = shaken.replace(amplitude=levels.max())
+    most = shaken if sizes is None else shaken.replace(amplitude=levels.max())
     return Prepared(
         frequencies,
         engine_rig(oscillator, shaken),

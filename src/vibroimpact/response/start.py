@@ -21,6 +21,21 @@ from vibroimpact.response.variables import COMPONENTS
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
 
+_COLUMNS = np.array(
+    [
+        layout.U,
+        layout.V,
+        layout.RIGHT_BUMPER,
+        layout.LEFT_BUMPER,
+        layout.MODE,
+        layout.MODE,
+        layout.ISOLATOR,
+    ]
+)
+"""Where an engine's state holds each of `COMPONENTS`; it has no phase, and the mode tells the
+contact."""
+_TOUCHING = np.array(record.TOUCHING)
+
 
 def engine_rig(oscillator: Oscillator, shaken: Repeated | Record) -> NDArray[np.float64]:
     """The oscillator and what shakes it as the vector that the engine reads."""
@@ -226,22 +241,15 @@ def _on_bumper(
 
 def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
     """Engine states (last axis) as the components of a dataset's state."""
-    mode = vector[..., layout.MODE]
+    found: NDArray[np.float64] = vector.take(_COLUMNS, axis=-1)
+    right, left, angle, contact = (found[..., i] for i in range(2, 6))
     # At the end of a contact without a dashpot, rounding may leave a deformation below zero.
-    deformations = np.maximum(vector[..., layout.RIGHT_BUMPER : layout.LEFT_BUMPER + 1], 0.0)
-    stacked = np.stack(
-        [
-            vector[..., layout.U],
-            vector[..., layout.V],
-            deformations[..., 0],
-            -deformations[..., 1],
-            np.broadcast_to(phase % (2.0 * math.pi), mode.shape),
-            np.take(record.TOUCHING, mode.astype(np.int64)),
-            vector[..., layout.ISOLATOR],
-        ],
-        axis=-1,
-    )
-    return stacked + 0.0  # no negative zeros
+    np.maximum(right, 0.0, out=right)
+    np.minimum(-left, 0.0, out=left)
+    angle[...] = phase % (2.0 * math.pi)
+    contact[...] = _TOUCHING[contact.astype(np.int64)]
+    found += 0.0  # no negative zeros
+    return found
 
 
 def state_from(vector: NDArray[np.float64], phase: float) -> State:

@@ -33,16 +33,8 @@ class Swept(NamedTuple):
     touching: Flags
     """Whether the mass touches a bumper."""
 
-    def of(self, direction: Direction) -> Swept:
-        """One direction alone."""
-        k = self.directions.index(direction)
-        return self._replace(
-            directions=(direction,), **{name: getattr(self, name)[k : k + 1] for name in _ARRAYS}
-        )
-
 
 _KINDS = ("acceleration", "displacement")
-_ARRAYS = ("eta_a", "eta_d", "settled", "period", "touching")
 
 
 def swept(data: xr.Dataset) -> Swept:

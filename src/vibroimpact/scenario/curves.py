@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import hold
-from vibroimpact.engine.status import Status
+from vibroimpact.engine.status import NOT_SETTLED
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.response.rows import Patience, prepared, rows
@@ -125,17 +125,18 @@ def swept_alone(
     for k, direction in enumerate(DIRECTIONS):
         found[k], reached = rows(ready, direction, patience, tally)
         states.append(reached)
-    low, high = found[..., hold.U_LEAST], found[..., hold.U_MOST]
+    each = found.transpose(2, 0, 1).copy()  # what was measured, one quantity behind the other
+    low, high = each[hold.U_LEAST], each[hold.U_MOST]
     excursion = high - low
-    period = found[..., hold.PERIOD].astype(np.int64)
+    period = each[hold.PERIOD].astype(np.int64)
     both = Swept(
         frequencies,
         DIRECTIONS,
-        (found[..., hold.A_MOST] - found[..., hold.A_LEAST]) / ready.largest[1],
+        (each[hold.A_MOST] - each[hold.A_LEAST]) / ready.largest[1],
         excursion / ready.largest[0],
         period > 0,
         period,
-        found[..., hold.HITS_RIGHT] + found[..., hold.HITS_LEFT] > 0.0,
+        each[hold.HITS_RIGHT] + each[hold.HITS_LEFT] > 0.0,
     )
     curves = Curves(
         both,
@@ -145,10 +146,8 @@ def swept_alone(
         float(np.fmin.reduce(low, axis=None)),
     )
     section = components(np.array(states), 0.0)
-    plain = (found[..., hold.OUTCOME] == Status.NOT_SETTLED) & (
-        found[..., hold.CYCLES] < max_cycles
-    )
-    contacts = found[..., [hold.HITS_RIGHT, hold.HITS_LEFT]]
+    plain = (each[hold.OUTCOME] == NOT_SETTLED) & (each[hold.CYCLES] < max_cycles)
+    contacts = found.take([hold.HITS_RIGHT, hold.HITS_LEFT], axis=-1)
     return curves, Holds(frequencies, period, section, plain, contacts)
 
 

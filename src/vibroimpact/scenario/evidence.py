@@ -19,7 +19,7 @@ import xarray as xr
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.response.free_flight import reference_excursions, resonance_ratio
 from vibroimpact.response.peaks import Peak, peaks
-from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps
+from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps_beside, runs
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs
 from vibroimpact.scenario.axes import Shaken, at_rest, room
 from vibroimpact.scenario.curves import Curves, each_curves
@@ -199,7 +199,7 @@ def shown(rig: Shaken, curves: Curves, prominence: float) -> Evidence:
     rest = at_rest(oscillator)
     reached = {"right": most - rest, "left": rest - least}
     gaps = room(oscillator)
-    touched = np.flatnonzero(both.touching.any(axis=0))
+    touched = np.logical_or.reduce(both.touching).nonzero()[0]
     apart = hysteresis(both)
     found = peaks(both, prominence=prominence)
     irregular = ~both.settled | (both.period != 1) | uneven
@@ -208,7 +208,6 @@ def shown(rig: Shaken, curves: Curves, prominence: float) -> Evidence:
     swing = next(
         (p for p in found if p.primary and p.curve == "eta_d" and p.direction == "forward"), None
     )
-    at = {d: int(np.searchsorted(frequency, p.frequency)) for d, p in primary.items()}
     beyond = any(p.at_end and p.frequency == frequency[-1] for p in primary.values())
     top = max((p.frequency for p in found if p.primary), default=math.inf)
     return Evidence(
@@ -219,7 +218,8 @@ def shown(rig: Shaken, curves: Curves, prominence: float) -> Evidence:
         else None,
         attached=bool(gaps) and max(gaps.values()) <= 0.0,
         known=bool(
-            np.isfinite(both.eta_a).mean(axis=1).min() >= KNOWN and both.settled.mean() >= SETTLED
+            all(_share(values) >= KNOWN for values in np.isfinite(both.eta_a))
+            and _share(both.settled) >= SETTLED
         ),
         within=not beyond and _resonance_within(rig, both),
         gap_ratio=min(gaps.values(), default=math.inf) / _largest(rig, free),
@@ -227,10 +227,10 @@ def shown(rig: Shaken, curves: Curves, prominence: float) -> Evidence:
             ((reached[side] - gap) / gap for side, gap in gaps.items() if gap > 0.0),
             default=math.nan,
         ),
-        resonance=swing.frequency / float(frequency[np.argmax(free)]) if swing else math.nan,
-        primary_regular=all(not irregular[both.directions.index(d), i] for d, i in at.items()),
+        resonance=swing.frequency / float(frequency[free.argmax()]) if swing else math.nan,
+        primary_regular=not any(irregular[_place(p, both)] for p in primary.values()),
         primary_beyond=beyond,
-        jumps=jumps(both),
+        jumps=jumps_beside(apart, both),
         hysteresis=apart,
         left=tuple(
             item
@@ -247,20 +247,24 @@ def shown(rig: Shaken, curves: Curves, prominence: float) -> Evidence:
             for peak in found
             if _regular_secondary(peak, both, irregular, primary)
             and not within(peak.frequency, begins)
-            and foot_in_contact(
-                both,
-                both.directions.index(peak.direction),
-                int(np.searchsorted(frequency, peak.frequency)),
-                prominence,
-            )
+            and foot_in_contact(both, *_place(peak, both), prominence)
         ),
         peaks=found,
     )
 
 
+def _share(flags: Flags) -> float:
+    return np.count_nonzero(flags) / flags.size
+
+
+def _place(peak: Peak, both: Swept) -> tuple[int, int]:
+    """Its direction and its frequency, as indices."""
+    return both.directions.index(peak.direction), int(both.frequency.searchsorted(peak.frequency))
+
+
 def _resonance_within(rig: Shaken, both: Swept) -> bool:
     at = resonance_ratio(*rig) * rig.oscillator.natural_frequency
-    low, high = both.frequency[[0, -1]]
+    low, high = both.frequency[0], both.frequency[-1]
     return bool((at == 0.0 or low <= at) and (math.isinf(at) or at <= high))
 
 
@@ -280,13 +284,12 @@ def _irregular(
 ) -> Iterator[Irregular]:
     frequency = both.frequency
     for k, direction in enumerate(both.directions):
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], irregular[k], [False]])))
-        for first, end in edges.reshape(-1, 2):
-            low, high = float(frequency[first]), float(frequency[end - 1])
+        for first, last in runs(irregular[k]):
+            low, high = float(frequency[first]), float(frequency[last])
             if within(low, begins):
                 continue
-            inside = slice(first, end)
-            unsettled = np.flatnonzero(~both.settled[k, inside]) + first
+            inside = slice(first, last + 1)
+            unsettled = frequency[inside][~both.settled[k, inside]]
             present: dict[Kind, bool] = {
                 "not periodic": len(unsettled) > 0,
                 "subharmonic": bool((both.period[k, inside] > 1).any()),
@@ -306,9 +309,7 @@ def _irregular(
                 high,
                 tuple(kind for kind, there in present.items() if there),
                 max(heights, default=0.0),
-                (float(frequency[unsettled[0]]), float(frequency[unsettled[-1]]))
-                if len(unsettled)
-                else None,
+                (float(unsettled[0]), float(unsettled[-1])) if len(unsettled) else None,
             )
 
 
@@ -319,8 +320,5 @@ def _regular_secondary(
         return False
     if peak.frequency >= primary[peak.direction].frequency:
         return False
-    k, i = (
-        both.directions.index(peak.direction),
-        int(np.searchsorted(both.frequency, peak.frequency)),
-    )
-    return bool(both.touching[k, i] and not irregular[k, i])
+    place = _place(peak, both)
+    return bool(both.touching[place] and not irregular[place])

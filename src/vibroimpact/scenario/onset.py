@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from vibroimpact.errors import InputError
-from vibroimpact.response.resonance import Hysteresis
+from vibroimpact.response.resonance import Hysteresis, runs
 from vibroimpact.response.swept import Flags, Swept
 from vibroimpact.scenario.axes import Shaken, at_rest, room
 
@@ -24,14 +24,11 @@ def onset(
     for item in apart:
         if item.side == "left":
             loose |= (both.frequency >= item.low) & (both.frequency <= item.high)
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], loose, [False]]))).reshape(-1, 2)
     return tuple(
-        (float(both.frequency[first]), float(both.frequency[end - 1]))
-        for first, end in edges
+        (float(both.frequency[first]), float(both.frequency[last]))
+        for first, last in runs(loose)
         if not (
-            _pressed_at_rest(rig)
-            if first == 0
-            else foot_in_contact(both, 0, int(first), prominence)
+            _pressed_at_rest(rig) if first == 0 else foot_in_contact(both, 0, first, prominence)
         )
     )
 
@@ -42,18 +39,14 @@ def foot_in_contact(both: Swept, k: int, i: int, prominence: float) -> bool:
     Going down from it, the valley is passed where the curve has risen again by `prominence` of
     its height; if it never does, it is where the curve was lowest.
     """
-    curve = both.eta_a[k]
-    known = np.flatnonzero(np.isfinite(curve[: i + 1]))
-    if not len(known):
+    down = both.eta_a[k, i::-1]
+    known = np.isfinite(down)
+    down = down[known]
+    if not len(down):
         return bool(both.touching[k, i])
-    foot = int(known[-1])
-    height = curve[foot]
-    for j in known[-2::-1]:
-        if curve[j] < curve[foot]:
-            foot = int(j)
-        elif curve[j] - curve[foot] > prominence * height:
-            break
-    return bool(both.touching[k, foot])
+    risen = down - np.minimum.accumulate(down) > prominence * down[0]
+    foot = down[: risen.argmax() or None].argmin()
+    return bool(both.touching[k, i::-1][known][foot])
 
 
 def _pressed_at_rest(rig: Shaken) -> bool:
