@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from itertools import combinations
 
 import numpy as np
@@ -115,6 +116,141 @@ def test_what_exceeds_a_limit_is_marked(data) -> None:
         within_limits=limited["within_limits"] & False, pareto=limited["pareto"] & False
     )
     assert len(pareto_front(none).lines) == 1
+
+
+def limited(data, **limits):
+    """The same designs under limits, as `design` writes them."""
+    within = np.ones(data["pareto"].shape, dtype=bool)
+    for name, limit in limits.items():
+        within &= data[name].values <= limit
+    about = {**json.loads(data.attrs["parameters"]), "limits": limits}
+    new = data.assign(within_limits=(data["pareto"].dims, within), pareto=data["pareto"] & within)
+    return new.assign_attrs(parameters=json.dumps(about))
+
+
+def hatched(panel):
+    """Whether a point of a panel, a gap and a stiffness of both bumpers (SI), is hatched."""
+    (area,) = (one for one in panel.collections if any(getattr(one, "hatches", [None])))
+    (path,) = area.get_paths()
+    return lambda gap, stiffness: path.contains_point((1e3 * gap, 1e-3 * stiffness))
+
+
+def crossing(values, limit):
+    """Where values over the stiffnesses fall below a limit, as straight lines on the axis."""
+    (k,) = np.flatnonzero(np.diff(np.sign(values - limit)))
+    share = (limit - values[k]) / (values[k + 1] - values[k])
+    return STIFFNESSES[k] * (STIFFNESSES[k + 1] / STIFFNESSES[k]) ** share
+
+
+def test_what_is_hatched_ends_where_the_interpolated_value_is_the_limit(data) -> None:
+    """As the contour lines do, and not half-way between two designs."""
+    limit = 0.025
+    some = limited(data, penetration=limit)
+    values = data["penetration"].transpose("gap", "bumper_stiffness").values
+    looked_at = 0
+    for panel in design_chart(some):
+        inside = hatched(panel)
+        (edge,) = (one for one in panel.collections if list(getattr(one, "levels", [])) == [0.0])
+        at = np.concatenate(edge.allsegs[0])
+        for gap, over in zip(GAPS, values, strict=True):
+            if over.min() < limit < over.max():
+                there = crossing(over, limit)
+                np.testing.assert_allclose(
+                    1e-3 * there, at[np.abs(at[:, 0] - 1e3 * gap) < 1e-6, 1], rtol=2e-3
+                )
+                if gap > GAPS[0]:
+                    assert inside(gap, 0.98 * there)
+                    assert not inside(gap, 1.02 * there)
+                looked_at += 1
+    assert looked_at >= 4
+
+
+def test_what_is_hatched_ends_on_the_contour_line_of_the_limit(data) -> None:
+    levels = next(iter(design_chart(data)[0].collections)).levels
+    some = limited(data, peak_displacement=1e-3 * levels[len(levels) // 2])
+    panel = design_chart(some)[0]
+    lines = next(one for one in panel.collections if not one.filled and len(one.levels) > 1)
+    (line,) = (part for part in lines.allsegs[len(levels) // 2] if len(part))
+    (edge,) = (one for one in panel.collections if list(getattr(one, "levels", [])) == [0.0])
+    (end,) = edge.allsegs[0]
+    scale = np.array([1.0, 1.0]) / np.ptp(line, axis=0)
+    apart = np.hypot(*np.moveaxis(scale * (line[:, None] - end[None]), -1, 0))
+    assert apart.min(axis=0).max() < 1e-3
+
+
+def test_what_exceeds_any_of_several_limits_is_hatched_up_to_its_own_edge(data) -> None:
+    limits = {"penetration": 0.025, "peak_force": float(data["peak_force"].quantile(0.8))}
+    both = hatched(design_chart(limited(data, **limits))[0])
+    each = [hatched(design_chart(limited(data, **{n: v}))[0]) for n, v in limits.items()]
+    found = set()
+    for gap in np.linspace(0.02, 0.29, 23):
+        for stiffness in np.geomspace(120.0, 1900.0, 23):
+            alone = [one(gap, stiffness) for one in each]
+            found.add(tuple(alone))
+            assert both(gap, stiffness) == any(alone)
+    assert {(True, False), (False, True), (False, False)} <= found
+
+
+def test_designs_that_were_not_done_are_hatched_half_way_to_the_next(data) -> None:
+    for value in (np.nan, np.inf):
+        broken = data.copy(deep=True)
+        at = {"gap": 2, "bumper_stiffness": 1}
+        for name in ("peak_displacement", "peak_acceleration", "peak_force", "penetration"):
+            broken[name][at] = value
+        inside = hatched(design_chart(limited(broken, penetration=1.0))[0])
+        step, ratio = GAPS[1] - GAPS[0], STIFFNESSES[1] / STIFFNESSES[0]
+        for share, expected in ((0.0, True), (0.4, True), (0.6, False)):
+            assert inside(GAPS[2] + share * step, STIFFNESSES[1]) is expected
+            assert inside(GAPS[2], STIFFNESSES[1] * ratio**share) is expected
+
+
+def test_where_no_design_was_done_all_is_hatched(data) -> None:
+    names = ("peak_displacement", "peak_acceleration", "peak_force", "penetration", "hitting")
+    nothing = data.assign({name: data[name] * np.nan for name in names})
+    for panel in design_chart(limited(nothing, penetration=0.025)):
+        inside = hatched(panel)
+        assert all(inside(g, k) for g in (0.02, 0.29) for k in (110.0, 1900.0))
+
+
+def test_limits_that_all_or_none_exceed(data) -> None:
+    all_of_them, none = limited(data, peak_displacement=1e-3), limited(data, peak_displacement=9.0)
+    for panel in design_chart(all_of_them):
+        inside = hatched(panel)
+        assert all(inside(g, k) for g in (0.02, 0.29) for k in (110.0, 1900.0))
+        words = [text.get_text() for text in panel.get_legend().get_texts()]
+        assert words == ["first of these designs to hit nothing", "exceeds a limit"]
+        panel.figure.draw_without_rendering()
+        assert panel.bbox.width > 300.0  # pixels; a mark of no design must not push it aside
+    for panel in design_chart(none):
+        assert not any(any(getattr(one, "hatches", [None])) for one in panel.collections)
+    # Only what hits nothing presses no bumper: such designs are not hatched, and end it.
+    inside = hatched(design_chart(limited(data, penetration=0.0))[0])
+    first = GAPS[(data["hitting"] == 0.0).all("bumper_stiffness").values.argmax()]
+    for stiffness in (110.0, 500.0, 1900.0):
+        assert inside(first - 1e-3, stiffness)
+        assert not inside(first + 1e-3, stiffness)
+
+
+def test_without_its_limits_a_design_is_hatched_half_way_to_the_next(data) -> None:
+    unknown = limited(data, penetration=0.025).assign_attrs(parameters="{}")
+    inside = hatched(design_chart(unknown)[0])
+    within = unknown["within_limits"].transpose("gap", "bumper_stiffness").values
+    changes = 0
+    for gap, row in zip(GAPS[1:-1], within[1:-1], strict=True):
+        for k in np.flatnonzero(row[1:] != row[:-1]):
+            middle = np.sqrt(STIFFNESSES[k] * STIFFNESSES[k + 1])
+            assert inside(gap, 0.95 * middle) != row[k]
+            assert inside(gap, 1.05 * middle) != row[k + 1]
+            changes += 1
+    assert changes
+
+
+def test_a_front_within_limits_is_named_so(data) -> None:
+    some = limited(data, penetration=0.025)
+    for ax in (pareto_front(some), *design_chart(some), *design_chart(some.isel(gap=0))):
+        words = [text.get_text() for text in ax.get_legend().get_texts()]
+        assert "beaten by none within the limits" in words
+        assert "beaten by no other" not in words
 
 
 def test_a_fractile_over_the_records_is_named() -> None:

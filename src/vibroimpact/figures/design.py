@@ -15,6 +15,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.between import finer, finer_axis, nearest
 from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.levels import number_lines
 from vibroimpact.figures.motions import axes_or_new
@@ -24,6 +25,7 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.units import pretty
 from vibroimpact.scenario.axes import logarithmic
+from vibroimpact.sizing.limits import excesses
 from vibroimpact.sizing.shaking import fractile_of
 
 _Array = NDArray[np.float64]
@@ -50,6 +52,9 @@ def design_chart(
     A contour line has its value on it, where there is room. Dots mark designs that no other one
     beats. The thick dashed line goes through the first of the designs that hit nothing: the gap
     that is needed lies before it, and is that of `required_gap`. What is hatched exceeds a limit.
+    Its edge is interpolated between the designs, on the axes' scales, as the contour lines are; but
+    it lies half-way to a design that was given up or has no bound, and half-way between all designs
+    if the dataset does not say what the limits are.
 
     Parameters
     ----------
@@ -145,7 +150,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
             linewidth=1.2,
             marker="s",
             markersize=4.5,
-            label="beaten by no other",
+            label=_best(data),
             zorder=4,
         )
     ax.set_xlabel(_quantity(data, "peak_displacement")[1])
@@ -186,7 +191,7 @@ def _name_points(
         )
     names = ", ".join(str(data[dim].attrs["long_name"]) for dim in dims)
     if len(chosen) < len(order):
-        names = f"{len(chosen)} of the {len(order)} that are beaten by no other: {names}"
+        names = f"{len(chosen)} of the {len(order)} that are {_best(data)}: {names}"
     told_of = "\n".join([*textwrap.wrap(names, 26), *lines])
     ax.text(
         1.02,
@@ -210,6 +215,11 @@ def _beyond(data: xr.Dataset) -> NDArray[np.bool_]:
         return np.zeros(data["pareto"].shape, dtype=bool)
     found: NDArray[np.bool_] = ~data["within_limits"].values.astype(bool)
     return found
+
+
+def _best(data: xr.Dataset) -> str:
+    """What the designs of the front are: one that exceeds a limit may be better in both."""
+    return f"beaten by {'none within the limits' if _beyond(data).any() else 'no other'}"
 
 
 def _dims(data: Any) -> list[str]:
@@ -269,7 +279,7 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
     y = factor * np.where(np.isfinite(data[name].values), data[name].values, np.nan)
     ax.plot(x, y, color="black", linewidth=1.4, zorder=3)
     best = data["pareto"].values.astype(bool)
-    ax.plot(x[best], y[best], "o", color="black", markersize=4.0, label="beaten by no other")
+    ax.plot(x[best], y[best], "o", color="black", markersize=4.0, label=_best(data))
     beyond = _beyond(data)
     if beyond.any():
         ax.plot(x[beyond], y[beyond], "x", color="0.5", markersize=5.0, label="exceeds a limit")
@@ -297,13 +307,16 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
     data = data.transpose(second, first)
     factor, label = _quantity(data, name)
     x, y = _axis(ax.xaxis, data[first]), _axis(ax.yaxis, data[second])
-    values = np.ma.masked_invalid(factor * data[name].values)
+    # Contours between nodes are straight lines, whatever the axes' scales.
+    points = finer_axis(ax.xaxis, x), finer_axis(ax.yaxis, y)
+    known = np.where(np.isfinite(data[name].values), data[name].values, np.nan)
+    values = np.ma.masked_invalid(finer(factor * known))
     ax.set_title(label, fontsize="medium")
     levels: list[tuple[float, Any]] = []
-    if np.ptp(values.compressed()) > 1e-9 * np.abs(values).max():
-        filled = ax.contourf(x, y, values, levels=_LEVELS, cmap="YlGnBu", alpha=0.55, zorder=1)
+    if values.count() and np.ptp(values.compressed()) > 1e-9 * np.abs(values).max():
+        filled = ax.contourf(*points, values, levels=_LEVELS, cmap="YlGnBu", alpha=0.55, zorder=1)
         lines = ax.contour(
-            x, y, values, levels=filled.levels, colors="0.15", linewidths=0.7, zorder=3
+            *points, values, levels=filled.levels, colors="0.15", linewidths=0.7, zorder=3
         )
         levels = list(zip(lines.levels, lines.allsegs, strict=True))
     hits = (data["hitting"].values > 0.0).astype(float)
@@ -325,13 +338,8 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
                 label="first of these designs to hit nothing",
             )
         )
-    beyond = _beyond(data)
-    if beyond.any():
-        with matplotlib.rc_context({"hatch.color": "0.55", "hatch.linewidth": 0.6}):
-            ax.contourf(x, y, beyond, levels=[0.5, 1.5], hatches=["////"], colors="none", zorder=2)
-            handles.append(
-                Patch(facecolor="none", edgecolor="0.55", hatch="////", label="exceeds a limit")
-            )
+    if _beyond(data).any():
+        handles.append(_hatch(ax, *points, _excess(data)))
     best = np.argwhere(data["pareto"].values.astype(bool))
     (dots,) = ax.plot(
         x[best[:, 1]],
@@ -341,15 +349,50 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
         markersize=4.0,
         color="black",
         clip_on=False,
-        label="beaten by no other",
+        label=_best(data),
         zorder=5,
     )
     number_lines(ax, levels, [dots, *edges])
+    if not len(best):
+        dots.remove()  # where no design is, it would still take room
     ax.legend(
-        handles=[dots, *handles],
+        handles=[*([dots] if len(best) else []), *handles],
         loc="upper center",
         bbox_to_anchor=(0.5, -0.16),
         frameon=False,
         ncols=2,
         fontsize="small",
     )
+
+
+def _excess(data: xr.Dataset) -> _Array:
+    """Above 0 where a limit is exceeded, at the points of `finer_axis`."""
+    beyond = _beyond(data)
+    each = np.array(
+        [one.transpose(*data["pareto"].dims).values for one in excesses(data)]
+        or [np.full(beyond.shape, np.nan)]
+    )
+    known = np.isfinite(each).all(axis=0) & ((each.max(axis=0) > 0.0) == beyond)
+    # Each limit by itself: the larger of two is no straight line.
+    largest = np.max([finer(np.where(known, one, np.nan)) for one in each], axis=0)
+    return np.where(np.isnan(largest), np.where(nearest(beyond), 1.0, -1.0), largest)
+
+
+def _hatch(ax: Axes, x: _Array, y: _Array, excess: _Array) -> Patch:
+    """Hatch what exceeds a limit; return its sample."""
+    # What is just at a limit keeps it, whatever rounding and the lowest level would make of it.
+    excess = np.where(excess > 0.0, excess, np.minimum(excess, -1e-300))
+    with matplotlib.rc_context({"hatch.color": "0.5", "hatch.linewidth": 0.6}):
+        ax.contourf(
+            x,
+            y,
+            excess,
+            levels=[0.0, excess.max() + 1.0],
+            hatches=["////"],
+            colors="none",
+            zorder=2,
+        )
+        sample = Patch(facecolor="none", edgecolor="0.5", hatch="////", label="exceeds a limit")
+    if excess.min() < 0.0:
+        ax.contour(x, y, excess, levels=[0.0], colors="0.4", linewidths=1.2, zorder=2)
+    return sample

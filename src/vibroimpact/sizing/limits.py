@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
+
+import xarray as xr
 
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import to_si
@@ -31,3 +34,13 @@ def limits_of(limits: Any) -> dict[str, float]:
         quantity = QUANTITIES[VARIABLES[key].units]
         found[key] = to_si(value, quantity, f"limits[{name!r}]", minimum=0.0)
     return found
+
+
+def excesses(data: xr.Dataset) -> list[xr.DataArray]:
+    """By how much designs exceed each limit, as a share of it; above 0 where they do.
+
+    Of a limit of 0 it is the value itself. The list is empty where a dataset does not say what its
+    limits are.
+    """
+    limits = json.loads(data.attrs.get("parameters", "{}")).get("limits", {})
+    return [(data[name] - most) / (most or 1.0) for name, most in limits.items() if name in data]
