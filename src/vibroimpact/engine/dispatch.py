@@ -10,7 +10,8 @@ that is not said there to the Taylor flow. Each is a folder whose modules have t
     stiff_rate(plan)                        what makes a velocity of a displacement (1/s)
 
     begin(plan, motion, length), more(plan, cursor), following(plan, cursor)
-    enclosed(plan, cursor, before)          between which bounds a piece lies
+    glance(plan, cursor, before, seen, room)  look ahead over a window of pieces
+    enclosed(plan, cursor, room)            between which bounds a piece lies, then
     expanded(plan, cursor, series), expanded_force(…), accelerated(…), moment(…)
     smooth(plan, motion, limit)             one analytic piece of a motion, stops left out
     look(plan, cursor, before, tau, …)      the motion at a time of a stretch, for samples
@@ -77,6 +78,7 @@ stiff_rate = _by_flow("stiff_rate")
 begin = _by_flow("begin")
 more = _by_flow("more")
 following = _by_flow("following")
+glance = _by_flow("glance")
 enclosed = _by_flow("enclosed")
 expanded = _by_flow("expanded")
 expanded_force = _by_flow("expanded_force")

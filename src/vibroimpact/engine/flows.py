@@ -25,7 +25,7 @@ from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.linear import advance as linear_advance
 from vibroimpact.engine.linear import carry as linear_carry
-from vibroimpact.engine.linear import forces, pieces, tables, undisturbed
+from vibroimpact.engine.linear import chords, forces, pieces, tables, undisturbed
 from vibroimpact.engine.linear import growth as linear_growth
 from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
@@ -146,7 +146,17 @@ _TAYLOR = (
     taylor_carry,
     taylor_growth,
 )
-answer(par.LINEAR, tables, undisturbed, linear_advance, forces, pieces, linear_carry, linear_growth)
+answer(
+    par.LINEAR,
+    tables,
+    undisturbed,
+    linear_advance,
+    forces,
+    pieces,
+    chords,
+    linear_carry,
+    linear_growth,
+)
 answer(par.BENT, *_TAYLOR)
 answer(par.YIELDING, yielding_plan, *_TAYLOR)
 

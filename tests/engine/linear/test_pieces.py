@@ -15,16 +15,14 @@ from vibroimpact.engine.linear.pieces import (
     accelerated,
     begin,
     displacement,
-    enclosed,
     expanded,
-    expanded_force,
     following,
     middle,
     more,
 )
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
+from vibroimpact.engine.motion import FLIGHT, RIGHT, Motion
 from vibroimpact.engine.parameters import SIZE
 from vibroimpact.response.start import engine_rig
 
@@ -89,48 +87,3 @@ def test_a_contact_whose_fast_part_dies_out() -> None:
     pieces = check(rig, 0.1, motion, 3.0)
     steps = pieces[:, 1] - pieces[:, 0]
     assert steps[-2] > 20.0 * steps[0]
-
-
-@kernel
-def outside(plan: Vector, motion: Motion, length: float, out: Vector) -> int:
-    """By how much samples of each piece lie outside its bounds, and how wide these are."""
-    series = workspace()
-    n = 0
-    cursor = begin(plan, motion, length)
-    while more(plan, cursor):
-        x_least, x_most, a_least, a_most, force = enclosed(plan, cursor, motion)
-        out[n, 0], out[n, 1], out[n, 2] = -math.inf, -math.inf, -math.inf
-        out[n, 3], out[n, 4] = x_most - x_least, a_most - a_least
-        for part in range(3):
-            high, s, c = expanded(plan, cursor, series)
-            unit = 1.0
-            if part == 1:
-                unit = accelerated(plan, cursor, s, c, series)
-            elif part == 2:
-                if motion.mode == FLIGHT:
-                    break
-                expanded_force(plan, cursor, motion.mode, motion.mode, series)
-            for k in range(9):
-                y, _ = horner(series, -0.5 + k * (high + 0.5) / 8.0)
-                y *= unit
-                least, most = (x_least, x_most) if part == 0 else (a_least, a_most)
-                beyond = y - force if part == 2 else max(least - y, y - most)
-                out[n, part] = max(out[n, part], beyond)
-        n += 1
-        cursor = following(plan, cursor)
-    return n
-
-
-@pytest.mark.parametrize("mode", [FLIGHT, RIGHT, LEFT])
-@pytest.mark.parametrize("damping", [0.5, 200.0])
-def test_a_piece_lies_within_its_bounds(mode: int, damping: float) -> None:
-    stop = vi.Bumper(200.0, damping, -0.5)
-    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), *(stop if mode == m else None for m in (1, 2)))
-    plan, out = np.zeros(PLAN), np.empty((5000, 5))
-    plan[:SIZE] = engine_rig(rig, vi.Harmonic(1.0, 1.0))
-    build(plan, 0.6, math.tau * FREQUENCY)
-    motion = Motion(mode, 0, 0.4 * (1 - mode), 0.7, 0.1, 0.1, 0.0, 0.0, CLOCK)
-    pieces = out[: outside(plan, motion, 3.0, out)]
-    assert pieces[:, :3].max() <= 1e-12
-    assert np.isfinite(pieces[:, 3:]).all()
-    assert pieces[:, 3].min() < 0.1  # they say something

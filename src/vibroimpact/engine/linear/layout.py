@@ -51,7 +51,10 @@ WAVE_S = 17  # of one harmonic among several: what its sin nθ and cos nθ pull,
 WAVE_C = 18
 FOURTH = 19  # bound on |x⁗| h⁴ where |x″| h² ≤ b: FOURTH b + FOURTH_0
 FOURTH_0 = 20
-HEADER = 21
+THIRD_X = 21  # bound on |x‴| h³ from a state, as that of BAND
+THIRD_V = 22
+THIRD_0 = 23
+HEADER = 24
 
 # A node's rows: x and x′ as functions of the state row at the start, then the cosine and
 # sine of the angle that the forcing turns until there, then what the rounding of the first two

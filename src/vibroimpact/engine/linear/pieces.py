@@ -13,13 +13,12 @@ about the interval's middle, in y = (t − t_middle) / step, right to rounding.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand, pull_series, turned, value
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import absolute_acceleration, band, horner, moved, node
+from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner, moved, node
 from vibroimpact.engine.linear.layout import (
     LATE_TABLES,
     MIDDLE,
@@ -59,23 +58,6 @@ class Cursor(NamedTuple):
     t: float
     span: float
     start: Row
-
-
-class Enclosed(NamedTuple):
-    """Bounds between which a piece lies, in the mode's own direction.
-
-    Its coordinate, the acceleration in space, and what the pressed stop pushes with at most, per
-    unit mass.
-    """
-
-    x_least: float
-    x_most: float
-    a_least: float
-    a_most: float
-    force: float
-
-
-ANYWHERE = Enclosed(-math.inf, math.inf, -math.inf, math.inf, math.inf)
 
 
 @kernel
@@ -122,34 +104,6 @@ def middle(plan: Vector, cursor: Cursor) -> Row:
     """The state in the middle of a piece, in the mode's own coordinates."""
     here = node(plan, cursor.table, cursor.i, cursor.start)
     return moved(plan, cursor.table + MIDDLE, here)
-
-
-@kernel
-def enclosed(plan: Vector, cursor: Cursor, before: Motion) -> Enclosed:
-    """Bounds on a piece from the state at its node, for far less than its series.
-
-    With |x″| h²/8 ≤ b on the interval, x lies within |x′| h/2 + b of that in its middle, and x′
-    within 4b/h. Where a stop holds the mass, the base stands still or both stops are pressed,
-    nothing is said.
-    """
-    table, mode = cursor.table, before.mode
-    if mode == BOTH or plan[table + RESTING] != 0.0 or plan[par.BASE] == 0.0:
-        return ANYWHERE
-    x, v, _, _ = here = node(plan, table, cursor.i, cursor.start)
-    bound = band(plan, table, x, v)
-    x, v, _, _ = moved(plan, table + MIDDLE, here)
-    h, rate = plan[table + H], plan[table + RATE]
-    k, c = plan[table + SCALED_K], plan[table + SCALED_C]
-    way, faster = 0.5 * abs(v) * h + bound, 4.0 * bound
-    a = plan[table + SCALED_D] - k * x - c * (v * h)
-    other = k * way + c * faster
-    force = -math.inf
-    if mode:
-        at = par.BUMPER + (par.WIDTH if mode == LEFT else 0)
-        force = plan[at + par.BUMPER_STIFFNESS] * (x + way)
-        force += plan[at + par.BUMPER_DAMPING] * (v + faster * rate)
-    unit = rate * rate
-    return Enclosed(x - way, x + way, (a - other) * unit, (a + other) * unit, force)
 
 
 @kernel

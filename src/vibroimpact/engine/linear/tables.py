@@ -47,6 +47,9 @@ from vibroimpact.engine.linear.layout import (
     STEEPEST,
     STEP,
     TABLES,
+    THIRD_0,
+    THIRD_V,
+    THIRD_X,
     VALID_FROM,
     WAVE_C,
     WAVE_S,
@@ -232,6 +235,9 @@ def _table(
         plan[at + FORCE_X] = (stiffness * second_x + damping * third_x) * eighth
         plan[at + FORCE_V] = (stiffness * second_v + damping * third_v) * eighth
         plan[at + FORCE_0] = (stiffness * second_0 + damping * third_0) * eighth
+        cube = h * h * h
+        plan[at + THIRD_X], plan[at + THIRD_V] = third_x * cube, third_v * cube
+        plan[at + THIRD_0] = third_0 * cube
         # |x‴| ≤ (c + √k) b + |A′| and |x⁗| ≤ c |x‴| + k b + |A″| of early tables, as √k |x′| ≤ b.
         plan[at + FOURTH] = (c * (c + root) + k) * h * h
         plan[at + FOURTH_0] = c * steepest * h**4

@@ -20,16 +20,18 @@ from vibroimpact.engine.dispatch import (
     expanded,
     expanded_force,
     following,
+    glance,
     more,
     rest_level,
 )
 from vibroimpact.engine.forcing.dispatch import pull_series
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.chords import Enclosed, chords
 from vibroimpact.engine.linear.layout import ORDER, RATE
 from vibroimpact.engine.linear.roots import jet
 from vibroimpact.engine.linear.stops import rigid
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Stretch
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
 _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
@@ -172,7 +174,7 @@ def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
     hits_right, hits_left = notes.hits_right, notes.hits_left
     force_right, force_left = notes.force_right, notes.force_left
     impulse_right, impulse_left = notes.impulse_right, notes.impulse_left
-    series = workspace()
+    series, room = workspace(), chords()
     sign = -1.0 if before.mode == LEFT else 1.0
     x = coordinate(plan, before)
     # What was seen before, in the mode's own coordinate: a piece within it is passed over.
@@ -186,27 +188,44 @@ def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
     x_least, x_most = min(seen_least, x), max(seen_most, x)
     least_a, most_a = min(seen_low, a), max(seen_high, a)
     cursor = begin(plan, before, step)
+    within = False  # all of this window
     while more(plan, cursor):
-        held = enclosed(plan, cursor, before)
-        within = x_least <= held.x_least and held.x_most <= x_most
-        within &= least_a <= held.a_least and held.a_most <= most_a
-        if within and held.force <= (force_left if before.mode == LEFT else force_right):
+        force = force_left if before.mode == LEFT else force_right
+        if cursor.i == 0:
+            seen = Enclosed(x_least, x_most, least_a, most_a, force)
+            within, seen = glance(plan, cursor, before, seen, room)
+            x_least, x_most, least_a, most_a, force = seen
+            if before.mode == LEFT:
+                force_left = force
+            else:
+                force_right = force
+        if within:
+            cursor = following(plan, cursor)
+            continue
+        held = enclosed(plan, cursor, room)
+        farther = not (x_least <= held.x_least and held.x_most <= x_most)
+        faster = not (least_a <= held.a_least and held.a_most <= most_a)
+        harder = before.mode != FLIGHT and not held.force <= force
+        if not (farther or faster or harder):
             cursor = following(plan, cursor)
             continue
         high, s, c = expanded(plan, cursor, series)
-        x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
-        unit = accelerated(plan, cursor, s, c, series)
-        low_was, high_was = least_a / unit, most_a / unit
-        least, most, _, _ = series_extremes(series, -0.5, high, low_was, high_was)
-        if least < low_was:
-            least_a = least * unit
-        if most > high_was:
-            most_a = most * unit
-        part = Part(high, s, c)
-        if before.mode & RIGHT:
-            force_right = pushed(plan, cursor, before, RIGHT, part, series, force_right)
-        if before.mode & LEFT:
-            force_left = pushed(plan, cursor, before, LEFT, part, series, force_left)
+        if farther:
+            x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
+        if faster:
+            unit = accelerated(plan, cursor, s, c, series)
+            low_was, high_was = least_a / unit, most_a / unit
+            least, most, _, _ = series_extremes(series, -0.5, high, low_was, high_was)
+            if least < low_was:
+                least_a = least * unit
+            if most > high_was:
+                most_a = most * unit
+        if harder:
+            part = Part(high, s, c)
+            if before.mode & RIGHT:
+                force_right = pushed(plan, cursor, before, RIGHT, part, series, force_right)
+            if before.mode & LEFT:
+                force_left = pushed(plan, cursor, before, LEFT, part, series, force_left)
         cursor = following(plan, cursor)
     new_least, new_most = x_least < seen_least, x_most > seen_most
     if before.mode == LEFT:

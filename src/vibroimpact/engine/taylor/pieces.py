@@ -14,9 +14,9 @@ import numpy as np
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.chords import ANYWHERE, Enclosed
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.layout import ORDER, RATE, RESTING, SCALED_W, H
-from vibroimpact.engine.linear.pieces import ANYWHERE, Enclosed
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
 from vibroimpact.engine.taylor.frame import (
@@ -204,8 +204,16 @@ def following(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
-def enclosed(plan: Vector, cursor: Cursor, before: Motion) -> Enclosed:
-    """Bounds on a piece: none, for its series is there already."""
+def glance(
+    plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, room: Vector
+) -> tuple[bool, Enclosed]:
+    """Nothing is looked at ahead, for a piece's series is there already."""
+    return False, seen
+
+
+@kernel
+def enclosed(plan: Vector, cursor: Cursor, room: Vector) -> Enclosed:
+    """Bounds on a piece: none."""
     return ANYWHERE
 
 
