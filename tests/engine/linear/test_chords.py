@@ -18,6 +18,7 @@ from vibroimpact.engine.linear.pieces import (
     expanded,
     expanded_force,
     following,
+    middle,
     more,
 )
 from vibroimpact.engine.linear.tables import build
@@ -127,3 +128,39 @@ def test_a_window_that_is_passed_over_lies_within_what_was_seen(mode: int, dampi
             assert part == 2 or (least[over] >= low[over]).all()
             passed += over.sum()
     assert passed > 20
+
+
+@kernel
+def middle_of(plan: Vector, motion: Motion, out: Vector) -> None:
+    """Displacement and velocity in the middle of the first piece of a flight, and the clock's."""
+    row = middle(plan, begin(plan, motion, 1.0))
+    out[0], out[1], out[2], out[3] = row
+
+
+@pytest.mark.parametrize("phase", np.linspace(0.1, 6.2, 12))
+def test_a_piece_that_turns_twice_is_not_taken_for_one_that_only_rises(phase: float) -> None:
+    """In its middle there is no acceleration and a velocity against those at both its ends."""
+    amplitude, omega, k, c = 1.0, 1.3, 1.0, 0.1
+    rig = vi.Oscillator(1.0, vi.Isolator(k, c))
+    plan, out = np.zeros(PLAN), np.zeros((5000, QUANTITIES, 7))
+    plan[:SIZE] = engine_rig(rig, vi.Harmonic(1.0, 1.0))
+    build(plan, amplitude, omega)
+    clock = math.sin(phase), math.cos(phase)
+
+    def reached(u: float, v: float) -> np.ndarray:
+        row = np.zeros(4)
+        middle_of(plan, Motion(FLIGHT, 0, u, v, 0.0, 0.0, 0.0, 0.0, clock), row)
+        return row
+
+    still = reached(0.0, 0.0)
+    jerk = -amplitude * omega * still[3]
+    half = 0.125 / omega
+    wished = np.array([0.0, -0.3 * 0.5 * jerk * half * half])
+    wished[0] = (-c * wished[1] - amplitude * still[2]) / k
+    ways = np.transpose([reached(1.0, 0.0) - still, reached(0.0, 1.0) - still])[:2]
+    u, v = np.linalg.solve(ways, wished - still[:2])
+    motion = Motion(FLIGHT, 0, float(u), float(v), 0.0, 0.0, 0.0, 0.0, clock)
+    pieces = out[: looked_at(plan, motion, 2.0 * half, NOWHERE, out)]
+    for least, most, low, high, *_ in pieces[0, :2]:
+        assert low <= least
+        assert most <= high
