@@ -87,6 +87,9 @@ class Section:
         return Section(self.family, self.count * factor, self.mirror, self.scale)
 
 
+_DIAGONAL = np.diag_indices(PARAMETER)
+
+
 @dataclass(frozen=True, eq=False)
 class Orbit:
     """A fixed point of a section's map."""
@@ -151,9 +154,8 @@ class Orbit:
         scale = self.section.scale
         matrix = np.empty((PARAMETER, section_map.POINT))
         states = scale[:PARAMETER]
-        matrix[:, :PARAMETER] = self.carried.T * states / states[:, np.newaxis] - np.eye(
-            len(states)
-        )
+        matrix[:, :PARAMETER] = self.carried.T * states / states[:, np.newaxis]
+        matrix[_DIAGONAL] -= 1.0
         matrix[:, PARAMETER] = self.slope * scale[PARAMETER] / states
         return matrix
 

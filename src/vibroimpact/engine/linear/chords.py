@@ -140,7 +140,8 @@ def _off(room: Vector, i: int, which: int) -> float:
     one, other = room[_ROW * i + which + 3], room[_ROW * (i + 1) + which + 3]
     if one * other > 0.0 and min(abs(one), abs(other)) > room[_OFF + which + 3]:
         return 0.0
-    return room[_OFF + which]
+    off: float = room[_OFF + which]
+    return off
 
 
 @kernel

@@ -142,8 +142,10 @@ def _copy(plan: Vector, table: int, slot: int) -> None:
     for late in range(2):
         to = table + late * LATE_TABLES
         given = TABLES + SIZE * slot + late * LATE_TABLES
-        for i in range(SIZE):
-            plan[to + i] = plan[given + i]
+        plan[to + VALID_FROM] = plan[given + VALID_FROM]
+        if plan[given + VALID_FROM] < math.inf:
+            for i in range(SIZE):
+                plan[to + i] = plan[given + i]
 
 
 @kernel
