@@ -14,7 +14,7 @@ that is not said there to the Taylor flow. Each is a folder whose modules have t
     enclosed(plan, cursor, room)            between which bounds a piece lies, then
     expanded(plan, cursor, series), expanded_force(…), accelerated(…), moment(…)
     smooth(plan, motion, limit)             one analytic piece of a motion, stops left out
-    look(plan, cursor, before, tau, …)      the motion at a time of a stretch, for samples
+    look(plan, cursor, before, t, step, …)  the motion at instants of a stretch, for samples
     coordinate(plan, motion)                the mode's own
     displacement(plan, mode, x), acceleration(plan, motion)
 

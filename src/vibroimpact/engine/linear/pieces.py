@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand, pull_series, turned, value
-from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner, moved, node
 from vibroimpact.engine.linear.layout import (
     LATE_TABLES,
@@ -40,6 +40,7 @@ from vibroimpact.engine.linear.layout import (
 )
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, Row, coordinates
+from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, VELOCITY
 
 
 class Cursor(NamedTuple):
@@ -222,41 +223,62 @@ def acceleration(plan: Vector, motion: Motion) -> float:
     return sign * absolute_acceleration(plan, motion.mode, row)
 
 
-@inlined
+@kernel
 def look(
-    plan: Vector, cursor: Cursor, before: Motion, tau: float, about: int, series: Vector
-) -> tuple[Cursor, int, float, float, float, float]:
-    """The motion so many seconds behind a stretch's start, not before where the cursor is.
+    plan: Vector,
+    cursor: Cursor,
+    before: Motion,
+    t: float,
+    step: float,
+    i: int,
+    n: int,
+    series: Vector,
+    room: Vector,
+) -> Cursor:
+    """The motion at n instants, not before where the cursor is; return where they end.
 
     Parameters
     ----------
     before
-        The motion at the stretch's start.
-    about, series
-        The node that the series is about; −1 if it is still to be written.
-
-    Returns
-    -------
-    cursor, about, x, v, a, z
-        The mode's own coordinate and its rate, and the absolute acceleration as they are seen; what
-        the isolator remembers.
+        The motion at the stretch's start, which is at the time t (s).
+    step, i
+        The first instant is the time i · step (s), and they are a step apart.
+    series, room
+        Written: the mode's own coordinate and its rate, the absolute acceleration as they are seen,
+        and what the isolator remembers if it does, each in its row of `record.samples`, the first
+        in row 0.
     """
-    y = (tau - cursor.t) * plan[cursor.table + RATE]
-    while y >= NODES:
-        cursor = following_window(plan, cursor)
-        about = -1
-        y = (tau - cursor.t) * plan[cursor.table + RATE]
-    j = int(y + 0.5)
-    if j != about:
-        expanded_at_node(plan, cursor, j, series)
-    x, v = horner(series, y - j)
-    v *= plan[cursor.table + RATE]
+    speeds, accelerations = VELOCITY * BLOCK, ACCELERATION * BLOCK
+    rate = plan[cursor.table + RATE]
+    about = -1  # the node that the series is about
+    for j in range(n):
+        y = (max((i + j) * step - t, 0.0) - cursor.t) * rate
+        while y >= NODES:
+            cursor = following_window(plan, cursor)
+            about = -1
+            rate = plan[cursor.table + RATE]
+            y = (max((i + j) * step - t, 0.0) - cursor.t) * rate
+        here = int(y + 0.5)
+        if here != about:
+            expanded_at_node(plan, cursor, here, series)
+            about = here
+        x, v = horner(series, y - here)
+        room[j], room[speeds + j] = x, v * rate
     sign = -1.0 if before.mode == LEFT else 1.0
-    s, c = 0.0, 0.0
-    if plan[cursor.table + RESTING] != 0.0:
-        s, c = turned(plan, before.clock[0], before.clock[1], tau)
-        return cursor, j, x, v, sign * (plan[par.BASE] * value(plan, s, c)), before.z
-    if plan[par.BASE] == 0.0:  # else the clock is not asked for
-        s, c = turned(plan, before.clock[0], before.clock[1], tau)
-    a = absolute_acceleration(plan, before.mode, Row(x, v, sign * s, sign * c))
-    return cursor, j, x, v, a, before.z
+    table, base = TABLES + SIZE * before.mode, plan[par.BASE]
+    held = plan[cursor.table + RESTING] != 0.0
+    if held or base == 0.0:
+        for j in range(n):
+            tau = max((i + j) * step - t, 0.0)
+            s, c = turned(plan, before.clock[0], before.clock[1], tau)
+            if held:
+                room[accelerations + j] = sign * (base * value(plan, s, c))
+            else:
+                row = Row(room[j], room[speeds + j], sign * s, sign * c)
+                room[accelerations + j] = absolute_acceleration(plan, before.mode, row)
+        return cursor
+    h, unit = plan[table + H], plan[table + RATE] * plan[table + RATE]
+    d, k, c = plan[table + SCALED_D], plan[table + SCALED_K], plan[table + SCALED_C]
+    for j in range(n):
+        room[accelerations + j] = ((d - k * room[j]) - c * (room[speeds + j] * h)) * unit
+    return cursor

@@ -15,7 +15,7 @@ from vibroimpact.engine.dispatch import (
 )
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.evaluate import relaxed
-from vibroimpact.engine.memory import workspace
+from vibroimpact.engine.memory import pointer, stack, workspace
 from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, TURNED, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
@@ -23,6 +23,13 @@ from vibroimpact.engine.observe import observer
 DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE = range(5)
 RIGHT_CLEARANCE, LEFT_CLEARANCE, CONTACT, MEMORY = range(5, 9)
 SAMPLE = 9
+
+BLOCK = 64
+"""Samples that are looked at together."""
+U = SAMPLE
+"""Behind the rows of a block: the displacement, where the mode's own coordinate is still needed."""
+samples = stack((SAMPLE + 1) * BLOCK)
+"""Room for a block."""
 
 TOUCHING = (0.0, 1.0, -1.0, 2.0)
 """The row CONTACT by mode: none, right, left, both."""
@@ -64,38 +71,71 @@ def seen(plan: Vector, side: int, mode: int, face: float, distance: float) -> fl
     return 0.0 if mode & side else plan[at + par.GAP] + (face - distance)
 
 
-@inlined
-def write_sample(
-    plan: Vector,
-    mode: int,
-    contact: float,
-    u: float,
-    v: float,
-    acceleration: float,
-    right: float,
-    left: float,
-    z: float,
-    out: Vector,
-    k: int,
-) -> None:
-    """Write sample k; `contact` is that of the mode, deformations are given away from the mass."""
-    # Adding zero leaves no negative one.
-    out[DISPLACEMENT, k], out[VELOCITY, k] = u + 0.0, v + 0.0
-    out[ACCELERATION, k] = acceleration + 0.0
-    out[RIGHT_FACE, k], out[LEFT_FACE, k] = right + 0.0, 0.0 - left
-    out[RIGHT_CLEARANCE, k] = seen(plan, RIGHT, mode, right, u) + 0.0
-    out[LEFT_CLEARANCE, k] = seen(plan, LEFT, mode, left, -u) + 0.0
-    out[CONTACT, k] = contact
-    out[MEMORY, k] = z + 0.0
-
-
 @kernel
 def write(plan: Vector, motion: Motion, out: Vector, k: int) -> None:
     """Write the motion at this instant as sample k."""
-    mode, u, v = motion.mode, motion.u, motion.v
+    mode, u = motion.mode, motion.u
     right, left = face(plan, motion, RIGHT), face(plan, motion, LEFT)
-    a = acceleration(plan, motion)
-    write_sample(plan, mode, TOUCHING[mode], u, v, a, right, left, motion.z, out, k)
+    # Adding zero leaves no negative one.
+    out[DISPLACEMENT, k], out[VELOCITY, k] = u + 0.0, motion.v + 0.0
+    out[ACCELERATION, k] = acceleration(plan, motion) + 0.0
+    out[RIGHT_FACE, k], out[LEFT_FACE, k] = right + 0.0, 0.0 - left
+    out[RIGHT_CLEARANCE, k] = seen(plan, RIGHT, mode, right, u) + 0.0
+    out[LEFT_CLEARANCE, k] = seen(plan, LEFT, mode, left, -u) + 0.0
+    out[CONTACT, k] = TOUCHING[mode]
+    out[MEMORY, k] = motion.z + 0.0
+
+
+@kernel
+def before_end(i: int, n: int, step: float, end: float) -> int:
+    """The first of the samples from i to n that does not come before a time."""
+    last = n
+    if end < n * step:
+        last = max(i, int(end / step))
+        while last > i and (last - 1) * step >= end:
+            last -= 1
+        while last < n and last * step < end:
+            last += 1
+    return last
+
+
+@kernel
+def faces(
+    plan: Vector, before: Motion, side: int, t: float, step: float, i: int, n: int, room: Vector
+) -> None:
+    """Write the face of a side at n samples and its clearance; what the mass does is there."""
+    mode, facing = before.mode, 1.0 if side == RIGHT else -1.0
+    row, clear = (RIGHT_FACE, RIGHT_CLEARANCE) if side == RIGHT else (LEFT_FACE, LEFT_CLEARANCE)
+    row, clear = row * BLOCK, clear * BLOCK
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    other = par.BUMPER + par.WIDTH * (2 - side)
+    gap, rate = plan[at + par.GAP], plan[at + par.RATE]
+    if mode & side:
+        # The mode's own coordinate is the deformation of the right stop where both are pressed.
+        apart = gap + plan[other + par.GAP] if mode == BOTH and side == LEFT else 0.0
+        sign = facing if mode == BOTH else 1.0
+        for j in range(n):
+            room[row + j] = facing * (sign * room[j] - apart)
+            room[clear + j] = 0.0
+        return
+    deformation = before.right if side == RIGHT else before.left
+    for j in range(n):
+        room[row + j] = 0.0
+    if deformation > 0.0:
+        for j in range(n):
+            tau = max((i + j) * step - t, 0.0)
+            room[row + j] = facing * relaxed(deformation, rate, tau)
+    if plan[at + par.KIND] == par.ABSENT:
+        gap = math.nan
+    for j in range(n):
+        room[clear + j] = gap + facing * (room[row + j] - room[U * BLOCK + j])
+
+
+@inlined
+def put(out: Vector, to: int, room: Vector, start: int, n: int, sign: float) -> None:
+    """Write n numbers of a block to the samples; adding zero leaves no negative one."""
+    for j in range(n):
+        out[to + j] = sign * room[start + j] + 0.0
 
 
 @kernel
@@ -104,29 +144,35 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
 
     The motion itself is not interrupted: what is sampled has no influence.
     """
-    i, n, step = notes.i, notes.n, notes.step
-    if not (i < n and i * step < t + reach):
+    i, step = notes.i, notes.step
+    end = before_end(i, notes.n, step, t + reach)
+    if i >= end:
         return i
-    series = workspace()
+    series, room = workspace(), samples()
     mode = before.mode
     sign = -1.0 if mode == LEFT else 1.0
     contact = TOUCHING[mode]
-    gap_r, rate_r = plan[par.BUMPER + par.GAP], plan[par.BUMPER + par.RATE]
-    gap_l, rate_l = plan[par.BUMPER + par.WIDTH + par.GAP], plan[par.BUMPER + par.WIDTH + par.RATE]
+    flat, count = pointer(notes.samples), notes.samples.shape[1]
+    remembers = plan[par.HYSTERETIC] != 0.0  # else nobody looks at that row
     cursor = begin(plan, before, reach)
-    about = -1  # the node that the series is about
-    while i < n and i * step < t + reach:
-        tau = max(i * step - t, 0.0)
-        cursor, about, x, v, a, z = look(plan, cursor, before, tau, about, series)
-        a *= sign
-        right = x if mode & RIGHT else relaxed(before.right, rate_r, tau)
-        left = x if mode == LEFT else relaxed(before.left, rate_l, tau)
-        if mode == BOTH:
-            left = -x - (gap_r + gap_l)
-        u = displacement(plan, mode, x)
+    while i < end:
+        n = min(end - i, BLOCK)
+        cursor = look(plan, cursor, before, t, step, i, n, series, room)
+        for j in range(n):
+            room[U * BLOCK + j] = displacement(plan, mode, room[j])
+        faces(plan, before, RIGHT, t, step, i, n, room)
+        faces(plan, before, LEFT, t, step, i, n, room)
         k = notes.begin + i
-        write_sample(plan, mode, contact, u, sign * v, a, right, left, z, notes.samples, k)
-        i += 1
+        put(flat, DISPLACEMENT * count + k, room, U * BLOCK, n, 1.0)
+        put(flat, VELOCITY * count + k, room, VELOCITY * BLOCK, n, sign)
+        put(flat, ACCELERATION * count + k, room, ACCELERATION * BLOCK, n, sign)
+        for row in range(RIGHT_FACE, CONTACT):
+            put(flat, row * count + k, room, row * BLOCK, n, 1.0)
+        for j in range(n):
+            flat[CONTACT * count + k + j] = contact
+        if remembers:
+            put(flat, MEMORY * count + k, room, MEMORY * BLOCK, n, 1.0)
+        i += n
     return i
 
 

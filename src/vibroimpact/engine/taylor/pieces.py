@@ -19,6 +19,7 @@ from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.layout import ORDER, RATE, RESTING, SCALED_W, H
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
+from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, MEMORY, VELOCITY
 from vibroimpact.engine.taylor.frame import (
     Frame,
     acceleration_of,
@@ -329,20 +330,25 @@ def acceleration(plan: Vector, motion: Motion) -> float:
 
 @kernel
 def look(
-    plan: Vector, cursor: Cursor, before: Motion, tau: float, about: int, series: Vector
-) -> tuple[Cursor, int, float, float, float, float]:
-    """The motion so many seconds behind a stretch's start, not before where the cursor is.
-
-    Returns
-    -------
-    cursor, about, x, v, a, z
-        The mode's own coordinate and its rate, and the absolute acceleration as they are seen; what
-        the isolator remembers.
-    """
-    while tau >= cursor.t + cursor.step and cursor.t + cursor.step < cursor.length:
-        cursor = following_window(plan, cursor)
+    plan: Vector,
+    cursor: Cursor,
+    before: Motion,
+    t: float,
+    step: float,
+    i: int,
+    n: int,
+    series: Vector,
+    room: Vector,
+) -> Cursor:
+    """The motion at n instants, as `linear.pieces.look` says; `series` is not needed."""
     frame = frame_of(plan, before.mode)
-    y = (tau - cursor.t) * (plan[HEADER + RATE] / PIECES)
-    here = motion_at(plan, cursor.start, frame, y)
-    a = frame.sign * acceleration(plan, here)
-    return cursor, about, coordinate(plan, here), frame.sign * here.v, a, here.z
+    for j in range(n):
+        tau = max((i + j) * step - t, 0.0)
+        while tau >= cursor.t + cursor.step and cursor.t + cursor.step < cursor.length:
+            cursor = following_window(plan, cursor)
+        y = (tau - cursor.t) * (plan[HEADER + RATE] / PIECES)
+        here = motion_at(plan, cursor.start, frame, y)
+        room[j], room[VELOCITY * BLOCK + j] = coordinate(plan, here), frame.sign * here.v
+        room[ACCELERATION * BLOCK + j] = frame.sign * acceleration(plan, here)
+        room[MEMORY * BLOCK + j] = here.z
+    return cursor
