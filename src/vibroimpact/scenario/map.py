@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -31,6 +32,8 @@ MOST_REFINED = 8
 """Levels of refinement: nodes 256 times as dense as those of the first grid."""
 _FEW = 10
 """Rigs that a thread sweeps at a time, at most."""
+_LAST = 3
+"""By how much smaller the last tasks of a block are."""
 _MANY = 500
 """Nodes of the first grid for which it pays to start processes: a third of what a rig takes is
 Python's, which threads do in turn."""
@@ -227,7 +230,10 @@ def _parallel(
 ) -> dict[str, NDArray[Any]]:
     """Compute some nodes, a few at a time on each thread."""
     few = max(1, min(_FEW, len(nodes) // (4 * breadth(workers))))
-    parts = [nodes[i : i + few] for i in range(0, len(nodes), few)]
+    # Smaller ones at the end, where the others wait for the last.
+    last = max(0, len(nodes) - 2 * few * breadth(workers))
+    starts = [*range(0, last, few), *range(last, len(nodes), max(1, few // _LAST))]
+    parts = [nodes[i:j] for i, j in itertools.pairwise([*starts, len(nodes)])]
 
     told = progress and (lambda done, _: progress(before + done // RIG, total))
     results = each(compute, parts, steps=len(nodes) * RIG, threads=workers, progress=told)

@@ -52,8 +52,11 @@ class MapStore:
     ) -> None:
         """Put what was computed at the chosen nodes of a block, in the order of `np.nonzero`."""
         for name, new in {**values, "level": np.full(chosen.sum(), level)}.items():
-            part = self._read(name, block)
-            part[chosen] = new
+            if chosen.all():
+                part = np.reshape(new, chosen.shape)
+            else:
+                part = self._read(name, block)
+                part[chosen] = new
             self._array(name)[block] = part
 
     def inherit(self, scenarios: NDArray[np.int8]) -> None:
