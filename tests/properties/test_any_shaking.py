@@ -77,22 +77,21 @@ def tame_record(rig: vi.Oscillator, record: vi.Record, start: vi.State):
 
     Each line of the record and each event rounds by some units in the last place, which grow as
     disturbances of the start and of the record do; a phase may last long besides. Where the mass
-    all but grazes a stop what it rounds on the way grows though what the start is off by does not:
-    that shows in how far motions are apart whose starts differ by rounding.
+    comes to a stop so slowly that it all but grazes it, at a share w of its largest speed, what the
+    displacement rounds shifts the impact by 1/w of that, though the start's error may matter less.
     """
     data = through(rig, record, start)
     speed = float(np.abs(data["velocity"]).max())
-
-    def moved(share: float) -> float:
-        other = vi.Record(record.acceleration * (1 + share), record.step)
-        beside = start.replace(velocity=start.velocity - share * speed)
-        return distance(data, states(through(rig, other, beside)))
-
-    growth = max(1.0, *(moved(share) / 1e-9 for share in (1e-9, -1e-9)))
+    growth = 1.0
+    for sign in (1e-9, -1e-9):
+        other = vi.Record(record.acceleration * (1 + sign), record.step)
+        beside = start.replace(velocity=start.velocity - sign * speed)
+        growth = max(growth, distance(data, states(through(rig, other, beside))) / 1e-9)
     assume(growth < 1000.0)
     events = data.sizes["event"] + len(record.time)
-    rounded = 4.0 * max(moved(share) for share in (1e-15, -1e-15))
-    return data, max(1e-12, rounded, ULPS * np.finfo(float).eps * growth * events)
+    arrivals = np.abs(data["event_velocity"].values[data["event_contact"].values > 0])
+    grazing = float(np.max(speed / arrivals[arrivals > 0.0], initial=1.0))
+    return data, max(1e-12, ULPS * np.finfo(float).eps * max(growth * events, grazing))
 
 
 @examples(60)
@@ -111,7 +110,7 @@ GRAZING = (
     vi.Record([0.0, 0.0, 0.0], math.pi),
     vi.State(0.0, 10.0),
 )
-"""Each impact on the left is by a sixteenth slower; the last one is at 0.1 mm/s."""
+"""Each impact on the left is slower by a factor of sixteen; the last one is at 0.1 mm/s."""
 
 
 @examples(40)
