@@ -15,13 +15,15 @@ from vibroimpact.engine import capture
 from vibroimpact.engine import motion as layout
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.response.start import engine_rig
-from vibroimpact.response.threads import Progress, Tally, Workers, each
+from vibroimpact.response.threads import Progress, Tally, Workers, breadth, each
 
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.int64]
 
 _REGION = 2000
 """States that a thread follows at a time."""
+_FAR = 16_000
+"""States that travel together, at most: a megabyte there and two back."""
 _WORTH_IT = 16
 """Regions; fewer are followed here sooner than they travel to a cluster."""
 
@@ -121,11 +123,14 @@ def follow(
     if not number:
         none = np.empty(0, dtype=np.int64)
         return Followed(np.empty((0, layout.STATE)), none, none, none)
-    where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
+    if number <= _WORTH_IT * _REGION and not isinstance(threads, int):
+        threads = None
+    size = _REGION
+    if threads is not None and not isinstance(threads, int):
+        size = min(max(size, number // (4 * breadth(threads))), _FAR)
+    where = [slice(i, i + size) for i in range(0, number, size)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
     capture.caught.prepare(engine_rig(stage.oscillator, stage.excitation))
-    if len(regions) < _WORTH_IT and not isinstance(threads, int):
-        threads = None
     found = each(follow_region, regions, steps=number, threads=threads, progress=progress)
     return Followed(*(np.concatenate(column) for column in zip(*found, strict=True)))
 
