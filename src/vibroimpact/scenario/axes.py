@@ -15,7 +15,6 @@ from vibroimpact.model import (
     Harmonic,
     Oscillator,
     RigidStop,
-    equilibrium,
     to_si,
 )
 from vibroimpact.model.access import scale_of
@@ -174,24 +173,6 @@ def one_sine(oscillator: Oscillator, amplitude: Any, where: str) -> Shaken:
             "one greater than 0 is accepted"
         )
     return Shaken(oscillator, shaken.replace(frequency=1.0, phase=0.0))
-
-
-def at_rest(oscillator: Oscillator, force: float | None = None) -> float:
-    """Where the isolator alone holds the mass against a force (N), the constant one if None (m)."""
-    held = oscillator.force if force is None else force
-    if oscillator.isolator.linear:
-        return held / oscillator.isolator.initial_stiffness
-    return equilibrium(oscillator.without_bumpers().replace(force=held)).displacement
-
-
-def room(oscillator: Oscillator) -> dict[str, float]:
-    """How far each stop stands from where the isolator would hold the mass at rest (m).
-
-    That is its gap, shifted by what the constant force does to the isolator.
-    """
-    rest = at_rest(oscillator)
-    sides = {"right": (oscillator.right, -rest), "left": (oscillator.left, rest)}
-    return {side: stop.gap + shift for side, (stop, shift) in sides.items() if stop is not None}
 
 
 def _turn(name: str) -> int:

@@ -17,11 +17,12 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.model.room import at_rest, room
 from vibroimpact.response.free_flight import reference_excursions, resonance_ratio
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps_beside, runs
 from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs
-from vibroimpact.scenario.axes import Shaken, at_rest, room
+from vibroimpact.scenario.axes import Shaken
 from vibroimpact.scenario.curves import Curves, each_curves
 from vibroimpact.scenario.onset import foot_in_contact, onset, within
 

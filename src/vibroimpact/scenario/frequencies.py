@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, Stop
+from vibroimpact.model.room import room
 from vibroimpact.response.free_flight import peak_ratio, reference_excursions, resonance_ratio
-from vibroimpact.scenario.axes import room
 
 LOW = 0.4
 """Lowest frequency over the natural one: that at which the published tests begin (0.40 to

@@ -7,9 +7,10 @@ import math
 import numpy as np
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.room import at_rest, room
 from vibroimpact.response.resonance import Hysteresis, runs
 from vibroimpact.response.swept import Flags, Swept
-from vibroimpact.scenario.axes import Shaken, at_rest, room
+from vibroimpact.scenario.axes import Shaken
 
 
 def onset(

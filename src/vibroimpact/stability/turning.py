@@ -16,6 +16,7 @@ import numpy as np
 from vibroimpact.engine.motion import FLIGHT
 from vibroimpact.engine.section_map import MODE, PARAMETER
 from vibroimpact.model import Harmonic
+from vibroimpact.model.room import room
 from vibroimpact.response.free_flight import free_flight_excursions, resonance_ratio
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.impacts import has_rigid_stop
@@ -91,18 +92,15 @@ def grazing_frequency(orbit: Orbit) -> float:
     """Where free flight just reaches a stop, near an orbit's frequency (Hz); NaN if nowhere."""
     rig, shaken = orbit.setting
     assert isinstance(shaken, Harmonic)
-    stiffness = rig.isolator.initial_stiffness
-    if not (stiffness > 0.0 and rig.isolator.damping > 0.0):
+    if not (rig.isolator.initial_stiffness > 0.0 and rig.isolator.damping > 0.0):
         return math.nan
-    rest = rig.force / stiffness
-    gaps = [(1.0, rig.right), (-1.0, rig.left)]
-    room = 2.0 * min(stop.gap - sign * rest for sign, stop in gaps if stop is not None)
+    free = 2.0 * min(room(rig).values())
     here = orbit.value
     for _ in range(_STEPS):
         beside = np.array([here, here * (1.0 + 1e-6)])
         swing, more = free_flight_excursions(rig, shaken, beside)[0]
         slope = (more - swing) / (beside[1] - here)
-        away = (room - swing) / slope if slope else math.nan
+        away = (free - swing) / slope if slope else math.nan
         here += away
         if not (here > 0.0 and abs(away) > 1e-10 * here):
             break
