@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import capture
 from vibroimpact.engine import motion as layout
+from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.response.start import engine_rig
 from vibroimpact.response.threads import Progress, Tally, Workers, breadth, each
@@ -65,7 +66,7 @@ class Followed(NamedTuple):
     """Where states were caught."""
 
     states: _Array
-    """Of the engine, at the section where each was caught or given up."""
+    """Of the engine, of those that may go on: not settled, one after the other."""
     owner: _Whole
     """Whose trap it was; -1 if none."""
     cycles: _Whole
@@ -93,12 +94,8 @@ def follow_region(region: Region, tally: Tally) -> Followed:
         results,
         tally,
     )
-    return Followed(
-        states,
-        results[:, capture.CAUGHT],
-        results[:, capture.CYCLES],
-        results[:, capture.OUTCOME],
-    )
+    owner, taken, outcome = results[:, [capture.CAUGHT, capture.CYCLES, capture.OUTCOME]].T
+    return Followed(states[outcome == Status.NOT_SETTLED], owner, taken, outcome)
 
 
 def follow(
@@ -138,12 +135,15 @@ def follow(
 def images(
     stage: Stage, points: _Array, cycles: int = 1, threads: Workers = None
 ) -> tuple[_Array, NDArray[np.bool_]]:
-    """Where points of the section are some cycles later, and which of them are known.
+    """Where points of the section are some cycles later (nan if unknown), and which are known.
 
     Points are u, u̇, u_R, u_L, z, the deformations away from the mass.
     """
     found = follow(stage, points, None, NO_TRAPS, cycles, threads)
-    return parts(found.states), found.cycles == cycles
+    known = found.outcome == Status.NOT_SETTLED
+    where = np.full(points.shape, np.nan)
+    where[known] = parts(found.states)
+    return where, known
 
 
 def parts(states: _Array) -> _Array:

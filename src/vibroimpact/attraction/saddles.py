@@ -185,12 +185,12 @@ def _edge(search: Search, one: _Array, other: _Array) -> _Array:
 def _near(search: Search, edge: _Array, span: _Array) -> Orbit | None:
     """The orbit that a state on a border comes nearest to, before it leaves for a motion."""
     stage = search.stage
-    went = follow(stage, edge[None], None, search.traps, 0)
-    states = [went.states[0]]
-    while len(states) < _SHADOWED and went.owner[0] < 0:
-        went = follow(stage, None, states[-1][None], NO_TRAPS, 1)
-        went = follow(stage, None, went.states, search.traps, 0)
+    went = follow(stage, edge[None], None, NO_TRAPS, 0)
+    states: list[_Array] = []
+    while len(states) < _SHADOWED and len(went.states):
         states.append(went.states[0])
+        went = follow(stage, None, went.states, search.traps, 0)
+        went = follow(stage, None, went.states, NO_TRAPS, 1)
     way = np.array(states)[:, 2:4] / span
     fam = family(stage.oscillator, stage.excitation, "frequency")
     closest = {

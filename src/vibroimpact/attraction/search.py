@@ -21,6 +21,7 @@ from vibroimpact.attraction.attractors import Attractor, attractor
 from vibroimpact.attraction.cover import Cells, cells_around, closed
 from vibroimpact.attraction.followed import NO_TRAPS, Stage, Traps, follow
 from vibroimpact.attraction.memory import forgets
+from vibroimpact.engine import motion as layout
 from vibroimpact.engine.capture import GRID, LOW_U, LOW_V, STEP_U, STEP_V
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -88,23 +89,21 @@ class Search:
         owner = np.full(total, -1, dtype=np.int64)
         cycles = np.zeros(total, dtype=np.int64)
         outcome = np.full(total, int(Status.NOT_SETTLED), dtype=np.int64)
-        states = np.empty((total, 0))
+        states: _Array | None = None
         left, ahead = np.arange(total), _FIRST
         while len(left):
             done = total - len(left)
             told = None if progress is None else lambda n, _, done=done: progress(done + n, total)
             followed = follow(
                 self.stage,
-                None if states.size else points,
-                states[left] if states.size else None,
+                points if states is None else None,
+                states,
                 self.traps,
                 ahead,
                 self.threads,
                 told if ahead == _FIRST else None,
             )
-            if not states.size:
-                states = np.empty((total, followed.states.shape[1]))
-            states[left] = followed.states
+            states = followed.states
             owner[left], outcome[left] = followed.owner, followed.outcome
             cycles[left] += followed.cycles
             left = left[followed.outcome == Status.NOT_SETTLED]
@@ -114,8 +113,8 @@ class Search:
                 self._rest(left, states, owner, outcome)
                 break
             new = len(self.known)
-            owner[left[0]], outcome[left[0]] = self._end_of(states[left[0]])
-            left = left[1:]
+            owner[left[0]], outcome[left[0]] = self._end_of(states[0])
+            left, states = left[1:], states[1:]
             ahead = _FIRST if len(self.known) > new else 2 * ahead
         if progress is not None:
             progress(total, total)
@@ -159,22 +158,23 @@ class Search:
     def _rest(self, left: _Whole, states: _Array, owner: _Whole, outcome: _Whole) -> None:
         """Tell what no trap has caught by what it visits, or by following it to its end."""
         if any(not one.found.period for one in self.known):
-            states = states.copy()
-            seen = np.empty((_WATCHED, len(left)))
+            seen = np.full((_WATCHED, len(left)), np.nan)
+            going, now = np.arange(len(left)), states
             for row in seen:
-                went = follow(self.stage, None, states[left], NO_TRAPS, 1, self.threads)
-                states[left] = went.states
-                row[:] = went.states[:, 2]
+                went = follow(self.stage, None, now, NO_TRAPS, 1, self.threads)
+                going, now = going[went.outcome == Status.NOT_SETTLED], went.states
+                row[going] = now[:, layout.U]
             seen.sort(axis=0)
-            for column, i in enumerate(left):
+            for column, i in zip(going, left[going], strict=True):
                 apart = [
                     1.0 if one.found.period else distance(one.visited, seen[:, column])
                     for one in self.known
                 ]
                 if min(apart) <= ALIKE:
                     owner[i], outcome[i] = int(np.argmin(apart)), int(Status.DONE)
-        for i in left[owner[left] < 0]:
-            owner[i], outcome[i] = self._end_of(states[i])
+        for state, i in zip(states, left, strict=True):
+            if owner[i] < 0:
+                owner[i], outcome[i] = self._end_of(state)
 
     def _set_traps(self) -> None:
         rows = np.vstack([one.traps for one in self.known])
