@@ -11,7 +11,6 @@ import xarray as xr
 import vibroimpact as vi
 from samples import sample
 from vibroimpact.attraction.followed import NO_TRAPS, Stage, follow
-from vibroimpact.attraction.window import lattice
 from vibroimpact.response.vocabulary import VARIABLES
 
 CODE, HERTZ = "B3-10mm-A3", 0.7
@@ -172,10 +171,3 @@ def test_what_is_refused(words, named):
     with pytest.raises(vi.InputError) as caught:
         vi.basins(CODE, HERTZ, **words)
     assert str(caught.value).startswith(named)
-
-
-def test_one_state_a_node():
-    points = lattice((-1.0, 1.0), (0.0, 2.0), (3, 2))
-    np.testing.assert_array_equal(points[:, 0], [-1, 0, 1, -1, 0, 1])
-    np.testing.assert_array_equal(points[:, 1], [0, 0, 0, 2, 2, 2])
-    assert not points[:, 2:].any()

@@ -11,7 +11,8 @@ import pytest
 import vibroimpact as vi
 from samples import sample
 from vibroimpact.cli import main
-from vibroimpact.response.threads import LostError
+from vibroimpact.response.cluster import Cluster
+from vibroimpact.response.threads import LostError, each
 
 distributed = pytest.importorskip("distributed")
 
@@ -130,6 +131,17 @@ def test_a_map_is_completed_when_the_scheduler_died(tmp_path, on_threads):
     )
     assert left[0] > 0  # what was done is not done again
     assert again.load().identical(on_threads)
+
+
+def _length(item, tally):
+    return len(item)
+
+
+def test_no_message_is_larger_than_the_scheduler_likes(cluster, recwarn):
+    items = [bytes(2_000_000)[i:] for i in range(12)]
+    there = each(_length, items, threads=Cluster(cluster))
+    assert there == [len(item) for item in items]
+    assert not [str(one.message) for one in recwarn if "large graph" in str(one.message)]
 
 
 def test_threads_and_a_cluster_exclude_one_another(cluster):

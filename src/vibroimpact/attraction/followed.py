@@ -6,11 +6,12 @@ be followed on threads, or wherever else they are sent.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.attraction.lattice import Lattice
 from vibroimpact.engine import capture
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
@@ -20,13 +21,18 @@ from vibroimpact.response.threads import Progress, Tally, Workers, breadth, each
 
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.int64]
+_Short = NDArray[np.int32]
+
+Points: TypeAlias = _Array | Lattice
+"""States as arrays, or the nodes of a grid."""
 
 _REGION = 2000
 """States that a thread follows at a time."""
-_FAR = 16_000
-"""States that travel together, at most: a megabyte there and two back."""
+_FAR = 64_000
+"""States that travel together, at most: some megabytes there and back."""
 _WORTH_IT = 16
 """Regions; fewer are followed here sooner than they travel to a cluster."""
+_TOLD = [capture.CAUGHT, capture.CYCLES, capture.OUTCOME]
 
 
 class Stage(NamedTuple):
@@ -54,7 +60,7 @@ class Region(NamedTuple):
     """States to be followed, and how far."""
 
     stage: Stage
-    points: _Array
+    points: Points
     """u, u̇, u_R, u_L, z as the engine counts, where the motions begin; empty where they go on."""
     states: _Array
     """Of the engine, where they go on; empty where they begin."""
@@ -67,10 +73,10 @@ class Followed(NamedTuple):
 
     states: _Array
     """Of the engine, of those that may go on: not settled, one after the other."""
-    owner: _Whole
+    owner: _Short
     """Whose trap it was; -1 if none."""
-    cycles: _Whole
-    outcome: _Whole
+    cycles: _Short
+    outcome: _Short
     """`Status`: done where it was caught, not settled where it may yet be."""
 
 
@@ -78,6 +84,7 @@ def follow_region(region: Region, tally: Tally) -> Followed:
     """Follow the states of one region."""
     stage, points, states, traps, cycles = region
     begun = len(points) > 0
+    points = np.ascontiguousarray(points)
     states = np.zeros((len(points), layout.STATE)) if begun else np.ascontiguousarray(states).copy()
     results = np.zeros((len(states), capture.RESULT), dtype=np.int64)
     capture.caught(
@@ -88,19 +95,19 @@ def follow_region(region: Region, tally: Tally) -> Followed:
         cycles,
         stage.max_events,
         begun,
-        np.ascontiguousarray(points),
+        points,
         *traps,
         states,
         results,
         tally,
     )
-    owner, taken, outcome = results[:, [capture.CAUGHT, capture.CYCLES, capture.OUTCOME]].T
+    owner, taken, outcome = results[:, _TOLD].T.astype(np.int32)
     return Followed(states[outcome == Status.NOT_SETTLED], owner, taken, outcome)
 
 
 def follow(
     stage: Stage,
-    points: _Array | None,
+    points: Points | None,
     states: _Array | None,
     traps: Traps,
     cycles: int,
@@ -114,11 +121,11 @@ def follow(
     points, states
         Where the motions begin, or where they go on: one of the two is None.
     """
-    begun = np.empty((0, 5)) if points is None else points
+    begun: Points = np.empty((0, 5)) if points is None else points
     held = np.empty((0, layout.STATE)) if states is None else states
     number = max(len(begun), len(held))
     if not number:
-        none = np.empty(0, dtype=np.int64)
+        none = np.empty(0, dtype=np.int32)
         return Followed(np.empty((0, layout.STATE)), none, none, none)
     if number <= _WORTH_IT * _REGION and not isinstance(threads, int):
         threads = None

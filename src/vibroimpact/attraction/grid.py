@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from vibroimpact.attraction.described import ranked, shares, variables
 from vibroimpact.attraction.followed import Stage
+from vibroimpact.attraction.lattice import Lattice, lattice
 from vibroimpact.attraction.measures import border_distances, entropies, uncertainty_exponent
 from vibroimpact.attraction.search import Search
-from vibroimpact.attraction.window import lattice, walls, window
+from vibroimpact.attraction.window import walls, window
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, to_si
 from vibroimpact.model.counts import whole
@@ -120,8 +121,7 @@ def basins(
         found = window(search)
         wide, fast = wide or found[0], fast or found[1]
     ranges = wide, fast
-    points = lattice(*ranges, plan.shape[::-1])
-    points[:, 2:] = others
+    points = lattice(*ranges, plan.shape[::-1], others)
     labels, cycles, levels = _labelled(search, points, plan, progress)
     data = _dataset(search, ranges, plan, labels, cycles, levels)
     return describe(
@@ -179,17 +179,17 @@ def _others(
 
 
 def _labelled(
-    search: Search, points: NDArray[np.float64], plan: Nodes, progress: Progress | None
+    search: Search, points: Lattice, plan: Nodes, progress: Progress | None
 ) -> tuple[_Labels, _Labels, NDArray[np.int8]]:
     """Motion, cycles and level of each node; -1 where it was given up."""
     low, high = walls(search.stage)
-    outside = (points[:, 0] < low) | (points[:, 0] > high)
+    outside = (points.displacement < low) | (points.displacement > high)
     # One more than the number of the motion; 0 is given up.
     known = np.full(plan.shape, UNKNOWN, dtype=np.int8)
     cycles = np.full(plan.shape, -1, dtype=np.int64)
     levels = np.full(plan.shape, -1, dtype=np.int8)
     wall = np.int8(127)
-    known.ravel()[outside] = wall
+    known[:, outside] = wall
     for level in range(plan.refine + 1):
         chosen = plan.wanted(level, known)
         chosen &= known == UNKNOWN

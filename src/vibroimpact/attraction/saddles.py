@@ -14,9 +14,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.attraction.followed import NO_TRAPS, Stage, follow
+from vibroimpact.attraction.lattice import lattice
 from vibroimpact.attraction.memory import met
 from vibroimpact.attraction.search import Search
-from vibroimpact.attraction.window import Window, lattice
+from vibroimpact.attraction.window import Window
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.response.start import state_from
@@ -131,7 +132,7 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
 def border_saddles(search: Search, window: Window) -> list[Orbit]:
     """The saddles that the borders between basins lead to, each once."""
     shape = (_LATTICE, _LATTICE)
-    points = lattice(*window, shape)
+    points = np.array(lattice(*window, shape))
     labels = search.label(points).owner.reshape(shape)
     span = np.ptp(np.array(window), axis=1)
     found: list[Orbit] = []

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.attraction.attractors import Attractor, attractor
 from vibroimpact.attraction.cover import Cells, cells_around, closed
-from vibroimpact.attraction.followed import NO_TRAPS, Stage, Traps, follow
+from vibroimpact.attraction.followed import NO_TRAPS, Points, Stage, Traps, follow
 from vibroimpact.attraction.memory import forgets
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.capture import GRID, LOW_U, LOW_V, STEP_U, STEP_V
@@ -67,7 +67,7 @@ class Search:
         self.known: list[Attractor] = []
         self.traps = NO_TRAPS
 
-    def label(self, points: _Array, progress: Progress | None = None) -> Labelled:
+    def label(self, points: Points, progress: Progress | None = None) -> Labelled:
         """Find where states lead; what they lead to is known afterwards.
 
         Parameters

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vibroimpact.attraction.followed import Stage
+from vibroimpact.attraction.lattice import lattice
 from vibroimpact.attraction.search import Search
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -58,13 +59,3 @@ def window(search: Search) -> Window:
     fast = _WIDER * max(float(np.abs(one.motion["velocity"]).max()) for one in search.known)
     middle, half = 0.5 * (most + least), 0.5 * _WIDER * (most - least)
     return (max(middle - half, low), min(middle + half, high)), (-fast, fast)
-
-
-def lattice(
-    displacement: tuple[float, float], velocity: tuple[float, float], nodes: tuple[int, int]
-) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """States on a grid, rows of velocities one after the other, bumpers relaxed."""
-    u, v = np.meshgrid(np.linspace(*displacement, nodes[0]), np.linspace(*velocity, nodes[1]))
-    points = np.zeros((u.size, 5))
-    points[:, 0], points[:, 1] = u.ravel(), v.ravel()
-    return points

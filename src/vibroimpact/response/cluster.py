@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import pickle
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeVar
 
@@ -12,7 +13,9 @@ _Item = TypeVar("_Item")
 _Found = TypeVar("_Found")
 
 _TOGETHER = 64
-"""Tasks in one message to the scheduler."""
+"""Tasks in one message to the scheduler, at most."""
+_MESSAGE = 5_000_000
+"""Bytes of one, about: the scheduler warns of ten million."""
 _AWAY = "where: the cluster went away; the same call completes what it has in a store"
 
 
@@ -36,8 +39,9 @@ class Cluster(NamedTuple):
         """As `threads.each`; the tasks and what they find travel."""
         distributed: Any = importlib.import_module("distributed")
 
+        together = min(_TOGETHER, 1 + _MESSAGE // len(pickle.dumps(items[0])))
         futures = self.client.map(
-            alone, [task] * len(items), items, pure=False, batch_size=_TOGETHER
+            alone, [task] * len(items), items, pure=False, batch_size=together
         )
         try:
             finished = distributed.as_completed(futures, loop=self.client.loop)
