@@ -8,6 +8,7 @@ from rich.console import Console
 from benchmarks.basins import basins
 from benchmarks.branches import branches
 from benchmarks.campaign import campaign
+from benchmarks.clusters import clusters
 from benchmarks.designs import designs
 from benchmarks.diagrams import diagrams
 from benchmarks.earthquakes import earthquakes
@@ -39,6 +40,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "motions": lambda: (motions(),),
         "branches": lambda: (branches(),),
         "basins": lambda: (basins(),),
+        "clusters": lambda: (clusters(),),
         "page": lambda: (page(),),
         "scenarios": lambda: (scenarios(),),
         "designs": lambda: (designs(),),

@@ -15,7 +15,7 @@ _DIVISIONS = (1, 10, 100)
 _ROUNDS = 3
 
 
-def _record(seed: int) -> vi.Record:
+def record(seed: int) -> vi.Record:
     """A made-up strong motion: noise between 0.2 and 10 Hz that swells and fades."""
     rng = np.random.default_rng(seed)
     at = np.arange(_SAMPLES) * _STEP
@@ -28,7 +28,7 @@ def _record(seed: int) -> vi.Record:
 def earthquakes() -> Table:
     """Time vi.demands on B3-A3, and what OpenSees needs for some of its runs."""
     rig = vi.laboratory.case("B3-G3-A3").oscillator
-    records = [_record(seed) for seed in range(_RECORDS)]
+    records = [record(seed) for seed in range(_RECORDS)]
     scales = np.linspace(0.1, 3.0, _SCALES)
     gaps = np.linspace(0.005, 0.020, _GAPS)
     runs = _RECORDS * _SCALES * _GAPS
