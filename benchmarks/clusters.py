@@ -14,18 +14,22 @@ from benchmarks.report import Table, met
 from benchmarks.rounds import Spread, interleave, ratio
 
 _WIDTH = 2
-_ROUNDS = 7
+_SIDE = 20
+_ROUNDS = 5
 _OVER = 1.15
 _BASINS = "B3-10mm-A3", 0.7, (-0.012, 0.012), (-0.1, 0.1)
 
 
 def _map(**how: Any) -> object:
-    axes = ("stiffness_ratio", np.geomspace(2.0, 60.0, 16)), ("gap_ratio", np.linspace(0, 1, 16))
+    axes = (
+        ("stiffness_ratio", np.geomspace(2.0, 60.0, _SIDE)),
+        ("gap_ratio", np.linspace(0, 1, _SIDE)),
+    )
     return vi.scenario_map(*axes, **how)
 
 
 def _demands(**how: Any) -> object:
-    records = [record(seed) for seed in range(10)]
+    records = [record(seed) for seed in range(30)]
     scales, gaps = np.linspace(0.1, 3.0, 20), np.linspace(0.005, 0.020, 10)
     return vi.demands("B3-G3-A3", records, scales, intensity="PGA", gaps=gaps, **how)
 
@@ -34,16 +38,16 @@ def _ensemble(**how: Any) -> object:
     case = vi.laboratory.case("B2-G1-A3")
     response = partial(vi.sweeps, frequencies=np.linspace(0.5, 5.0, 100), **how)
     spread = {"gap": "normal:5%", "bumper_stiffness": "lognormal:0.2"}
-    return vi.ensemble((case.oscillator, vi.Harmonic(case.amplitude, 1.0)), spread, response, 512)
+    return vi.ensemble((case.oscillator, vi.Harmonic(case.amplitude, 1.0)), spread, response, 2048)
 
 
 def _work() -> dict[str, Callable[..., object]]:
     """What is done at both places, by its name."""
     return {
-        "map of 16 × 16 rigs": _map,
+        f"map of {_SIDE} × {_SIDE} rigs": _map,
         "basins of 1,000 × 1,000 states": partial(vi.basins, *_BASINS, nodes=1000),
-        "demands of 10 records × 20 scales × 10 gaps": _demands,
-        "ensemble of 512 rigs swept both ways": _ensemble,
+        "demands of 30 records × 20 scales × 10 gaps": _demands,
+        "ensemble of 2,048 rigs swept both ways": _ensemble,
     }
 
 

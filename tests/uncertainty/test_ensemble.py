@@ -51,7 +51,7 @@ def test_the_same_seed_gives_the_same_rigs():
     given = {"gap": "normal:5%", "bumper_stiffness": "lognormal:0.2"}
     one, two, other = (
         vi.ensemble(CASE, given, response, 16, seed=seed, block=block)
-        for seed, block in ((1, 16), (1, 5), (2, 16))
+        for seed, block in ((1, None), (1, 5), (2, 16))
     )
     xr.testing.assert_identical(one, two)
     assert not np.isin(one["gap"], other["gap"]).any()
@@ -128,6 +128,31 @@ def test_progress():
     given = {"stiffness": "normal:1%"}
     vi.ensemble((FREE, SHAKING), given, response, 8, block=3, progress=lambda *p: seen.append(p))
     assert seen == [(3, 8), (6, 8), (8, 8)]
+
+
+def _slowly(seconds, asked):
+    """A response that takes so long a rig, by a clock of its own."""
+    clock = [0.0]
+
+    def response(rigs):
+        asked.append(len(rigs))
+        clock[0] += seconds * len(rigs)
+        return xr.Dataset({"y": ("rig", np.arange(float(len(rigs))))})
+
+    return response, lambda: clock[0]
+
+
+@pytest.mark.parametrize(
+    ("seconds", "sizes"),
+    [(1.0, [64] * 16), (1 / 128, [64, 256, 256, 256, 192]), (1e-5, [64, 512, 448])],
+)
+def test_rigs_are_asked_for_that_take_a_while(monkeypatch, seconds, sizes):
+    asked = []
+    response, clock = _slowly(seconds, asked)
+    monkeypatch.setattr("vibroimpact.uncertainty.ensemble.time.monotonic", clock)
+    data = vi.ensemble((FREE, SHAKING), {"stiffness": "normal:1%"}, response, 1024)
+    assert asked == sizes
+    assert data.sizes["sample"] == 1024
 
 
 SWEEPS = partial(vi.sweeps, frequencies=[2.0])

@@ -17,7 +17,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.response.start import engine_rig
-from vibroimpact.response.threads import Progress, Tally, Workers, breadth, each
+from vibroimpact.response.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.int64]
@@ -28,8 +28,6 @@ Points: TypeAlias = _Array | Lattice
 
 _REGION = 2000
 """States that a thread follows at a time."""
-_FAR = 64_000
-"""States that travel together, at most: some megabytes there and back."""
 _WORTH_IT = 16
 """Regions; fewer are followed here sooner than they travel to a cluster."""
 _TOLD = [capture.CAUGHT, capture.CYCLES, capture.OUTCOME]
@@ -129,10 +127,7 @@ def follow(
         return Followed(np.empty((0, layout.STATE)), none, none, none)
     if number <= _WORTH_IT * _REGION and not isinstance(threads, int):
         threads = None
-    size = _REGION
-    if threads is not None and not isinstance(threads, int):
-        size = min(max(size, number // (4 * breadth(threads))), _FAR)
-    where = [slice(i, i + size) for i in range(0, number, size)]
+    where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
     capture.caught.prepare(engine_rig(stage.oscillator, stage.excitation))
     found = each(follow_region, regions, steps=number, threads=threads, progress=progress)

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import importlib
-import pickle
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any, NamedTuple, TypeVar
 
-from vibroimpact.response.threads import LostError, Progress, Tally, alone
+from vibroimpact.response.dealing import dealt
+from vibroimpact.response.threads import LostError, Progress, Tally
 
 _Item = TypeVar("_Item")
 _Found = TypeVar("_Found")
 
-_TOGETHER = 64
-"""Tasks in one message to the scheduler, at most."""
-_MESSAGE = 5_000_000
-"""Bytes of one, about: the scheduler warns of ten million."""
 _AWAY = "where: the cluster went away; the same call completes what it has in a store"
 
 
@@ -37,32 +33,42 @@ class Cluster(NamedTuple):
         progress: Progress | None,
     ) -> list[_Found]:
         """As `threads.each`; the tasks and what they find travel."""
-        distributed: Any = importlib.import_module("distributed")
-
-        together = min(_TOGETHER, 1 + _MESSAGE // len(pickle.dumps(items[0])))
-        futures = self.client.map(
-            alone, [task] * len(items), items, pure=False, batch_size=together
-        )
+        hands = _Hands(self.client)
         try:
-            finished = distributed.as_completed(futures, loop=self.client.loop)
-            for done, future in enumerate(finished, 1):
-                if future.status != "finished":
-                    _raise(future)
-                if progress:
-                    progress(done * total // len(items), total)
-            return list(self.client.gather(futures))
+            return dealt(hands, self.width(), task, items, total, progress)
         except OSError as lost:
             raise LostError(f"{_AWAY} ({lost})") from lost
         finally:
             if self.client.status == "running":
-                self.client.cancel(futures)
+                self.client.cancel(list(hands.completed.futures))
 
 
-def _raise(future: Any) -> None:
-    """Raise what a task ended with."""
-    if future.status == "cancelled":
-        raise LostError(_AWAY)
-    try:
-        future.result()
-    except importlib.import_module("distributed").KilledWorker as killed:
-        raise LostError(f"where: the cluster's workers die of a task ({killed})") from killed
+class _Hands:
+    def __init__(self, client: Any) -> None:
+        self.client = client
+        self.distributed: Any = importlib.import_module("distributed")
+        # What was found is fetched while others compute.
+        self.completed = self.distributed.as_completed(
+            loop=client.loop, with_results=True, raise_errors=False
+        )
+        self.found: dict[Any, Any] = {}
+
+    def take(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        future = self.client.submit(function, *arguments, pure=False)
+        self.completed.add(future)
+        return future
+
+    def ready(self, taken: Collection[Any]) -> Collection[Any]:
+        future, self.found[future] = next(self.completed)
+        return [future]
+
+    def result(self, taken: Any) -> Any:
+        if taken.status == "cancelled":
+            raise LostError(_AWAY)
+        found = self.found.pop(taken)
+        if taken.status == "finished":
+            return found
+        try:
+            return taken.result()  # raises what went wrong
+        except self.distributed.KilledWorker as killed:
+            raise LostError(f"where: the cluster's workers die of a task ({killed})") from killed

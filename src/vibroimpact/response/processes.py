@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import importlib
 import multiprocessing
-from collections.abc import Callable, Sequence
-from concurrent.futures import as_completed
+from collections.abc import Callable, Collection, Iterable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any, NamedTuple, TypeVar
 
-from vibroimpact.response.threads import LostError, Progress, Tally, alone, available
+from vibroimpact.response.dealing import dealt
+from vibroimpact.response.threads import LostError, Progress, Tally, available
 
 _Item = TypeVar("_Item")
 _Found = TypeVar("_Found")
@@ -20,6 +21,20 @@ _IDLE = 10.0
 def may_start() -> bool:
     """Whether this process may start others; a daemon may not."""
     return not multiprocessing.current_process().daemon
+
+
+class _Hands(NamedTuple):
+    pool: Any
+
+    def take(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        taken: Future[Any] = self.pool.submit(function, *arguments)
+        return taken
+
+    def ready(self, taken: Collection[Future[Any]]) -> Iterable[Future[Any]]:
+        return wait(taken, return_when=FIRST_COMPLETED).done
+
+    def result(self, taken: Future[Any]) -> Any:
+        return taken.result()
 
 
 class Processes(NamedTuple):
@@ -49,12 +64,7 @@ class Processes(NamedTuple):
             env={"LOKY_MAX_MEMORY_LEAK_SIZE": "1e15"},  # what a task needs is no leak
         )
         try:
-            futures = [pool.submit(alone, task, item) for item in items]
-            for done, future in enumerate(as_completed(futures), 1):
-                future.result()  # raises what went wrong
-                if progress:
-                    progress(done * total // len(items), total)
-            return [future.result() for future in futures]
+            return dealt(_Hands(pool), self.width(), task, items, total, progress)
         except loky.process_executor.TerminatedWorkerError as died:
             raise LostError(
                 f"where: a process died, perhaps for want of memory ({died}); the same call "

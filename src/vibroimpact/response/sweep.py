@@ -34,7 +34,7 @@ from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.rows import Patience, prepared, rows
 from vibroimpact.response.start import as_state
-from vibroimpact.response.threads import Progress, Tally, each
+from vibroimpact.response.threads import Progress, each
 from vibroimpact.response.variables import (
     COMPONENTS,
     describe,
@@ -189,13 +189,15 @@ def sweeps(
     ]
     patience = Patience(angle, tolerance, max_cycles, window, max_events)
 
-    def one(item: tuple[int, str], tally: Tally) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        r, direction = item
-        return rows(ready[r], direction, patience, tally)
-
     batch.sweep.prepare(*(one.rig for one in ready))  # once, before the threads would queue for it
-    items = [(r, direction) for r in range(len(pairs)) for direction in directions]
-    done = each(one, items, steps=len(grid) * len(items), threads=workers, progress=progress)
+    items = [(one, direction) for one in ready for direction in directions]
+    done = each(
+        lambda item, tally: rows(*item, patience, tally),
+        items,
+        steps=len(grid) * len(items),
+        threads=workers,
+        progress=progress,
+    )
     shape = (len(pairs), len(directions), len(grid))
     results = np.array([found for found, _ in done]).reshape(*shape, hold.RESULTS)
     states = np.array([reached for _, reached in done]).reshape(*shape, layout.STATE)

@@ -49,7 +49,7 @@ def scenario_map(
     thresholds: Thresholds | None = None,
     max_cycles: int | None = None,
     store: Path | str | None = None,
-    block: int = 10,
+    block: int = 20,
     threads: int | None = None,
     where: Any = None,
     progress: Progress | None = None,

@@ -51,7 +51,7 @@ def demands(
     tail: float | str | None = None,
     max_events: int = MAX_EVENTS,
     store: Path | str | None = None,
-    block: int = 64,
+    block: int = 512,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,

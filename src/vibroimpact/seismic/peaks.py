@@ -99,20 +99,22 @@ def peaks(
     vectors = [engine_rig(one.oscillator, one.record) for one in shaken]
     starts = [engine_state(one.oscillator, equilibrium(one.oscillator)) for one in shaken]
     found.respond.prepare(*vectors)
+    items = [
+        (shaken[n]._replace(factors=np.array(shaken[n].factors[some])), vectors[n], starts[n])
+        for n, some in parts
+    ]
 
-    def task(part: tuple[int, slice], tally: Tally) -> _Array:
-        n, some = part
-        rig, record, factors = shaken[n]
-        chosen = np.ascontiguousarray(factors[some])
-        mine = np.empty((len(chosen), found.FOUND))
+    def task(item: tuple[Shaken, _Array, _Array], tally: Tally) -> _Array:
+        (rig, record, factors), vector, start = item
+        mine = np.empty((len(factors), found.FOUND))
         rests = residuals and settles(rig)
         found.respond(
-            vectors[n],
+            vector,
             np.array(record.acceleration),  # which is not to be written to: another type, refused
             record.step,
-            chosen,
+            factors,
             free_tail(rig, record) if tail is None else tail,
-            starts[n],
+            start,
             max_events,
             int(energies),
             block(rig, record),
@@ -123,7 +125,7 @@ def peaks(
         )
         return mine
 
-    done = each(task, parts, steps=len(shaken) * count, threads=threads, progress=progress)
+    done = each(task, items, steps=len(shaken) * count, threads=threads, progress=progress)
     for (n, some), mine in zip(parts, done, strict=True):
         rows[n, some] = mine
     return _named(shaken, rows, energies, residuals)

@@ -14,6 +14,7 @@ from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model.access import Setting
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.parameters import parameter as registered
@@ -149,11 +150,12 @@ def bifurcation_diagram(
     for entry in (batch.sweep, lyapunov.growth, lyapunov.monodromy):
         entry.prepare(*vectors)
 
-    def seen(part: _Part, tally: Tally) -> list[Seen]:
+    def seen(item: tuple[list[Setting], _Part], tally: Tally) -> list[Seen]:
+        mine, part = item
         found: list[Seen] = []
         order = slice(None, None, -1 if part.down else 1)
         stepped(
-            every[part.values][order],
+            mine[order],
             part.start,
             patience,
             lambda held: found.append(look_at(held, look)),
@@ -164,8 +166,9 @@ def bifurcation_diagram(
 
     def done(parts: list[_Part], before: int) -> dict[str, list[Seen]]:
         told = progress and (lambda ready, _: progress(before + ready, total))
-        held = sum(len(every[part.values]) for part in parts)
-        lists = each(seen, parts, steps=held, threads=workers, progress=told)
+        items = [(every[part.values], part) for part in parts]
+        held = sum(len(mine) for mine, _ in items)
+        lists = each(seen, items, steps=held, threads=workers, progress=told)
         found: dict[str, list[Seen]] = {part.name: [] for part in parts}
         for part, one in zip(parts, lists, strict=True):
             found[part.name] += one

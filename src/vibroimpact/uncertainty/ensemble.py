@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -26,6 +27,14 @@ Response = Callable[[list[Any]], xr.Dataset]
 
 CREATED_BY = "vibroimpact.ensemble"
 
+_FIRST = 64
+"""Rigs that the response is asked for at first, and at least."""
+_LASTS = 2.0
+"""Seconds that it then takes at a time: `progress` is not told more seldom, nor are many workers
+waited for more often."""
+_GROWS = 8
+"""By how much more rigs are asked for than before, at most: the first time it may compile."""
+
 
 def ensemble(
     rig: AnyRig | Oscillator,
@@ -35,7 +44,7 @@ def ensemble(
     *,
     method: Method = "sobol",
     seed: int = 0,
-    block: int = 64,
+    block: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Draw rigs from the distributions of their parameters, and ask what each responds.
@@ -56,7 +65,7 @@ def ensemble(
         such as ``"normal:7.5 mm:0.5 mm"``, ``"lognormal:0.2"`` or ``"uniform:10%"`` (of the rig's
         own value). They are independent of each other.
     response
-        Called with up to ``block`` rigs at a time: pairs (oscillator, what shakes it), or
+        Called with some rigs at a time: pairs (oscillator, what shakes it), or
         oscillators if one was given.
     samples
         How many rigs are drawn; of Sobol's points a power of 2.
@@ -65,7 +74,7 @@ def ensemble(
     seed
         The same one gives the same rigs.
     block
-        How many rigs the response is asked for at a time.
+        How many rigs the response is asked for at a time; None for as many as take some seconds.
     progress
         Called with the rigs done and all.
 
@@ -82,7 +91,7 @@ def ensemble(
         gives no dataset over rigs.
     """
     drawn = uncertain(rig, distributions)
-    size = whole(block, "block")
+    size = None if block is None else whole(block, "block")
     values = drawn.values(shares(samples, len(drawn.names), method, whole(seed, "seed", 0)))
     data = responded(drawn, values, response, size, progress)
     about = {**drawn.about(), "samples": len(values), "method": method, "seed": seed}
@@ -92,7 +101,11 @@ def ensemble(
 
 
 def responded(
-    drawn: Uncertain, values: _Array, response: Response, block: int, progress: Progress | None
+    drawn: Uncertain,
+    values: _Array,
+    response: Response,
+    block: int | None,
+    progress: Progress | None,
 ) -> xr.Dataset:
     """The response of the rigs at rows of values, block by block, along ``sample``."""
     if not callable(response):
@@ -101,12 +114,18 @@ def responded(
             "as functools.partial(vibroimpact.sweeps, frequencies=...)"
         )
     rigs = drawn.rigs(values)
-    parts = []
-    for first in range(0, len(rigs), block):
-        some = rigs[first : first + block]
+    parts: list[xr.Dataset] = []
+    size, first = block or _FIRST, 0
+    while first < len(rigs):
+        some = rigs[first : first + size]
+        begin = time.monotonic()
         parts.append(_part(response(some), len(some), drawn.names))
+        first += len(some)
         if progress:
-            progress(first + len(some), len(rigs))
+            progress(first, len(rigs))
+        if block is None:
+            taken = max(time.monotonic() - begin, 1e-9)
+            size = max(_FIRST, int(size * min(_LASTS / taken, _GROWS)))
     return xr.concat(
         parts,
         "sample",

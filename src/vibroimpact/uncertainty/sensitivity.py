@@ -36,7 +36,7 @@ def sensitivity(
     *,
     seed: int = 0,
     resamples: int = 0,
-    block: int = 64,
+    block: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Return how much of the variance of a response each uncertain parameter makes.
@@ -75,7 +75,8 @@ def sensitivity(
     drawn = uncertain(rig, distributions)
     count, draws = whole(samples, "samples"), whole(resamples, "resamples", 0)
     check_power(count, "samples", "Sobol's points")
-    size, seed = whole(block, "block"), whole(seed, "seed", 0)
+    size = None if block is None else whole(block, "block")
+    seed = whole(seed, "seed", 0)
     columns = len(drawn.names)
     points = qmc.Sobol(2 * columns, rng=seed).random(count)
     a, b = points[:, :columns], points[:, columns:]

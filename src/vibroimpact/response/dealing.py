@@ -1,0 +1,89 @@
+"""Items dealt out to workers elsewhere, as many at a time as take a while.
+
+A message to a worker and back takes some milliseconds. Where an item takes less, many go in one
+bundle: how many, those say that have come back. Towards the end bundles become smaller, so that
+nobody waits long for the last. What travels is one piece of bytes each way: with hundreds of small
+arrays, each in a frame of its own, a cluster is busier than with the tasks.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pickle
+import time
+from collections.abc import Callable, Collection, Iterable, Sequence
+from typing import Any, Protocol, TypeVar
+
+from vibroimpact.response.threads import Progress, Tally, alone
+
+_Item = TypeVar("_Item")
+_Found = TypeVar("_Found")
+
+_PROTOCOL = pickle.HIGHEST_PROTOCOL
+_LASTS = 0.25
+"""Seconds that a bundle takes for each worker there is: who deals has as much time for each."""
+_MESSAGE = 5_000_000
+"""Bytes of a bundle, at most, of more than one item."""
+_AHEAD = 2
+"""Bundles that a worker has: one to do, and one so that it need not wait for the next."""
+_SHARE, _LEAST = 2, 8
+"""Of what is left a worker is given at most one part in twice as many as there are workers, but not
+less than one in eight of what takes that long."""
+
+
+class Hands(Protocol):
+    """Workers as who deals sees them; a bundle is known by what `take` returns."""
+
+    def take(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Give somebody a call to do."""
+        ...
+
+    def ready(self, taken: Collection[Any]) -> Iterable[Any]:
+        """Wait until some are done, and say which."""
+        ...
+
+    def result(self, taken: Any) -> Any:
+        """What a call that is done returned; raises what it raised."""
+        ...
+
+
+def bundle(task: bytes, items: bytes) -> tuple[bytes, float]:
+    """Do a task for some items; what was found, and how long it took (s)."""
+    begin = time.perf_counter()
+    one = pickle.loads(task)
+    found = [alone(one, item) for item in pickle.loads(items)]
+    return pickle.dumps(found, _PROTOCOL), time.perf_counter() - begin
+
+
+def dealt(
+    hands: Hands,
+    width: int,
+    task: Callable[[_Item, Tally], _Found],
+    items: Sequence[_Item],
+    total: int,
+    progress: Progress | None,
+) -> list[_Found]:
+    """Do a task for each item by so many hands; the rest as `threads.each`."""
+    found: list[Any] = [None] * len(items)
+    taken: dict[Any, slice] = {}
+    given = done = 0
+    few, light = 1, 1
+    shared = importlib.import_module("cloudpickle").dumps(task)  # which may have no name
+    while done < len(items):
+        while given < len(items) and len(taken) < _AHEAD * width:
+            part = max(-(-(len(items) - given) // (_SHARE * width)), -(-few // _LEAST))
+            some = slice(given, min(given + min(part, few, light), len(items)))
+            packed = pickle.dumps(items[some], _PROTOCOL)
+            light = max(1, _MESSAGE * (some.stop - given) // len(packed))
+            taken[hands.take(bundle, shared, packed)] = some
+            given = some.stop
+        for one in hands.ready(taken):
+            some = taken.pop(one)
+            packed, seconds = hands.result(one)
+            found[some] = pickle.loads(packed)
+            count = some.stop - some.start
+            few = max(1, int(_LASTS * width * count / max(seconds, 1e-9)))
+            done += count
+            if progress:
+                progress(done * total // len(items), total)
+    return found
