@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.ticker import MaxNLocator
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels, new_axes
@@ -98,7 +98,7 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
     columns = min(_COLUMNS, len(keys))
     rows = -(-len(keys) // columns)
     made = new_axes(rows, columns, (2.9 * columns, 0.3 + 2.5 * rows))
-    limit = float(chi2.ppf(float(result.attrs["confidence"]), 1))
+    limit = float(chdtri(1, 1.0 - float(result.attrs["confidence"])))
     for ax in made.ravel()[len(keys) :]:
         ax.set_axis_off()
     for ax, key in zip(made.ravel(), keys, strict=False):

@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
-from scipy.signal import savgol_filter
 
 _Array = NDArray[np.float64]
 
@@ -79,6 +78,8 @@ def forcing_sine(
 
 def slope(time: _Array, values: _Array, sine: Sine | None) -> _Array:
     """The derivative of a measured signal, of a cubic through each tenth of the sine's cycle."""
+    from scipy.signal import savgol_filter  # which takes a third of a second to load
+
     step = float(np.median(np.diff(time)))
     width = 0 if sine is None else int(0.1 / (sine.frequency * step)) // 2 * 2 + 1
     even = np.allclose(np.diff(time), step, rtol=0.05)
