@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
+import time
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -15,6 +18,7 @@ from vibroimpact.response.cluster import Cluster
 from vibroimpact.response.threads import LostError, each
 
 distributed = pytest.importorskip("distributed")
+dask = pytest.importorskip("dask")
 
 GRID = np.linspace(0.5, 3.0, 30)
 SIDE = sample(12, 5)
@@ -107,7 +111,7 @@ def test_a_map_outlives_workers(cluster, on_threads):
             os.kill(pid, signal.SIGKILL)
 
     there = vi.scenario_map(*AXES, refine=1, block=2, where=cluster, progress=kill)
-    assert killed
+    assert len(killed) == 2
     assert there.identical(on_threads)
 
 
@@ -142,6 +146,97 @@ def test_no_message_is_larger_than_the_scheduler_likes(cluster, recwarn):
     there = each(_length, items, threads=Cluster(cluster))
     assert there == [len(item) for item in items]
     assert not [str(one.message) for one in recwarn if "large graph" in str(one.message)]
+
+
+def _raising(item, _):
+    if item == 3:
+        raise vi.InputError("gap: 3")
+    return item
+
+
+def test_what_a_task_raises_is_raised_here(cluster):
+    with pytest.raises(vi.InputError, match="gap: 3"):
+        each(_raising, range(6), threads=Cluster(cluster))
+    assert each(lambda item, _: item, range(3), threads=Cluster(cluster)) == [0, 1, 2]
+
+
+def test_ctrl_c_leaves_no_task(cluster):
+    def stop(done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        each(
+            lambda item, _: time.sleep(0.5 * (item > 0)),
+            range(20),
+            threads=Cluster(cluster),
+            progress=stop,
+        )
+    end = time.monotonic() + 10.0
+    while cluster.futures and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not cluster.futures
+
+
+def test_a_result_that_cannot_be_fetched_is_told(cluster, monkeypatch):
+    async def gather(*_, **__):
+        raise OSError("no route")
+
+    monkeypatch.setattr(type(cluster), "_gather", gather)
+    monkeypatch.setattr(distributed.Future, "result", _lost)
+    with pytest.raises(LostError, match=r"went away; .*no route"):
+        each(lambda item, _: item, range(4), threads=Cluster(cluster))
+
+
+def _lost(future, **_):
+    raise OSError("no route")
+
+
+def _dies(item, _):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+@contextmanager
+def _local(workers, **how):
+    with (
+        distributed.LocalCluster(
+            n_workers=workers, threads_per_worker=1, dashboard_address=":0", **how
+        ) as local,
+        distributed.Client(local, set_as_default=False) as client,
+    ):
+        yield local, client
+
+
+def test_a_task_that_kills_its_workers_is_told():
+    with (
+        dask.config.set({"distributed.scheduler.allowed-failures": 0}),
+        _local(1, processes=True) as (_, client),
+        pytest.raises(LostError, match="workers die of a task"),
+    ):
+        each(_dies, range(1), threads=Cluster(client))
+
+
+def test_a_cluster_that_is_closed_while_items_are_left_is_told():
+    with (
+        _local(2, processes=False) as (local, client),
+        pytest.raises(LostError, match="went away"),
+    ):
+        each(
+            lambda item, _: time.sleep(0.1),
+            range(60),
+            threads=Cluster(client),
+            progress=lambda *_: local.close(timeout=10),
+        )
+
+
+def test_workers_that_join_later_take_part():
+    with _local(1, processes=False) as (local, client):
+        names = each(
+            lambda item, _: time.sleep(0.3) or threading.get_ident(),
+            range(24),
+            threads=Cluster(client),
+            progress=lambda *_: local.scale(3),
+        )
+    assert len(set(names)) == 3
 
 
 def test_threads_and_a_cluster_exclude_one_another(cluster):

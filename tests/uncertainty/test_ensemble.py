@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -149,7 +150,7 @@ def _slowly(seconds, asked):
 def test_rigs_are_asked_for_that_take_a_while(monkeypatch, seconds, sizes):
     asked = []
     response, clock = _slowly(seconds, asked)
-    monkeypatch.setattr("vibroimpact.uncertainty.ensemble.time.monotonic", clock)
+    monkeypatch.setattr("vibroimpact.uncertainty.ensemble.time", SimpleNamespace(monotonic=clock))
     data = vi.ensemble((FREE, SHAKING), {"stiffness": "normal:1%"}, response, 1024)
     assert asked == sizes
     assert data.sizes["sample"] == 1024

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 _Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Lattice:
     """Some nodes of a grid of displacement and velocity; an array of states to numpy."""
 
@@ -32,7 +32,7 @@ class Lattice:
         return replace(self, chosen=self.chosen[which])
 
     def __array__(self, dtype: object = None, copy: bool | None = None) -> _Array:
-        """u, u̇, u_R, u_L, z of each, shape (n, 5)."""
+        """u, u̇, u_R, u_L, z of each, shape (n, 5): a new array of floats whatever is asked for."""
         row, column = np.divmod(self.chosen, len(self.displacement))
         points = np.empty((len(self), 5))
         points[:, 0], points[:, 1] = self.displacement[column], self.velocity[row]

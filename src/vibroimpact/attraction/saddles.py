@@ -18,6 +18,7 @@ from vibroimpact.attraction.lattice import lattice
 from vibroimpact.attraction.memory import met
 from vibroimpact.attraction.search import Search
 from vibroimpact.attraction.window import Window
+from vibroimpact.engine import motion as layout
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.response.start import state_from
@@ -192,7 +193,9 @@ def _near(search: Search, edge: _Array, span: _Array) -> Orbit | None:
         states.append(went.states[0])
         went = follow(stage, None, went.states, search.traps, 0)
         went = follow(stage, None, went.states, NO_TRAPS, 1)
-    way = np.array(states)[:, 2:4] / span
+    if not states:
+        return None
+    way = np.array(states)[:, [layout.U, layout.V]] / span
     fam = family(stage.oscillator, stage.excitation, "frequency")
     closest = {
         period: np.linalg.norm(way[period:] - way[:-period], axis=1)
@@ -205,7 +208,7 @@ def _near(search: Search, edge: _Array, span: _Array) -> Orbit | None:
             orbit = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
         except InputError:
             continue
-        near = np.linalg.norm((orbit.point[:2] - states[at][2:4]) / span) < 0.02
+        near = np.linalg.norm((orbit.point[:2] - states[at][[layout.U, layout.V]]) / span) < 0.02
         if near and not orbit.stable:
             return orbit
     return None

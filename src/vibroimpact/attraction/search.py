@@ -164,6 +164,8 @@ class Search:
                 went = follow(self.stage, None, now, NO_TRAPS, 1, self.threads)
                 going, now = going[went.outcome == Status.NOT_SETTLED], went.states
                 row[going] = now[:, layout.U]
+            states = states.copy()
+            states[going] = now
             seen.sort(axis=0)
             for column, i in zip(going, left[going], strict=True):
                 apart = [
@@ -212,6 +214,8 @@ class Search:
         for _ in range(_LOOKS):
             went = follow(self.stage, None, states, NO_TRAPS, 1, self.threads)
             states = went.states
-            seen.append(states[:, 2])
+            if len(states) < len(centres):
+                return False
+            seen.append(states[:, layout.U])
         theirs = np.sort(np.concatenate(seen))
         return distance(self.known[number].visited, theirs) <= ALIKE

@@ -6,6 +6,7 @@ import importlib
 from collections.abc import Callable, Collection, Sequence
 from typing import Any, NamedTuple, TypeVar
 
+from vibroimpact.errors import InputError
 from vibroimpact.response.dealing import dealt
 from vibroimpact.response.threads import LostError, Progress, Tally
 
@@ -33,42 +34,38 @@ class Cluster(NamedTuple):
         progress: Progress | None,
     ) -> list[_Found]:
         """As `threads.each`; the tasks and what they find travel."""
-        hands = _Hands(self.client)
+        hands = _Hands(self)
         try:
-            return dealt(hands, self.width(), task, items, total, progress)
-        except OSError as lost:
-            raise LostError(f"{_AWAY} ({lost})") from lost
+            return dealt(hands, task, items, total, progress)
+        except InputError:
+            raise
+        except Exception as error:
+            if self.client.status == "running" and not isinstance(error, OSError):
+                raise
+            raise LostError(f"{_AWAY} ({error})") from error
         finally:
             if self.client.status == "running":
                 self.client.cancel(list(hands.completed.futures))
 
 
 class _Hands:
-    def __init__(self, client: Any) -> None:
-        self.client = client
+    def __init__(self, cluster: Cluster) -> None:
+        self.cluster, self.width = cluster, cluster.width
         self.distributed: Any = importlib.import_module("distributed")
-        # What was found is fetched while others compute.
-        self.completed = self.distributed.as_completed(
-            loop=client.loop, with_results=True, raise_errors=False
-        )
-        self.found: dict[Any, Any] = {}
+        self.completed = self.distributed.as_completed(loop=cluster.client.loop)
 
     def take(self, function: Callable[..., Any], *arguments: Any) -> Any:
-        future = self.client.submit(function, *arguments, pure=False)
+        future = self.cluster.client.submit(function, *arguments, pure=False)
         self.completed.add(future)
         return future
 
     def ready(self, taken: Collection[Any]) -> Collection[Any]:
-        future, self.found[future] = next(self.completed)
-        return [future]
+        return [next(self.completed)]
 
     def result(self, taken: Any) -> Any:
         if taken.status == "cancelled":
             raise LostError(_AWAY)
-        found = self.found.pop(taken)
-        if taken.status == "finished":
-            return found
         try:
-            return taken.result()  # raises what went wrong
+            return taken.result()
         except self.distributed.KilledWorker as killed:
             raise LostError(f"where: the cluster's workers die of a task ({killed})") from killed

@@ -21,18 +21,25 @@ _Found = TypeVar("_Found")
 
 _PROTOCOL = pickle.HIGHEST_PROTOCOL
 _LASTS = 0.25
-"""Seconds that a bundle takes for each worker there is: who deals has as much time for each."""
+"""Seconds that a bundle takes for each worker there is, at most: progress is told as often."""
+_QUICK, _DEALT = 1 / 32, 1 / 250
+"""Seconds that a bundle takes at least; and for each worker there is, since one deals to all."""
+_GROWS = 8
+"""How many times as many items a bundle has as the last that came back, at most."""
 _MESSAGE = 5_000_000
-"""Bytes of a bundle, at most, of more than one item."""
+"""Bytes of a bundle of more than one item, about, either way."""
 _AHEAD = 2
 """Bundles that a worker has: one to do, and one so that it need not wait for the next."""
-_SHARE, _LEAST = 2, 8
-"""Of what is left a worker is given at most one part in twice as many as there are workers, but not
-less than one in eight of what takes that long."""
+_AGAIN = 1.0
+"""Seconds after which it is asked again how many workers there are: they come and go."""
 
 
 class Hands(Protocol):
     """Workers as who deals sees them; a bundle is known by what `take` returns."""
+
+    def width(self) -> int:
+        """How many there are now."""
+        ...
 
     def take(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Give somebody a call to do."""
@@ -57,24 +64,25 @@ def bundle(task: bytes, items: bytes) -> tuple[bytes, float]:
 
 def dealt(
     hands: Hands,
-    width: int,
     task: Callable[[_Item, Tally], _Found],
     items: Sequence[_Item],
     total: int,
     progress: Progress | None,
 ) -> list[_Found]:
-    """Do a task for each item by so many hands; the rest as `threads.each`."""
+    """Do a task for each item by some hands; the rest as `threads.each`."""
     found: list[Any] = [None] * len(items)
     taken: dict[Any, slice] = {}
     given = done = 0
-    few, light = 1, 1
+    most = least = light = 1
     shared = importlib.import_module("cloudpickle").dumps(task)  # which may have no name
+    width, asked = hands.width(), time.monotonic()
     while done < len(items):
         while given < len(items) and len(taken) < _AHEAD * width:
-            part = max(-(-(len(items) - given) // (_SHARE * width)), -(-few // _LEAST))
-            some = slice(given, min(given + min(part, few, light), len(items)))
+            # Of what is left everybody has twice, so that at the end nobody waits for long.
+            part = max(least, -(-(len(items) - given) // (_AHEAD * width)))
+            some = slice(given, min(given + min(part, most, light), len(items)))
             packed = pickle.dumps(items[some], _PROTOCOL)
-            light = max(1, _MESSAGE * (some.stop - given) // len(packed))
+            light = _light(some.stop - some.start, packed)
             taken[hands.take(bundle, shared, packed)] = some
             given = some.stop
         for one in hands.ready(taken):
@@ -82,8 +90,18 @@ def dealt(
             packed, seconds = hands.result(one)
             found[some] = pickle.loads(packed)
             count = some.stop - some.start
-            few = max(1, int(_LASTS * width * count / max(seconds, 1e-9)))
+            light = min(light, _light(count, packed))
+            rate = count / max(seconds, 1e-9)
+            most = max(1, min(int(_LASTS * width * rate), _GROWS * count))
+            least = int(max(_QUICK, _DEALT * width) * rate)
             done += count
             if progress:
                 progress(done * total // len(items), total)
+        if time.monotonic() - asked > _AGAIN:
+            width, asked = hands.width(), time.monotonic()
     return found
+
+
+def _light(count: int, packed: bytes) -> int:
+    """How many such items a message takes."""
+    return max(1, _MESSAGE * count // len(packed))

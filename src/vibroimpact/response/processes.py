@@ -25,6 +25,10 @@ def may_start() -> bool:
 
 class _Hands(NamedTuple):
     pool: Any
+    number: int
+
+    def width(self) -> int:
+        return self.number
 
     def take(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         taken: Future[Any] = self.pool.submit(function, *arguments)
@@ -64,7 +68,7 @@ class Processes(NamedTuple):
             env={"LOKY_MAX_MEMORY_LEAK_SIZE": "1e15"},  # what a task needs is no leak
         )
         try:
-            return dealt(_Hands(pool), self.width(), task, items, total, progress)
+            return dealt(_Hands(pool, self.width()), task, items, total, progress)
         except loky.process_executor.TerminatedWorkerError as died:
             raise LostError(
                 f"where: a process died, perhaps for want of memory ({died}); the same call "

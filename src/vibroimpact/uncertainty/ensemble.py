@@ -30,8 +30,8 @@ CREATED_BY = "vibroimpact.ensemble"
 _FIRST = 64
 """Rigs that the response is asked for at first, and at least."""
 _LASTS = 2.0
-"""Seconds that it then takes at a time: `progress` is not told more seldom, nor are many workers
-waited for more often."""
+"""Seconds that it then takes at a time, if it is quick: often enough to tell `progress`, and
+seldom enough to wait for the last of many workers."""
 _GROWS = 8
 """By how much more rigs are asked for than before, at most: the first time it may compile."""
 
@@ -74,7 +74,8 @@ def ensemble(
     seed
         The same one gives the same rigs.
     block
-        How many rigs the response is asked for at a time; None for as many as take some seconds.
+        How many rigs the response is asked for at a time; None for 64 or as many as take two
+        seconds, whichever is more.
     progress
         Called with the rigs done and all.
 
