@@ -62,12 +62,12 @@ def hold_growth() -> tuple[float, float]:
 
 def _growth(follow: Callable[[int], None]) -> tuple[float, float]:
     follow(_FEW)
-    before = _peak()
+    before = peak()
     follow(_MANY)
-    return before, _peak() - before
+    return before, peak() - before
 
 
-def _peak() -> float:
+def peak() -> float:
     """Greatest resident memory of this process so far, in KiB."""
     status = Path("/proc/self/status")
     if status.exists():  # getrusage would count the parent's, from before the program began
@@ -76,5 +76,5 @@ def _peak() -> float:
                 return float(line.split()[1])
     import resource
 
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak / 1024.0 if sys.platform == "darwin" else float(peak)
+    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return most / 1024.0 if sys.platform == "darwin" else float(most)

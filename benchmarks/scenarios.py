@@ -6,6 +6,7 @@ import numpy as np
 
 import vibroimpact as vi
 from benchmarks import fresh
+from benchmarks.memory import peak
 from benchmarks.report import Table, met, targets
 
 _SECONDS = 45.0
@@ -16,7 +17,7 @@ block, and the allocator's pages."""
 _RATIO, _GAP = (0.5, 100.0), (0.0, 1.0)
 
 
-def mapped(nodes: int, threads: int = 2, where: str | None = None) -> float:
+def mapped(nodes: int, threads: int = 2, where: str | None = None, block: int = 20) -> float:
     """Seconds for a map over λ and δ0, swept in both directions by hundredths."""
     begin = time.perf_counter()
     vi.scenario_map(
@@ -24,16 +25,15 @@ def mapped(nodes: int, threads: int = 2, where: str | None = None) -> float:
         ("gap_ratio", np.linspace(*_GAP, nodes)),
         threads=threads,
         where=where,
+        block=block,
     )
     return time.perf_counter() - begin
 
 
 def peak_memory(nodes: int) -> float:
     """Peak memory (MiB) of this process after a map."""
-    import resource
-
-    mapped(nodes, where="threads")
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    mapped(nodes, where="threads", block=10)
+    return peak() / 1024.0
 
 
 def scenarios() -> Table:
