@@ -224,6 +224,21 @@ def measured_sides(draw):
     return as_measured(xr.Dataset(known, at))
 
 
+def test_noise_is_the_same_to_the_last_bit_when_a_sensor_is_turned_round():
+    some, at = np.random.default_rng(0), {"frequency": np.arange(1.0, 13.0)}
+    for _ in range(60):
+        known = {
+            f"{kind}_{end}": (
+                ("direction", "frequency", "repeat"),
+                sign * some.uniform(0.1, 3.0, size=(1, 12, 2)),
+            )
+            for kind in ("displacement", "acceleration")
+            for end, sign in (("max", 1.0), ("min", -1.0))
+        }
+        data = as_measured(xr.Dataset(known, {"direction": ["forward"], **at}))
+        assert noise_of(mirrored(data)) == noise_of(data)
+
+
 @settings(max_examples=sample(100, 15), deadline=None)
 @given(measured_sides())
 def test_a_sensor_turned_round_tells_the_same(data):

@@ -98,7 +98,8 @@ def _of_neighbours(both: Swept) -> float:
 
 def _of_repeats(data: xr.Dataset) -> float:
     """Of values that were measured again; 0 if these are few."""
-    squares, spare = 0.0, 0
+    squares: list[float] = []
+    spare = 0
     far = strays(data)
     for name in MEASURED:
         if name in data and "repeat" in data[name].dims:
@@ -108,9 +109,10 @@ def _of_repeats(data: xr.Dataset) -> float:
             held = held[(np.isfinite(held).sum(axis=1) > 1)]
             mean = np.nanmean(held, axis=1, keepdims=True)
             held, mean = held[mean[:, 0] != 0.0], mean[mean[:, 0] != 0.0]
-            squares += float(np.nansum((held / mean - 1.0) ** 2))
+            squares.append(float(np.nansum((held / mean - 1.0) ** 2)))
             spare += int(np.isfinite(held).sum()) - len(held)
-    return math.sqrt(squares / spare) if spare >= _ENOUGH else 0.0
+    # In any order the same: a sensor that is turned round swaps maxima and minima.
+    return math.sqrt(math.fsum(squares) / spare) if spare >= _ENOUGH else 0.0
 
 
 def measured_features(data: xr.Dataset) -> Features:
