@@ -88,6 +88,6 @@ def clusters() -> Table:
             table.add(f"{name}: threads, s", Spread.of(taken["threads"]).text(), "", "")
     table.notes.append(
         "The same call, three ways in turn, in each of "
-        f"{_ROUNDS} rounds; the cluster and the processes have been started. Results are identical."
+        f"{_ROUNDS} rounds; the cluster and the processes have been started."
     )
     return table

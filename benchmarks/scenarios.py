@@ -1,6 +1,7 @@
 """Maps of scenarios: time for ten thousand rigs, what it grows with, and memory."""
 
 import time
+from typing import Any
 
 import numpy as np
 
@@ -17,15 +18,14 @@ block, and the allocator's pages."""
 _RATIO, _GAP = (0.5, 100.0), (0.0, 1.0)
 
 
-def mapped(nodes: int, threads: int = 2, where: str | None = None, block: int = 20) -> float:
+def mapped(nodes: int, **how: Any) -> float:
     """Seconds for a map over λ and δ0, swept in both directions by hundredths."""
     begin = time.perf_counter()
     vi.scenario_map(
         ("stiffness_ratio", np.geomspace(*_RATIO, nodes)),
         ("gap_ratio", np.linspace(*_GAP, nodes)),
-        threads=threads,
-        where=where,
-        block=block,
+        threads=2,
+        **how,
     )
     return time.perf_counter() - begin
 

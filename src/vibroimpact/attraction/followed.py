@@ -125,11 +125,11 @@ def follow(
     if not number:
         none = np.empty(0, dtype=np.int32)
         return Followed(np.empty((0, layout.STATE)), none, none, none)
-    if number <= _WORTH_IT * _REGION and not isinstance(threads, int):
-        threads = None
     where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
     capture.caught.prepare(engine_rig(stage.oscillator, stage.excitation))
+    if len(regions) < _WORTH_IT and not isinstance(threads, int):
+        threads = None
     found = each(follow_region, regions, steps=number, threads=threads, progress=progress)
     return Followed(*(np.concatenate(column) for column in zip(*found, strict=True)))
 

@@ -92,9 +92,8 @@ def ensemble(
         gives no dataset over rigs.
     """
     drawn = uncertain(rig, distributions)
-    size = None if block is None else whole(block, "block")
     values = drawn.values(shares(samples, len(drawn.names), method, whole(seed, "seed", 0)))
-    data = responded(drawn, values, response, size, progress)
+    data = responded(drawn, values, response, block, progress)
     about = {**drawn.about(), "samples": len(values), "method": method, "seed": seed}
     # It says of itself something else than the response of its first rigs.
     data.attrs = {**data.attrs, **origin(CREATED_BY, about)}
@@ -116,7 +115,7 @@ def responded(
         )
     rigs = drawn.rigs(values)
     parts: list[xr.Dataset] = []
-    size, first = block or _FIRST, 0
+    size, first = _FIRST if block is None else whole(block, "block"), 0
     while first < len(rigs):
         some = rigs[first : first + size]
         begin = time.monotonic()

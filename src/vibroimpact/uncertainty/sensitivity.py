@@ -75,14 +75,13 @@ def sensitivity(
     drawn = uncertain(rig, distributions)
     count, draws = whole(samples, "samples"), whole(resamples, "resamples", 0)
     check_power(count, "samples", "Sobol's points")
-    size = None if block is None else whole(block, "block")
     seed = whole(seed, "seed", 0)
     columns = len(drawn.names)
     points = qmc.Sobol(2 * columns, rng=seed).random(count)
     a, b = points[:, :columns], points[:, columns:]
     # Of each parameter the first set with that column of the second one.
     sets = [a, b, *(np.where(np.arange(columns) == i, b, a) for i in range(columns))]
-    data = responded(drawn, drawn.values(np.concatenate(sets)), response, size, progress)
+    data = responded(drawn, drawn.values(np.concatenate(sets)), response, block, progress)
     if quantity not in data or "sample" not in data[quantity].dims:
         names = [str(name) for name, one in data.data_vars.items() if "sample" in one.dims]
         raise InputError(f"quantity: {shown(quantity)}; one of {', '.join(names)} is accepted")
