@@ -73,16 +73,16 @@ def dealt(
     found: list[Any] = [None] * len(items)
     taken: dict[Any, slice] = {}
     given = done = 0
-    most = least = light = 1
+    most = least = there = back = 1
     shared = importlib.import_module("cloudpickle").dumps(task)  # which may have no name
     width, asked = hands.width(), time.monotonic()
     while done < len(items):
         while given < len(items) and len(taken) < _AHEAD * width:
             # Of what is left everybody has twice, so that at the end nobody waits for long.
             part = max(least, -(-(len(items) - given) // (_AHEAD * width)))
-            some = slice(given, min(given + min(part, most, light), len(items)))
+            some = slice(given, min(given + min(part, most, there, back), len(items)))
             packed = pickle.dumps(items[some], _PROTOCOL)
-            light = _light(some.stop - some.start, packed)
+            there = _light(some.stop - some.start, packed)
             taken[hands.take(bundle, shared, packed)] = some
             given = some.stop
         for one in hands.ready(taken):
@@ -90,7 +90,7 @@ def dealt(
             packed, seconds = hands.result(one)
             found[some] = pickle.loads(packed)
             count = some.stop - some.start
-            light = min(light, _light(count, packed))
+            back = _light(count, packed)
             rate = count / max(seconds, 1e-9)
             most = max(1, min(int(_LASTS * width * rate), _GROWS * count))
             least = int(max(_QUICK, _DEALT * width) * rate)
