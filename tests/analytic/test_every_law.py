@@ -1,7 +1,7 @@
-"""Every law of isolators and stops against its stored motion to 25 digits.
+"""Every law of isolators and stops, under every kind of shaking, against stored motions.
 
-From rest, after 1, 5 and 20 cycles with contacts on both sides, the state agrees within 1e-11 of
-the largest displacement or velocity seen at the sections.
+From rest, with contacts on both sides, the states that are known to 25 digits agree within 1e-11 of
+the largest displacement or velocity seen at the sections, or at the samples of a record.
 """
 
 from __future__ import annotations
@@ -12,33 +12,41 @@ import pytest
 from mpmath import mp, mpf
 
 import vibroimpact as vi
-from reference.law_cases import CASES, CYCLES
-from reference.law_states import STATES
-from reference.store_law_states import AT
+from reference import law_cases, law_states, shaken_cases, shaken_states
+from reference.law_cases import Case
+from reference.store_law_states import States, marks, span
 
 TOLERANCE = 1e-11
 
 
-def error(name: str) -> float:
+def error(one: Case, stored: States) -> float:
     """The largest over the stored states, over the largest displacement or velocity."""
-    rig, shaken = CASES[name]
-    data = vi.simulate(rig, shaken, CYCLES, samples=1)
-    assert data.sizes["time"] == CYCLES + 1, data.attrs["status"]
+    rig, shaken = one
+    at = marks(one)
+    cycles = None if isinstance(shaken, vi.Record) else at[-1]
+    data = vi.simulate(rig, shaken, cycles, samples=1)
+    assert data.sizes["time"] == at[-1] + 1, data.attrs["status"]
     columns = [data[which].values for which in ("displacement", "velocity")]
-    last = vi.simulate(rig, shaken, CYCLES, samples=0)["final_state"].values
+    last = vi.simulate(rig, shaken, cycles, samples=0)["final_state"].values
     worst = 0.0
     with mp.workdps(40):
         size = float(abs(columns[0]).max())
         # At a section friction may hold the mass, always.
-        speed = max(float(abs(columns[1]).max()), size * 2 * math.pi * shaken.frequency)
+        rate = 2 * math.pi / span(shaken) if cycles else 1.0
+        speed = max(float(abs(columns[1]).max()), size * rate)
         for i, (column, unit) in enumerate(zip(columns, (size, speed), strict=True)):
-            ours = [*(column[n] for n in AT), last[i]]
-            stored = [state[i] for state in STATES[name]]
-            for one, digits in zip(ours, [*stored, stored[-1]], strict=True):
-                worst = max(worst, float(abs(mpf(float(one)) - mpf(digits))) / unit)
+            ours = [*(column[n] for n in at), last[i]]
+            known = [state[i] for state in stored]
+            for value, digits in zip(ours, [*known, known[-1]], strict=True):
+                worst = max(worst, float(abs(mpf(float(value)) - mpf(digits))) / unit)
     return worst
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", law_cases.CASES)
 def test_stored_motions_are_met(name: str) -> None:
-    assert error(name) <= TOLERANCE
+    assert error(law_cases.CASES[name], law_states.STATES[name]) <= TOLERANCE
+
+
+@pytest.mark.parametrize("name", shaken_cases.CASES)
+def test_stored_motions_under_every_shaking_are_met(name: str) -> None:
+    assert error(shaken_cases.CASES[name], shaken_states.STATES[name]) <= TOLERANCE

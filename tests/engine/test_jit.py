@@ -98,7 +98,56 @@ def test_processes_share_the_cache_safely(tmp_path: Path) -> None:
     for path in tmp_path.rglob("*.nb[ic]"):
         path.write_bytes(path.read_bytes()[:40])
     assert NOTICE in run(prepare, tmp_path)
-    assert not list(tmp_path.rglob("*.nb[ic]"))
+    assert NOTICE not in run(prepare, tmp_path)
+
+
+PREPARE = """\
+import os, sys
+os.umask(0)
+sys.path.insert(0, {folder!r})
+import small
+small.first.prepare()
+"""
+
+
+@pytest.fixture
+def cached(tmp_path: Path) -> tuple[str, Path]:
+    """Code that prepares an entry, and the cache in which it has done so, with a careless umask."""
+    (tmp_path / "small.py").write_text(ENTRY)
+    code = PREPARE.format(folder=str(tmp_path))
+    assert NOTICE in run(code, tmp_path / "cache")
+    return code, tmp_path / "cache"
+
+
+def test_a_flipped_bit_in_compiled_code_is_noticed(cached: tuple[str, Path]) -> None:
+    code, folder = cached
+    for suffix in ("nbi", "nbc"):
+        (path,) = folder.rglob(f"*.{suffix}")
+        content = bytearray(path.read_bytes())
+        content[len(content) // 2] ^= 16
+        path.write_bytes(content)
+        assert NOTICE in run(code, folder)
+        assert NOTICE not in run(code, folder)
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="no owners and modes here")
+def test_code_that_others_may_write_to_is_not_run(cached: tuple[str, Path]) -> None:
+    code, folder = cached
+    made = [folder, *folder.rglob("*")]
+    assert not [path for path in made if path.stat().st_mode & 0o022]
+    assert NOTICE not in run(code, folder)
+    for depth in ("", "engine-*", "engine-*/*"):
+        (path,) = folder.glob(depth) if depth else (folder,)
+        path.chmod(0o777)
+        error = run(code, folder)
+        assert f"other users may write to {str(path)!r}" in error
+        assert NOTICE in error
+        path.chmod(0o755)
+        assert NOTICE not in run(code, folder)
+    (path,) = folder.rglob("*.nbc")
+    path.chmod(0o666)  # the file alone is made again
+    assert NOTICE in run(code, folder)
+    assert not [path for path in made if path.exists() and path.stat().st_mode & 0o022]
 
 
 def test_each_entry_is_loaded_for_each_flow() -> None:

@@ -100,7 +100,27 @@ PAIRS = {
         1.0,
         2e-4,
     ),
+    "restitution, record": Pair(
+        SPRING,
+        hertz(0.4, restitution=0.7, **FLORES),
+        hertz(0.3, restitution=0.5, **FLORES),
+        quake(4.0, 3),
+        1.0,
+        2e-4,
+    ),
+    "hunt-crossley, record": Pair(
+        SPRING,
+        hertz(0.4, restitution=0.6, relation="hunt-crossley"),
+        elastic(0.3),
+        quake(4.0, 4),
+        1.0,
+        2e-4,
+    ),
+    "elastic hertz, record": Pair(SPRING, hertz(0.4), hertz(0.3), quake(4.0, 3), 2.0, 2e-5),
     "jankowski": Pair(SPRING, pounding(0.6, 0.7), pounding(0.5, 0.5), WAVE, 1.25, 2e-4),
+    "jankowski, record": Pair(
+        SPRING, pounding(0.4, 0.7), pounding(0.3, 0.5), quake(4.0, 3), 1.25, 2e-4
+    ),
 }
 
 

@@ -39,6 +39,7 @@ from reference.jets import Jet, Tape, Unknown, number, rescaled, value
 from reference.law_series import fraction, law_of, restoring
 from reference.law_stops import Side, times
 from reference.public_motion import reference_shaking
+from reference.shaking import Lines
 
 DIGITS = 105
 """To work with: a little more than the series have."""
@@ -74,7 +75,8 @@ class Step(NamedTuple):
 
 @dataclass
 class Motion:
-    """States (u, v) at the start and behind each period, the memory z there, and the events."""
+    """States (u, v) at the start and behind each period or line, the memory z there, and the
+    events."""
 
     states: list[tuple[mpf, mpf]] = field(default_factory=list)
     memory: list[mpf] = field(default_factory=list)
@@ -83,21 +85,21 @@ class Motion:
 
 def follow(
     rig: vi.Oscillator,
-    shaken: vi.Harmonic | vi.Periodic,
+    shaken: vi.Harmonic | vi.Periodic | vi.Record,
     cycles: int,
     start: tuple[Any, Any] = (0, 0),
     order: int = 44,
     digits: int = 42,
     watch: Callable[[Step], None] | None = None,
 ) -> Motion:
-    """Follow a rig over whole forcing periods.
+    """Follow a rig over whole forcing periods, or from one sample of a record to the next.
 
     Parameters
     ----------
     rig, shaken
         By the public interface. Floats are taken as the exact binary numbers.
     cycles
-        How many periods.
+        How many periods, or lines of a record; behind its end the base stands still.
     start
         (u, v) at t = 0, with nothing touched and no memory; m, m/s.
     order, digits
@@ -121,7 +123,7 @@ def follow(
         run = _Run(rig, shaken, start, order, int(digits * 3.33), watch)
         run.note_state()
         for n in range(cycles):
-            run.until((n + 1) / mpf(shaken.frequency))
+            run.through(n)
             run.note_state()
     return run.motion
 
@@ -132,7 +134,7 @@ class _Run:
     def __init__(
         self,
         rig: vi.Oscillator,
-        shaken: vi.Harmonic | vi.Periodic,
+        shaken: vi.Harmonic | vi.Periodic | vi.Record,
         start: tuple[Any, Any],
         order: int,
         tolerance: int,
@@ -148,6 +150,7 @@ class _Run:
         pairs = (("right", 1, rig.right), ("left", -1, rig.left))
         self.sides = [Side(name, sign, stop) for name, sign, stop in pairs if stop is not None]
         self.shaking = reference_shaking(rig, shaken)
+        self.span, self.begun = 0, mpf(0)
         self.t, self.z, self.u, self.v = mpf(0), mpf(0), mpf(start[0]), mpf(start[1])
         self.w, self.s = mpf(0), abs(self.v) ** (1 / mpf(self.root))
         if any(side.sign * self.u >= side.gap for side in self.sides):
@@ -156,7 +159,7 @@ class _Run:
         self.contact: Side | None = None
         self.chi, self.clamped, self.stuck = mpf(0), False, False
         self.way, self.branch = laws.sign(self.v), 0
-        self.step = mpf(1) / 1000 / mpf(shaken.frequency)
+        self.step = self.shaking.span(0) / 1000
         self.known: dict[Any, int] = {}
         self.changes_here = 0
         self.motion = Motion()
@@ -169,8 +172,12 @@ class _Run:
         self.motion.states.append((self.u, self.v))
         self.motion.memory.append(self.z)
 
-    def until(self, end: mpf) -> None:
-        """Go on to a time."""
+    def through(self, span: int) -> None:
+        """Go on to the end of a period or line."""
+        shaking = self.shaking
+        if isinstance(shaking, Lines):
+            self.span, self.begun = span, span * shaking.step
+        end = (span + 1) * shaking.span(span)
         while self.t < end:
             self._step(end)
 
@@ -224,11 +231,15 @@ class _Run:
         """The unknowns t, u, v, z, and what ends the piece where it falls to zero."""
         t, z = Unknown(tape, self.t), Unknown(tape, self.z)
         waves, base = [], tape.constant(0)
-        for n, size, turned in self.shaking.parts:
-            angle = n * (self.shaking.omega * self.t + self.shaking.phase) + turned
-            wave = Unknown(tape, mp.sin(angle)), Unknown(tape, mp.cos(angle))
-            waves.append((n * self.shaking.omega, *wave))
-            base = base + wave[0] * size
+        if isinstance(self.shaking, Lines):
+            slope = self.shaking.slope(self.span)
+            base = t * slope + (self.shaking.value(self.span, 0) - slope * self.begun)
+        else:
+            for n, size, turned in self.shaking.parts:
+                angle = n * (self.shaking.omega * self.t + self.shaking.phase) + turned
+                wave = Unknown(tape, mp.sin(angle)), Unknown(tape, mp.cos(angle))
+                waves.append((n * self.shaking.omega, *wave))
+                base = base + wave[0] * size
         self.relaxing = {name: Unknown(tape, one) for name, one in self.memory.items()}
         waiting: list[tuple[Any, Jet]] = []
         clock: Jet | None = None
@@ -327,7 +338,7 @@ class _Run:
         force = self.load - self.law.force(self.u, 0, self.z)
         if self.contact is not None:
             force -= self.contact.sign * self.contact.held(self.u)
-        return force / self.mass - self.shaking.value(0, self.t)
+        return force / self.mass - self.shaking.value(self.span, self.t - self.begun)
 
     def _turn(self) -> None:
         """Say where the mass goes from v = 0."""
@@ -351,6 +362,8 @@ class _Run:
     def _steepening(self) -> mpf:
         """The slope of the push at rest."""
         shaking, total = self.shaking, mpf(0)
+        if isinstance(shaking, Lines):
+            return -shaking.slope(self.span)
         for n, size, turned in shaking.parts:
             angle = n * (shaking.omega * self.t + shaking.phase) + turned
             total -= size * n * shaking.omega * mp.cos(angle)

@@ -52,7 +52,14 @@ class Jet:
         """By squaring; k at least 1."""
         if k == 1:
             return self
-        half = self.power(k // 2)
+        found = self._squared(k)
+        self.tape.powers.append((self, k, found))
+        return found
+
+    def _squared(self, k: int) -> Jet:
+        if k == 1:
+            return self
+        half = self._squared(k // 2)
         return half * half * self if k % 2 else half * half
 
 
@@ -71,6 +78,7 @@ class Tape:
 
     def __init__(self) -> None:
         self.jets, self.unknowns = list[Jet](), list[Unknown]()
+        self.powers = list[tuple[Jet, int, Jet]]()
 
     def constant(self, value: Any) -> Jet:
         """A series of one term."""
@@ -96,7 +104,21 @@ class Tape:
                 if unknown.c[k]:
                     share = BITS - tolerance - unknown.c[k].bit_length()
                     factor = min(factor, 2.0 ** (share / k))
+        while not self._ends_right(factor, tolerance):
+            factor *= 0.7
         return factor
+
+    def _ends_right(self, factor: float, tolerance: int) -> bool:
+        """Whether powers are so near those of their bases at the step's end.
+
+        The last terms do not see a power that begins beyond them: x^50 from x = 0.
+        """
+        for base, k, power in self.powers:
+            found, exact = (value(rescaled(one.c, factor), mpf(1)) for one in (power, base))
+            size = exact**k if abs(exact) > 1 else mpf(1)
+            if abs(found - exact**k) > abs(size) * mpf(2) ** (20 - tolerance):
+                return False
+        return True
 
 
 def rescaled(c: list[int], factor: float) -> list[int]:

@@ -18,7 +18,7 @@ class Case(NamedTuple):
     """A rig, and what shakes it; from rest."""
 
     rig: vi.Oscillator
-    shaken: vi.Harmonic | vi.Periodic
+    shaken: vi.Harmonic | vi.Periodic | vi.Record
 
 
 def case(
@@ -198,6 +198,23 @@ BOUC_WEN = {
         pounding(6e-3, 0.5),
         0.07,
         1.1,
+    ),
+    "bouc-wen, n = 10, power": case(
+        vi.BoucWenIsolator(80e3, 18e3, 200.0, 600.0, 10, 0.8, 0.2),
+        hertz(7e-3, restitution=0.7),
+        hertz(6e-3, dissipation=0.5),
+        0.06,
+        1.3,
+    ),
+    "bouc-wen, n = 50, bumpers": case(
+        vi.BoucWenIsolator(80e3, 18e3, 300.0, 600.0, 50), bumper(7e-3), bumper(6e-3), 0.07, 1.3
+    ),
+    "bouc-wen, n = 100, walls": case(
+        vi.BoucWenIsolator(80e3, 18e3, 300.0, 600.0, 100, 0.7, 0.3),
+        wall(7e-3, 0.7),
+        wall(6e-3, 0.5),
+        0.07,
+        1.2,
     ),
 }
 EXPONENTIAL = {

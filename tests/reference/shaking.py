@@ -98,6 +98,10 @@ class Lines:
         """How long a span lasts."""
         return self.step
 
+    def slope(self, number: int) -> mpf:
+        """Of A_t."""
+        return self._line(number)[1]
+
     def value(self, number: int, elapsed: mpf) -> mpf:
         """A_t."""
         here, slope = self._line(number)

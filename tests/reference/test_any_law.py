@@ -8,7 +8,7 @@ import pytest
 from mpmath import mp, mpf
 
 import vibroimpact as vi
-from reference import fifty_digits, law_states
+from reference import fifty_digits, law_states, shaken_cases, shaken_states
 from reference import laws_mpmath as laws
 from reference import rig as rig_reference
 from reference.any_law import Step, follow
@@ -16,7 +16,7 @@ from reference.jets import value
 from reference.law_cases import CASES, CYCLES
 from reference.law_series import law_of
 from reference.public_motion import reference_shaking
-from reference.store_law_states import AT, difference
+from reference.store_law_states import States, difference, marks
 from samples import sample
 from vibroimpact.model.isolators import AnyIsolator
 from vibroimpact.model.stops import Stop
@@ -36,6 +36,10 @@ ONE_EACH = (
     "drag 0.5, power",
     "drag 0.5 and friction",
 )
+ALL = {**CASES, **shaken_cases.CASES}
+STATES: dict[str, States] = {**law_states.STATES, **shaken_states.STATES}
+SHAKEN_EACH = tuple(shaken_cases.CASES)[1::19]
+"""One of each kind of shaking but two."""
 
 
 def slope(series: list[int], x: mpf) -> mpf:
@@ -58,13 +62,13 @@ def stop_force(rig: vi.Oscillator, step: Step, u: mpf, v: mpf) -> mpf:
     return sign * laws.kelvin_voigt(stop.stiffness, stop.damping, d, w)
 
 
-@pytest.mark.parametrize("name", sample(tuple(CASES), ONE_EACH))
+@pytest.mark.parametrize("name", sample(tuple(ALL), (*ONE_EACH, *SHAKEN_EACH)))
 def test_every_step_obeys_the_plain_formulae(name: str) -> None:
     """du/dt = v, M dv/dt = forces and dz/dt = rate, all along each step."""
-    rig, shaken = CASES[name]
+    rig, shaken = ALL[name]
     law, shaking = law_of(rig.isolator), reference_shaking(rig, shaken)
     mass = mpf(rig.mass)
-    seen = 0
+    seen, length = 0, shaking.span(0)
 
     def watch(step: Step) -> None:
         nonlocal seen
@@ -79,7 +83,8 @@ def test_every_step_obeys_the_plain_formulae(name: str) -> None:
                 continue
             drag = laws.viscous(rig.isolator.damping, rig.isolator.damping_exponent, v)
             force = law.force(u, v, z) + drag + stop_force(rig, step, u, v)
-            a = (mpf(rig.force) - force) / mass - shaking.value(0, t)
+            line = int(mp.floor(t / length)) if isinstance(shaken, vi.Record) else 0
+            a = (mpf(rig.force) - force) / mass - shaking.value(line, t - line * length)
             assert abs(dv - a * dt) < TINY
             if isinstance(law, laws.Bilinear):
                 assert not dz or abs(dz - v * dt) < TINY
@@ -87,18 +92,19 @@ def test_every_step_obeys_the_plain_formulae(name: str) -> None:
             else:
                 assert abs(dz - law.rate(u, v, z) * dt) < mpf(10) ** 4 * TINY
 
-    follow(rig, shaken, 2, watch=watch)
-    assert seen > 50
+    follow(rig, shaken, 20 if isinstance(shaken, vi.Record) else 2, watch=watch)
+    assert seen > (20 if isinstance(shaken, vi.Record) else 50)
 
 
-@pytest.mark.parametrize("name", sample(tuple(CASES), ONE_EACH[::3]))
+@pytest.mark.parametrize("name", sample(tuple(ALL), (*ONE_EACH[::3], SHAKEN_EACH[2])))
 def test_stored_states_are_those_of_a_fresh_run(name: str) -> None:
     """With another order than they were stored with."""
-    rig, shaken = CASES[name]
-    cycles = sample(CYCLES, 5)
+    rig, shaken = ALL[name]
+    at = marks(ALL[name])
+    cycles = sample(at[-1], at[1])
     motion = follow(rig, shaken, cycles, order=40, digits=30)
     with mp.workdps(40):
-        for n, stored in zip(AT, law_states.STATES[name], strict=True):
+        for n, stored in zip(at, STATES[name], strict=True):
             if n <= cycles:
                 for one, digits in zip(motion.states[n], stored, strict=True):
                     assert mp.nstr(one, 24) == mp.nstr(mpf(digits), 24)
@@ -110,6 +116,34 @@ def test_every_law_has_three_stored_rigs_and_more() -> None:
     assert all(laws_seen.count(law) >= 3 for law in get_args(AnyIsolator))
     stops = [type(stop) for one in CASES.values() for stop in one.rig.stops]
     assert all(stops.count(law) >= 3 for law in get_args(Stop))
+
+
+def test_every_law_is_under_every_shaking_on_either_side() -> None:
+    assert set(shaken_states.STATES) == set(shaken_cases.CASES)
+    seen = set()
+    for one in shaken_cases.CASES.values():
+        kind = type(one.shaken), getattr(one.shaken, "of", None)
+        even = isinstance(one.shaken, vi.Periodic) and any(one.shaken.amplitudes[1::2])
+        seen |= {
+            (kind, even, type(one.rig.isolator), one.rig.isolator.damping_exponent),
+            *(
+                (kind, even, i, type(stop), getattr(stop, "relation", None))
+                for i, stop in enumerate((one.rig.right, one.rig.left))
+            ),
+        }
+    kinds = {one[:2] for one in seen}
+    assert len(kinds) == 6
+    isolators = {(type(one), one.damping_exponent) for one in shaken_cases.ISOLATORS.values()}
+    stops = {
+        (type(stop), getattr(stop, "relation", None))
+        for stop in (made(0.01) for made in shaken_cases.STOPS.values())
+    }
+    assert {law for law, _ in isolators} == set(get_args(AnyIsolator))
+    assert {law for law, _ in stops} == set(get_args(Stop))
+    for kind in kinds:
+        assert {one[2:] for one in seen if one[:2] == kind and len(one) == 4} == isolators
+        for side in range(2):
+            assert {one[3:] for one in seen if one[:3] == (*kind, side)} == stops
 
 
 @pytest.mark.parametrize("name", ["friction, bumpers", "exponential, softening, power"])

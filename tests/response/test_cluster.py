@@ -231,6 +231,37 @@ def test_a_cluster_that_is_closed_while_items_are_left_is_told():
         )
 
 
+def test_a_cluster_without_workers_is_told_and_not_waited_for_for_ever(monkeypatch, capsys):
+    monkeypatch.setattr("vibroimpact.response.cluster._ASKED", 0.1)
+    monkeypatch.setattr("vibroimpact.response.cluster._SOON", 0.3)
+    monkeypatch.setattr("vibroimpact.response.cluster._LONGEST", 1.0)
+    with (
+        _local(0, processes=False) as (_, client),
+        pytest.raises(LostError, match="has had no worker for 1 s"),
+    ):
+        each(lambda item, _: item, range(3), threads=Cluster(client))
+    assert capsys.readouterr().err == (
+        "vibroimpact: the cluster has no worker; waiting for one, 1 s at most ...\n"
+    )
+
+
+def test_workers_that_come_late_are_waited_for(monkeypatch):
+    monkeypatch.setattr("vibroimpact.response.cluster._ASKED", 0.1)
+    with _local(0, processes=False) as (local, client):
+        late = threading.Timer(1.0, lambda: local.scale(1))
+        late.start()
+        assert each(lambda item, _: item, range(3), threads=Cluster(client)) == [0, 1, 2]
+
+
+def test_a_closed_client_is_refused():
+    with _local(0, processes=False) as (_, client):
+        pass
+    with pytest.raises(vi.InputError, match="where: the client is closed"):
+        vi.sweeps(["B2-G1-A3"], GRID, where=client)
+    with pytest.raises(LostError, match="went away"):
+        each(lambda item, _: item, range(3), threads=Cluster(client))
+
+
 def test_workers_that_join_later_take_part():
     with _local(1, processes=False) as (local, client):
         names = each(

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 import xarray as xr
 
 import vibroimpact as vi
+from samples import sample
 from vibroimpact.response.files import write_whole
 
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -86,6 +90,62 @@ def refused(path: Path, why: str) -> None:
     assert "\n" not in told
 
 
+def test_every_flipped_bit_is_noticed(tmp_path: Path) -> None:
+    whole = vi.save(made("sweep"), tmp_path / "data.nc").read_bytes()
+    path = tmp_path / "flipped.nc"
+    rng = np.random.default_rng(1)
+    for at in rng.choice(len(whole) - 85, sample(400, 40), replace=False):  # 85: of the checksum
+        content = bytearray(whole)
+        content[at] ^= 1 << int(rng.integers(8))
+        path.write_bytes(content)
+        refused(path, "does not fit its checksum")
+
+
+def test_a_file_that_another_program_changed_is_read_with_a_warning(tmp_path: Path) -> None:
+    path = vi.save(made("sweep"), tmp_path / "data.nc")
+    with h5py.File(path, "a") as file:
+        file.attrs["title"] = "changed"
+    path.write_bytes(path.read_bytes().split(b"\nvibroimpact sha256 ")[0])
+    with pytest.warns(vi.InputWarning, match="it has no checksum, so another program changed it"):
+        assert vi.load(path).attrs["title"] == "changed"
+
+
+@pytest.mark.parametrize("engine", ["h5netcdf", "h5py"])
+def test_other_programs_read_what_is_saved(engine: str, tmp_path: Path) -> None:
+    data = made("sweep")
+    path = vi.save(data, tmp_path / "data.nc")
+    if engine == "h5netcdf":
+        xr.testing.assert_equal(xr.load_dataset(path, engine="h5netcdf"), data)
+        return
+    with h5py.File(path) as file:
+        np.testing.assert_array_equal(file["eta_d"][:], data["eta_d"].values)
+
+
+def test_a_full_disk_is_an_error_and_keeps_what_was_there(tmp_path: Path) -> None:
+    """In a process whose files may have so many bytes only, for the figure as for the data."""
+    for name in ("data.nc", "data.csv"):
+        path = tmp_path / name
+        path.write_text("old")
+        script = (
+            "import vibroimpact as vi\n"
+            "data = vi.sweep(vi.laboratory.case('B2-G1-A3'), [0.6, 1.0])\n"
+            "import resource\n"
+            "resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
+            f"try:\n    vi.save(data, {str(path)!r})\n"
+            "except vi.InputError as error:\n    print(error)\n"
+        )
+        run = subprocess.run(
+            [sys.executable, "-c", script], capture_output=True, text=True, check=False
+        )
+        assert (run.returncode, run.stderr) == (0, "")
+        assert run.stdout == (
+            f"output: {str(path)!r} cannot be written (File too large); a file in an existing "
+            "folder that you may write to is accepted\n"
+        )
+        assert path.read_text() == "old"
+    assert {p.name for p in tmp_path.iterdir()} == {"data.nc", "data.csv"}
+
+
 def test_a_file_that_is_there_is_replaced(tmp_path: Path) -> None:
     path = tmp_path / "data.nc"
     path.write_text("old")
@@ -96,19 +156,22 @@ def test_a_file_that_is_there_is_replaced(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
-def test_a_write_that_fails_leaves_what_was_there(error: BaseException, tmp_path: Path) -> None:
+def test_a_write_that_fails_leaves_what_was_there(
+    error: BaseException, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = tmp_path / "data.nc"
     path.write_text("old")
 
-    def write(beside: Path) -> None:
+    def write(beside: Path, content: bytes) -> None:
         assert beside.parent == tmp_path
         assert path.read_text() == "old"
         beside.write_text("half")
         raise error
 
+    monkeypatch.setattr(Path, "write_bytes", write)
     expected = vi.InputError if isinstance(error, OSError) else type(error)
     with pytest.raises(expected) as caught:
-        write_whole(path, write)
+        write_whole(path, "new")
     if isinstance(error, OSError):
         assert str(caught.value).startswith(f"output: {str(path)!r} cannot be written (No space")
     assert path.read_text() == "old"

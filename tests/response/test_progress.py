@@ -47,6 +47,44 @@ def test_a_terminal_has_one_line_that_is_cleared_at_the_end(monkeypatch):
     assert screen.getvalue().split("\r")[-1].strip() == ""
 
 
+def test_a_log_has_a_line_now_and_then_with_the_time_left(monkeypatch, capsys):
+    now = [1000.0]
+    monkeypatch.setattr("vibroimpact.response.progress.time.monotonic", lambda: now[0])
+    show = vi.progress_bar("map")
+    for done in range(1, 81):
+        now[0] += 1.0
+        show(done, 100)
+    assert capsys.readouterr().err == (
+        "vibroimpact: map 30/100, 30 s, about 70 s left\n"
+        "vibroimpact: map 60/100, 60 s, about 40 s left\n"
+    )
+    for done in range(1, 31):  # the next job begins anew
+        now[0] += 60.0
+        show(done, 1000)
+    *_, last = capsys.readouterr().err.splitlines()
+    assert last == "vibroimpact: map 30/1000, 29 min, about 15.6 h left"
+
+
+def test_a_terminal_says_how_long_it_will_take(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr("vibroimpact.response.progress.time.monotonic", lambda: now[0])
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    show = vi.progress_bar("sweep")
+    show(0, 100)
+    now[0] = 10.0
+    show(25, 100)
+    assert "sweep 25/100, 10 s, about 30 s left [######" in screen.getvalue()
+
+
+def test_without_standard_error_nothing_is_printed(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "stderr", None)
+    show = vi.progress_bar("sweep", every=0.0)
+    show(1, 4)
+    show(4, 4)
+    assert capsys.readouterr().out == ""
+
+
 def test_a_notebook_has_one_line_that_stays(monkeypatch):
     page = Notebook()
     monkeypatch.setattr("vibroimpact.response.progress._notebook", lambda: page.display)

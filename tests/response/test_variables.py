@@ -30,3 +30,9 @@ def test_what_is_known_stays():
 def test_a_variable_of_no_registry_is_refused():
     with pytest.raises(KeyError, match="nothing"):
         describe(xr.Dataset({"nothing": 1.0}), "made.here", {})
+
+
+def test_notes_of_the_input_are_an_attribute_where_there_are_any():
+    data = describe(xr.Dataset({"eta_d": 1.0}), "made.here", {}, ["unit m/s²", "doubtful"])
+    assert data.attrs["notes"] == "unit m/s²\ndoubtful"
+    assert "notes" not in describe(xr.Dataset({"eta_d": 1.0}), "made.here", {}).attrs

@@ -11,7 +11,7 @@ from filelock import FileLock
 from numba.core import config
 from numba.core.sigutils import normalize_signature
 
-from vibroimpact.engine import emission, jit
+from vibroimpact.engine import cache, emission, jit
 from vibroimpact.engine.flows import flow_of
 from vibroimpact.engine.parameters import free_rig
 
@@ -59,24 +59,31 @@ class Entry:
                 return
             arguments, result = normalize_signature(self.signature)  # type: ignore[no-untyped-call]
             signature = result(numba.typeof(given), *arguments)  # type: ignore[no-untyped-call]
-            directory = jit.cache_directory() / flow.__name__
+            version = jit.cache_directory()
+            directory = version / flow.__name__
             try:
-                directory.mkdir(parents=True, exist_ok=True)
-                lock = FileLock(directory / "lock")
-                lock.acquire()
+                cache.make_folder(directory, version.parent)
+                others = cache.writable_by_others((version.parent, version, directory))
+                lock = FileLock(directory / "lock", mode=0o644)
+                if others is None:
+                    lock.acquire()
             except OSError:  # nowhere to write
+                self._compiled[flow] = self._for_this_process(signature)
+                return
+            if others is not None:
+                jit.say_unsafe(others)
                 self._compiled[flow] = self._for_this_process(signature)
                 return
             try:
                 self._compiled[flow] = self._from_cache(directory, signature)
             except Exception:  # a damaged file, a full disk: numba raises whatever it meets
-                for path in directory.rglob("*.nb[ic]"):
-                    path.unlink(missing_ok=True)
+                cache.remove(directory.rglob("*.nb[ic]"))
                 self._compiled[flow] = self._for_this_process(signature)
             finally:
                 lock.release()
 
     def _from_cache(self, directory: Path, signature: Any) -> Callable[..., Any]:
+        cache.remove_damaged(directory, self.__name__)
         if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
             jit.say()
         before = config.CACHE_DIR  # type: ignore[attr-defined]
@@ -86,7 +93,10 @@ class Entry:
             dispatcher = numba.njit(cache=True, **jit.OPTIONS)(self.function)
         finally:
             config.CACHE_DIR = before  # type: ignore[attr-defined]
-        return self._compiled_for(signature, dispatcher)
+        compiled = self._compiled_for(signature, dispatcher)
+        if dispatcher.stats.cache_misses:
+            cache.seal(directory, self.__name__)
+        return compiled
 
     def _for_this_process(self, signature: Any) -> Callable[..., Any]:
         jit.say()

@@ -21,6 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 from platformdirs import user_cache_path
 
+from vibroimpact.stderr import print_line
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 Vector = NDArray[np.float64]
@@ -45,11 +47,12 @@ WITHIN: dict[str, Any] = {**CHOSEN, "no_cpython_wrapper": True}
 """Of kernels, which only compiled code calls. Tests, which call them, ask for the second wrapper
 before the engine is imported."""
 
-announce: Callable[[str], None] = lambda text: print(text, file=sys.stderr, flush=True)  # noqa: E731
+announce: Callable[[str], None] = print_line
 """Called with one line before the first compilation of a process, which takes seconds."""
 
 compiling = threading.Lock()
 _announced = threading.Event()
+_distrusted = threading.Event()
 
 
 def kernel(function: F) -> F:
@@ -96,6 +99,17 @@ def say() -> None:
     if not _announced.is_set():
         _announced.set()
         announce(
-            "vibroimpact: compiling the engine: each part once, when it is first used, which "
-            "takes about 10 s ..."
+            "compiling the engine: each part once, when it is first used, which takes 10 to 30 s "
+            "each ..."
+        )
+
+
+def say_unsafe(path: Path) -> None:
+    """Announce once that the cache is not used, because others may write to this part of it."""
+    if not _distrusted.is_set():
+        _distrusted.set()
+        announce(
+            f"other users may write to {str(path)!r}, and whoever can write compiled "
+            "code can run it as you; the cache is not used. Take the right to write from group "
+            "and others (chmod go-w), or name a folder of your own in VIBROIMPACT_CACHE_DIR."
         )

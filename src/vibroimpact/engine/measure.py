@@ -32,7 +32,7 @@ from vibroimpact.engine.dispatch import (
 )
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
-from vibroimpact.engine.forcing.dispatch import pace, pull_series
+from vibroimpact.engine.forcing.dispatch import change_rate, pull_series
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import RATE, H
@@ -142,7 +142,7 @@ def measure_phase(plan: Vector, before: Motion, length: float, side: int, out: V
     while t < length:
         step, behind = smooth(plan, here, length - t)
         halts = halts + 1 if step <= _HALT * (length - t) else 0
-        left = (length - t) * pace(plan)
+        left = (length - t) * change_rate(plan)
         if halts > (_HALTS if left < _SHORT else _TURNS):
             step, behind = length - t, here
         measure_stretch(plan, here, step, t, side, out)

@@ -22,19 +22,21 @@ class Status(IntEnum):
         return _ADVICE[self]
 
 
+MORE_CYCLES = "max_cycles in Python"
+"""How advice names the argument; a command that has it as an option names that instead."""
+
 _ADVICE = {
     Status.DONE: "done",
     Status.NOT_SETTLED: (
-        "the motion had not settled within `max_cycles`; it was measured over a window of "
-        "`window` cycles (raise `max_cycles` if you expect a slow transient)"
+        "the motion had not settled when the last cycle allowed for it ended, and was measured "
+        f"from there; if you expect a slow transient, raise {MORE_CYCLES}"
     ),
     Status.TOO_MANY_EVENTS: (
-        "more contacts and detachments in one forcing cycle than `max_events`, or more steps to "
-        "the next of them than any rig should need: the mass chatters on a bumper (raise "
-        "`max_events`, or give the bumper more damping, or no restitution, if it is met all but "
-        "without speed, where that asks for endless damping), or a drag with a "
-        "`damping_exponent` below 1 is too stiff where the mass all but stands (raise the "
-        "exponent, or lower the damping)"
+        "more contacts and detachments in one forcing cycle than are followed, or more steps to "
+        "the next of them than any rig should need: the mass chatters on a bumper (give the bumper "
+        "more damping, or no restitution, if it is met all but without speed, where that asks for "
+        "endless damping, or raise max_events in Python), or a drag with a damping_exponent below "
+        "1 is too stiff where the mass all but stands (raise the exponent, or lower the damping)"
     ),
     Status.TOO_MUCH_WORK: (
         "the fastest rate of the rig is too many times the forcing frequency to follow one "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import xarray as xr
@@ -15,7 +16,13 @@ def accelerogram(record: Record) -> xr.Dataset:
     data = xr.Dataset(
         {"base_acceleration": ("time", record.acceleration)}, {"time": ("time", record.time)}
     )
-    return describe(data, "vibroimpact.Record", {"record": record_parameters(record)})
+    parameters = {"record": record_parameters(record)}
+    return describe(data, "vibroimpact.Record", parameters, record.about.notes)
+
+
+def record_notes(records: Mapping[str, Record]) -> list[str]:
+    """What was noted of several records, a line each, for a dataset's attributes."""
+    return [f"{name}: {note}" for name, one in records.items() for note in one.about.notes]
 
 
 def record_parameters(record: Record) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 import numpy as np
@@ -24,7 +25,8 @@ def arrivals(
     """
     if frequencies is None:
         # Never the natural frequency itself, which an undamped isolator forbids.
-        grid = oscillator.natural_frequency * (np.arange(0.3, 6.0, 0.01) + 0.005)
+        unit = oscillator.angular_frequency / math.tau or excitation.frequency
+        grid = unit * (np.arange(0.3, 6.0, 0.01) + 0.005)
     else:
         grid = check_frequencies(frequencies)
     aim = excitation.frequency

@@ -22,7 +22,7 @@ from vibroimpact.response.phases import (
     relaxation_loss,
     touches,
 )
-from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.response.variables import describe, motion_parameters, noted
 
 _Array = NDArray[np.float64]
 _Numbers = NDArray[np.int64]
@@ -62,7 +62,7 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
     origin = any_recorded(motion)
     data = contact_log(motion, origin, cut(motion, origin), None, share)
-    return describe(data, "vibroimpact.contacts", motion_parameters(motion))
+    return describe(data, "vibroimpact.contacts", motion_parameters(motion), noted(motion))
 
 
 def contact_log(
@@ -194,11 +194,12 @@ def _lasting(
 
     peaks = np.maximum(np.abs(found[:, measure.A_LEAST]), np.abs(found[:, measure.A_MOST]))
     peak = most(peaks)
-    peak_time = np.zeros(count)
-    for n, run in enumerate(runs):
-        mine = owner == n
-        at = int(np.argmax(peaks[mine]))
-        peak_time[n] = every.length[run[:at]].sum() + found[mine, measure.A_TIME][at]
+    # The first phase of each contact that reaches its peak.
+    reaches = np.flatnonzero(~(peaks < peak[owner]))
+    at = np.full(count, len(part))
+    np.minimum.at(at, owner[reaches], reaches)
+    before = total(np.where(np.arange(len(part)) < at[owner], chosen.length, 0.0))
+    peak_time = before + found[at, measure.A_TIME]
     lost = measure.LOST_RIGHT if side == 1 else measure.LOST_LEFT
     return _Contacts(
         first,

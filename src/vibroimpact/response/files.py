@@ -1,21 +1,30 @@
-"""Datasets to NetCDF files and back, never half-written."""
+"""Datasets to NetCDF files and back: never half-written, and checked when they are read."""
 
 from __future__ import annotations
 
+import hashlib
+import io
 import os
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import xarray as xr
 
 from vibroimpact._version import __version__
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.response.table import as_text
 
+_SEAL = b"\nvibroimpact sha256 "
+"""Stands before the digest at the end of a file; HDF5 knows its own length and ignores both."""
+_SEAL_LENGTH = len(_SEAL) + 2 * hashlib.sha256().digest_size
 
-def write_whole(path: Path | str, write: Callable[[Path], None]) -> Path:
-    """Let `write` write a file beside `path`, then rename it: the old file or the new, whole.
+
+def write_whole(path: Path | str, content: bytes | str) -> Path:
+    """Write a file next to `path`, then rename it: there is the old file or the new one, whole.
+
+    The content is complete before anything is written, so that a full disk is an error of the
+    operating system here, and not one within the library of a format.
 
     Raises
     ------
@@ -30,7 +39,7 @@ def write_whole(path: Path | str, write: Callable[[Path], None]) -> Path:
         os.close(handle)
         beside = Path(name)
         try:
-            write(beside)
+            beside.write_bytes(content.encode() if isinstance(content, str) else content)
             mask = os.umask(0)
             os.umask(mask)
             beside.chmod(0o666 & ~mask)  # mkstemp's files are private
@@ -74,10 +83,9 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
                 f"path: {str(path)!r} would hold several datasets; a table for each, or .nc, is "
                 "accepted"
             )
-        text = as_text(dataset)
-        return write_whole(path, lambda beside: _write(beside, text))
+        return write_whole(path, as_text(dataset))
     if isinstance(dataset, xr.Dataset):
-        return write_whole(path, lambda beside: dataset.to_netcdf(beside, engine="h5netcdf"))
+        return write_whole(path, _sealed(dataset))
     names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
     if len(set(names.values())) < len(names):
         raise InputError(
@@ -86,11 +94,34 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
         )
     tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
     tree.attrs["vibroimpact_version"] = __version__
-    return write_whole(path, lambda beside: tree.to_netcdf(beside, engine="h5netcdf"))
+    return write_whole(path, _sealed(tree))
 
 
-def _write(path: Path, text: str) -> None:
-    path.write_text(text, encoding="utf-8")
+def _sealed(data: xr.Dataset | xr.DataTree) -> bytes:
+    """A NetCDF file with the digest of its bytes at its end."""
+    file = io.BytesIO()
+    data.to_netcdf(file, engine="h5netcdf")
+    content = file.getvalue()
+    return content + _SEAL + hashlib.sha256(content).hexdigest().encode()
+
+
+def _unsealed(content: bytes) -> tuple[bytes, bool]:
+    """The NetCDF file without its digest, and whether it had one.
+
+    Raises
+    ------
+    ValueError
+        If the digest does not fit.
+    """
+    seal = content[-_SEAL_LENGTH:]
+    if not seal.startswith(_SEAL):
+        if _SEAL in seal or any(seal.endswith(_SEAL[:n]) for n in range(2, len(_SEAL))):
+            raise ValueError("it is cut off within its checksum")
+        return content, False
+    content = content[:-_SEAL_LENGTH]
+    if hashlib.sha256(content).hexdigest().encode() != seal.removeprefix(_SEAL):
+        raise ValueError("its content does not fit its checksum")
+    return content, True
 
 
 def load(path: Path | str, group: str | None = None) -> xr.Dataset:
@@ -106,18 +137,25 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     Raises
     ------
     InputError
-        If the file is missing, truncated, or not one of this package's; or if it holds several
+        If the file is missing, damaged, or not one of this package's; or if it holds several
         datasets, and ``group`` names none of them.
+
+    Warns
+    -----
+    InputWarning
+        If the file has no checksum, because another program has written to it since.
     """
     if not Path(path).is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")
     try:
-        groups = [part.strip("/") for part in xr.open_groups(path, engine="h5netcdf")]
+        content, is_sealed = _unsealed(Path(path).read_bytes())
+        file = io.BytesIO(content)
+        groups = [part.strip("/") for part in xr.open_groups(file, engine="h5netcdf")]
         groups = [part for part in groups if part]
         if group in groups or (group is None and not groups):
-            data: xr.Dataset = xr.load_dataset(path, engine="h5netcdf", group=group)
-    except (OSError, ValueError, KeyError, RuntimeError) as error:
-        reason = str(error).splitlines()[0]
+            data: xr.Dataset = xr.load_dataset(file, engine="h5netcdf", group=group)
+    except (OSError, ValueError, KeyError, RuntimeError, TypeError, AttributeError) as error:
+        reason = (str(error).splitlines() or [type(error).__name__])[0]
         raise InputError(
             f"file: {str(path)!r} is damaged or not a NetCDF file ({reason}); "
             "a file written by vibroimpact is accepted"
@@ -129,5 +167,10 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     if "vibroimpact_version" not in data.attrs:
         raise InputError(
             f"file: {str(path)!r} was not written by vibroimpact; a file that it wrote is accepted"
+        )
+    if not is_sealed:
+        warn_of_input(
+            f"file {str(path)!r}",
+            ["it has no checksum, so another program changed it; damage would not be noticed"],
         )
     return data

@@ -15,6 +15,7 @@ from vibroimpact.model.dimensionless import largest_free_flight
 from vibroimpact.response.own_flight import largest_flight, resonance
 
 _RESONANT = 1e-14
+_AT_RESONANCE = 1e-9
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 _Array = NDArray[np.float64]
@@ -127,6 +128,19 @@ def check_each_bounded(oscillator: Oscillator, shaken: Repeated, frequencies: _A
     """The same of each frequency of a sweep."""
     if not oscillator.stops:
         _check(oscillator, shaken, frequencies, "frequencies[{}]")
+
+
+def beside_resonance(oscillator: Oscillator, frequencies: _Array) -> _Array:
+    """Frequencies to hold by default: the resonance of an undamped isolator moved half a step.
+
+    Where the user has not chosen them, a default must not be what is refused.
+    """
+    isolator = oscillator.isolator
+    if not isolator.linear or isolator.damping > 0.0 or isolator.initial_stiffness == 0.0:
+        return frequencies
+    step = frequencies[1] - frequencies[0]
+    there = np.abs(frequencies / oscillator.natural_frequency - 1.0) < _AT_RESONANCE
+    return frequencies + np.where(there, 0.5 * step, 0.0)
 
 
 def _check(

@@ -57,6 +57,8 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
         )
     client = importlib.import_module("distributed").Client
     if isinstance(where, client):
+        if where.status in ("closing", "closed"):
+            raise InputError("where: the client is closed; one that is connected is accepted")
         return Cluster(where)
     if not (isinstance(where, str) and where.startswith(_MARKS)):
         raise InputError(

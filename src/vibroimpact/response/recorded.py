@@ -15,8 +15,10 @@ from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Record, State, equilibrium
 from vibroimpact.model.counts import check_samples
+from vibroimpact.response.interruptible import Calls
 from vibroimpact.response.reversal import ended
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
+from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.response.written import EVENTS_AT_ONCE, listed, sampled
 
@@ -30,6 +32,7 @@ def through(
     start: State | xr.DataArray | xr.Dataset | None,
     samples: int,
     max_events: int,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """What `simulate` returns of a record; `tail` in s."""
     lines = straight(record, tail)
@@ -45,12 +48,13 @@ def through(
     steepest = float(np.abs(lines[:, recorded.SLOPE]).max())
     found = []
     at, outcome = 0, int(Status.DONE)
+    calls = Calls(len(lines), progress)
     while at < len(lines) and outcome == Status.DONE:
         at, events, outcome = recorded.follow(
             rig,
             record.peak,
             steepest,
-            lines,
+            lines[: int(calls.end(at))],
             vector,
             at,
             samples,
@@ -88,7 +92,7 @@ def through(
         "record": {"samples": len(record.acceleration), "step": record.step, "peak": record.peak},
         "tail": tail,
     }
-    return describe(data, "vibroimpact.simulate", parameters)
+    return describe(data, "vibroimpact.simulate", parameters, record.about.notes)
 
 
 def straight(record: Record, tail: float) -> _Array:

@@ -157,7 +157,8 @@ def _dataset(
     if len(components) == 2:
         data.coords["orientation"] = ["first", "second", "RotD50", "RotD100"]
     parameters = {"record": [record_parameters(one) for one in components]}
-    return describe(data, "vibroimpact.response_spectrum", parameters)
+    notes = dict.fromkeys(note for one in components for note in one.about.notes)
+    return describe(data, "vibroimpact.response_spectrum", parameters, notes)
 
 
 def _components(record: Any) -> tuple[Record, ...]:

@@ -17,7 +17,7 @@ from vibroimpact.response.contacts import contacts
 from vibroimpact.response.follow import grown, moved_on
 from vibroimpact.response.phases import beginning, recorded
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.response.variables import describe, motion_parameters, noted
 
 _MAX_EVENTS = 10_000
 _NAMES = ("displacement", "velocity", "right_bumper", "left_bumper")
@@ -80,7 +80,10 @@ def stroboscopic_section(
         {f"section_{name}": ("section_point", points[:, i]) for i, name in enumerate(_NAMES)}
     )
     return describe(
-        data, "vibroimpact.stroboscopic_section", {**motion_parameters(motion), "section": angle}
+        data,
+        "vibroimpact.stroboscopic_section",
+        {**motion_parameters(motion), "section": angle},
+        noted(motion),
     )
 
 

@@ -20,9 +20,11 @@ from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.rigs import takes_rig_or_record
 from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.interruptible import Calls
 from vibroimpact.response.recorded import through
 from vibroimpact.response.reversal import ended
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
+from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import (
     COMPONENTS,
     describe,
@@ -42,6 +44,7 @@ def simulate(
     *,
     tail: float | str | None = None,
     max_events: int = 10_000,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Follow a motion for a number of forcing cycles, or through a record.
 
@@ -65,6 +68,8 @@ def simulate(
     max_events
         Contacts and detachments in one forcing cycle, or one step of a record, at which the
         motion is given up.
+    progress
+        Called now and then with the cycles, or steps of the record, done and all there are.
 
     Returns
     -------
@@ -88,7 +93,7 @@ def simulate(
                 f"cycles: {cycles!r}, but a record has none; tail, a time, is accepted beside it"
             )
         behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
-        return through(oscillator, excitation, behind, start, samples, max_events)
+        return through(oscillator, excitation, behind, start, samples, max_events, progress)
     if tail is not None:
         raise InputError(f"tail: {tail!r} is for a Record; cycles say how long this shaking lasts")
     if cycles is None:
@@ -109,6 +114,7 @@ def simulate(
     rig = engine_rig(oscillator, excitation)
     at = 0
     outcome = int(Status.DONE)
+    calls = Calls(length, progress)
     while at < length and outcome == Status.DONE:
         at, events, outcome = batch.trajectory(
             rig,
@@ -117,7 +123,7 @@ def simulate(
             phase,
             vector,
             float(at),
-            length,
+            calls.end(at),
             samples,
             max_events,
             out,

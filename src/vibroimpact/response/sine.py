@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize_scalar
 
 _Array = NDArray[np.float64]
 
@@ -39,6 +38,8 @@ def fitted_sine(time: _Array, values: _Array, frequency: float | None = None) ->
     if len(t) < 8 or np.ptp(y) == 0.0:
         return None
     if frequency is None:
+        from scipy.optimize import minimize_scalar  # which takes long to load
+
         even = np.linspace(t[0], t[-1], len(t))
         line = np.abs(np.fft.rfft((np.interp(even, t, y) - y.mean()) * np.hanning(len(t))))
         top = int(np.argmax(line[1:])) + 1

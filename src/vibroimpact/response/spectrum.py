@@ -14,7 +14,7 @@ from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.response.measuring import asked, table
 from vibroimpact.response.phases import Phases, Recorded, phases, recorded
 from vibroimpact.response.sine import forcing_sine
-from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.response.variables import describe, motion_parameters, noted
 
 _Complex = NDArray[np.complex128]
 
@@ -74,7 +74,7 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
         data[f"{name}_amplitude"] = ("order", np.abs(values))
         data[f"{name}_phase"] = ("order", np.angle(values))
     data.attrs["method"] = method
-    return describe(data, "vibroimpact.spectrum", motion_parameters(motion))
+    return describe(data, "vibroimpact.spectrum", motion_parameters(motion), noted(motion))
 
 
 def _exact(origin: Recorded[Repeated], parts: Phases, order: NDArray[np.float64]) -> list[_Complex]:

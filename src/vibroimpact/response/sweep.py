@@ -6,6 +6,7 @@ then the next one begins from the state and the phase that were reached.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -29,6 +30,7 @@ from vibroimpact.model.rigs import (
     rig_name,
     takes_rig,
 )
+from vibroimpact.response.doubts import doubt_gaps
 from vibroimpact.response.held import held
 from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.reversal import judged
@@ -201,10 +203,12 @@ def sweeps(
     shape = (len(pairs), len(directions), len(grid))
     results = np.array([found for found, _ in done]).reshape(*shape, hold.RESULTS)
     states = np.array([reached for _, reached in done]).reshape(*shape, layout.STATE)
-    for r, (oscillator, _, _) in enumerate(pairs):
+    doubts: list[str] = []
+    for r, (oscillator, shaken, _) in enumerate(pairs):
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
         ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
         results[r][..., hold.OUTCOME] = ended
+        doubts += doubt_gaps(oscillator, shaken, swing)
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)
     data = held([oscillator for oscillator, _, _ in pairs], results, states, free, largest, angle)
@@ -229,6 +233,7 @@ def sweeps(
             "window": window,
             "max_events": max_events,
         },
+        dict.fromkeys(doubts),
     )
 
 
@@ -285,7 +290,8 @@ def named_rigs(
     if not items:
         raise InputError("rigs: the list is empty; at least one rig is accepted")
     # As of two study files of one name in two folders.
-    names = [f"{name} ({i})" if names.count(name) > 1 else name for i, name in enumerate(names)]
+    counts = Counter(names)
+    names = [f"{name} ({i})" if counts[name] > 1 else name for i, name in enumerate(names)]
     pairs = []
     for name, item in zip(names, items, strict=True):
         oscillator, amplitude = as_rig(item, f"rigs[{name}]")

@@ -15,7 +15,8 @@ Array: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 Direction: TypeAlias = Literal["forward", "backward"]
 
-_FIELDS = ("eta_a", "eta_d", "motion", "period", "impacts_right", "impacts_left")
+_FIELDS = ("eta_a", "eta_d", "motion", "period")
+_CONTACT = ("impacts_right", "impacts_left", "peak_force_right", "peak_force_left")
 
 
 class Swept(NamedTuple):
@@ -134,8 +135,9 @@ def each_swept(data: xr.Dataset) -> Iterator[Swept]:
     known: tuple[Direction, ...] = ("forward", "backward")
     directions = tuple(d for d in known if d in present)
     order = [present.index(d) for d in directions]
-    a, d, motion, period, right, left = (
-        data[name].transpose("rig", "direction", "frequency").values[:, order] for name in _FIELDS
+    a, d, motion, period, contact = (
+        one.transpose("rig", "direction", "frequency").values[:, order]
+        for one in (*(data[name] for name in _FIELDS), in_contact(data))
     )
     frequency = data["frequency"].values
     for r in range(len(a)):
@@ -146,5 +148,16 @@ def each_swept(data: xr.Dataset) -> Iterator[Swept]:
             d[r],
             motion[r] == "periodic",
             period[r],
-            right[r] + left[r] > 0.0,
+            contact[r],
         )
+
+
+def in_contact(data: xr.Dataset) -> xr.DataArray:
+    """Whether the mass touches a stop, of each hold of a dataset of a sweep.
+
+    A stop that stays pressed, as under preload, has a force, though no contact with it begins.
+    """
+    found, *others = (data[name] > 0.0 for name in _CONTACT if name in data)
+    for one in others:
+        found = found | one
+    return found

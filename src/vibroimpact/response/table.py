@@ -12,7 +12,7 @@ from vibroimpact.model.units import shown
 if TYPE_CHECKING:
     import pandas as pd
 
-_COLUMNS = {"component", "exponent", "multiplier", "component_after", "component_before"}
+_COLUMNS = {"component", "exponent", "multiplier", "component_after", "component_before", "bound"}
 """Dims of a few labelled values, which stand beside one another."""
 
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import os
+import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor
+from queue import Empty, SimpleQueue
 from typing import Any, Protocol, TypeAlias, TypeVar
 
 import numpy as np
@@ -15,6 +18,9 @@ from vibroimpact.errors import InputError
 
 _Item = TypeVar("_Item")
 _Found = TypeVar("_Found")
+
+_POLL = 0.05
+"""Seconds between two reports of progress, and at most until Ctrl-C is noticed."""
 
 Tally: TypeAlias = NDArray[np.int64]
 """Of a task: [0] is what it has done so far, [1] becomes nonzero where it is to stop."""
@@ -115,14 +121,20 @@ def each(
 
     with ThreadPoolExecutor(min(threads or available(), len(items))) as pool:
         futures = [pool.submit(one, number) for number in range(len(items))]
+        # Each tells when it is done: to ask all that are not would grow with the square of them.
+        ended: SimpleQueue[Future[_Found]] = SimpleQueue()
+        for future in futures:
+            future.add_done_callback(ended.put)
         try:
-            pending = set(futures)
-            while pending:
-                done, pending = wait(pending, 0.05 if progress else None, FIRST_EXCEPTION)
-                for future in done:
-                    future.result()  # raises what went wrong
-                if progress:
+            left = len(futures)
+            due = time.monotonic() + _POLL
+            while left:
+                with contextlib.suppress(Empty):
+                    ended.get(timeout=_POLL).result()  # raises what went wrong
+                    left -= 1
+                if progress and (not left or time.monotonic() >= due):
                     progress(int(tallies[:, 0].sum()), total)
+                    due = time.monotonic() + _POLL
         except BaseException:
             tallies[:, 1] = 1
             for future in futures:

@@ -19,7 +19,7 @@ from vibroimpact.response.phases import (
     impact_loss,
     relaxation_loss,
 )
-from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.response.variables import describe, motion_parameters, noted
 
 
 def totals(motion: xr.Dataset) -> xr.Dataset:
@@ -53,7 +53,9 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
         "total_isolator": isolator,
         "total_bumpers": bumpers,
     }
-    return describe(xr.Dataset(values), "vibroimpact.totals", motion_parameters(motion))
+    return describe(
+        xr.Dataset(values), "vibroimpact.totals", motion_parameters(motion), noted(motion)
+    )
 
 
 def extremes(origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]) -> dict[str, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import xarray as xr
@@ -19,11 +19,15 @@ COMPONENTS = [*State.model_fields]
 
 
 def describe(
-    dataset: xr.Dataset, created_by: str, parameters: dict[str, Any] | None = None
+    dataset: xr.Dataset,
+    created_by: str,
+    parameters: dict[str, Any] | None = None,
+    notes: Iterable[str] = (),
 ) -> xr.Dataset:
     """Give every variable its units and meaning, and the dataset its parameters and origin.
 
-    What the dataset already says of itself stays; None if that holds the parameters.
+    What the dataset already says of itself stays; None if that holds the parameters. What was
+    assumed for its input, or is doubted, is the attribute ``notes``, a line each.
 
     Raises
     ------
@@ -42,6 +46,8 @@ def describe(
     if "status" in dataset.variables:
         dataset["status"].attrs["flag_values"] = [int(status) for status in Status]
         dataset["status"].attrs["flag_meanings"] = " ".join(s.name.lower() for s in Status)
+    if told := "\n".join(notes):
+        dataset.attrs["notes"] = told
     dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
     return dataset
 
@@ -53,6 +59,11 @@ def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]
         "vibroimpact_version": __version__,
         **({} if parameters is None else {"parameters": json.dumps(parameters)}),
     }
+
+
+def noted(data: xr.Dataset) -> list[str]:
+    """The notes of the dataset that something was made from."""
+    return str(data.attrs.get("notes", "")).splitlines()
 
 
 def motion_parameters(motion: xr.Dataset) -> dict[str, Any]:

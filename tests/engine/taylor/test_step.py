@@ -7,11 +7,12 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flows import flow_of, planned
-from vibroimpact.engine.motion import FLIGHT, Motion
-from vibroimpact.engine.parameters import Law, rig_vector
+from vibroimpact.engine.motion import BOTH, FLIGHT, Motion
+from vibroimpact.engine.parameters import Law, PowerLaw, rig_vector
 from vibroimpact.engine.taylor.layout import DEGREE, X
 from vibroimpact.engine.taylor.pieces import begun, motion_at
 from vibroimpact.engine.taylor.plan import build
@@ -57,3 +58,23 @@ def test_coefficients(name: str) -> None:
     assert abs(math.fsum(terms[DEGREE + 1 :])) < 2e-16
     end = motion_at(plan, motion, frame, 1.0)
     assert end.u == pytest.approx(math.fsum(terms), abs=1e-15)
+
+
+def test_a_weak_drag_does_not_shorten_the_steps_of_a_mass_that_creeps() -> None:
+    """Held by two stops it never turns, however slow it is beside what the forces could do."""
+    right, left = PowerLaw(1.4e4, 1.5, 0.0, 0.0, -5e-4), PowerLaw(2.5e12, 1.5, 0.0, 0.0, -8e-3)
+    held = brentq(
+        lambda u: 2.5e12 * (8e-3 - u) ** 1.5 - 1.4e4 * (u + 5e-4) ** 1.5 - 1.8e4 * u,
+        0.0,
+        8e-3,
+        xtol=1e-300,
+        rtol=1e-15,
+    )
+    lengths = []
+    for damping in (0.0, 0.07):
+        rig = rig_vector(1.0, 1.8e4, damping, right, left, law=Law(drag=1.5))
+        plan = planned(flow_of(rig), rig)
+        build(plan, 18.0, 21.0)
+        creeping = Motion(BOTH, 0, held, 2.6e-7, 0.0, 0.0, 0.0, 0.0, (0.0, 1.0))
+        lengths.append(begun(plan, creeping, 0.3)[1])
+    assert lengths[1] > 0.5 * lengths[0]

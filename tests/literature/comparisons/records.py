@@ -28,7 +28,7 @@ CHOPRA_TABLE = {
 @cache
 def el_centro() -> vi.Record:
     """Another digitisation of that accelerogram."""
-    return vi.Record.read(data("boucwen_frame/ElCentroAccelNoScaling.txt"))
+    return vi.Record.read(data("boucwen_frame/ElCentroAccelNoScaling.txt"), unit="m/s^2")
 
 
 def _chopra(period: float, damping: float, printed: str) -> Comparison:
@@ -55,7 +55,7 @@ def eqsig_table() -> np.ndarray:
 
 def eqsig_record() -> vi.Record:
     """Printed with three digits at 0.01 s."""
-    return vi.Record.read(data("eqsig/test_motion_dt0p01.txt"))
+    return vi.Record.read(data("eqsig/test_motion_dt0p01.txt"), unit="m/s^2")
 
 
 def _eqsig(near: float) -> Comparison:

@@ -33,7 +33,7 @@ from numba.extending import overload
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing import harmonic, ramp, several
-from vibroimpact.engine.jit import CHOSEN
+from vibroimpact.engine.jit import CHOSEN, Vector, kernel
 
 FORCINGS: dict[float, ModuleType] = {
     par.HARMONIC: harmonic,
@@ -71,3 +71,13 @@ turn = _by_forcing("turn")
 nudged = _by_forcing("nudged")
 pull = _by_forcing("pull")
 pull_series = _by_forcing("pull_series")
+
+
+@kernel
+def change_rate(plan: Vector) -> float:
+    """How fast what shakes the mass changes (1/s), above 0.
+
+    A line of a record limits no step and has no pace, but it ends: motions are judged by this rate.
+    """
+    rate: float = pace(plan) + 1.0 / plan[par.INTERVAL]
+    return rate

@@ -11,7 +11,7 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import let_go, pace, turned, value
+from vibroimpact.engine.forcing.dispatch import change_rate, let_go, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers
 from vibroimpact.engine.linear.evaluate import relaxed
@@ -335,7 +335,7 @@ def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
 @kernel
 def still(plan: Vector, motion: Motion, limit: float) -> Ended:
     """At rest on a rigid stop, or held by friction, until something lets go of the mass."""
-    headed(plan, 0.25 / max(pace(plan), 1e-300))  # by which several harmonics find their way
+    headed(plan, 0.25 / change_rate(plan))  # by which several harmonics find their way
     if stuck(plan, motion):
         return held(plan, motion, limit)
     return rest(plan, motion, limit)

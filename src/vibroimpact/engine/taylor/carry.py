@@ -207,7 +207,7 @@ def _along(plan: Vector, before: Motion, length: float, q: Vector, rows: int) ->
     while t < length:
         frame, h = begun(plan, here, length - t)
         x = coordinate(plan, here)
-        laws, _ = laws_of(plan, here, frame, x, length - t)
+        laws, _, _ = laws_of(plan, here, frame, x, length - t)
         slopes(plan, here, frame, laws, h)
         there = motion_at(plan, here, frame, 1.0)
         left_out = _left_out(plan, here, there, frame, laws)

@@ -11,7 +11,7 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import pace, value
+from vibroimpact.engine.forcing.dispatch import change_rate, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import (
@@ -32,8 +32,8 @@ _ROUNDING = 1e-15
 """Of forces that balance, as a share of what shakes the mass."""
 
 _UNMET = 1e-12
-"""A share of the speed that what drives the mass gives it in the time in which that changes. A stop
-met no faster, or pressed from the start, has not been met: there is no impact to lose by."""
+"""Share of the rig's typical speed. A stop that is met no faster, or is pressed from the start, has
+not been met: there is no impact from which it could take energy."""
 
 
 class Frame(NamedTuple):
@@ -135,8 +135,7 @@ def push_of(plan: Vector, side: int, closing: float, speed: float) -> Push:
     at = par.BUMPER + par.WIDTH * (side - 1)
     dissipation = plan[at + par.DISSIPATION]
     if dissipation < 0.0:
-        most = plan[MOST] + abs(plan[par.LOAD])
-        met = speed > _UNMET * most / (pace(plan) + 1e-300)
+        met = speed > _UNMET * (plan[MOST] + abs(plan[par.LOAD])) / motion_rate(plan)
         dissipation = -dissipation / speed if met else 0.0
     viscous = plan[at + par.BUMPER_DAMPING] if closing > 0.0 else 0.0
     return Push(plan[at + par.BUMPER_STIFFNESS], plan[at + par.EXPONENT], dissipation, viscous)
@@ -173,9 +172,18 @@ def without_friction(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
+def motion_rate(plan: Vector) -> float:
+    """How fast motions change (1/s): the rig's own rate and that of the shaking, above 0.
+
+    An acceleration over it is the velocity that the acceleration makes.
+    """
+    return stiff_rate(plan) + change_rate(plan) + 1e-300
+
+
+@kernel
 def creep(plan: Vector) -> float:
     """A velocity that leaves no trace: a share of those that the shaking makes (m/s)."""
-    return _CREEP * plan[MOST] / (stiff_rate(plan) + pace(plan) + 1e-300)  # type: ignore[no-any-return]
+    return _CREEP * plan[MOST] / motion_rate(plan)  # type: ignore[no-any-return]
 
 
 @kernel
@@ -251,8 +259,18 @@ def way_of(plan: Vector, motion: Motion) -> float:
 
 @kernel
 def balanced(plan: Vector, motion: Motion) -> bool:
-    """Whether the forces but for friction are zero to rounding."""
-    size = plan[MOST] + abs(plan[par.LOAD])
+    """Whether the forces but for friction are zero to rounding.
+
+    A stiff stop turns the rounding of a displacement into a force, which counts.
+    """
+    size: float = plan[MOST] + abs(plan[par.LOAD])
+    for side in range(1, 3):
+        if motion.mode & side and curved_stop(plan, side):
+            at = par.BUMPER + par.WIDTH * (side - 1)
+            exponent = plan[at + par.EXPONENT]
+            slope = face(plan, motion, side) ** (exponent - 1.0)
+            slope *= exponent * plan[at + par.BUMPER_STIFFNESS]
+            size += slope * max(abs(motion.u), abs(plan[at + par.GAP]))
     return bool(abs(without_friction(plan, motion)) <= _ROUNDING * size)
 
 

@@ -10,7 +10,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST, STEEPEST
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion
 from vibroimpact.engine.taylor.frame import (
@@ -21,20 +21,20 @@ from vibroimpact.engine.taylor.frame import (
     branch_of,
     curved_stop,
     face,
+    motion_rate,
     push_of,
     springs,
 )
-from vibroimpact.engine.taylor.plan import stiff_rate
-from vibroimpact.engine.taylor.step import Laws
+from vibroimpact.engine.taylor.step import ROUNDING, Laws
 
 _NOTHING = 2.0**-60
 """A share of the motion's energy or force that leaves no trace in it."""
 
+_LEFT_OUT = 16.0
+"""How many times its bound a force may grow while it is left out."""
+
 _STABLE = 8.0
 """Times that in which a drag decays: a series of a step's degree grows with a longer one."""
-
-_ROUNDING = 2.0**-53
-"""Of a number, as a share of it."""
 
 EVEN = 1e-14
 """1 + χ δ′ where a stop begins or ceases to push: its own rounding."""
@@ -48,6 +48,12 @@ def unit_of(plan: Vector, motion: Motion, frame: Frame, laws: Laws, x: float) ->
         if push.stiffness != 0.0:
             k += push.stiffness * push.exponent * deformation ** (push.exponent - 1.0)
     return 1.0 / (math.sqrt(k) + frame.damping + pace(plan) + 1e-300)  # type: ignore[no-any-return]
+
+
+@inlined
+def beyond(power: float) -> float:
+    """How many times its bound a deformation or velocity may reach while its power is left out."""
+    return 2.0 if power <= 4.0 else _LEFT_OUT ** (1.0 / power)
 
 
 @kernel
@@ -90,7 +96,7 @@ def shallow(
     if deformation > little:
         # The series of its slope ends where it begins to be pressed.
         return push, min(longest, 0.5 * deformation / abs(closing)) if closing else longest
-    way = 2.0 * little - deformation
+    way = beyond(power) * little - deformation
     soon = max(closing, 0.0) + math.sqrt(max(closing, 0.0) ** 2 + 2.0 * max(gains, 0.0) * way)
     if soon > 0.0:
         longest = min(longest, 2.0 * way / soon)
@@ -100,40 +106,51 @@ def shallow(
 
 
 @kernel
-def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float]:
-    """Below which velocity the drag is left out, and how long a step may be beside it (s).
+def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float, float]:
+    """Below which velocity the drag is left out; how long a step may be, and a scale of time (s).
 
     A power of the velocity has a singularity where the mass turns. What the drag would do while it
-    is left out is a share ε of the velocities that the forces make in the motion's own time.
+    is left out is a share ε of the velocities that the forces make in the motion's own time. The
+    scale is half the time in which the mass may turn: in longer units coefficients would overflow.
     """
     v, a = abs(motion.v), abs(acceleration_of(plan, motion))
-    unit = 1.0 / (stiff_rate(plan) + pace(plan) + 1e-300)
+    unit = 1.0 / motion_rate(plan)
     force = max(a, plan[MOST]) + 1e-300
     drag = plan[par.DAMPING]
     if drag == 0.0:
-        return 0.0, math.inf
+        return 0.0, math.inf, math.inf
     time = (_NOTHING * force * unit / (2.0 * drag * force**exponent * math.sqrt(unit))) ** (
         1.0 / (exponent + 0.5)
     )
     little = force * min(time, unit)
     # The velocity grows with the acceleration or, where that vanishes, with its rate.
     if v <= little:
-        return little, 2.0 * little / (a + math.sqrt(little * force / unit))
-    longest = 0.5 * v / (a + math.sqrt(v * force / unit))
-    return little, min(longest, _STABLE / (drag * exponent * v ** (exponent - 1.0)))
+        most = 2.0 * little
+        if exponent > 4.0:
+            most = beyond(exponent) * little - v
+        longest = most / (a + math.sqrt(little * force / unit))
+        return little, longest, longest
+    turning = 0.5 * v / (a + math.sqrt(v * force / unit))
+    stable = _STABLE / (drag * exponent * v ** (exponent - 1.0))
+    # Where a weak drag changes nothing a mass that creeps is not stopped at each of these times.
+    longest = stable if exponent > 1.0 else min(turning, stable)
+    return little, longest, min(turning, stable)
 
 
 @kernel
 def laws_of(
     plan: Vector, motion: Motion, frame: Frame, x: float, longest: float
-) -> tuple[Laws, float]:
-    """The forces of this moment that are not linear, and how long they are these at most."""
+) -> tuple[Laws, float, float]:
+    """The forces of this moment that are not linear; how long they are these at most (s).
+
+    The third is the scale of time that `slow` gives (s).
+    """
     mode = motion.mode
     v = frame.sign * motion.v
     branch = branch_of(plan, motion, frame.sign)
     push, other, apart = NO_PUSH, NO_PUSH, 0.0
     if mode:
-        grain = 16.0 * _ROUNDING * (abs(x) + abs(frame.offset))
+        grain = 16.0 * ROUNDING * (abs(x) + abs(frame.offset))
         side = LEFT if mode == LEFT else RIGHT
         memory = motion.left if mode == LEFT else motion.right
         if curved_stop(plan, side):
@@ -147,16 +164,16 @@ def laws_of(
             gains = -frame.sign * acceleration_of(plan, motion)
             other = pressing(other, -v, gains)
             other, longest = shallow(other, apart - x, -v, gains, plan[STEEPEST], grain, longest)
-    drag = 0.0
+    drag, turning = 0.0, math.inf
     exponent = plan[par.DRAG]
     if exponent != 1.0:
         drag = plan[par.DAMPING]
         if exponent != 2.0:
-            little, most = slow(plan, motion, exponent)
+            little, most, turning = slow(plan, motion, exponent)
             longest = min(longest, most)
             if abs(motion.v) <= little:
                 drag = 0.0
-    return Laws(branch, push, other, apart, drag), longest
+    return Laws(branch, push, other, apart, drag), longest, min(turning, longest)
 
 
 @kernel

@@ -87,7 +87,11 @@ def leaps(plan: Vector, motion: Motion) -> bool:
 
 @kernel
 def longest_of(plan: Vector, forces: Forces, x: float, v: float) -> tuple[float, float]:
-    """How long a leap from here may be, and a time in which the motion changes (s)."""
+    """How long a leap from here may be, and a time in which the motion changes (s).
+
+    A line of a record ends no leap, but nothing moves for longer than it lasts.
+    """
+    line = plan[par.INTERVAL]
     slow = forces.damping + pace(plan) + abs((abs(forces.drag) + abs(forces.bend)) * v) + 1e-300
     base = forces.stiffness + forces.hysteretic
     u = abs(x + forces.offset)
@@ -96,8 +100,8 @@ def longest_of(plan: Vector, forces: Forces, x: float, v: float) -> tuple[float,
         squared = u * u
         k = base + 3.0 * abs(forces.cubic) * squared + 5.0 * abs(forces.quintic) * squared * squared
         unit = 1.0 / (math.sqrt(max(k, 0.0)) + slow)
-        u = max(u, abs(x + forces.offset + v * unit))
-    return _REACH * unit, unit
+        u = max(u, abs(x + forces.offset + v * min(unit, line)))
+    return _REACH * unit, unit / (1.0 + unit / line)
 
 
 @kernel

@@ -119,10 +119,13 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
         length = min(longest, 1.0 / max(pace(plan), 1e-300))
         stay(plan, frame, x, z, motion.clock, length)
     else:
-        laws, most = laws_of(plan, motion, frame, x, longest)
+        laws, most, turning = laws_of(plan, motion, frame, x, longest)
+        # A motion that nothing but a record's line moves changes while that lasts.
+        natural = min(unit_of(plan, motion, frame, laws, x), 8.0 * plan[par.INTERVAL])
         # Beside a singularity the coefficients would overflow in a longer unit.
-        unit = min(unit_of(plan, motion, frame, laws, x), 8.0 * most)
-        length = step(plan, frame, laws, x, frame.sign * motion.v, z, motion.clock, unit, most)
+        unit = min(natural, 8.0 * turning)
+        v = frame.sign * motion.v
+        length = step(plan, frame, laws, x, v, z, motion.clock, unit, natural, most)
     headed(plan, length / PIECES)
     plan[HEADER + RESTING] = 1.0 if held else 0.0
     return frame, length
@@ -263,7 +266,7 @@ def power_series(plan: Vector, cursor: Cursor, side: int) -> None:
     start = cursor.start
     facing = facing_of(start.mode, side)
     frame = frame_of(plan, start.mode)
-    laws, _ = laws_of(plan, start, frame, coordinate(plan, start), cursor.step)
+    laws, _, _ = laws_of(plan, start, frame, coordinate(plan, start), cursor.step)
     push = laws.push if facing > 0.0 else laws.other
     for n in range(DEGREE + 1):
         plan[ASKED + n] = 0.0

@@ -38,8 +38,22 @@ from vibroimpact.engine.taylor.layout import (
     Z,
 )
 
+ROUNDING = 2.0**-53
+"""Of a number, as a share of it."""
+
 _TOLERANCE = 2.0**-57
 """What the last terms may be, as a share of the motion's size: below rounding, 2**-53."""
+
+_BALANCED = 2.0**-46
+"""What may be missing from the equation of motion at the step's end, as a share of the motion's
+size. It grows with the 21st power of the time or faster, so that the step's end is off by less than
+a 500th of it: less than the last terms may be."""
+
+_CUT = 24
+"""How often a step is shortened at most: each time to a quarter at least."""
+
+_GONE = 1e50
+"""A motion of this size (m) was pushed away for ever and is about to leave the range of numbers."""
 
 _FARTHEST = 6.0  # units of time; a motion that rests has no rate of its own
 
@@ -143,11 +157,13 @@ def step(
     z: float,
     clock: Clock,
     unit: float,
+    natural: float,
     longest: float,
 ) -> float:
     """Write the series of a step from this state, at most `longest` seconds long.
 
-    `unit` is a time in which the motion changes (s).
+    `unit` is the time in which the series are written, `natural` one in which the motion changes
+    (s).
 
     Returns
     -------
@@ -210,13 +226,21 @@ def step(
             force -= pressed(plan, other, -1.0, PRESSED, PUSH + 4 * ROOM, unit, n)
         new = (plan[SHAKEN + n] - force) * (1.0 / ((n + 1) * (n + 2)))
         plan[X + n + 2], plan[U + n + 2], plan[PRESSED + n + 2] = new, new, -new
-    reach = reached(plan, max(abs(u), abs(v) * unit, plan[MOST] * squared), hysteretic)
+    size = max(abs(u), abs(v) * unit, plan[MOST] * squared)
+    reach = reached(plan, size, hysteretic)
     length = reach * unit
     if not length < longest:
         length = longest
         reach = longest / unit
     scale(plan, reach, hysteretic != 0.0)
-    return length
+    size = max(size, abs(x))
+    if drag != 0.0 and exponent > 1.0 and exponent != 2.0:
+        # Where the mass turns a step is much shorter than the motion's time: the velocity must be
+        # right there, too.
+        size = max(size, abs(v) * natural, plan[MOST] * natural * natural)
+    else:
+        natural = 0.0
+    return certified(plan, frame, laws, size, natural, length)
 
 
 @kernel
@@ -231,6 +255,79 @@ def reached(plan: Vector, size: float, hysteretic: float) -> float:
         if last > 0.0:
             reach = min(reach, (_TOLERANCE * size / last) ** (1.0 / n))
     return reach
+
+
+@kernel
+def certified(
+    plan: Vector, frame: Frame, laws: Laws, size: float, natural: float, length: float
+) -> float:
+    """Shorten the step in hand until its end obeys the equation of motion; return its length.
+
+    The last terms of a series are blind to a power that begins beyond them, as z^30 from z = 0.
+    A step shorter than `natural` (s) may be off by the same share of the velocity.
+    """
+    for _ in range(_CUT if size < _GONE else 0):
+        allowed = size * length / natural if length < natural else size
+        excess = unbalanced(plan, frame, laws, allowed, length)
+        if excess <= 1.0:
+            break
+        share = 0.25
+        if excess < math.inf:
+            share = max(0.9 * excess ** (-1.0 / (DEGREE - 1)), share)
+        scale(plan, share, plan[par.HYSTERETIC] != 0.0)
+        length *= share
+    return length
+
+
+@kernel
+def unbalanced(plan: Vector, frame: Frame, laws: Laws, size: float, length: float) -> float:
+    """What is missing from the equation of motion at the step's end, over a share of `size` (m)."""
+    branch, push, other, apart, drag = laws
+    hysteretic = plan[par.HYSTERETIC]
+    x, moved, gained, shaken = plan[X], 0.0, 0.0, plan[SHAKEN]
+    for n in range(1, DEGREE + 1):
+        x += plan[X + n]
+        moved += n * plan[X + n]
+        gained += (n * (n - 1)) * plan[X + n]
+    for n in range(1, DEGREE - 1):
+        shaken += plan[SHAKEN + n]
+    v = moved / length
+    u = x + frame.offset
+    squared = u * u
+    force = frame.stiffness * x + frame.damping * v
+    force += (plan[par.CUBIC] + plan[par.QUINTIC] * squared) * (squared * u)
+    if plan[par.SINH] != 0.0:
+        force += 2.0 * plan[par.SINH] * math.sinh(plan[par.SINH_RATE] * u)
+    if drag != 0.0:
+        # Behind a turn the series of other powers are not followed.
+        speed = abs(v) if plan[par.DRAG] == 2.0 else max(branch.way * v, 0.0)
+        force += branch.way * drag * speed ** plan[par.DRAG]
+    force += pushed_by(push, x, v) - pushed_by(other, apart - x, -v)
+    missing = 0.0
+    if hysteretic != 0.0:
+        sharpness = int(plan[par.SHARPNESS])
+        z, flowed = plan[Z], 0.0
+        for n in range(1, DEGREE + 1):
+            z += plan[Z + n]
+            flowed += n * plan[Z + n]
+        force += hysteretic * z
+        missing = abs(flowed - moved * (branch.slope - branch.bend * z**sharpness))
+        # Rounding: a power multiplies that of z.
+        rounding = (4.0 * ROUNDING * sharpness) * abs(moved)
+        missing /= _BALANCED * max(abs(plan[Z]), abs(z)) + rounding + 1e-300
+    most: float = max(abs(gained - shaken + length * length * force) / (_BALANCED * size), missing)
+    return most if most == most else math.inf
+
+
+@inlined
+def pushed_by(push: Push, deformation: float, closing: float) -> float:
+    """What a stop pushes with by its law, where the series goes on: it may pull."""
+    if push.stiffness == 0.0 or not deformation > 0.0:
+        return 0.0
+    force: float = push.stiffness * deformation**push.exponent * (1.0 + push.dissipation * closing)
+    if push.viscous != 0.0:
+        force += push.viscous * math.sqrt(math.sqrt(deformation)) * closing
+    return force
 
 
 @kernel

@@ -1,0 +1,86 @@
+"""The files of compiled code: who may have written them, and whether they are as they were written.
+
+numba keeps code as pickles, so whoever can write to them can run code, and it loads a damaged file
+without noticing. A folder that others may write to is therefore not used, and each file has its
+digest next to it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import stat
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+_DIGEST = ".sha256"
+
+
+def make_folder(folder: Path, base: Path) -> None:
+    """Create a folder, and those above it up to `base`, that only the user may write to."""
+    missing = [one for one in (folder, *folder.parents) if not one.exists()]
+    for one in reversed(missing):
+        one.mkdir(exist_ok=True, mode=0o755 if one.is_relative_to(base) else 0o777)
+
+
+def writable_by_others(paths: Iterable[Path]) -> Path | None:
+    """The first of some files and folders that someone other than the user and root may write to.
+
+    None where the operating system has no such owners and modes.
+    """
+    if not hasattr(os, "getuid"):
+        return None
+    for path in paths:
+        held = path.stat()
+        if held.st_uid not in (0, os.getuid()) or held.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+            return path
+    return None
+
+
+def seal(directory: Path, name: str) -> None:
+    """Write the digests of an entry's files; keep them and their folders from others."""
+    for path in _code(directory, name):
+        _write_protected(path.with_name(path.name + _DIGEST), _digest(path))
+        for one in (path, path.parent):
+            if one.stat().st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+                one.chmod(stat.S_IMODE(one.stat().st_mode) & ~(stat.S_IWGRP | stat.S_IWOTH))
+
+
+def remove_damaged(directory: Path, name: str) -> None:
+    """Remove an entry's files if one of them is not as it was written, or not the user's alone."""
+    files = list(_code(directory, name))
+    if not all(_is_sealed(path) for path in files):
+        remove(files)
+
+
+def remove(files: Iterable[Path]) -> None:
+    """Remove compiled code with its digests."""
+    for path in files:
+        path.unlink(missing_ok=True)
+        path.with_name(path.name + _DIGEST).unlink(missing_ok=True)
+
+
+def _code(directory: Path, name: str) -> Iterator[Path]:
+    """The files of an entry: numba's index, and the machine code."""
+    yield from directory.glob(f"**/*.{name}-*.nb[ic]")
+
+
+def _is_sealed(path: Path) -> bool:
+    sealed = path.with_name(path.name + _DIGEST)
+    try:
+        if writable_by_others((path.parent, path, sealed)):
+            return False
+        return sealed.read_text() == _digest(path)
+    except OSError:
+        return False
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _write_protected(path: Path, text: str) -> None:
+    path.unlink(missing_ok=True)
+    handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o644)
+    with os.fdopen(handle, "w") as file:
+        file.write(text)
