@@ -17,7 +17,7 @@ MASS = 5e6
 SOME = st.floats(1e-3, 1e3)
 
 
-@given(SOME, SOME, st.floats(0.0, 2.0))
+@given(SOME, SOME, st.floats(0.0, 1.9))
 def test_a_mass_on_it_has_the_period_and_the_damping_ratio(mass, period, ratio):
     rig = vi.Oscillator(mass, vi.Isolator.from_period(mass, period, ratio))
     assert 1.0 / rig.natural_frequency == pytest.approx(period, rel=1e-14)

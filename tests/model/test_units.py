@@ -28,7 +28,7 @@ from vibroimpact.model.quantities import (
     TIME,
     VELOCITY,
 )
-from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.units import _measured, pretty, to_si
 
 QUANTITIES = [
     LENGTH,
@@ -65,6 +65,14 @@ QUANTITIES = [
         ("28.732 kN/m", STIFFNESS, 28732.0),
         ("1 N/mm", STIFFNESS, 1000.0),
         ("1 kgf/mm", STIFFNESS, 9806.65),
+        ("1 kip/in", STIFFNESS, 4448.2216152605 / 0.0254),
+        ("2 tf/mm", STIFFNESS, 2 * 9806650.0),
+        ("1 short_ton", MASS, 907.18474),
+        ("1 long_ton", MASS, 1016.0469088),
+        ("3 tonne", MASS, 3000.0),
+        ("2 lb", MASS, 0.90718474),
+        ("3 ft", LENGTH, 0.9144),
+        ("10 mph", VELOCITY, 4.4704),
         ("1.1 kN s/m", DAMPING, 1100.0),
         ("1.1 kN*s/m", DAMPING, 1100.0),
         ("1.1 kN·s/m", DAMPING, 1100.0),
@@ -209,6 +217,20 @@ def test_the_message_names_field_value_and_what_is_accepted():
         ("9.81 m/s", ACCELERATION, "is a velocity"),
         ("5000 g", MASS, "has a g, which is gravity here; write gram, kg or t"),
         ("5 mg", MASS, "write gram, kg or t"),
+        ("5000 ton", MASS, "has a unit of two meanings, 'ton'; write t (1000 kg), short_ton (907"),
+        ("5 tons", MASS, "two meanings, 'tons'; write t (1000 kg)"),
+        ("5 kton", MASS, "two meanings, 'kton'; write t (1000 kg)"),
+        ("5 ton_force/m", STIFFNESS, "two meanings, 'ton_force'; write tf (9.807 kN), short_ton_f"),
+        ("5 cwt", MASS, "write short_hundredweight (45.36 kg) or long_"),
+        ("550 gr", MASS, "write gram, or grain (64.8 mg)"),
+        ("5000 mt", MASS, "two meanings, 'mt'; write t (1000 kg)"),
+        ("15 Mm", LENGTH, "two meanings, 'Mm'; write mm, or km"),
+        ("0.15 zeta", DIMENSIONLESS, "has a unit that is not used here, 'zeta'"),
+        ("2 a", TIME, "not used here, 'a'"),
+        ("0.1 c", VELOCITY, "not used here, 'c'"),
+        ("3 statF", LENGTH, "not used here, 'statF'"),
+        ("5 u", MASS, "not used here, 'u'"),
+        ("1 Ly", STIFFNESS, "not used here, 'Ly'"),
         ("49033.25 kN", MASS, "is a force, the weight of 5000 t"),
         ("-5 N", MASS, "is a force"),
         ("0.4 s", FREQUENCY, "is a time"),
@@ -322,12 +344,40 @@ def test_any_text_like_units_is_read_or_refused(text, quantity):
     check_read_or_refused(text, quantity)
 
 
-def test_plain_numbers_do_not_import_pint():
+def test_pint_is_imported_for_unusual_units_only():
     program = (
         "import sys, vibroimpact.model as m\n"
         "m.Bumper(510e3, '900', 0.0075), m.laboratory.campaign(), m.laboratory.table_1()\n"
         "assert 'pint' not in sys.modules\n"
         "m.Bumper('510 kN/m', 900, 0)\n"
+        "assert 'pint' not in sys.modules\n"
+        "m.Bumper('1 kip/inch', 900, 0)\n"
         "assert 'pint' in sys.modules\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES, ids=lambda q: q.name)
+def test_units_in_which_a_quantity_is_written_mean_what_pint_says(quantity):
+    for scale in quantity.scales:
+        if scale.symbol:
+            for number in ("1", "26.8", "-0.1", "3e-7"):
+                measured = _measured(Decimal(number), scale.symbol, quantity)
+                assert to_si(f"{number} {scale.symbol}", quantity, "x") == float(measured)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("1 m%", "has a % beside a unit"),
+        ("1e-999999999 m", "is smaller than any number that can be kept"),
+        ("-1e-400", "is smaller than any number that can be kept"),
+        ("1 " + "m*" * 50_000 + "m", "has 100003 letters, more than the 200 of any quantity"),
+    ],
+)
+def test_texts_that_say_nothing_sure_are_refused_at_once(text, told):
+    with pytest.raises(InputError) as refused:
+        to_si(text, LENGTH, "gap")
+    assert told in str(refused.value)
+    assert len(str(refused.value)) < 300
+    assert to_si("0e-999999999 m", LENGTH, "gap") == 0.0

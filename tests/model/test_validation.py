@@ -224,3 +224,13 @@ def test_another_layer_can_build_on_the_base_class():
         Study(oscillator=table(right=""), offsets=[])
     with pytest.raises(InputError, match=r"^title: 3 is refused: input should be a valid string"):
         Study(oscillator=table(), offsets=[], title=3)
+
+
+def test_many_unknown_keys_are_one_short_line():
+    keys = {f"{'k' * 30}{i}": 1.0 for i in range(200_000)}
+    with pytest.raises(InputError, match=r"\(199995 more to correct\)") as refused:
+        Isolator(1.0, 1.0, **keys)
+    assert len(str(refused.value)) < 1300
+    with pytest.raises(InputError) as refused:
+        Isolator.model_validate({"stiffness": 1.0, "damping": 1.0, "x" * 10**6: 1.0})
+    assert len(str(refused.value)) < 1300

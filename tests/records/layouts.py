@@ -14,12 +14,14 @@ def lines_of(texts: Sequence[str], each: int) -> list[str]:
 
 
 def peer(
-    announced: str = "NPTS=     10, DT=   .0100 SEC,", each: int = 5, unit: str = "G"
+    announced: str = "NPTS=     10, DT=   .0100 SEC,",
+    each: int = 5,
+    stated: str = "ACCELERATION TIME SERIES IN UNITS OF G",
 ) -> list[str]:
     return [
         "PEER NGA STRONG MOTION DATABASE RECORD",
         "Made up, 01/02/2003, Nowhere - Main Street, 045",
-        f"ACCELERATION TIME SERIES IN UNITS OF {unit}",
+        stated,
         announced,
         *lines_of([f"{v:15.7E}" for v in VALUES], each),
     ]
@@ -155,4 +157,42 @@ def esm() -> list[str]:
         "HEADER_FORMAT: DYNA 1.2",
         "USER5:",
         *[f"{v:.6f}" for v in VALUES],
+    ]
+
+
+def lvm(
+    times: str = "One", decimal: str = ".", separator: str = "Tab", units: str = "cm/s^2"
+) -> list[str]:
+    """Two channels, the values and their double; times in one column, in none, or in one each."""
+    mark = {"Tab": "\t", "Comma": ","}[separator]
+
+    def row(*cells: object) -> str:
+        return mark.join(str(cell).replace(".", decimal) for cell in cells)
+
+    head = {"One": ["X_Value", "North", "East"], "No": ["X_Value", "North", "East"],
+            "Multi": ["X_Value", "North", "X_Value", "East"]}[times]  # fmt: skip
+    rows = []
+    for i, value in enumerate(VALUES):
+        at = f"{0.01 * i:.6f}"
+        cells = {"One": [at, value, 2.0 * value], "No": ["", value, 2.0 * value],
+                 "Multi": [at, value, at, 2.0 * value]}[times]  # fmt: skip
+        rows.append(row(*cells, "made up" if i == 0 else ""))
+    return [
+        "LabVIEW Measurement\t",
+        row("Writer_Version", 2),
+        f"Separator{mark}{separator}",
+        f"Decimal_Separator{mark}{decimal}",
+        f"X_Columns{mark}{times}",
+        f"Time_Pref{mark}Relative",
+        "***End_of_Header***" + mark,
+        mark,
+        row("Channels", 2),
+        row("Samples", 10, 10),
+        mark.join(["Y_Unit_Label", units, units]),
+        mark.join(["X_Dimension", "Time", "Time"]),
+        mark.join(["X0", "0", "0"]),
+        row("Delta_X", 0.01, 0.01),
+        "***End_of_Header***" + mark * 2,
+        mark.join([*head, "Comment"]),
+        *rows,
     ]

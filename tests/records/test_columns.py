@@ -9,6 +9,9 @@ import pytest
 
 import vibroimpact as vi
 
+pytestmark = pytest.mark.filterwarnings("ignore::vibroimpact.InputWarning")
+"""What is noted is tested in test_notes.py."""
+
 
 def written(tmp_path, text: str):
     path = tmp_path / "record.csv"
@@ -53,7 +56,6 @@ def test_units(tmp_path):
         ("", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("words only\n", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("1\n2\n", None, "m/s^2", r"step: missing, and .* has no times"),
-        ("0,1\n0.1,2\n", 0.1, "m/s^2", r"step: 0.1, but .* has times of its own"),
         ("1\n2\n", 0.0, "m/s^2", r"step: .*greater than 0"),
         ("1\n2\nend\n", 0.1, "m/s^2", r"record: .*, line 3: 'end' is no row of numbers"),
         ("1,2,3\n4,5,6\n7,8,9\n", None, "m/s^2", r"component: missing, and .* has 2; '1', '2', or"),
@@ -100,3 +102,85 @@ def test_a_step_above_the_values(tmp_path, line):
     np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0, 0.0])
     assert record.step == pytest.approx(0.01, rel=1e-14)
     assert record.about.notes == ("unit m/s², for the file says none",)
+
+
+COMMAS = {
+    "semicolons": "t;a (m/s^2)\n0,00;1,5\n0,01;-2,5\n0,02;3\n",
+    "tabs": "t\ta (m/s^2)\n0,00\t1,5\n0,01\t-2,5\n0,02\t3,0\n",
+    "blanks": "0,00 1,5\n0,01 -2,5\n0,02 3,0\n",
+    "quotes": '"t","a (m/s^2)"\n"0,00","1,5"\n"0,01","-2,5"\n"0,02","3,0"\n',
+    "quotes and semicolons": '"t";"a (m/s^2)"\n"0,00";"1,5"\n"0,01";"-2,5"\n"0,02";"3,0"\n',
+}
+
+
+@pytest.mark.parametrize("how", COMMAS)
+def test_decimal_commas(tmp_path, how):
+    record = vi.Record.read(written(tmp_path, COMMAS[how]))
+    np.testing.assert_array_equal(record.acceleration, [1.5, -2.5, 3.0])
+    assert record.step == pytest.approx(0.01, rel=1e-12)
+
+
+def test_a_comma_that_may_mean_two_things(tmp_path):
+    path = written(tmp_path, "1,5\n-2,5\n3,0\n")
+    record = vi.Record.read(path, step=0.01, decimal=",")
+    np.testing.assert_array_equal(record.acceleration, [1.5, -2.5, 3.0])
+    with pytest.raises(vi.InputError, match=r"not evenly spaced .*decimal=','"):
+        vi.Record.read(path)
+    path = written(tmp_path, "0,001 1,500\n0,002 -2,500\n")
+    assert vi.Record.read(path).peak == 2.5
+    path = written(tmp_path, "1,000 1,500\n2,000 -2,500\n")
+    with pytest.raises(vi.InputError, match=r"'1,000' has a comma that may be .*; decimal=','"):
+        vi.Record.read(path)
+    assert vi.Record.read(path, decimal=",").peak == 2.5
+    with pytest.raises(vi.InputError, match=r"^decimal: ';'; '\.' or ',' is accepted"):
+        vi.Record.read(path, decimal=";")
+
+
+def test_the_end_of_the_data_is_no_row(tmp_path):
+    text = "1\n2\n-3\n*** End Data ***\n"
+    record = vi.Record.read(written(tmp_path, text), step=0.1)
+    np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0])
+    with pytest.raises(vi.InputError, match="line 5: numbers behind the end of the data"):
+        vi.Record.read(written(tmp_path, text + "4\n"), step=0.1)
+
+
+def test_times_that_are_rounded_or_jitter(tmp_path):
+    values = np.sin(0.1 * np.arange(300))
+    rng = np.random.default_rng(3)
+    for step, times, off in (
+        (1 / 128, [f"{i / 128:.3f}" for i in range(300)], 5e-4),
+        (1 / 256, [f"{i / 256:.3f}" for i in range(300)], 5e-4),
+        (
+            0.01,
+            [repr(0.01 * i + j) for i, j in enumerate(rng.uniform(-1e-4, 1e-4, 300).tolist())],
+            2e-4,
+        ),
+    ):
+        rows = "".join(f"{t},{a!r}\n" for t, a in zip(times, values.tolist(), strict=True))
+        record = vi.Record.read(written(tmp_path, rows), unit="m/s^2")
+        assert record.step == pytest.approx(step, rel=off / (299 * step) * 2)
+        np.testing.assert_array_equal(record.acceleration, values)
+        (told,) = record.about.notes
+        assert told.startswith("its times are uneven by up to 0.000")
+        stated = vi.Record.read(written(tmp_path, rows), unit="m/s^2", step=step)
+        assert stated.step == step
+
+
+@pytest.mark.parametrize("gone", [1, 40, 150, 298])
+def test_a_sample_that_is_missing_is_no_jitter(tmp_path, gone):
+    for digits in (2, 6):
+        rows = "".join(f"{0.01 * i:.{digits}f},{i % 7}\n" for i in range(300) if i != gone)
+        path = written(tmp_path, rows)
+        with pytest.raises(vi.InputError, match=r"not evenly spaced .*step= \(--step\)"):
+            vi.Record.read(path)
+        record = vi.Record.read(path, step=0.01)
+        assert len(record.acceleration) == 299
+        assert "step 10 ms, not the file's uneven times" in record.about.notes
+
+
+def test_a_step_beside_even_times(tmp_path):
+    path = written(tmp_path, "0,1\n0.1,2\n0.2,-3\n")
+    assert vi.Record.read(path, step=0.1).step == 0.1
+    record = vi.Record.read(path, step=0.05)
+    assert record.step == 0.05
+    assert "step 50 ms, not the file's 0.1 s" in record.about.notes

@@ -13,6 +13,9 @@ from measured import measured
 from vibroimpact.model import GRAVITY
 from vibroimpact.records.read import read_channel
 
+pytestmark = pytest.mark.filterwarnings("ignore::vibroimpact.InputWarning")
+"""What is noted is tested in test_notes.py."""
+
 
 class Stated(NamedTuple):
     """Of one component."""
@@ -170,7 +173,8 @@ def test_counts_need_a_unit():
         vi.Record.read(path)
     record = vi.Record.read(path, unit="m/s^2").scaled(1 / 214748)
     assert record.peak == pytest.approx(0.353, rel=2e-3)
-    left, scaled = record.about.notes
+    left, large, scaled = record.about.notes
+    assert large.startswith("the peak is 7.72e+03 g, more than the 5 g of usual records")
     assert left.startswith("mean ")
     assert "left in, 46.2 % of the peak" in left
     assert scaled == "scaled by 4.65662e-06"

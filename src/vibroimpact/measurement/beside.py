@@ -6,10 +6,10 @@ import re
 from collections.abc import Mapping
 
 from vibroimpact.measurement.columns import Columns
-from vibroimpact.measurement.names import cased, ended
 from vibroimpact.measurement.sampling import is_sampling
 from vibroimpact.model.quantities import ACCELERATION, FREQUENCY, GRAVITY
 from vibroimpact.model.units import to_si
+from vibroimpact.records.stated import ended, spelled
 
 _BARE = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?", re.IGNORECASE)
 """A number without a unit."""
@@ -64,7 +64,7 @@ def is_number(text: str) -> bool:
 
 def with_unit(text: str, unit: str | None) -> str:
     """A number with the unit that its name ends in, where it has none of its own."""
-    return f"{text} {cased(unit)}" if unit and _BARE.fullmatch(text.strip()) else text
+    return f"{text} {spelled(unit)}" if unit and _BARE.fullmatch(text.strip()) else text
 
 
 def _odd(key: str, text: str) -> bool:

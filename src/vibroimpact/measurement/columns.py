@@ -20,6 +20,10 @@ class Column(NamedTuple):
     """As the file has it; None where it has none."""
     values: NDArray[Any]
     """Numbers, NaN where there is none; or words, such as the direction of a sweep."""
+    step: float | None = None
+    """Time between its samples (s), where the channel itself states it."""
+    start: float = 0.0
+    """Time of its first sample (s)."""
 
 
 class Columns(NamedTuple):

@@ -20,6 +20,7 @@ from vibroimpact.model.quantities import (
     Quantity,
 )
 from vibroimpact.model.units import to_si
+from vibroimpact.records.stated import ending, plain, spelled, words_of
 
 Direction = Literal["forward", "backward"]
 
@@ -70,22 +71,6 @@ _WHAT = {
 }  # fmt: skip
 _BASE = {"base", "table", "ground", "input", "shaker", "shaketable", "g", "t"}
 _MASS = {"mass", "absolute", "abs"}
-_UNITS = {
-    "hz": "Hz", "khz": "kHz", "rpm": "rpm", "radps": "rad/s", "mm": "mm", "cm": "cm", "um": "µm",
-    "m": "m", "ms2": "m/s^2", "cms2": "cm/s^2", "mms2": "mm/s^2", "g": "g", "mg": "mg",
-    "mps": "m/s", "cmps": "cm/s", "mmps": "mm/s", "mms": "mm/s", "s": "s", "ms": "ms", "n": "N",
-    "kn": "kN", "mv": "mV", "volt": "V", "volts": "V",
-}  # fmt: skip
-"""What a name may end in, such as ``u_mm``, and the unit that it is."""
-_CASES = {
-    one.lower(): one
-    for one in ("Hz", "kHz", "N", "kN", "m", "cm", "mm", "um", "g", "mg", "s", "ms", "sec", "rad",
-                "rpm", "in", "inch", "hertz")
-}  # fmt: skip
-"""Units that are one and the same in capitals and small letters, as MN and mN are not."""
-_PEAK = re.compile(
-    r"(?<![a-z])(?:peak|pk|p)[ _-]?(?:to|2)?[ _-]?(?:peak|pk|p)(?![a-z])", re.IGNORECASE
-)
 
 
 class Meaning(NamedTuple):
@@ -103,17 +88,16 @@ class Meaning(NamedTuple):
 
 def meaning(name: str) -> Meaning | None:
     """What the name of a column says; None if nothing."""
-    joined = _plain(name)
-    sure = re.search(r"/ *[A-Za-z0-9]+$", joined) is not None
-    words = [word for word in re.split(r"[^a-z0-9]+", joined.lower()) if word]
+    sure = re.search(r"/ *[A-Za-z0-9]+$", plain(name)) is not None
+    words = words_of(name)
     key = "_".join(words)
     if key in QUANTITIES or key == "direction":
         return Meaning(key)
     if words in (["dir"], ["sweep"], ["sense"], ["sweep", "direction"]):
         return Meaning("direction")
-    unit = None
-    if len(words) > 1 and words[-1] in _UNITS and (sure or not _a_word(words)):
-        unit, words = _UNITS[words[-1]], words[:-1]
+    unit = ending(words, sure=sure)
+    if unit is not None:
+        words = words[:-1]
     elif len(words) > 2 and words[-2:] == ["m", "s2"]:
         unit, words = "m/s^2", words[:-2]
     said = set(words)
@@ -158,36 +142,6 @@ def meaning(name: str) -> Meaning | None:
     return Meaning(what, direction, unit)
 
 
-def ended(name: str) -> tuple[str, str | None]:
-    """The words of a name, joined by low lines, and the unit that it ends in: ``amplitude_g``."""
-    words = [word for word in re.split(r"[^a-z0-9]+", _plain(name).lower()) if word]
-    if len(words) > 1 and words[-1] in _UNITS:
-        return "_".join(words[:-1]), _UNITS[words[-1]]
-    return "_".join(words), None
-
-
-def _plain(name: str) -> str:
-    """A name in plain letters, its words apart, with short words for what takes several."""
-    joined = re.sub("[µμ]", "u", name.strip().replace("η", "eta").replace("ü", "acc"))
-    joined = re.sub(r"(?:\^|\*\*)2$|²$", "2", joined)
-    joined = re.sub(r"(?<![a-z])([cm]?m) */ *s2$", r"\1s2", joined, flags=re.IGNORECASE)
-    joined = re.sub(r"(?<![a-z])([cm]?m|rad) */ *s$", r"\1ps", joined, flags=re.IGNORECASE)
-    # kHz, kN and mV are one word.
-    joined = re.sub(r"(?<=[a-z])(?<![^A-Za-z][km])(?=[A-Z])", " ", joined)
-    return _PEAK.sub("pp", joined)
-
-
-def _a_word(words: list[str]) -> bool:
-    """Whether what a name ends in is no unit: the g of ag, the ground; the n of a count."""
-    return words == ["a", "g"] or (words[-1] == "n" and "force" not in words)
-
-
-def cased(unit: str) -> str:
-    """A unit with the capitals that it has: Hz of ``hz``, kN of ``KN``, m/s2 of ``M/S2``."""
-    clean = re.sub(r"[A-Za-z]+", lambda m: _CASES.get(m[0].lower(), m[0]), unit.strip())
-    return "m/s^2" if re.fullmatch(r"ms(?:\^?-2|2|⁻²)", clean) else clean
-
-
 def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[Array, str | None]:
     """A column's values in SI units, and what was guessed, in words.
 
@@ -206,7 +160,7 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
         where = f"measurement: {path!r}, column {column.name!r}"
         if quantity is DIMENSIONLESS and unit.strip() == "%":
             return values / 100.0, None
-        size = to_si(f"1 {cased(unit)}", quantity, where)
+        size = to_si(f"1 {spelled(unit)}", quantity, where)
         return values * size, "; ".join(notes) or None
     if quantity is not DIMENSIONLESS:
         largest = float(np.nanmax(np.abs(values), initial=0.0))

@@ -9,24 +9,26 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError, unknown
-from vibroimpact.measurement import binary, text
+from vibroimpact.measurement import hdf5, lvm, mat, tdms, text, uff
 from vibroimpact.measurement.beside import shaking
 from vibroimpact.measurement.columns import Array, Column, Columns
 from vibroimpact.measurement.curves import curves
 from vibroimpact.measurement.histories import history
 from vibroimpact.measurement.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
 from vibroimpact.measurement.sampling import timed
+from vibroimpact.records.commas import Decimal, checked
+from vibroimpact.records.guard import regular
 from vibroimpact.response.files import load
 from vibroimpact.response.variables import describe
 
 _READERS = {
-    ".mat": binary.read_mat,
-    ".h5": binary.read_hdf5,
-    ".hdf5": binary.read_hdf5,
-    ".hdf": binary.read_hdf5,
-    ".uff": binary.read_uff,
-    ".unv": binary.read_uff,
-    ".tdms": binary.read_tdms,
+    ".mat": mat.read,
+    ".h5": hdf5.read,
+    ".hdf5": hdf5.read,
+    ".hdf": hdf5.read,
+    ".uff": uff.read,
+    ".unv": uff.read,
+    ".tdms": tdms.read,
 }
 CALL = "the call"
 """Where an amplitude is from that the file does not say."""
@@ -42,15 +44,16 @@ def read_measurement(
     group: str | None = None,
     amplitude: float | str | None = None,
     frequency: float | str | None = None,
+    decimal: str | None = None,
 ) -> xr.Dataset:
     """Read measured curves or time histories.
 
     Parameters
     ----------
     path
-        A table of text (CSV and its relatives), a MATLAB (``.mat``), HDF5 (``.h5``), universal
-        (``.uff``, with ``vibroimpact[uff]``) or TDMS file (``.tdms``, with ``vibroimpact[tdms]``),
-        or a NetCDF file of this package.
+        A table of text (CSV and its relatives; LabVIEW's ``.lvm``), a MATLAB (``.mat``), HDF5
+        (``.h5``), universal (``.uff``, with ``vibroimpact[uff]``) or TDMS file (``.tdms``, with
+        ``vibroimpact[tdms]``), or a NetCDF file of this package.
     columns
         Names of the file's columns by variable, such as ``{"displacement_excursion": "Ed"}``,
         where the names alone do not tell.
@@ -66,6 +69,8 @@ def read_measurement(
         the file says (``amplitude = 0.05 g``, ``amplitude_g = 0.05``).
     frequency
         Of the base's sine (Hz) in a time history; comes before what the file says.
+    decimal
+        Decimal mark of a table of text, ``"."`` or ``","``, where the table alone does not tell.
 
     Returns
     -------
@@ -84,14 +89,15 @@ def read_measurement(
     file = Path(path)
     if file.is_dir():
         raise InputError(f"measurement: {str(path)!r} is a folder; a file of a test is accepted")
-    if not file.is_file():
+    if not file.exists():
         raise InputError(f"measurement: {str(path)!r} does not exist; a file of a test is accepted")
+    regular(file, "measurement")
     if file.suffix.lower() == ".nc":
         return _checked(load(file))
-    tables = [t for t in _READERS.get(file.suffix.lower(), text.read)(file) if t.columns]
+    tables = [table for table in _tables(file, checked(decimal)) if table.columns]
     tables = [part for table in tables for part in _runs(table)]
     notes: list[str] = []
-    tables = [timed(table, notes) for table in tables]
+    tables = [part for table in tables for part in timed(table, notes)]
     table = _chosen(str(path), tables, group, set((columns or {}).values()), notes)
     known, left = _known(table, columns or {}, units or {}, notes)
     variables = {found.variable for found, _ in known.values()}
@@ -113,6 +119,15 @@ def read_measurement(
         "left_out": "\n".join(left),
     }
     return describe(data, CREATED_BY)
+
+
+def _tables(file: Path, decimal: Decimal | None) -> list[Columns]:
+    """What a file holds, by its ending; LabVIEW's are known by their first line."""
+    reader = _READERS.get(file.suffix.lower())
+    if reader is not None:
+        return reader(file)
+    found = lvm.read(file)
+    return text.read(file, decimal) if found is None else found
 
 
 def is_measured(data: object) -> bool:
@@ -236,11 +251,18 @@ def _known(
         if said.variable == "direction":
             found[i] = (said, np.empty(0))
             continue
-        if column.values.dtype.kind == "U":
-            left.append(column.name)
+        if column.values.dtype.kind not in "fiub":
+            kind = " (complex numbers)" if column.values.dtype.kind == "c" else ""
+            left.append(f"{column.name}{kind}")
             continue
         unit = units.get(said.variable) or units.get(column.name)
         values, told = in_si(column, said, unit, table.path)
+        for row in np.flatnonzero(np.isinf(values))[:1]:
+            raise InputError(
+                f"measurement: {table.path!r}, {table.row(int(row))}, column {column.name!r}: "
+                f"{values[row]} is not finite; numbers, or nothing where one is missing, are "
+                "accepted"
+            )
         if told:
             notes.append(told)
         found[i] = (said, values)

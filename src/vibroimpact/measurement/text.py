@@ -17,20 +17,24 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.measurement.beside import is_number, with_unit
 from vibroimpact.measurement.columns import Column, Columns
+from vibroimpact.records.commas import Decimal, decimal_mark
+from vibroimpact.records.guard import few_columns
+from vibroimpact.records.stated import are_units, parted
 
 _SAID = re.compile(r"^\s*([A-Za-z][\w ()\[\]/^²]*?)\s*([=:;])\s*(.+?)\s*$")
 _COMMA = re.compile(r"[+-]?\d+,\d+(?![\d,.])")
 _ABSENT = {"", "nan", "na", "n/a", "none", "null", "-", "--", "#n/a", "missing"}
-_UNIT = re.compile(r"[\[(]\s*([^\[\]()]*?)\s*[\])]\s*$")
-_UNIT_LIKE = re.compile(
-    r"^[\[(]?\s*(k?hz|s|sec|ms|mm|m|cm|µm|um|g|mg|kn|n|m?v|%|-|–|1|rad/s|rpm|[cm]?m/s\S*"
-    r"|m ?s-\d|in|inch)?\s*[\])]?$",
-    re.IGNORECASE,
-)
 
 
-def read(path: Path) -> list[Columns]:
+def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
     """The table of a text file.
+
+    Parameters
+    ----------
+    path
+        The file.
+    decimal
+        The decimal mark; None to find out.
 
     Raises
     ------
@@ -43,27 +47,30 @@ def read(path: Path) -> list[Columns]:
     for number, line in enumerate(lines, 1):
         bare = line.strip()
         if bare.startswith(("#", "%", "//")):
-            if found := _said(bare.lstrip("#%/ ")):
-                said[found[0]] = found[1]
+            if pair := _said(bare.lstrip("#%/ ")):
+                said[pair[0]] = pair[1]
         elif bare:
             kept.append((number, line))
     if not kept:
         raise InputError(f"measurement: {str(path)!r} is empty; a table with names is accepted")
-    mark = _delimiter([line for _, line in kept])
+    texts = [line for _, line in kept]
+    found = decimal or decimal_mark(texts, f"measurement: {str(path)!r}")
+    mark = _delimiter(texts, found)
+    few_columns(texts[-1].count(mark or " ") + 1, path, "measurement")
     rows = [(number, _parts(line, mark)) for number, line in kept]
-    decimal = "," if mark != "," else "."
+    decimal = "," if mark != "," else found
     said = {key: _pointed(value, decimal) for key, value in said.items()}
     first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, decimal)), None)
     if first is None:
         raise InputError(f"measurement: {str(path)!r} has no numbers; a table of them is accepted")
     head = [cells for _, cells in rows[:first]]
     for cells in head:
-        if len(cells) <= 2 and (found := _said("; ".join(c for c in cells if c))):
-            said.setdefault(found[0], _pointed(found[1], decimal))
+        if len(cells) <= 2 and (pair := _said("; ".join(c for c in cells if c))):
+            said.setdefault(pair[0], _pointed(pair[1], decimal))
     width = len(rows[first][1])
     named = [cells for cells in head if len(cells) == width and any(cells)]
     units: list[str] = []
-    if len(named) > 1 and all(_UNIT_LIKE.match(cell) for cell in named[-1]):
+    if len(named) > 1 and are_units(named[-1]):
         units = [cell.strip("[]() ") for cell in named.pop()]
     if not named:
         raise InputError(
@@ -90,15 +97,6 @@ def read(path: Path) -> list[Columns]:
         )
     numbers = np.array([number for number, _ in body])
     return [Columns(str(path), tuple(columns), said, numbers)]
-
-
-def parted(name: str) -> tuple[str, str | None]:
-    """A name, and the unit in brackets at its end."""
-    name = name.strip().strip('"').strip()
-    found = _UNIT.search(name)
-    if not found:
-        return name, None
-    return name[: found.start()].strip(), found[1]
 
 
 def _pointed(text: str, decimal: str) -> str:
@@ -130,19 +128,23 @@ def _decoded(path: Path) -> str:
     return data.decode("latin-1")
 
 
-def _delimiter(lines: list[str]) -> str | None:
+def _delimiter(lines: list[str], decimal: Decimal) -> str | None:
     """What parts the columns; None for blanks."""
     last = lines[-1]
-    for mark in (";", "\t", ","):
+    for mark in (";", "\t"):
         if mark in last:
             return mark
-    return None
+    # A decimal comma parts columns only where the numbers stand in quotes.
+    return "," if "," in last and (decimal == "." or '"' in last) else None
 
 
 def _parts(line: str, mark: str | None) -> list[str]:
     if mark is None:
         return line.split()
-    return [cell.strip() for cell in next(csv.reader([line.strip("\r\n")], delimiter=mark))]
+    try:
+        return [cell.strip() for cell in next(csv.reader([line.strip("\r\n")], delimiter=mark))]
+    except csv.Error:  # a cell of more letters than any number has
+        return line.split(mark)
 
 
 def _number(cell: str, decimal: str) -> float | None:
@@ -172,6 +174,6 @@ def _values(
         return np.array(cells)
     i = words[0]
     raise InputError(
-        f"measurement: {path!r}, line {lines[i]}, column {name!r}: {cells[i]!r} is no number; a "
-        "number, or nothing where it is missing, is accepted"
+        f"measurement: {path!r}, line {lines[i]}, column {name!r}: {cells[i][:40]!r} is no number; "
+        "a number, or nothing where it is missing, is accepted"
     )

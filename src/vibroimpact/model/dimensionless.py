@@ -33,6 +33,9 @@ from vibroimpact.model.validation import Accepts, Model, constructor
 PerSide: TypeAlias = "float | str | tuple[float | str | None, float | str | None] | None"
 """One value for both sides, or a pair (right, left); None is a side without a bumper."""
 
+_ALL_DAMPING = 1e100
+"""Damping ratio from which on the mass moves with the base, to rounding."""
+
 
 class Rig(NamedTuple):
     """An oscillator with the base acceleration that its gaps were scaled by.
@@ -354,6 +357,8 @@ def largest_free_flight(
         return math.inf, math.inf
     peaked = xi < math.sqrt(0.5)
     swing = static / (2.0 * xi * math.sqrt(1.0 - xi**2)) if peaked else static
+    if xi > _ALL_DAMPING:
+        return swing, amplitude
     square = 2.0 / (1.0 + math.sqrt(1.0 + 8.0 * xi**2))
     damped = 4.0 * xi**2 * square
     return swing, amplitude * math.sqrt((1.0 + damped) / ((1.0 - square) ** 2 + damped))

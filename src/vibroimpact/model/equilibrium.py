@@ -138,7 +138,7 @@ def _by_root(oscillator: Oscillator) -> float:
     least = math.ldexp(way, -1074) or math.ulp(0.0)
     if excess(least) <= 0.0:
         return begin
-    return begin + side * float(brentq(excess, least, way, xtol=1e-300, rtol=1e-15))
+    return begin + side * float(brentq(excess, least, way, xtol=1e-300, rtol=1e-15, maxiter=2000))
 
 
 def _scale(oscillator: Oscillator, push: float) -> float:

@@ -3,40 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, warn_of_input
+from vibroimpact.model.about import About, read_values
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, TIME, Quantity
 from vibroimpact.model.table import table
-from vibroimpact.model.units import one_of, pretty, shown, to_si
-from vibroimpact.records.read import read_channel
+from vibroimpact.model.units import pretty, shown, to_si
+from vibroimpact.records.commas import checked
+from vibroimpact.records.doubts import of_size
 
 _RESOLVED = 1.5
 """By how much the peak of a second derivative may grow when the samples left out are used."""
 
 
-NO_UNIT = "unit m/s², for the file says none"
-"""What is noted where neither file nor user says a unit."""
 _OFF = 0.05
 """Share of the peak from which on a mean that is left in is told."""
 _DEGREES = {"mean": 0, "line": 1}
-
-
-class About(NamedTuple):
-    """Where a record comes from, and what was done to it."""
-
-    source: str = ""
-    """The file."""
-    format: str = ""
-    station: str = ""
-    component: str = ""
-    unit: str = ""
-    """Of the file's values."""
-    notes: tuple[str, ...] = ()
-    """What was taken for granted, and what was changed, in order."""
 
 
 class Record:
@@ -72,12 +58,14 @@ class Record:
         step: float | str | None = None,
         station: str | None = None,
         label: str | None = None,
+        decimal: str | None = None,
     ) -> Record:
         """Read a record from a file, whose format is known by its content.
 
         PEER AT2, COSMOS and CSMIP V1 and V2, USGS SMC, GeoNet V1A and V2A, K-NET and KiK-net,
         ESM, columns of numbers; SAC and miniSEED where obspy is installed. A file may be packed by
-        gzip. Nothing is filtered, cut or shifted; `about` says what was taken for granted.
+        gzip. Nothing is filtered, cut or shifted. What is assumed or doubted, such as a unit that
+        nobody states or a peak of 30 g, is an `InputWarning`, and stands in ``about.notes``.
 
         Parameters
         ----------
@@ -91,9 +79,11 @@ class Record:
             displacement of the base, such as ``"mm"`` (`from_displacement`). m/s² where neither
             says.
         step
-            Time between samples (s, or text with a unit), instead of the file's.
+            Time between samples (s, or text with a unit), instead of the file's, or of its times.
         station, label
             Names of the station and of the component, instead of the file's.
+        decimal
+            Decimal mark of a table, ``"."`` or ``","``, where the table alone does not tell.
 
         Raises
         ------
@@ -101,45 +91,15 @@ class Record:
             If the file cannot be read, in one line that names the file's; if it has several
             components and none is chosen; or if its values make no record.
         """
-        form, found, _ = read_channel(path, component)
-        notes = []
-        if step is not None:
-            if found.step is not None and form == "columns":
-                raise InputError(
-                    f"step: {step!r}, but {str(path)!r} has times of its own; one of the two is "
-                    "accepted"
-                )
-            spacing = to_si(step, TIME, "step", above=0.0)
-            if found.step not in (None, spacing):
-                notes.append(f"step {pretty(spacing, TIME)}, not the file's {found.step:g} s")
-        elif found.step is None:
-            none = "has no times" if form == "columns" else f"has none in {found.where}"
-            raise InputError(f"step: missing, and {str(path)!r} {none}; a time is accepted")
-        else:
-            spacing = found.step
-        taken = unit or found.unit
-        if taken is None:
-            if found.unclear:
-                raise InputError(
-                    f"unit: missing, and {str(path)!r} has {found.unclear}; the unit of an "
-                    'acceleration is accepted, such as "m/s^2", after which Record.scaled, or '
-                    "--scale, makes it so"
-                )
-            taken = "m/s^2"
-            notes.append(NO_UNIT)
-        elif unit is not None and found.unit not in (None, unit):
-            notes.append(f"unit {unit}, not the file's {found.unit}")
-        try:
-            factor, quantity = one_of(f"1 {taken}", [ACCELERATION, LENGTH], "unit")
-        except InputError as error:
-            if unit is not None:
-                raise
-            raise InputError(f"record: {str(path)!r}: {error}") from None
+        values, spacing, quantity, about = read_values(
+            path, component, unit, step, checked(decimal)
+        )
         made = cls if quantity is ACCELERATION else cls.from_displacement
         try:
-            record = made(found.values * factor, spacing)
+            record = made(values, spacing)
         except InputError as error:
             raise InputError(f"record: {str(path)!r}: {error}") from None
+        notes = list(about.notes)
         if quantity is LENGTH:
             notes.append("displacements, differentiated twice")
         mean = float(record.acceleration.mean())
@@ -147,8 +107,11 @@ class Record:
             share = 100.0 * abs(mean) / record.peak
             told = f"mean {pretty(mean, ACCELERATION)} left in, {share:.3g} % of the peak"
             notes.append(told)
-        names = station or found.station, label or found.component
-        record._about = About(str(path), form, *names, taken, tuple(notes))
+        notes += of_size(record.peak, about.unit if quantity is ACCELERATION else "")
+        record._about = about._replace(
+            station=station or about.station, component=label or about.component, notes=tuple(notes)
+        )
+        warn_of_input(f"record {str(path)!r}", notes)
         return record
 
     @classmethod

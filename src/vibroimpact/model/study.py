@@ -11,10 +11,11 @@ from typing import Annotated, Any, NamedTuple, Self, TypeVar
 
 from pydantic import model_validator
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, printable
 from vibroimpact.model import laboratory
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.laboratory import Parameters
+from vibroimpact.model.names import check_name
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ANGLE, TIME
 from vibroimpact.model.record import Record
@@ -23,13 +24,17 @@ from vibroimpact.model.validation import Accepts, Model, validate
 
 _Study = TypeVar("_Study", bound="RigStudy")
 
+_DEEPEST = 20
+"""Levels of tables and lists in a study file."""
+_DEEP = f"nests tables or lists too deeply; at most {_DEEPEST} levels are accepted"
+
 
 class ExcitationTable(Model):
     """``[excitation]``: what shakes the mass, at whatever frequency; or a record in a file.
 
     An amplitude is one of acceleration, displacement or force, by its unit. A record stands beside
-    the study file; its `component` where the file has several, its `step` (s) and its `unit` where
-    the file does not say them; a unit may be one of length.
+    the study file; its `component` where the file has several, its `step` (s), its `unit` and its
+    `decimal` mark where the file does not say them; a unit may be one of length.
     """
 
     amplitude: float | str | None = None
@@ -40,6 +45,7 @@ class ExcitationTable(Model):
     component: str | None = None
     step: Annotated[float | None, Accepts(TIME, above=0.0, optional=True)] = None
     unit: str | None = None
+    decimal: str | None = None
 
     @model_validator(mode="after")
     def _one_of_them(self) -> Self:
@@ -47,7 +53,7 @@ class ExcitationTable(Model):
         given = [name for name, value in ways.items() if value is not None]
         if len(given) > 1:
             raise InputError(f"{' and '.join(given)} are given; one of them is accepted")
-        beside = dict.fromkeys(("component", "step", "unit"), "record")
+        beside = dict.fromkeys(("component", "step", "unit", "decimal"), "record")
         for name, needs in (("phases", "amplitudes"), *beside.items()):
             if getattr(self, name) is not None and ways[needs] is None:
                 raise InputError(f"{name} is given without {needs}; it is accepted beside it")
@@ -62,7 +68,13 @@ class ExcitationTable(Model):
             If the record cannot be read, or a value cannot be used.
         """
         if self.record is not None:
-            return Record.read(folder / self.record, self.component, unit=self.unit, step=self.step)
+            return Record.read(
+                folder / self.record,
+                self.component,
+                unit=self.unit,
+                step=self.step,
+                decimal=self.decimal,
+            )
         if self.amplitudes is not None:
             return Periodic(1.0, self.amplitudes, self.phases, self.phase)
         if self.amplitude is None:
@@ -95,6 +107,8 @@ class RigStudy(Model):
 
     @model_validator(mode="after")
     def _one_rig(self) -> Self:
+        if self.name is not None:
+            check_name(self.name, "name")
         if (self.case is None) == (self.oscillator is None):
             given = "neither" if self.case is None else "both"
             raise InputError(
@@ -120,7 +134,7 @@ class RigStudy(Model):
         InputError
             If there is no such case, a record cannot be read, or a value cannot be used.
         """
-        where, name = f"study {str(path)!r}", self.name or path.stem
+        where, name = f"study {str(path)!r}", self.name or printable(path.stem)
         try:
             shaking = self.excitation.shaking(path.parent)
         except InputError as error:
@@ -164,10 +178,25 @@ def read_study(path: Path, kind: type[_Study]) -> _Study:
         raise InputError(f"study: {str(path)!r} is not UTF-8 text; TOML is accepted") from None
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"study: {str(path)!r} is not TOML ({error}); TOML is accepted") from None
+    except ValueError:  # Python reads no whole number of more than some thousand digits
+        raise InputError(f"study: {str(path)!r} has a number of too many digits") from None
+    except RecursionError:
+        raise InputError(f"study: {str(path)!r} {_DEEP}") from None
+    if _deeper(data, _DEEPEST):
+        raise InputError(f"study: {str(path)!r} {_DEEP}")
     try:
         return validate(kind, data)
     except InputError as error:
         raise InputError(f"study {str(path)!r}: {error}") from None
+
+
+def _deeper(data: Any, levels: int) -> bool:
+    """Whether tables and lists lie within each other more than so many levels deep."""
+    found = [data]
+    for _ in range(levels):
+        inside = (part.values() if isinstance(part, dict) else part for part in found)
+        found = [one for part in inside for one in part if isinstance(one, dict | list)]
+    return bool(found)
 
 
 def read_rig(path: Path) -> Studied:

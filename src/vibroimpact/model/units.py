@@ -15,10 +15,10 @@ import numbers
 import re
 from collections.abc import Sequence
 from decimal import Decimal
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import quantities
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -28,6 +28,7 @@ from vibroimpact.model.quantities import (
     MASS,
     Quantity,
 )
+from vibroimpact.model.unit_names import accepted_unit, two_meanings
 
 _TWO_PI = Decimal("6.283185307179586476925286766559")
 
@@ -43,9 +44,13 @@ _NAMES: dict[tuple[tuple[str, float], ...], str] = _ALSO_NAMED | {
     q.base: q.phrase for q in vars(quantities).values() if isinstance(q, Quantity)
 }
 
+_FAR_OVERDAMPED = 2.0
+"""A damping ratio from which on a percentage is more likely."""
 _LEAST, _MOST = 1e-7, 1e9
 """Sizes between which a number is written without a power of ten."""
 
+_LONGEST = 200
+"""Letters of a number with its unit; patterns of longer texts take long to search."""
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(?:inf|infinity|∞|nan)\b|[+-]?∞", re.IGNORECASE)
 
@@ -60,6 +65,7 @@ _GROUP = rf"\({_FACTOR}(?:{_TIMES}{_FACTOR})*\){_POWER}?"
 _UNITS = re.compile(
     rf"(?:1 ?/ ?)?(?:{_FACTOR}|{_GROUP})(?:{_TIMES}(?:{_FACTOR}|{_GROUP}))*", re.ASCII
 )
+_NAMES_IN = re.compile(_NAME, re.ASCII)
 _BARE_POWER = re.compile(r"(?<=[A-Za-z)])(-?[1-9])")
 _GAL = re.compile(r"(?<![A-Za-z_])(m?)gal(?![A-Za-z_])", re.IGNORECASE)
 """To pint ``gal`` is a gallon, and its ``Gal`` has capitals."""
@@ -161,11 +167,7 @@ def read(
     minimum: float | None = None,
     maximum: float | None = None,
 ) -> float:
-    """Do what `to_si` does, with a message that does not name the field.
-
-    For a caller that learns the name of the field only later, such as the validation of
-    nested tables.
-    """
+    """Do what `to_si` does, with a message that does not name the field, for nested tables."""
     try:
         number = _number(value, quantity)
         if not math.isfinite(number):
@@ -201,6 +203,14 @@ def accepted(
         f'"{sign}{quantity.example}" or {number} ({quantity.symbol})' if quantity.symbol else number
     )
     return " ".join((quantity.phrase, *bounds, "is accepted, such as", example))
+
+
+def doubt_damping_ratio(value: float, field: str) -> None:
+    """Issue a warning if a damping ratio was probably meant in percent."""
+    if value >= _FAR_OVERDAMPED:
+        warn_of_input(
+            field, [f"{value:g} is {value:g} times the critical damping; was {value:g} % meant?"]
+        )
 
 
 def shown(value: object) -> str:
@@ -272,7 +282,7 @@ def _number(value: Any, quantity: Quantity) -> float:
                 "is a mass (pint's g is the gram); gravity is its standard_gravity, or the g of a "
                 'text such as "0.05 g"'
             )
-        return _from_pint(value, quantity)
+        return float(_from_pint(value, quantity))
     raise _RefusalError("is not a number")
 
 
@@ -281,15 +291,39 @@ def _from_text(text: str, quantity: Quantity) -> float:
     clean = " ".join(text.replace("−", "-").split())
     if not clean:
         raise _RefusalError("is empty")
+    if len(clean) > _LONGEST:
+        raise _RefusalError(f"has {len(clean)} letters, more than the {_LONGEST} of any quantity")
     match = _NUMBER.match(clean)
     if match is None:
         finite = _NOT_FINITE.match(clean) is None
         raise _RefusalError("does not start with a number" if finite else "is not finite")
     rest = clean[match.end() :].strip()
+    if not float(match[0]) and Decimal(match[0]):
+        raise _RefusalError("is smaller than any number that can be kept")
     if not rest:
         return float(clean)
     if rest.startswith(","):
         raise _RefusalError("has a comma; write a decimal point")
+    number = Decimal(match[0])
+    try:
+        return float(number * _size(rest, quantity))
+    except ArithmeticError:
+        raise _RefusalError("is not finite") from None
+    except _RefusalError:
+        return float(_measured(number, rest, quantity))  # whose words may name the number
+
+
+@lru_cache(maxsize=4096)
+def _size(unit: str, quantity: Quantity) -> Decimal:
+    """How large a unit is in SI units; a unit in which the quantity is written needs no pint."""
+    for scale in quantity.scales:
+        if unit == scale.symbol:
+            return Decimal(f"{scale.size:.12g}")
+    return Decimal(_measured(Decimal(1), unit, quantity))
+
+
+def _measured(number: Decimal, rest: str, quantity: Quantity) -> Decimal | float:
+    """A number with a unit in SI units."""
     if _UNITS.fullmatch(rest) is None:
         raise _RefusalError(f"has a unit that cannot be read, '{rest}'")
     rest = _BARE_POWER.sub(r"**\1", rest.replace("·", "*").replace("⋅", "*"))
@@ -301,20 +335,32 @@ def _from_text(text: str, quantity: Quantity) -> float:
         rest = _GAL.sub(lambda m: ("milli" if m[1] else "") + "galileo", rest)
     if quantity is MASS and _GRAVITY_SYMBOL.search(rest):
         raise _RefusalError("has a g, which is gravity here; write gram, kg or t")
+    names = _NAMES_IN.findall(rest)
+    if any("%" in name and name != "%" for name in names):
+        raise _RefusalError("has a % beside a unit; one of the two is accepted")
+    for name in names:
+        if meant := two_meanings(name):
+            raise _RefusalError(f"has a unit of two meanings, '{name}'; write {meant}")
     registry = _registry()
     try:
         unit = registry.parse_units(rest)
-        measured = registry.Quantity(Decimal(match[0]), unit)
+        measured = registry.Quantity(number, unit)
     except AttributeError:  # pint.UndefinedUnitError, without importing pint by name
         raise _RefusalError("has an unknown unit") from None
     except Exception:
         # pint raises whatever its tokenizer and arithmetic raise; for text from a user
         # every one of them means the same.
         raise _RefusalError("has a unit that cannot be read") from None
-    return _from_pint(measured, quantity)
+    magnitude = _from_pint(measured, quantity)
+    for name in names:
+        # pint takes the first of several readings. It finds none for a sign such as °.
+        readings = registry.parse_unit_name(name)
+        if readings and not accepted_unit(readings[0][1]):
+            raise _RefusalError(f"has a unit that is not used here, '{name}'")
+    return magnitude
 
 
-def _from_pint(measured: Any, quantity: Quantity) -> float:
+def _from_pint(measured: Any, quantity: Quantity) -> Decimal | float:
     try:
         base = measured.to_base_units()
     except ArithmeticError:
@@ -329,13 +375,15 @@ def _from_pint(measured: Any, quantity: Quantity) -> float:
         # pint converts rad/s to Hz by a factor of 1, since it holds the radian for a
         # number. A frequency counts cycles, and a cycle is 2π radians.
         turn = _TWO_PI if isinstance(magnitude, Decimal) else math.tau
-        return float(magnitude / turn)
+        found: Decimal | float = magnitude / turn
+        return found
     if dimension != tuple((name, round(power, 5)) for name, power in quantity.base):
         if quantity is MASS and dimension == FORCE.base and magnitude > 0:
             weighing = pretty(float(magnitude) / GRAVITY, MASS)
             raise _RefusalError(f"is a force, the weight of {weighing}")
         raise _RefusalError(f"is {_NAMES.get(dimension, 'not ' + quantity.phrase)}")
-    return float(magnitude)
+    within: Decimal | float = magnitude
+    return within
 
 
 @cache

@@ -7,7 +7,6 @@ nested table of a study file or from a change to an existing object.
 
 from __future__ import annotations
 
-import difflib
 import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -24,6 +23,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.keys import MOST, SHOWN, listed, unknown_key
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.table import table
 from vibroimpact.model.units import accepted, pretty, read, shown
@@ -126,8 +126,11 @@ class _Listed(ModelMetaclass):
             unknown = [name for name in values if name not in model.model_fields]
             if not unknown:
                 raise
-            told = "; ".join(f"{name}: {_unknown_key(in_order(model), name)}" for name in unknown)
-            raise InputError(told) from None
+            keys = in_order(model)
+            told = [f"{name[:SHOWN]}: {unknown_key(keys, name)}" for name in unknown[:MOST]]
+            rest = len(unknown) - len(told)
+            more = f" ({rest} more to correct)" if rest else ""
+            raise InputError("; ".join(told) + more) from None
 
     def __dir__(cls) -> list[str]:  # noqa: N805
         own = {
@@ -306,7 +309,7 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> str:
     mistakes = error.errors(include_url=False)
     # A misspelt key is also a missing one; the misspelling is what the user must see.
     unknown = [mistake for mistake in mistakes if mistake["type"] == "extra_forbidden"]
-    told = unknown or mistakes[:1]
+    told = unknown[:MOST] or mistakes[:1]
     rest = len(mistakes) - len(told)
     more = f" ({rest} more to correct)" if rest else ""
     lines = "; ".join(_mistake(mistake, model, where) for mistake in told)
@@ -327,13 +330,13 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     elif kind == "missing":
         problem = _missing(holder, str(location[-1]))
     elif kind == "extra_forbidden":
-        problem = _unknown_key(cast("type[Model]", holder).table_keys(), str(location[-1]))
+        problem = unknown_key(cast("type[Model]", holder).table_keys(), str(location[-1]))
     elif kind == "union_tag_invalid":
         choice = _choice(holder, str(location[-1]))
         assert choice is not None
         path, problem = f"{path}.kind", choice.unknown(mistake["input"])
     elif kind in ("model_type", "model_attributes_type"):
-        problem = f"{value} is not a table; a table with {_listed(in_order(wanted))} is accepted"
+        problem = f"{value} is not a table; a table with {listed(in_order(wanted))} is accepted"
     else:
         message = mistake["msg"]
         problem = f"{value} is refused: {message[:1].lower()}{message[1:]}"
@@ -381,19 +384,9 @@ def _along(
     return steps, model
 
 
-def _listed(keys: list[str]) -> str:
-    return " and ".join(filter(None, (", ".join(keys[:-1]), keys[-1])))
-
-
 def _missing(model: type[BaseModel], name: str) -> str:
     metadata = model.model_fields[name].metadata if name in model.model_fields else []
     for accepts in metadata:
         if isinstance(accepts, Accepts):
             return f"missing; {accepts.words()}"
-    return f"missing; {_listed(in_order(model))} are accepted"
-
-
-def _unknown_key(keys: list[str], name: str) -> str:
-    close = difflib.get_close_matches(name, keys, n=1, cutoff=0.7)
-    hint = f", perhaps {close[0]} is meant" if close else ""
-    return f"unknown key; {_listed(keys)} are accepted{hint}"
+    return f"missing; {listed(in_order(model))} are accepted"

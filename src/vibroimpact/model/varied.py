@@ -13,7 +13,7 @@ from vibroimpact.model.access import Setting
 from vibroimpact.model.excitation import Repeated
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.units import shown, to_si
+from vibroimpact.model.units import doubt_damping_ratio, shown, to_si
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
 """Parameters that set a damping too, which one that is named behind them replaces."""
@@ -64,6 +64,8 @@ def varied(
     ]
     if not numbers:
         raise InputError(f"{field}: no values; one or more are accepted")
+    if known.name == "damping_ratio":
+        doubt_damping_ratio(max(numbers), field)
     if len(set(numbers)) < len(numbers):
         raise InputError(f"{field}: a value is given twice; different ones are accepted")
     return Varied(known.name, np.array(numbers), known.units, known.long_name)

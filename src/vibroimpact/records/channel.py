@@ -29,6 +29,11 @@ class Channel(NamedTuple):
     unclear: str = ""
     """What the values are if no unit may be guessed for them, such as ``"counts"``."""
 
+    notes: tuple[str, ...] = ()
+    """What was assumed of the values or their times."""
+    uneven: str = ""
+    """Why times that the file has make no step, in words; empty where they do, or it has none."""
+
     def called(self, name: str) -> bool:
         """Whether the component has this name, in capitals or not."""
         return name.lower() in {one.lower() for one in (self.component, *self.also) if one}

@@ -1,9 +1,10 @@
 """Records as plain numbers: values alone, or times and values, in columns or in two rows.
 
-Apart by commas, semicolons or blanks. Lines before the first number, and what follows a ``#``, are
-left out; the last line of words before the numbers names the columns, with units in brackets if
-there are some, and a line there may say ``dt = 0.01``. Two numbers above a single column are its
-length and its step.
+Apart by commas, semicolons or blanks; commas within quotes, or beside another separator, are
+decimal ones. Lines before the first number, and what follows a ``#``, are left out; the last line
+of words before the numbers names the columns, with units in brackets, at the end of a name or in a
+line of units under them, and a line there may say ``dt = 0.01`` or ``units: cm/s^2``. Two numbers
+above a single column are its length and its step. ``*** End Data ***`` ends a table.
 """
 
 from __future__ import annotations
@@ -15,16 +16,31 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.commas import Decimal, decimal_mark, pointed
 from vibroimpact.records.file import File
+from vibroimpact.records.guard import few_columns
+from vibroimpact.records.stated import (
+    are_units,
+    parted,
+    spelled,
+    stated_acceleration,
+    stated_unit,
+    unit_of,
+)
 
 _EVEN = 0.01
-"""By how much of a step a time may be off: files round theirs."""
+"""By how much of a step a time may be off without a note."""
+_UNEVEN = 0.1
+"""By how much of a step times may be off that are taken as even, which is noted."""
+_ROUNDED = 0.25
+"""The same of times that are rounded to their last digit; a missing sample is off by 0.5."""
 _STEP = re.compile(
     r"\b(?:dt|step|time step|sampling interval)\s*[=:]\s*"
     r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(s|sec|seconds|ms)?\s*$",
     re.IGNORECASE,
 )
-_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]+?)\s*[\])]")
+_END = re.compile(r"\W*end\W+(?:of\W+)?(?:the\W+)?(?:data|file|record)\W*", re.IGNORECASE)
+_IN_A_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "-": 1.0, "": 1.0}
 _Array = NDArray[np.float64]
 
 
@@ -32,7 +48,8 @@ def read(file: File) -> list[Channel]:
     """The columns of a file, that of the time left out."""
     if not file.lines:
         raise InputError(f"record: {file.path!r} is not text; columns of numbers are accepted")
-    rows, lines, words = _numbers(file)
+    decimal = file.decimal or decimal_mark(file.lines, f"record: {file.path!r}")
+    rows, lines, words = _numbers(file, decimal)
     if not rows:
         raise InputError(f"record: {file.path!r} has no numbers; columns of them are accepted")
     step = _stated(words)
@@ -44,47 +61,56 @@ def read(file: File) -> list[Channel]:
             )
         rows, lines = rows[1:], lines[1:]
     table = _table(file, rows, lines)
+    few_columns(table.shape[1], file.path, "record")
     for i, j in np.argwhere(~np.isfinite(table))[:1]:
         at = lines[i] if len(lines) == len(table) else lines[0]
         raise file.refused(at, f"{table[i, j]} is not finite; finite samples are accepted")
+    general = next((unit for line in reversed(words) if (unit := stated_unit(line))), None)
     if table.shape[1] == 1:
-        return [Channel(table[:, 0], step, _unit(_names(words, 1)[-1]))]
-    names = _names(words, table.shape[1])
-    spacing = _spacing(file, table[:, 0], lines)
+        return [Channel(table[:, 0], step, general or _of_one(words))]
+    names, units = _names(words, table.shape[1])
+    spacing, note, uneven = _spacing(file, table[:, 0], lines, units[0])
     return [
         Channel(
             table[:, column],
             spacing,
-            _unit(names[column]),
-            component=_BRACKETS.sub("", names[column]).strip() if table.shape[1] > 2 else "",
+            units[column] or general,
+            component=parted(names[column])[0] if table.shape[1] > 2 else "",
+            notes=(note,) if note else (),
+            uneven=uneven,
         )
         for column in range(1, table.shape[1])
     ]
 
 
-def _numbers(file: File) -> tuple[list[list[float]], list[int], list[str]]:
+def _numbers(file: File, decimal: Decimal) -> tuple[list[list[float]], list[int], list[str]]:
     """The numbers of each line, from the first that has some; their lines; the words above."""
     rows: list[list[float]] = []
     lines: list[int] = []
     words: list[str] = []
+    ended = False
     for at, whole in enumerate(file.lines):
         line = whole.split("#")[0].strip()
-        parts = [part for part in re.split(r"[,;\s]+", line) if part]
+        if rows and _END.fullmatch(line):
+            ended = True
+            continue
+        numbers = (pointed(line) if decimal == "," else line).replace('"', " ").replace("'", " ")
+        parts = [part for part in re.split(r"[,;\s]+", numbers) if part]
         if not parts:
             if not rows:
                 words.append(whole.strip("# \t"))
             continue
         try:
-            rows.append([float(part) for part in parts])
+            row = [float(part) for part in parts]
         except ValueError:
             if rows:
                 told = f"{whole.strip()[:40]!r} is no row of numbers; numbers are accepted from "
                 raise file.refused(at, f"{told}the first row of them on") from None
             words.append(line)
             continue
-        if ";" in line and "," in line:
-            told = "commas beside semicolons; decimal points are accepted"
-            raise file.refused(at, told)
+        if ended:
+            raise file.refused(at, "numbers behind the end of the data; one record is accepted")
+        rows.append(row)
         lines.append(at)
     return rows, lines, words
 
@@ -97,19 +123,35 @@ def _stated(words: list[str]) -> float | None:
     return None
 
 
-def _names(words: list[str], columns: int) -> list[str]:
-    """The names of the columns, empty where no line has as many."""
+def _of_one(words: list[str]) -> str | None:
+    """The unit of a single column: of an acceleration, or what the line above it ends in."""
     for line in reversed(words):
-        names = [name.strip() for name in re.split(r"[,;\t]", line)]
-        if len(names) == columns and any(names):
-            return names
-    return [""] + [str(column) for column in range(1, columns)]
+        if unit := stated_acceleration(line):
+            return unit
+    last = words[-1] if words else ""
+    return None if re.search(r"[:=]", last) else unit_of(last)
 
 
-def _unit(name: str) -> str | None:
-    """What stands in brackets."""
-    found = _BRACKETS.search(name)
-    return found[1] if found else None
+def _names(words: list[str], columns: int) -> tuple[list[str], list[str | None]]:
+    """The names of the columns and their units; none where no line has as many."""
+    under: list[str] | None = None
+    for line in reversed(words):
+        names = [name.strip().strip("\"'").strip() for name in re.split(r"[,;\t]", line)]
+        if len(names) != columns or not any(names):
+            continue
+        if under is None and columns > 1 and are_units(names):
+            under = [name.strip("[]() ") for name in names]
+            continue
+        units = [unit_of(name) for name in names]
+        if under:
+            units = [
+                own or (spelled(u) if u else None) for own, u in zip(units, under, strict=True)
+            ]
+        return names, units
+    return (
+        ["", *(str(column) for column in range(1, columns))],
+        [spelled(unit) if unit else None for unit in under or [""] * columns],
+    )
 
 
 def _table(file: File, rows: list[list[float]], lines: list[int]) -> _Array:
@@ -122,20 +164,51 @@ def _table(file: File, rows: list[list[float]], lines: list[int]) -> _Array:
     return table.T if len(rows) == 2 and widths[0] > 2 else table
 
 
-def _spacing(file: File, times: _Array, lines: list[int]) -> float:
-    """The time between samples, which must be the same everywhere."""
+def _spacing(
+    file: File, times: _Array, lines: list[int], unit: str | None
+) -> tuple[float | None, str, str]:
+    """The time between samples; what is noted of it; or why there is none that is the same.
+
+    Raises
+    ------
+    InputError
+        If the unit of the times is not known.
+    """
     if len(times) < 2:
         raise InputError(f"record: {file.path!r} has one sample; at least 2 are accepted")
-    step = float((times[-1] - times[0]) / (len(times) - 1))
-    off = np.abs(times - (times[0] + step * np.arange(len(times))))
-    if not step > 0.0 or off.max() > _EVEN * step:
-        worst = int(off.argmax()) if step > 0.0 else 0
-        where = f"line {lines[worst] + 1}" if len(lines) == len(times) else f"sample {worst}"
+    each = _IN_A_SECOND.get(unit or "s")
+    if each is None:
         raise InputError(
-            f"record: {file.path!r}, {where}: its time {times[worst]:g} s is not evenly "
-            f"spaced (steps of {step:g} s on average); equal steps are accepted"
+            f"record: {file.path!r}: its times are in {unit!r}; s, ms and us are accepted"
         )
-    return step
+    step = float((times[-1] - times[0]) / (len(times) - 1))
+    off = times - (times[0] + step * np.arange(len(times)))
+    worst = int(np.abs(off).argmax()) if step > 0.0 else 0
+    if step > 0.0 and abs(off[worst]) <= _EVEN * step:
+        return step / each, "", ""
+    within = max(_UNEVEN * step, min(0.8 * _digit(times), _ROUNDED * step))
+    # A sample that is missing shifts those behind it by a whole step, wherever it is.
+    if step > 0.0 and 0.5 * np.ptp(off) <= within:
+        told = f"its times are uneven by up to {abs(off[worst]) / each:.3g} s"
+        return step / each, f"{told}: taken as {step / each:.6g} s apart", ""
+    row = file.lines[lines[0]]
+    may_be = "," in row and "." not in row and file.decimal is None
+    hint = "; decimal=',' (--decimal ,) reads decimal commas" if may_be else ""
+    where = f"line {lines[worst] + 1}" if len(lines) == len(times) else f"sample {worst}"
+    return (
+        None,
+        "",
+        f"{where}: its time {times[worst]:g} s is not evenly spaced (steps of {step / each:g} s on "
+        f"average); equal steps are accepted, or step= (--step), which replaces the times{hint}",
+    )
+
+
+def _digit(times: _Array) -> float:
+    """The size of the last digit that the times are written with."""
+    for decimals in range(7):
+        if np.abs(np.round(times, decimals) - times).max() < 1e-9 * max(1.0, abs(times[-1])):
+            return float(10.0**-decimals)
+    return 0.0
 
 
 FORMAT = Format("columns", lambda file: True, read)

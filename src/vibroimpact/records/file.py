@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
 import zlib
 from functools import cached_property
 from pathlib import Path
@@ -11,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.records.commas import Decimal
+from vibroimpact.records.guard import regular, unpacked
 
 _PACKED = b"\x1f\x8b"
 
@@ -18,16 +19,19 @@ _PACKED = b"\x1f\x8b"
 class File:
     """A file that was read into memory, unpacked where it was packed by gzip.
 
-    Lines are counted from 0 here and from 1 in messages.
+    Lines are counted from 0 here and from 1 in messages. ``decimal`` is the mark that the caller
+    says its columns have.
     """
 
-    def __init__(self, path: Path | str) -> None:
+    def __init__(self, path: Path | str, decimal: Decimal | None = None) -> None:
         self.path = str(path)
+        self.decimal = decimal
         try:
+            regular(path, "record")
             self.data = Path(path).read_bytes()
             if self.data.startswith(_PACKED):
-                self.data = gzip.decompress(self.data)
-        except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+                self.data = unpacked(self.data, path, "record", gzip=True)
+        except (EOFError, zlib.error) as error:
             raise InputError(
                 f"record: {self.path!r} is a damaged gzip file ({error}); a whole one is accepted"
             ) from None
@@ -49,6 +53,11 @@ class File:
         # str.splitlines would also break at form feeds and at line separators of Unicode.
         text = text.partition("\x1a")[0]  # the end of a file under CP/M and DOS
         return text.replace("\r\n", "\n").replace("\r", "\n").removesuffix("\n").split("\n")
+
+    @cached_property
+    def ends_whole(self) -> bool:
+        """Whether a line break, or the mark of an older end, stands at its end."""
+        return self.data.rstrip(b" \t\0")[-1:] in (b"\n", b"\r", b"\x1a", b"")
 
     def line(self, at: int) -> str:
         """A line.

@@ -6,7 +6,8 @@ The fourth line says how many values there are and the step, in one of three way
     NPTS=  15306, DT=    0.05 SEC
     4096    0.0100    NPTS, DT
 
-The third says the unit, the second event, date, station and component, with commas between.
+The third states the unit, as ``IN UNITS OF G`` or ``The units are (g)``, which is g where it does
+not; the second event, date, station and component, with commas between.
 """
 
 from __future__ import annotations
@@ -15,13 +16,13 @@ import re
 
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.file import File
+from vibroimpact.records.stated import stated_acceleration, stated_unit
 
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?)"
 _COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
 _STEP = re.compile(rf"\bDT\s*=\s*{_NUMBER}", re.IGNORECASE)
 _BEFORE = re.compile(rf"^\s*(\d+)\s+{_NUMBER}\s+NPTS\s*,\s*DT", re.IGNORECASE)
 _NAMED = re.compile(r"\bNPTS\b", re.IGNORECASE)
-_UNIT = re.compile(r"UNITS?\s+OF\s+(\S+)", re.IGNORECASE)
 _SEARCHED = 12
 
 
@@ -58,21 +59,24 @@ def read(file: File) -> list[Channel]:
     if again is not None:
         raise file.refused(again, "a second header; one record a file is accepted")
     file.behind(behind, count)
-    unit = None
-    for above in file.lines[:at]:
-        if stated := _UNIT.search(above):
-            unit = stated[1].lower().rstrip(".,;").replace("/sec/sec", "/s^2")
+    above = file.lines[: at + 1]
+    unit = next((unit for line in above if (unit := stated_unit(line))), None)
+    if unit is None:
+        # In brackets only where a description of the values stands: stations have brackets, too.
+        unit = next((unit for line in above[-2:-1] if (unit := stated_acceleration(line))), None)
+    notes = () if unit else ("unit g, that of PEER, for the file states none",)
     names = [part.strip() for part in file.lines[at - 2].split(",")] if at >= 2 else []
     component = names[-1] if len(names) > 2 else ""
     return [
         Channel(
             values,
             step or None,
-            unit,
+            unit or "g",
             names[-2] if len(names) > 2 else "",
             component,
             (component.split()[0],) if component else (),
             f"line {at + 1}",
+            notes=notes,
         )
     ]
 

@@ -6,8 +6,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from vibroimpact.errors import InputError
-from vibroimpact.records import columns, cosmos, csmip, esm, geonet, knet, peer, seismic, smc
+from vibroimpact.records import columns, cosmos, csmip, esm, geonet, knet, lvm, peer, seismic, smc
 from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.commas import Decimal
+from vibroimpact.records.doubts import of_last_line
 from vibroimpact.records.file import File
 
 FORMATS: tuple[Format, ...] = (
@@ -19,6 +21,7 @@ FORMATS: tuple[Format, ...] = (
     smc.FORMAT,
     knet.FORMAT,
     esm.FORMAT,
+    lvm.FORMAT,
     peer.FORMAT,
     columns.FORMAT,
 )
@@ -34,7 +37,9 @@ class Found(NamedTuple):
     """The components of the file, this one included."""
 
 
-def read_channel(path: Path | str, component: str | int | None = None) -> Found:
+def read_channel(
+    path: Path | str, component: str | int | None = None, decimal: Decimal | None = None
+) -> Found:
     """Read one component of a file.
 
     Parameters
@@ -44,18 +49,27 @@ def read_channel(path: Path | str, component: str | int | None = None) -> Found:
     component
         Its name in the file, such as ``"90"``, ``"Up"`` or ``"HNE"``, or its number from 1 on. None
         where the file has one.
+    decimal
+        The decimal mark of columns; None to find out.
 
     Raises
     ------
     InputError
         If the file cannot be read, or has several components and none of them is chosen.
     """
-    file = File(path)
+    file = File(path, decimal)
     form = next(form for form in FORMATS if form.recognises(file))
     channels = form.read(file)
+    last = tuple(of_last_line(file))
+    channels = [channel._replace(notes=channel.notes + last) for channel in channels]
     names = tuple(channel.component for channel in channels)
     if component is None and len(channels) == 1:
         return Found(form.name, channels[0], names)
+    if len(set(names)) < len(names):  # of several stations
+        names = tuple(f"{one.station} {one.component}".strip() for one in channels)
+        channels = [
+            one._replace(also=(*one.also, name)) for one, name in zip(channels, names, strict=True)
+        ]
     listed = ", ".join(f"{name!r}" for name in names)
     numbered = f"{listed}, or a number from 1 to {len(names)}, is accepted"
     if component is None:

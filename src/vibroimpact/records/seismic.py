@@ -19,6 +19,8 @@ from vibroimpact.records.file import File
 
 _VERSION = slice(304, 308)
 """Of a SAC file: 6, or 7 of the newest."""
+_HEAD = 48
+"""Bytes of the head of a record of miniSEED."""
 _KINDS = {6: "displacements", 7: "velocities", 50: "volts"}
 """SAC's kinds of quantities that are no acceleration."""
 
@@ -53,8 +55,9 @@ def _read(file: File, kind: str) -> list[Channel]:
             # What is left out of a miniSEED file is only warned of.
             warnings.simplefilter("error" if kind == "MSEED" else "ignore")
             stream: Any = obspy.read(io.BytesIO(file.data), format=kind)
-            stream.merge()
-            return [_channel(file, trace) for trace in stream]
+            if kind == "MSEED":
+                _whole(file)
+            return [_channel(file, trace) for trace in _merged(file, stream)]
     except InputError:
         raise
     except Exception as error:  # obspy raises whatever it meets in a damaged file
@@ -62,17 +65,87 @@ def _read(file: File, kind: str) -> list[Channel]:
         raise InputError(f"record: {file.path!r} is a damaged {kind} file ({why})") from None
 
 
-def _channel(file: File, trace: Any) -> Channel:
-    if np.ma.is_masked(trace.data):
+def _whole(file: File) -> None:
+    """See to it that a miniSEED file ends with a record.
+
+    Raises
+    ------
+    InputError
+        If it ends within one.
+    """
+    from obspy.io.mseed.util import get_record_information
+
+    at, size = 0, len(file.data)
+    while size - at >= _HEAD:
+        if file.data[at : at + 3] == b"MS\x03":
+            extra, payload = struct.unpack_from("<HI", file.data, at + 34)
+            length = 40 + file.data[at + 33] + extra + payload
+        else:
+            length = int(get_record_information(io.BytesIO(file.data), at)["record_length"])
+        at += length
+        if at > size or length < _HEAD:
+            raise InputError(
+                f"record: {file.path!r} ends within a record of {length} bytes: it was cut; a "
+                "whole file is accepted"
+            )
+
+
+def _merged(file: File, stream: Any) -> Any:
+    """Traces of one channel as one.
+
+    Raises
+    ------
+    InputError
+        If there are gaps between them, or they overlap and differ.
+    """
+    for trace in [one for one in stream if not len(one.data)]:
+        stream.remove(trace)
+    if not len(stream):
+        raise InputError(f"record: {file.path!r} has no samples; at least 2 are accepted")
+    overlap = {tuple(g[:4]) for g in stream.get_gaps() if g[6] < 0.0}
+    stream.merge()
+    for trace in stream:
+        if np.ma.is_masked(trace.data):
+            name = tuple(trace.id.split("."))
+            what = "parts that overlap and differ" if name in overlap else "gaps"
+            raise InputError(
+                f"record: {file.path!r}: {trace.id} has {what}; a record without is accepted"
+            )
+    return stream
+
+
+def _scale(file: File, trace: Any) -> tuple[float, tuple[str, ...]]:
+    """The scale of a SAC file, and what is noted of it.
+
+    SAC itself does not use its SCALE; files of ground motions have that of the digitiser beside
+    values that are scaled already, so that it is used of counts, which are whole numbers.
+
+    Raises
+    ------
+    InputError
+        If it cannot be used.
+    """
+    scale = float(trace.stats.sac.get("scale", 1.0)) if "sac" in trace.stats else 1.0
+    if scale == 1.0:
+        return 1.0, ()
+    if (trace.data != np.round(trace.data)).any():
+        return 1.0, (f"the scale of the header, {scale:g}, is not used: the values are no counts",)
+    if not 0.0 < abs(scale) < np.inf:
         raise InputError(
-            f"record: {file.path!r}: {trace.id} has gaps; a record without gaps is accepted"
+            f"record: {file.path!r}: its header states the scale {scale:g}; a number other than 0 "
+            "is accepted"
         )
+    return scale, (f"values times {scale:g}, the scale of the header",)
+
+
+def _channel(file: File, trace: Any) -> Channel:
     about = trace.stats
     unclear = _KINDS.get(about.sac.get("idep", 0), "") if "sac" in about else ""
+    scale, notes = _scale(file, trace)
     if np.issubdtype(trace.data.dtype, np.integer):
         unclear = "counts"
     return Channel(
-        np.asarray(trace.data, dtype=np.float64),
+        np.asarray(trace.data, dtype=np.float64) * scale,
         float(about.delta) if about.delta > 0.0 else None,
         None,
         ".".join(part for part in (about.network, about.station, about.location) if part),
@@ -80,6 +153,7 @@ def _channel(file: File, trace: Any) -> Channel:
         (trace.id,),
         "header",
         unclear=unclear,
+        notes=notes,
     )
 
 

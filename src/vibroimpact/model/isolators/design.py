@@ -15,7 +15,7 @@ from vibroimpact.model.quantities import (
     MASS,
     PERIOD,
 )
-from vibroimpact.model.units import one_of, shown
+from vibroimpact.model.units import doubt_damping_ratio, one_of, shown
 from vibroimpact.model.validation import Accepts
 
 if TYPE_CHECKING:
@@ -49,6 +49,8 @@ def design(**given: object) -> list[float]:
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
         assert number is not None
+        if name.endswith("damping_ratio"):
+            doubt_damping_ratio(number, name)
         found.append(number)
     return found
 

@@ -1,0 +1,77 @@
+"""Names that users give: what they may hold, and what they are in files and in figures."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Iterable
+from typing import Any
+
+from vibroimpact.errors import UNPRINTABLE, InputError, printable
+from vibroimpact.model.units import shown
+
+_LONGEST = 200
+"""Letters of a name."""
+_LONGEST_STEM = 140
+"""Bytes of a file name's first part: file systems take 255 in all."""
+
+
+def check_name(name: Any, field: str) -> str:
+    """Read a name that is printed, drawn and written into files.
+
+    Raises
+    ------
+    InputError
+        If it is no text, is longer than 200 letters, or has control characters or line breaks.
+    """
+    if not isinstance(name, str):
+        raise InputError(f"{field}: {shown(name)}; a text is accepted")
+    if len(name) > _LONGEST:
+        raise InputError(f"{field}: {len(name)} letters; at most {_LONGEST} are accepted")
+    if found := UNPRINTABLE.search(name):
+        raise InputError(
+            f"{field}: {shown(name)} has the control character {found[0]!a}; printable text in one "
+            "line is accepted"
+        )
+    return name
+
+
+def literal(name: str) -> str:
+    """A name for a figure, where a dollar sign is no mathematics."""
+    return printable(name).replace("$", r"\$")
+
+
+def file_stems(names: Iterable[str]) -> dict[str, str]:
+    """File names of several names, by name: those that would share one end with a hash."""
+    stems = {name: file_stem(name) for name in names}
+    many = Counter(stem.lower() for stem in stems.values())
+    return {
+        name: stem if many[stem.lower()] == 1 else f"{stem}-{_digest(name)}"
+        for name, stem in stems.items()
+    }
+
+
+def _digest(name: str) -> str:
+    return hashlib.sha256(name.encode(errors="surrogatepass")).hexdigest()[:8]
+
+
+def _kept(sign: str) -> bool:
+    """Whether a sign may stand in a file's name; marks of accents belong to the letter before."""
+    accent = unicodedata.category(sign) == "Mn"
+    return sign.isalpha() or sign.isdecimal() or sign in ".+-_" or accent
+
+
+def file_stem(name: str) -> str:
+    """A name as the first part of a file's name: letters and digits of any script, ``.+-_``.
+
+    Names of which nothing remains are told apart by a hash, and long ones end with one.
+    """
+    signs = [sign if _kept(sign) else " " for sign in unicodedata.normalize("NFC", name)]
+    stem = re.sub("[ _]+", "_", "".join(signs)).strip("_.")
+    if not stem:
+        return f"rig-{_digest(name)}" if name else "rig"
+    if len(stem.encode()) <= _LONGEST_STEM:
+        return stem
+    return f"{stem.encode()[:_LONGEST_STEM].decode(errors='ignore')}-{_digest(name)}"

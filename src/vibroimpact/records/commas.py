@@ -1,0 +1,68 @@
+"""Whether the commas of a table part its columns or are decimal ones."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Literal
+
+from vibroimpact.errors import InputError
+
+Decimal = Literal[".", ","]
+
+_ROW = re.compile(r"[\s\d+\-.,;eEdD\"']*\d[\s\d+\-.,;eEdD\"']*")
+_WITH_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
+_WITHOUT = re.compile(r"[+-]?\d+(?:[eE][+-]?\d+)?")
+_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(?:,\d{3})+")
+_QUOTED = re.compile(r"[\"']\s*([^\"']*)\s*[\"']")
+
+
+def checked(decimal: object) -> Decimal | None:
+    """A decimal mark that a caller gives.
+
+    Raises
+    ------
+    InputError
+        If it is neither a point nor a comma.
+    """
+    if decimal not in (None, ".", ","):
+        raise InputError(f"decimal: {decimal!r}; '.' or ',' is accepted")
+    return decimal
+
+
+def decimal_mark(lines: Iterable[str], where: str) -> Decimal:
+    """The decimal mark of a table.
+
+    A comma is one if it stands within quotes, or within numbers that semicolons, tabs or blanks
+    part.
+
+    Raises
+    ------
+    InputError
+        If each comma may part thousands, and neither semicolons nor tabs part the numbers.
+    """
+    numbers: list[str] = []
+    parted = False
+    for line in lines:
+        if "," not in line or not _ROW.fullmatch(line):
+            continue
+        if "." in line:
+            return "."
+        cells = _QUOTED.findall(line) or re.split(r"[;\s]+", line.strip(" ;\t"))
+        if len(cells) < 2 and '"' not in line and ";" not in line:
+            return "."
+        if not all(_WITH_COMMA.fullmatch(c) or _WITHOUT.fullmatch(c) for c in cells if c):
+            return "."
+        numbers += [cell for cell in cells if "," in cell]
+        parted = parted or ";" in line or "\t" in line
+    if numbers and not parted and all(map(_THOUSANDS.fullmatch, numbers)):
+        raise InputError(
+            f"{where}: {numbers[0]!r} has a comma that may be a decimal one or part thousands; "
+            "decimal=',' (or --decimal ,) makes it a decimal one, and decimal points are accepted"
+        )
+    return "," if numbers else "."
+
+
+def pointed(line: str) -> str:
+    """A line with decimal points in place of its decimal commas."""
+    return re.sub(r"(?<=\d),(?=\d)|(?<![\d,]),(?=\d)", ".", line)

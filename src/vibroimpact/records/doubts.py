@@ -1,0 +1,107 @@
+"""What of a record is probably not what its file means: its size, its times, its last value."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.records.file import File
+from vibroimpact.records.stated import spelled
+
+GRAVITY = 9.80665
+PEAKS = (0.001, 5.0)
+"""In g: few records that are used are weaker; none is known that is stronger."""
+STEPS = (1e-4, 0.1)
+"""In s."""
+LONGEST = 1800.0
+"""In s."""
+_USUAL = {"m/s^2": 1.0, "g": GRAVITY, "cm/s^2": 0.01, "mm/s^2": 0.001}
+_FAR = 10.0
+"""Times the largest change among the last samples from which on the last one is doubted."""
+_LAST = 50
+_SMALL = 0.01
+"""Share of the peak up to which no change is doubted."""
+_WIDE = 8
+"""Numbers in a line from which on they are one row, of which the last is like the others."""
+_FORM = re.compile(r"[+-]?\d*(?:\.(?P<decimals>\d*))?(?:[eEdD][+-]?(?P<exponent>\d+))?")
+
+
+def of_size(peak: float, unit: str) -> list[str]:
+    """Doubts about a peak (m/s²) of values in a unit; empty for displacements."""
+    unit = spelled(unit)
+    size = peak / GRAVITY
+    if peak == 0.0 or PEAKS[0] <= size <= PEAKS[1]:
+        return []
+    told = "less than" if size < PEAKS[0] else "more than"
+    bound = PEAKS[0] if size < PEAKS[0] else PEAKS[1]
+    found = f"the peak is {size:.3g} g, {told} the {bound:g} g of usual records"
+    taken = _USUAL.get(unit)
+    for other, factor in _USUAL.items():
+        if other != unit and taken and PEAKS[0] <= size * factor / taken <= PEAKS[1]:
+            return [f"{found}: is its unit {other}?"]
+    return [found]
+
+
+def of_times(step: float, count: int) -> list[str]:
+    """Doubts about a step (s), and about how long the record lasts."""
+    found = []
+    lasts = step * (count - 1)
+    if not STEPS[0] * (1.0 - 1e-9) <= step <= STEPS[1] * (1.0 + 1e-9):
+        side = "less" if step < STEPS[0] else "more"
+        bound = STEPS[0] if step < STEPS[0] else STEPS[1]
+        found.append(f"the step is {step:.6g} s, {side} than the {bound:g} s of usual records")
+    if lasts > LONGEST:
+        found.append(f"it lasts {lasts:.6g} s, more than the {LONGEST:g} s of usual records")
+    if found:
+        found[-1] += ": are its times in s?"
+    return found
+
+
+def of_end(values: NDArray[np.float64]) -> list[str]:
+    """Doubts about a last value that is far from those before it."""
+    if len(values) < 10:
+        return []
+    changes = np.abs(np.diff(values[-_LAST - 1 :]))
+    if changes[-1] <= max(_FAR * changes[:-1].max(), _SMALL * float(np.abs(values).max())):
+        return []
+    return [
+        f"the last value, {values[-1]:.6g}, is far from the one before it, {values[-2]:.6g}: was "
+        "the file cut there?"
+    ]
+
+
+def of_last_line(file: File) -> list[str]:
+    """Doubts about a last number that has no line break behind it, and another form."""
+    if file.ends_whole or not file.lines:
+        return []
+    cells = _cells(file.lines[-1])
+    forms = [_form(cell) for cell in cells]
+    if not cells or None in forms:
+        return []
+    others = forms[:-1] if len(forms) > _WIDE else []
+    for line in reversed(file.lines[-_LAST:-1]):
+        above = [_form(cell) for cell in _cells(line)]
+        if not above or None in above:
+            break
+        others.append(above[-1])
+    # A number that was cut has fewer digits than the others, where all have as many.
+    if others and set(others) == {forms[-1]} and forms[-1] != (0, 0):
+        return []
+    return [
+        f"the file ends with {cells[-1][:20]!r} and without a line break: was it cut within a "
+        "number?"
+    ]
+
+
+def _cells(line: str) -> list[str]:
+    return [cell for cell in re.split(r"[,;\s]+", line) if cell]
+
+
+def _form(cell: str) -> tuple[int, int] | None:
+    """How many decimals a number has, and how many digits its exponent."""
+    found = _FORM.fullmatch(cell.strip("\"'"))
+    if found is None or not any(sign.isdigit() for sign in cell):
+        return None
+    return len(found["decimals"] or ""), len(found["exponent"] or "")

@@ -1,0 +1,190 @@
+"""LabVIEW's measurement files (``.lvm``): lines of ``key, value``, then columns of numbers.
+
+The header names the separator, the decimal mark and how many columns of times there are; that of
+each segment has a value for each channel: its unit, its first time and its step.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.file import File
+from vibroimpact.records.stated import spelled, unit_of
+
+_MARKS = {"tab": "\t", "comma": ",", "space": " ", "semicolon": ";"}
+_END = "***end_of_header***"
+_COMMENT = "comment"
+_X = "x_value"
+_EVEN = 0.01
+
+
+class Signal(NamedTuple):
+    """One channel of a segment."""
+
+    name: str
+    unit: str | None
+    times: NDArray[np.float64]
+    """In s."""
+    step: float | None
+    """In s, where the header states it."""
+    values: NDArray[np.float64]
+    axis: str = "time"
+    """What the times are, if not times."""
+
+
+def recognises(file: File) -> bool:
+    """Whether the first line names the format."""
+    return bool(file.lines) and file.lines[0].lower().startswith("labview measurement")
+
+
+def segments(file: File) -> list[list[Signal]]:
+    """The signals of each segment.
+
+    Raises
+    ------
+    InputError
+        If a header does not end, or a line is no row of numbers.
+    """
+    about: dict[str, list[str]] = {}
+    mark, decimal = "\t", "."
+    at = 0
+    while at < len(file.lines) and "separator" not in about:
+        line = file.lines[at]
+        if line.lower().startswith("separator"):
+            word = line[len("separator") :].strip(" \t,;").lower()
+            mark = _MARKS.get(word, "\t")
+            about["separator"] = [word]
+        at += 1
+    at = _header(file, 1, mark, about)
+    decimal = (about.get("decimal_separator") or ["."])[0] or "."
+    found = []
+    while True:
+        while at < len(file.lines) and not file.lines[at].strip():
+            at += 1
+        if at >= len(file.lines):
+            break
+        own = dict(about)
+        if not _names(file.lines[at], mark):
+            at = _header(file, at, mark, own)
+        signals, at = _segment(file, at, mark, decimal, own)
+        found.append(signals)
+    return found
+
+
+def _cells(line: str, mark: str) -> list[str]:
+    return [cell.strip() for cell in line.split(mark)]
+
+
+def _names(line: str, mark: str) -> bool:
+    """Whether a line names columns."""
+    return _cells(line, mark)[0].lower() == _X
+
+
+def _header(file: File, at: int, mark: str, about: dict[str, list[str]]) -> int:
+    """Read lines of keys; return the line behind them."""
+    first = at
+    while at < len(file.lines):
+        key, *values = _cells(file.lines[at], mark)
+        at += 1
+        if key.lower() == _END:
+            return at
+        if key:
+            about[key.lower()] = values
+    raise file.refused(first, "a header without an end; '***End_of_Header***' is accepted")
+
+
+def _segment(
+    file: File, at: int, mark: str, decimal: str, about: dict[str, list[str]]
+) -> tuple[list[Signal], int]:
+    if at >= len(file.lines) or not _names(file.lines[at], mark):
+        raise file.refused(min(at, len(file.lines) - 1), "no names of columns; X_Value is accepted")
+    names = _cells(file.lines[at], mark)
+    above = at
+    at += 1
+    columns: list[list[float]] = [[] for _ in names]
+    while at < len(file.lines) and file.lines[at].strip():
+        cells = _cells(file.lines[at], mark)
+        if cells[0].lower() in ("channels", _X):
+            break  # the next segment
+        for name, cell, column in zip(names, cells, columns, strict=False):
+            if name.lower() != _COMMENT:
+                column.append(_number(file, at, cell, decimal))
+        at += 1
+    times: list[float] = []
+    signals: list[Signal] = []
+    for name, column in zip(names, columns, strict=True):
+        if name.lower() == _X:
+            times = column
+        elif name and name.lower() != _COMMENT:
+            signals.append(_signal(file, above, name, times, column, about, len(signals), decimal))
+    return signals, at
+
+
+def _signal(
+    file: File,
+    above: int,
+    name: str,
+    times: list[float],
+    values: list[float],
+    about: dict[str, list[str]],
+    number: int,
+    decimal: str,
+) -> Signal:
+    def own(key: str) -> str:
+        listed = about.get(key, [])
+        return listed[number] if number < len(listed) else ""
+
+    unit = own("y_unit_label") or None
+    y = np.array(values)
+    known = np.isfinite(y)
+    count = int(np.flatnonzero(known)[-1]) + 1 if known.any() else 0
+    step = _number(file, above, own("delta_x"), decimal)
+    first = _number(file, above, own("x0"), decimal)
+    x = np.array(times[:count])
+    if len(x) < count or not np.isfinite(x).all():
+        start = first if np.isfinite(first) else 0.0
+        x = start + step * np.arange(count)
+    stated = float(step) if step > 0.0 else None
+    axis = own("x_dimension").lower() or "time"
+    return Signal(name, spelled(unit) if unit else unit_of(name), x, stated, y[:count], axis)
+
+
+def _number(file: File, at: int, cell: str, decimal: str) -> float:
+    """A cell; NaN where it is empty."""
+    if not cell:
+        return float("nan")
+    try:
+        return float(cell.replace(decimal, "."))
+    except ValueError:
+        raise file.refused(at, f"{cell[:40]!r} is no number; numbers are accepted") from None
+
+
+def read(file: File) -> list[Channel]:
+    """The channels of a file of one segment."""
+    found = segments(file)
+    if len(found) != 1:
+        raise file.refused(0, f"{len(found)} segments; a file of one is accepted")
+    channels = []
+    for signal in found[0]:
+        if signal.axis != "time":
+            told = f"{signal.name!r} is over {signal.axis!r}; values over time are accepted"
+            raise file.refused(0, told)
+        even = np.diff(signal.times)
+        step = signal.step
+        if len(even) and np.isfinite(even).all():
+            mean = float(even.mean())
+            if step is None and mean > 0.0 and np.ptp(even) <= _EVEN * mean:
+                step = mean
+        if not np.isfinite(signal.values).all():
+            raise file.refused(0, f"{signal.name!r} has gaps; a record without gaps is accepted")
+        channels.append(
+            Channel(signal.values, step, signal.unit, component=signal.name, where="its header")
+        )
+    return channels
+
+
+FORMAT = Format("LabVIEW", recognises, read)

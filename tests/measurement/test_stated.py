@@ -1,0 +1,262 @@
+"""Units, scales, steps and holes that binary files state are used; what is damaged is refused."""
+
+from __future__ import annotations
+
+import os
+import random
+import zlib
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+import scipy.io
+import scipy.sparse
+
+import vibroimpact as vi
+from samples import sample
+
+TIME = 0.004 * np.arange(250)
+U = np.sin(20.0 * TIME)
+CUTS = sample(60, 12)
+
+
+def hdf5(path: Path, time_unit: str | None = "s", **about) -> Path:
+    """A displacement with attributes, beside its times."""
+    with h5py.File(path, "w") as file:
+        file["time"], file["displacement"] = TIME, U
+        file["time"].attrs["units"] = "s"
+        file["displacement"].attrs.update(about)
+    return path
+
+
+@pytest.mark.parametrize("key", ["units", "UNITS", "Unit", "Einheit", "NI_UnitDescription"])
+def test_a_unit_under_any_usual_name(tmp_path, key):
+    data = vi.read_measurement(hdf5(tmp_path / "a.h5", **{key: "mm"}))
+    np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
+    assert data.attrs["notes"] == ""
+
+
+def test_scales_and_absent_values_of_hdf5(tmp_path):
+    about = {"units": "m", "scale_factor": 0.01, "add_offset": 0.5, "_FillValue": U[7]}
+    data = vi.read_measurement(hdf5(tmp_path / "a.h5", **about, missing_value=U[9]))
+    expected = 0.01 * U + 0.5
+    expected[[7, 9]] = np.nan
+    np.testing.assert_allclose(data["displacement"], expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("about", "told"),
+    [
+        ({"units": 3}, "its 'units' is .*3.*, which is no unit"),
+        ({"units": "furlong-ish"}, "a unit that"),
+        ({"units": "mm", "scale": "twice"}, "its 'scale' is 'twice', which is no scale"),
+        ({"units": "mm", "scale_factor": [1.0, 2.0]}, "its 'scale_factor' is .* no scale"),
+    ],
+)
+def test_what_looks_like_a_unit_or_scale_and_is_none_is_refused(tmp_path, about, told):
+    with pytest.raises(vi.InputError, match=told) as refused:
+        vi.read_measurement(hdf5(tmp_path / "a.h5", **about))
+    assert "\n" not in str(refused.value)
+
+
+def test_units_of_a_compound_table(tmp_path):
+    table = np.array(list(zip(TIME, U, strict=True)), dtype=[("time", "f8"), ("u", "f8")])
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["table"] = table
+        file["table"].attrs["units"] = ["s", "mm"]
+    data = vi.read_measurement(tmp_path / "a.h5")
+    np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
+
+
+def test_a_step_of_its_own_for_each_dataset(tmp_path):
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        for name, dt in (("displacement", 0.004), ("base_acceleration", 0.002)):
+            file[name] = U
+            file[name].attrs.update(dt=dt, units="mm" if dt == 0.004 else "g")
+    with pytest.raises(vi.InputError, match="holds 2 tests") as refused:
+        vi.read_measurement(tmp_path / "a.h5")
+    assert "(0.004 s from 0 s on)" in str(refused.value)
+    data = vi.read_measurement(tmp_path / "a.h5", group="(0.002 s from 0 s on)")
+    np.testing.assert_allclose(data["time"], 0.002 * np.arange(250), rtol=1e-12)
+
+
+def test_data_outside_of_an_hdf5_file_are_refused(tmp_path):
+    (tmp_path / "raw").write_bytes(U.tobytes())
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["time"] = TIME
+        file.create_dataset("u", (250,), "f8", external=[(str(tmp_path / "raw"), 0, 2000)])
+    with pytest.raises(vi.InputError, match="'u': its data are in other files"):
+        vi.read_measurement(tmp_path / "a.h5")
+
+
+def test_an_hdf5_file_that_announces_more_than_it_holds(tmp_path):
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file.create_dataset("u", (2 * 10**9,), "f8", chunks=(1000,))
+    assert (tmp_path / "a.h5").stat().st_size < 5000
+    with pytest.raises(vi.InputError, match="holds more than 256 MiB of data"):
+        vi.read_measurement(tmp_path / "a.h5")
+
+
+def test_matlab_groups_keep_their_own(tmp_path):
+    runs = [{"time": TIME, "u_mm": U}, {"time": TIME, "u_mm": 2.0 * U}]
+    nested = {"A": {"data_": runs[0]}, "B": {"data_": runs[1]}}
+    for found, names in (
+        ({"runs": runs}, ["runs(1)", "runs(2)"]),
+        (nested, ["A.data_", "B.data_"]),
+    ):
+        scipy.io.savemat(tmp_path / "a.mat", found)
+        for name, factor in zip(names, (1e-3, 2e-3), strict=True):
+            data = vi.read_measurement(tmp_path / "a.mat", group=name)
+            np.testing.assert_allclose(data["displacement"], factor * U, rtol=1e-12)
+
+
+def test_structs_of_name_data_and_units(tmp_path):
+    signals = [
+        {"name": "time", "data": TIME, "units": "s"},
+        {"name": "displacement", "data": U, "units": "mm"},
+    ]
+    scipy.io.savemat(tmp_path / "a.mat", {"signals": signals})
+    data = vi.read_measurement(tmp_path / "a.mat")
+    np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
+    found = {"t": 1e3 * TIME, "t_unit": "ms", "u": U, "u_units": "cm"}
+    scipy.io.savemat(tmp_path / "b.mat", found)
+    data = vi.read_measurement(tmp_path / "b.mat")
+    np.testing.assert_allclose(data["time"], TIME, rtol=1e-12)
+    np.testing.assert_allclose(data["displacement"], 1e-2 * U, rtol=1e-12)
+
+
+def test_sparse_columns_are_read_and_complex_ones_named(tmp_path):
+    sparse = scipy.sparse.csc_array(U[:, np.newaxis])
+    found = {"time": TIME, "u_mm": sparse, "acceleration": np.exp(1j * TIME)}
+    scipy.io.savemat(tmp_path / "a.mat", found)
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        for name, values in {**found, "u_mm": U}.items():
+            file[name] = values
+    for name in ("a.mat", "a.h5"):
+        data = vi.read_measurement(tmp_path / name)
+        np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
+        assert "left out: acceleration (complex numbers)" in data.attrs["notes"]
+
+
+def test_a_matlab_file_that_unpacks_to_more_than_memory_holds(tmp_path):
+    head = b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM"
+    packed = zlib.compressobj(9)
+    body = b"".join(packed.compress(bytes(2**20)) for _ in range(300)) + packed.flush()
+    (tmp_path / "a.mat").write_bytes(head + np.array([15, len(body)], "<u4").tobytes() + body)
+    with pytest.raises(vi.InputError, match="holds more than 256 MiB of data"):
+        vi.read_measurement(tmp_path / "a.mat")
+
+
+def tdms(path: Path, *channels: tuple[str, np.ndarray, dict], group: str = "run") -> Path:
+    nptdms = pytest.importorskip("nptdms")
+    with nptdms.TdmsWriter(str(path)) as file:
+        for name, values, about in channels:
+            file.write_segment([nptdms.ChannelObject(group, name, values, properties=about)])
+    return path
+
+
+def test_channels_of_tdms_keep_their_own_times(tmp_path):
+    path = tdms(
+        tmp_path / "a.tdms",
+        ("displacement", U, {"wf_increment": 0.004, "NI_UnitDescription": "mm"}),
+        ("base_acceleration", np.tile(U, 4), {"wf_increment": 0.002, "unit_string": "g"}),
+    )
+    for group, step, count in (("run (0.004 s from 0 s on)", 0.004, 250),
+                               ("run (0.002 s from 0 s on)", 0.002, 1000)):  # fmt: skip
+        data = vi.read_measurement(path, group=group)
+        np.testing.assert_allclose(data["time"], step * np.arange(count), rtol=1e-12)
+    at = np.datetime64("2020-01-01T00:00:00")
+    late = {"wf_increment": 4.0, "wf_xunit_string": "ms", "wf_start_offset": 0.0}
+    path = tdms(
+        tmp_path / "b.tdms",
+        ("u_mm", U, late | {"wf_start_time": at}),
+        ("acceleration_g", U, late | {"wf_start_time": at + np.timedelta64(500, "ms")}),
+    )
+    data = vi.read_measurement(path, group="run (0.004 s from 0.5 s on)")
+    np.testing.assert_allclose(data["time"], 0.5 + TIME, rtol=1e-9)
+
+
+def uff(path: Path, *sets: dict) -> Path:
+    pyuff = pytest.importorskip("pyuff")
+    file = pyuff.UFF(str(path))
+    for one in sets:
+        file.write_sets(one, "add")
+    return path
+
+
+def function(kind: int, x: np.ndarray, y: np.ndarray, **about) -> dict:
+    return {
+        "type": 58, "func_type": 1, "rsp_node": 1, "rsp_dir": 1, "ref_node": 0, "ref_dir": 0,
+        "data": y, "x": x, "id1": "", "rsp_ent_name": "NONE", "ref_ent_name": "NONE",
+        "abscissa_spacing": 1, "abscissa_spec_data_type": 17, "ordinate_spec_data_type": kind,
+        "orddenom_spec_data_type": 0, "binary": 0, **about,
+    }  # fmt: skip
+
+
+def test_units_of_universal_files(tmp_path):
+    units = {"type": 164, "units_code": 9, "units_description": "mm", "temp_mode": 1,
+             "length": 1000.0, "force": 1.0, "temp": 1.0, "temp_offset": 273.15}  # fmt: skip
+    data = vi.read_measurement(uff(tmp_path / "a.uff", units, function(8, TIME, 1e3 * U)))
+    np.testing.assert_allclose(data["displacement"], U, atol=1e-6)
+    assert data.attrs["notes"] == ""
+    path = uff(tmp_path / "b.uff", function(8, 1e3 * TIME, U, abscissa_axis_units_lab="ms",
+                                            ordinate_axis_units_lab="mm"))  # fmt: skip
+    data = vi.read_measurement(path)
+    np.testing.assert_allclose(data["time"], TIME, atol=1e-6)
+    np.testing.assert_allclose(data["displacement"], 1e-3 * U, atol=1e-8)
+    path = uff(
+        tmp_path / "c.uff",
+        function(8, 60.0 * (1.0 + TIME), U, id1="displacement max (mm)",
+                 abscissa_spec_data_type=18, abscissa_axis_units_lab="RPM"),
+        function(12, 60.0 * (1.0 + TIME), np.exp(1j * TIME), id1="acceleration max (g)",
+                 abscissa_spec_data_type=18, abscissa_axis_units_lab="RPM"),
+    )  # fmt: skip
+    data = vi.read_measurement(path, direction="forward")
+    np.testing.assert_allclose(data["frequency"], 1.0 + TIME, rtol=1e-6)
+    assert "acceleration_max" not in data
+    assert "acceleration max (complex numbers)" in data.attrs["notes"]
+
+
+@pytest.mark.parametrize("ending", ["uff", "tdms", "mat", "h5"])
+def test_a_file_that_was_cut_is_refused(tmp_path, ending):
+    path = tmp_path / f"whole.{ending}"
+    if ending == "uff":
+        uff(path, function(8, TIME, U, ordinate_axis_units_lab="mm"), function(12, TIME, U))
+    elif ending == "tdms":
+        tdms(path, ("u_mm", U, {"wf_increment": 0.004}), ("acc_g", U, {"wf_increment": 0.004}))
+    elif ending == "mat":
+        scipy.io.savemat(path, {"time": TIME, "u_mm": U}, do_compression=True)
+    else:
+        hdf5(path, units="mm")
+    assert len(vi.read_measurement(path)["time"]) == 250
+    data = path.read_bytes()
+    draw = random.Random(5)
+    for size in [len(data) - 9, *(draw.randrange(1, len(data) - 8) for _ in range(CUTS))]:
+        cut = tmp_path / f"cut.{ending}"
+        cut.write_bytes(data[:size])
+        with pytest.raises(vi.InputError) as refused:
+            vi.read_measurement(cut)
+        assert "\n" not in str(refused.value)
+
+
+def test_values_that_are_not_finite_and_cells_that_are_too_long(tmp_path):
+    path = tmp_path / "a.csv"
+    for value in ("inf", "1e310"):
+        path.write_text(f"time,u (mm)\n0,1\n0.1,{value}\n0.2,3\n")
+        with pytest.raises(vi.InputError, match="line 3, column 'u': inf is not finite"):
+            vi.read_measurement(path)
+    path.write_text(f"time,u (mm)\n0,1\n0.1,{'1' * 200_000}x\n0.2,3\n")
+    with pytest.raises(vi.InputError, match="line 3, column 'u'") as refused:
+        vi.read_measurement(path)
+    assert len(str(refused.value)) < 400
+    path.write_text(",".join(["1"] * 20_000) + "\n")
+    with pytest.raises(vi.InputError, match="has 20000 columns; at most 10000 are accepted"):
+        vi.read_measurement(path)
+
+
+def test_a_pipe_is_no_file(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for read in (vi.read_measurement, vi.Record.read):
+        with pytest.raises(vi.InputError, match="is no regular file; a file is accepted"):
+            read(tmp_path / "pipe")
