@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import hold
 from vibroimpact.errors import InputError
-from vibroimpact.identification.free import SENSORS
+from vibroimpact.identification.free import NEAR_ZERO, SENSORS, size_of
 from vibroimpact.identification.held import Rig, sizes
 from vibroimpact.identification.results import setting_of
 from vibroimpact.model.access import Setting
@@ -164,7 +164,8 @@ def _slopes(
         if bare not in SENSORS and (not whose or whose == f"{test}]")
     ]
     now = np.array([of.read(*setting) for _, of in own])
-    most = _MOST * np.where(now == 0.0, np.inf, np.abs(now))
+    size = np.array([size_of(of.of(setting[0]).quantity, setting) for _, of in own])
+    most = np.where(np.abs(now) < NEAR_ZERO * size, size, _MOST * np.abs(now))
     here = _swept(setting, grid)
     slopes = np.zeros((2, len(grid), 2, axes.shape[1]))
     known = here[1]

@@ -1,4 +1,7 @@
-"""What the samples of one channel tell by themselves: their noise, their jumps, their integral."""
+"""Channels: what sensors make of a motion, and what samples tell by themselves.
+
+That is their noise, their jumps, their integral, and the motion that they are samples of.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,8 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
+
+from vibroimpact.response.sine import forcing_sine, slope
 
 Array = NDArray[np.float64]
 
@@ -50,3 +55,36 @@ def integrated(time: Array, values: Array) -> Array:
     basis = np.vander(time / max(time[-1], 1e-300), 3)
     kept: Array = whole - basis @ np.linalg.lstsq(basis, whole, rcond=None)[0]
     return kept
+
+
+def sensed(name: str, values: Array, sensors: dict[str, float]) -> Array:
+    """What a sensor makes of values: η and velocities are right; an excursion has no offset."""
+    kind = name.partition("_")[0]
+    if kind not in ("displacement", "acceleration"):
+        return values
+    scale = sensors[f"{kind}_scale"]
+    if name.endswith("excursion"):
+        return values * abs(scale)
+    return values * scale + sensors[f"{kind}_offset"]
+
+
+def corrected(name: str, shown: Array, sensors: dict[str, float]) -> Array:
+    """The values of a history of which a sensor makes what it shows."""
+    if name == "velocity":
+        return shown
+    found: Array = (shown - sensors[f"{name}_offset"]) / (sensors[f"{name}_scale"] or 1.0)
+    return found
+
+
+def kinematics(time: Array, known: dict[str, Array], base: Array | None) -> tuple[Array, Array]:
+    """Displacement and velocity at all times, measured or derived from what is known."""
+    sine = forcing_sine(time, base, next(iter(known.values())))
+    if "displacement" in known:
+        u = known["displacement"]
+    else:
+        driven = np.zeros_like(time) if base is None else np.nan_to_num(base)
+        pulled = known.get("acceleration")
+        speed = known["velocity"] if pulled is None else integrated(time, pulled - driven)
+        u = integrated(time, speed)
+    v = known["velocity"] if "velocity" in known else slope(time, u, sine)
+    return u, v

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.identification.structure import CERTAIN
 from vibroimpact.model import Bumper, Isolator, Oscillator, PolynomialIsolator, PowerBumper
 from vibroimpact.response.variables import describe
@@ -78,6 +79,62 @@ def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
         lines.append("none of these models is right: the best one leaves a shape, too")
     data.attrs["findings"] = "\n".join(lines)
     return describe(data, "vibroimpact.compare_fits")
+
+
+MODELS = ("hertz", "softening")
+"""Names of the laws that are tried beside the one of a rig."""
+
+_DISSIPATION = {
+    f"{side}_damping": f"{'' if side == 'bumper' else side + '_'}dissipation"
+    for side in ("bumper", "right", "left")
+}
+_OTHER_UNITS = {f"{side}_stiffness" for side in ("bumper", "right", "left")}
+
+
+def remodelled(model: str, oscillator: Oscillator, depth: float) -> Oscillator:
+    """The rig with another law, about as strong; `depth` (m) is how far the mass goes into a stop.
+
+    Raises
+    ------
+    InputError
+        If there is no such model, or the rig has nothing that it replaces.
+    """
+    if model not in MODELS:
+        raise InputError(f"model: {unknown(model, MODELS)}")
+    return hertzian(oscillator, depth) if model == "hertz" else softening(oscillator)
+
+
+def asked_of(model: str, asked: Mapping[str, Any]) -> dict[str, Any]:
+    """What is free, and what is said of it, in the terms of another model.
+
+    Parameters
+    ----------
+    model
+        Its name.
+    asked
+        Arguments of `identify`: ``free`` and ``priors`` as mappings, ``each`` and ``ties``. Bounds
+        and priors of what has another meaning in the model are left out.
+    """
+    names = _DISSIPATION if model == "hertz" else {}
+    changed = _OTHER_UNITS | set(names) if model == "hertz" else set()
+    added = {} if model == "hertz" else {"cubic": None}
+
+    def of(name: str) -> str:
+        key = name.replace("-", "_")
+        return names.get(key, key)
+
+    free = {of(name): None if name in changed else value for name, value in asked["free"].items()}
+    return {
+        **asked,
+        "free": free | added,
+        "each": [of(name) for name in asked["each"]],
+        "ties": {of(tied): of(to) for tied, to in asked["ties"].items()},
+        "priors": {
+            name: prior
+            for name, prior in asked["priors"].items()
+            if name.replace("-", "_") not in changed
+        },
+    }
 
 
 def hertzian(oscillator: Oscillator, depth: float) -> Oscillator:

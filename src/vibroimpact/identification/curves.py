@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import hold
 from vibroimpact.errors import InputError
+from vibroimpact.identification.channel import sensed
 from vibroimpact.identification.held import Followed, Rig, Way, follow
 from vibroimpact.identification.shown import Shown
 from vibroimpact.measurement.features import measured_features, noise_of
@@ -128,6 +129,25 @@ class CurveTest:
                 )
 
     @property
+    def swing(self) -> float:
+        """Not known: the shaking and the rig give it."""
+        return 0.0
+
+    @property
+    def blind(self) -> bool:
+        """Whether only excursions were measured, under shaking that is its own mirror image."""
+        return self.setting[1].half_wave and not set(self.names) & set(_COLUMNS)
+
+    def calibrate(self, sensors: dict[str, float]) -> None:
+        """Nothing begins with a measured value."""
+
+    def reach(self, setting: Setting, unknowns: Array) -> tuple[float, float]:
+        """How far the mass goes to the right and to the left at the holds (m)."""
+        rows = np.concatenate([found.rows for found in self.followed(setting)])
+        right, left = rows[:, hold.U_MOST].max(), -rows[:, hold.U_LEAST].min()
+        return float(np.nan_to_num(right, nan=np.inf)), float(np.nan_to_num(left, nan=np.inf))
+
+    @property
     def count(self) -> int:
         """Number of its residuals."""
         return len(self.points.value) + len(self.steps)
@@ -213,7 +233,7 @@ class CurveTest:
         columns = []
         for name in self.names:
             if name in _COLUMNS:
-                of = rows[:, _COLUMNS[name]]
+                of = rows[:, _COLUMNS[_seen_as(name, sensors)]]
             elif name.startswith("eta"):
                 of = swing / largest[0] if name == "eta_d" else push / largest[1]
             else:
@@ -257,6 +277,14 @@ class CurveTest:
         return np.concatenate([points, jumps]), np.concatenate([settled & ~lost, jumps > 0.0])
 
 
+def _seen_as(name: str, sensors: dict[str, float]) -> str:
+    """The extreme that a sensor shows as another one: one that is turned round, as its opposite."""
+    kind, _, end = name.partition("_")
+    if sensors[f"{kind}_scale"] >= 0.0:
+        return name
+    return f"{kind}_{'min' if end == 'max' else 'max'}"
+
+
 def _mirrored(row: Array) -> Array:
     """Extremes of the mirror image of a motion."""
     found = row.copy()
@@ -286,12 +314,3 @@ def told_jumps(data: xr.Dataset) -> list[Jump]:
         if min(change, default=0.0) > (least if step in ends else _LARGE):
             found.append(jump)
     return found
-
-
-def sensed(name: str, values: Array, sensors: dict[str, float]) -> Array:
-    """What a sensor makes of values; an excursion and η have no offset."""
-    kind = "acceleration" if name.startswith("acceleration") else "displacement"
-    if name.startswith("eta"):
-        return values
-    scaled = values * sensors[f"{kind}_scale"]
-    return scaled if name.endswith("excursion") else scaled + sensors[f"{kind}_offset"]

@@ -27,6 +27,10 @@ SENSORS: dict[str, tuple[Quantity, float]] = {
 
 _RANGE = 3.0
 """Where no bounds are given, starts are tried from a third of the rig's value to three times it."""
+NEAR_ZERO = 1e-3
+"""A value below this share of the size of its kind counts as zero, which has no size of its own."""
+_ABOVE_ZERO = 1e-9
+"""Lower bound of what must be greater than zero, in sizes."""
 
 
 class Free(NamedTuple):
@@ -64,8 +68,9 @@ class Free(NamedTuple):
 def frees(
     given: Any,
     settings: Mapping[str, Setting],
-    each: Iterable[str],
-    priors: Mapping[str, Any],
+    each: Any,
+    priors: Any,
+    swings: Mapping[str, float] | None = None,
 ) -> list[Free]:
     """Read what is free.
 
@@ -77,24 +82,29 @@ def frees(
     settings
         The rig and shaking of each test.
     each
-        Names of those that every test has its own of.
+        Names of those that every test has its own of, as a list or a text with commas.
     priors
-        Mean and standard deviation by name.
+        Mean and standard deviation by name; None for no prior.
+    swings
+        Measured size of the displacement of each test (m), where it is known.
 
     Raises
     ------
     InputError
         If a name is unknown, or a value cannot be used.
     """
-    if isinstance(given, str):
-        given = [name.strip() for name in given.split(",")]
     if not isinstance(given, Mapping):
-        given = dict.fromkeys(given)
+        given = dict.fromkeys(_names(given, "free"))
     if not given:
         raise InputError("free: nothing is free; the name of at least one parameter is accepted")
     wanted = {_name(name): value for name, value in given.items()}
-    own = {_name(name) for name in each}
-    known = {_name(name): value for name, value in priors.items()}
+    own = {_name(name, "each") for name in _names(each, "each")}
+    if not isinstance(priors, Mapping | None):
+        raise InputError(
+            f"priors: {shown(priors)}; a mapping from names to (mean, standard deviation) is "
+            "accepted"
+        )
+    known = {_name(name, "priors"): value for name, value in (priors or {}).items()}
     for field, names in (("each", own), ("priors", set(known))):
         if strange := names - set(wanted):
             raise InputError(
@@ -103,52 +113,70 @@ def frees(
     found = []
     for name, value in wanted.items():
         for test in settings if name in own else [None]:
-            rig = settings[test] if test is not None else next(iter(settings.values()))
-            found.append(_free(name, test, value, rig, known.get(name)))
+            first = next(iter(settings)) if test is None else test
+            swing = (swings or {}).get(first, 0.0)
+            found.append(_free(name, test, value, settings[first], known.get(name), swing))
     return found
 
 
-def _name(name: str) -> str:
-    key = name.replace("-", "_") if isinstance(name, str) else name
+def _names(given: Any, field: str) -> list[str]:
+    """Names from a text with commas or a list of them."""
+    if given is None:
+        return []
+    if isinstance(given, str):
+        return [name.strip() for name in given.split(",")] if given or field == "free" else []
+    names = list(given) if isinstance(given, Iterable) else [given]
+    if not all(isinstance(name, str) for name in names):
+        raise InputError(
+            f"{field}: {shown(given)}; a list of names, or a text with commas, is accepted"
+        )
+    return names
+
+
+def _name(name: Any, field: str = "free") -> str:
+    key = name.replace("-", "_") if isinstance(name, str) else ""
     if key in SENSORS or key in PARAMETERS:
-        return str(key)
+        return key
     hint = meant(name, [*PARAMETERS, *SENSORS])
     raise InputError(
-        f"free: {name!r}; {hint}{'A' if hint else 'a'} parameter of a rig "
+        f"{field}: {shown(name)}; {hint}{'A' if hint else 'a'} parameter of a rig "
         f"({', '.join(PARAMETERS)}) or of a sensor ({', '.join(SENSORS)}) is accepted"
     )
 
 
-def _free(name: str, test: str | None, value: Any, setting: Setting, prior: Any) -> Free:
+def _free(
+    name: str, test: str | None, value: Any, setting: Setting, prior: Any, swing: float
+) -> Free:
     field = f"free[{name!r}]"
     least: float | None = None
     most: float | None = None
+    above: float | None = None
     if name in SENSORS:
         quantity, now = SENSORS[name]
-        if name.endswith("scale"):
-            least = 0.0
     else:
         of = _parameter(name, setting)
         quantity, least, most = of.quantity, of.least, of.most
+        above = None if of.zero or least != 0.0 else 0.0
         now = of.read(*setting)
-    bounded: dict[str, Any] = {}
-    if isinstance(value, Mapping):
-        bounded = dict(value)
-        if strange := set(bounded) - {"start", "low", "high"}:
-            raise InputError(f"{field}: {sorted(strange)[0]!r}; start, low and high are accepted")
-    elif isinstance(value, Sequence) and not isinstance(value, str):
-        if len(value) != 2:
-            raise InputError(f"{field}: {shown(value)}; a range (low, high) is accepted")
-        bounded = {"low": value[0], "high": value[1]}
-    elif value is not None:
-        bounded = {"start": value}
     read = {
-        key: to_si(one, quantity, f"{field}.{key}", minimum=least, maximum=most)
-        for key, one in bounded.items()
+        key: to_si(
+            one,
+            quantity,
+            f"{field}.{key}",
+            above=above if key == "start" else None,
+            minimum=least,
+            maximum=most,
+        )
+        for key, one in _bounded(value, field).items()
         if one is not None
     }
     low = read.get("low", -math.inf if least is None else least)
     high = read.get("high", math.inf if most is None else most)
+    if name.endswith("scale"):
+        # A sensor's sign is given, and not found.
+        positive = read.get("start", now) > 0.0
+        low, high = read.get("low", 0.0 if positive else low), read.get("high", high)
+        high = high if positive or "high" in read else 0.0
     if not low < high:
         raise InputError(f"{field}: low {low:g} is not below high {high:g}; it has to be")
     inside = low <= now <= high
@@ -156,26 +184,50 @@ def _free(name: str, test: str | None, value: Any, setting: Setting, prior: Any)
     start = read.get("start", now if inside else middle)
     if not low <= start <= high:
         raise InputError(f"{field}: the start {start:g} lies outside {low:g} to {high:g}")
-    scale = abs(start) or _size_of(name, setting)
+    size = size_of(quantity, setting, swing)
+    small = abs(start) < NEAR_ZERO * size
+    scale = size if small else abs(start)
     if "low" in read and "high" in read:
         first, last = low, high
-    elif name in SENSORS:
-        first, last = (0.8, 1.25) if name.endswith("scale") else (-scale, scale)
-    elif start == 0.0:
+    elif name.endswith("scale"):
+        first, last = sorted((0.8 * start, 1.25 * start))
+    elif small or name in SENSORS:
         first, last = max(low, -scale), min(high, scale)
     else:
         first, last = sorted((start / _RANGE, start * _RANGE))
         first, last = max(first, low), min(last, high)
     if not first < last:
         first, last = low, high
-    known = None
-    if prior is not None:
-        mean, deviation = prior
-        known = (
-            to_si(mean, quantity, f"priors[{name!r}][0]"),
-            to_si(deviation, quantity, f"priors[{name!r}][1]", above=0.0),
-        )
+    if above is not None:
+        low = max(low, min(_ABOVE_ZERO * scale, start))
+    known = None if prior is None else _prior(name, prior, quantity)
     return Free(name, test, quantity, start, low, high, first, last, scale, known)
+
+
+def _bounded(value: Any, field: str) -> dict[str, Any]:
+    """Start and bounds, as far as they are given."""
+    if isinstance(value, Mapping):
+        bounded = dict(value)
+        if strange := set(bounded) - {"start", "low", "high"}:
+            name = shown(min(strange, key=str))
+            raise InputError(f"{field}: {name}; start, low and high are accepted")
+        return bounded
+    if isinstance(value, Sequence) and not isinstance(value, str | bytes):
+        if len(value) != 2:
+            raise InputError(f"{field}: {shown(value)}; a range (low, high) is accepted")
+        return {"low": value[0], "high": value[1]}
+    return {} if value is None else {"start": value}
+
+
+def _prior(name: str, prior: Any, quantity: Quantity) -> tuple[float, float]:
+    """Mean and standard deviation."""
+    field = f"priors[{name!r}]"
+    pair = list(prior) if isinstance(prior, Iterable) and not isinstance(prior, str) else []
+    if len(pair) != 2:
+        raise InputError(f"{field}: {shown(prior)}; (mean, standard deviation) is accepted")
+    mean, deviation = pair
+    size = to_si(deviation, quantity, f"{field}[1]", above=0.0)
+    return to_si(mean, quantity, f"{field}[0]"), size
 
 
 def _parameter(name: str, setting: Setting) -> Parameter:
@@ -183,24 +235,28 @@ def _parameter(name: str, setting: Setting) -> Parameter:
     return parameter(name, of=shaken.of).of(rig)
 
 
-def _size_of(name: str, setting: Setting) -> float:
-    """The size of a number that is 0 in the rig."""
+def size_of(quantity: Quantity, setting: Setting, swing: float = 0.0) -> float:
+    """The size of a kind of number, from the rig's mass, its frequency and how far it swings.
+
+    Parameters
+    ----------
+    quantity
+        What it is; of its dimensions is the size.
+    setting
+        The rig and its shaking.
+    swing
+        Measured displacement (m), where it is known: the base of a free vibration is at rest.
+    """
     rig, shaken = setting
-    swing = float(shaken.acceleration(rig.mass, rig.angular_frequency or 1.0))
-    swing /= rig.angular_frequency**2 or 1.0
-    pull = rig.isolator.initial_stiffness * swing
-    quantity = SENSORS[name][0] if name in SENSORS else _parameter(name, setting).quantity
-    if quantity is LENGTH:
-        return swing
-    if quantity is ACCELERATION:
-        return swing * rig.angular_frequency**2 or 1.0
-    symbols = {"N": pull, "N s/m": rig.mass * rig.angular_frequency, "N/m³": pull / swing**3}
-    return symbols.get(quantity.symbol, 1.0) or 1.0
+    omega = rig.angular_frequency or shaken.angular_frequency
+    driven = float(np.sum(shaken.acceleration(rig.mass, omega))) / omega**2
+    sizes = {"kilogram": rig.mass, "meter": max(driven, swing), "second": 1.0 / omega}
+    return math.prod(sizes.get(unit, 1.0) ** power for unit, power in quantity.base) or 1.0
 
 
 def written(
     given: Sequence[Free],
-    values: Array,
+    values: Array | Sequence[float],
     setting: Setting,
     test: str,
     ties: Mapping[str, str],

@@ -8,7 +8,7 @@ from typing import Any
 
 import xarray as xr
 
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.errors import InputError, printable, unknown
 from vibroimpact.identification.curves import CurveTest
 from vibroimpact.identification.history import HistoryTest
 from vibroimpact.identification.problem import Test
@@ -16,10 +16,11 @@ from vibroimpact.measurement.read import CALL, as_measured
 from vibroimpact.model import Oscillator
 from vibroimpact.model.access import Setting
 from vibroimpact.model.excitation import Harmonic, Periodic
+from vibroimpact.model.names import check_name
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.rigs import as_rig, as_shaking
-from vibroimpact.model.units import to_si
+from vibroimpact.model.units import shown, to_si
 
 BASE = "the measured base"
 """Where the amplitude of a history is from whose base was measured."""
@@ -56,7 +57,7 @@ def tests_of(
 def _named(data: Any) -> dict[str, Any]:
     """Tests by name: a file's is that of the file."""
     if isinstance(data, Mapping) and not isinstance(data, xr.Dataset):
-        named = {str(name): one for name, one in data.items()}
+        named = {check_name(name, "data"): one for name, one in data.items()}
     else:
         alone = isinstance(data, xr.Dataset | str | Path) or not isinstance(data, Sequence)
         items = [data] if alone else list(data)
@@ -64,7 +65,7 @@ def _named(data: Any) -> dict[str, Any]:
         for i, one in enumerate(items, 1):
             source = one.attrs.get("source") if isinstance(one, xr.Dataset) else str(one)
             name = Path(source).stem if source and isinstance(one, xr.Dataset | str | Path) else ""
-            name = name or f"test {i}"
+            name = printable(name) or f"test {i}"
             named[name if name not in named else f"{name} {i}"] = one
     if not named:
         raise InputError("data: there is none; at least one test is accepted")
@@ -119,10 +120,14 @@ def ties_of(ties: Mapping[str, str] | None) -> dict[str, str]:
     InputError
         If a name is no parameter of a rig.
     """
+    if not isinstance(ties, Mapping | None):
+        raise InputError(
+            f"ties: {shown(ties)}; a mapping such as {{'left_gap': 'right_gap'}} is accepted"
+        )
     found = {}
     for tied, to in (ties or {}).items():
         for name in (tied, to):
-            if name.replace("-", "_") not in PARAMETERS:
+            if not isinstance(name, str) or name.replace("-", "_") not in PARAMETERS:
                 raise InputError(f"ties: {unknown(name, PARAMETERS)}")
         found[tied.replace("-", "_")] = to.replace("-", "_")
     return found

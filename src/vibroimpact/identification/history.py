@@ -8,6 +8,7 @@ The end of a window and the beginning of the next agree as well as the measureme
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -15,14 +16,20 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.identification.channel import doubt, integrated, noise_of_channel
-from vibroimpact.identification.curves import sensed
+from vibroimpact.identification.channel import (
+    corrected,
+    doubt,
+    kinematics,
+    noise_of_channel,
+    sensed,
+)
+from vibroimpact.identification.free import SENSORS
 from vibroimpact.identification.held import Rig
-from vibroimpact.identification.motion import Moved, under_record, under_sine
+from vibroimpact.identification.motion import Joined, Moved, under_record, under_sine
 from vibroimpact.identification.shown import Shown
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Record, State
 from vibroimpact.model.access import Setting
-from vibroimpact.response.sine import forcing_sine, slope
+from vibroimpact.response.sine import forcing_sine
 
 Array = NDArray[np.float64]
 
@@ -101,10 +108,16 @@ class HistoryTest:
         }
         self._spread = spread
         self.setting, self.shaking = self._shaken(setting)
-        self.windows = self._windows(window)
-        self._phase = 0.0
-        if self.free_phase:
-            self._phase = self._best_phase()
+        self.share, self.window, self._phase = noise, window, 0.0
+        self.calibrate({name: right for name, (_, right) in SENSORS.items()})
+
+    def reversed(self, names: Iterable[str]) -> HistoryTest:
+        """The same test with some channels turned round."""
+        turned = self.data.assign({name: -self.data[name] for name in names})
+        test = HistoryTest(self.name, turned, self.setting, self.share, self.window, self.steady)
+        test.weights = self.weights
+        test.calibrate(self._sensors)
+        return test
 
     @property
     def free_phase(self) -> bool:
@@ -134,13 +147,13 @@ class HistoryTest:
         record = Record(np.interp(even, self.time[known], base[known]), step)
         return (rig, Harmonic(max(record.peak, 1e-12), sine.frequency)), record
 
-    def _windows(self, window: int | None) -> list[_Window]:
+    def _windows(self) -> list[_Window]:
         """Cut the record where the mass is far from the stops, and read the states there."""
         u, v = self._kinematics()
         frequency = self.setting[1].frequency
         if isinstance(self.shaking, Record):
             frequency = self.setting[0].angular_frequency / (2.0 * math.pi) or frequency
-        length = (_CYCLES if window is None else window) / frequency
+        length = (_CYCLES if self.window is None else self.window) / frequency
         count = 1 if self.steady else max(1, round(float(self.time[-1]) / length))
         step = float(np.median(np.diff(self.time)))
         reach = max(1, int(0.5 / frequency / step))
@@ -158,30 +171,30 @@ class HistoryTest:
 
     def _kinematics(self) -> tuple[Array, Array]:
         """Displacement and velocity at all times, measured or derived."""
-        t = self.time
-        known = {c: np.interp(t, t[np.isfinite(v)], v[np.isfinite(v)])
-                 for c, v in self.measured.items()}  # fmt: skip
-        base = self.data.get("base_acceleration")
-        sine = forcing_sine(t, None if base is None else base.values, known[self.names[0]])
-        if "displacement" in known:
-            u = known["displacement"]
-        else:
-            driven = np.zeros_like(t) if base is None else np.nan_to_num(base.values)
-            pulled = known.get("acceleration")
-            speed = known["velocity"] if pulled is None else integrated(t, pulled - driven)
-            u = integrated(t, speed)
-        v = known["velocity"] if "velocity" in known else slope(t, u, sine)
-        return u, v
+        known = {
+            c: corrected(c, np.interp(self.time, self.time[np.isfinite(v)], v[np.isfinite(v)]),
+                         self._sensors)
+            for c, v in self.measured.items()
+        }  # fmt: skip
+        base = None if self.free_phase else self.data["base_acceleration"].values
+        return kinematics(self.time, known, base)
+
+    def calibrate(self, sensors: dict[str, float]) -> None:
+        """Read the initial states again, by what the sensors are taken to show at first."""
+        self._sensors = sensors
+        self.windows = self._windows()
+        if self.free_phase:
+            self._phase = self._best_phase()
 
     def _best_phase(self) -> float:
         """The phase of the base at which the rig fits best."""
         shares = np.linspace(0.0, 2.0 * math.pi, _PHASES, endpoint=False)
-        right = {"displacement_scale": 1.0, "acceleration_scale": 1.0,
-                 "displacement_offset": 0.0, "acceleration_offset": 0.0}  # fmt: skip
         states = self.unknowns[0][1:]
         costs = []
         for phase in shares:
-            found, _ = self.residuals(self.setting, right, np.concatenate([[phase], states]))
+            found, _ = self.residuals(
+                self.setting, self._sensors, np.concatenate([[phase], states])
+            )
             costs.append(np.sum(np.abs(found[: self.points_count])))
         return float(shares[int(np.argmin(costs))])
 
@@ -199,6 +212,18 @@ class HistoryTest:
     def channels(self) -> list[str]:
         """What each of its measured values is."""
         return [c for c, v in self.measured.items() for _ in range(np.isfinite(v).sum())]
+
+    @property
+    def swing(self) -> float:
+        """How far the mass was seen to move (m)."""
+        return float(np.ptp(self._kinematics()[0])) / 2.0
+
+    blind = False
+
+    def reach(self, setting: Setting, unknowns: Array) -> tuple[float, float]:
+        """How far the mass goes to the right and to the left (m)."""
+        found = self.moved(setting, unknowns)
+        return (math.inf, math.inf) if found is None else found.reach
 
     @property
     def points_count(self) -> int:
@@ -254,14 +279,14 @@ class HistoryTest:
                 rows[begin + 2 * joint : begin + 2 * joint + 2] = True
         return rows
 
-    def moved(self, setting: Setting, unknowns: Array) -> tuple[dict[str, Array], Array] | None:
-        """The rig's motion at all times, and the gaps between the windows; None if given up."""
+    def moved(self, setting: Setting, unknowns: Array) -> Joined | None:
+        """The rig's motion at all times; None if it was given up."""
         rig, shaken = setting
         assert isinstance(shaken, Harmonic)
         phase = float(unknowns[0]) if self.free_phase else None
         states = unknowns[1:] if self.free_phase else unknowns
         values = {c: np.empty(len(self.time)) for c in _CHANNELS}
-        gaps = []
+        gaps, reach = [], (-math.inf, -math.inf)
         for k, window in enumerate(self.windows):
             last = k + 1 == len(self.windows)
             time = self.time[window.begin : window.end + (0 if last else 1)]
@@ -272,12 +297,13 @@ class HistoryTest:
                 found = self._from(rig, shaken, state, phase, time)
             if found is None:
                 return None
+            reach = (max(reach[0], found.reach[0]), max(reach[1], found.reach[1]))
             for c in _CHANNELS:
                 values[c][window.begin : window.end] = found.values[c][: window.end - window.begin]
             if not last:
                 gaps += [a - b for a, b in zip(found.end, states[2 * k + 2 : 2 * k + 4],
                                                strict=True)]  # fmt: skip
-        return values, np.array(gaps)
+        return Joined(values, np.array(gaps), reach)
 
     def _from(
         self, rig: Oscillator, shaken: Harmonic, state: State, phase: float | None, time: Array
@@ -315,8 +341,7 @@ class HistoryTest:
             return None
         if found is None:
             return None
-        values, gaps = found
-        return {c: sensed(c, values[c], sensors) for c in self.names}, gaps
+        return {c: sensed(c, found.values[c], sensors) for c in self.names}, found.gaps
 
     def residuals(
         self, setting: Setting, sensors: dict[str, float], unknowns: Array

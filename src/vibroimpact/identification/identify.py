@@ -12,14 +12,16 @@ import xarray as xr
 
 from vibroimpact.errors import InputError
 from vibroimpact.identification import results
-from vibroimpact.identification.free import frees
+from vibroimpact.identification.free import frees, written
 from vibroimpact.identification.given import tests_of, ties_of
 from vibroimpact.identification.posterior import posterior as sampled
 from vibroimpact.identification.problem import Problem
-from vibroimpact.identification.profiles import Profile, profile
+from vibroimpact.identification.profiles import Profile, limit_of, profile
+from vibroimpact.identification.rivals import rivals
 from vibroimpact.identification.robust import noises, weighed
 from vibroimpact.identification.search import local, search
 from vibroimpact.identification.uncertainty import bootstrap, spread
+from vibroimpact.identification.untouched import untouched
 from vibroimpact.model import Rig
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.excitation import Harmonic
@@ -126,12 +128,16 @@ def identify(
     posterior = whole(posterior, "posterior", least=0)
     draws, seed = whole(draws, "draws", least=0), whole(seed, "seed", least=0)
     confidence = share(confidence, "confidence")
+    window = None if window is None else whole(window, "window")
     threads = (os.cpu_count() or 1) if threads is None else whole(threads, "threads")
     tests = tests_of(data, oscillator, amplitude, noise, window, steady)
-    given = frees(free, {t.name: t.setting for t in tests}, each, dict(priors or {}))
+    swings = {t.name: t.swing for t in tests}
+    given = frees(free, {t.name: t.setting for t in tests}, each, priors, swings)
     if any(one.name == "amplitude" for one in given):
         for test in tests:
             test.data = test.data.assign_attrs(amplitude_source="the fit")
+    for test in tests:
+        test.calibrate(written(given, [one.start for one in given], test.setting, test.name, {})[1])
     problem = Problem(tests, given, ties_of(ties), [max(t.noise, _COARSE) for t in tests], _TAIL)
     _enough(problem)
     steps = 3 + (len(given) if profiles else 0) + (1 if draws else 0)
@@ -155,17 +161,23 @@ def identify(
     problem = problem.replaced(sigma=noises(problem, x, fixed))
     tell()
     around = spread(problem, x)
+    best, others = rivals(problem, x, found.others, limit_of(confidence, around.freedom))
+    if best is not x:
+        x, around = best, spread(problem, best)
+    idle = untouched(problem, x)
     tell()
     curves: list[Profile] = []
     if profiles:
         for number in range(len(given)):
-            curves.append(profile(problem, x, number, around, confidence))
+            kept = idle.all - {number} if number in idle.all else ()
+            curves.append(profile(problem, x, number, around, confidence, kept))
             tell()
     samples = {
         "bootstrap_value": bootstrap(problem, x, around, draws, seed, threads) if draws else None,
         "posterior_value": (sampled(problem, x, around, posterior, seed) if posterior else None),
     }
-    return results.labelled(problem, x, found, around, curves, samples, confidence)
+    fit = results.Fit(problem, x, found, around, curves, others, idle)
+    return results.labelled(fit, samples, confidence)
 
 
 def fitted(result: xr.Dataset, test: str | None = None) -> Rig:

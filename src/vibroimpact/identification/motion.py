@@ -35,6 +35,19 @@ class Moved(NamedTuple):
     values: dict[str, Array]
     end: tuple[float, float]
     """Displacement (m) and velocity (m/s) at the last time."""
+    reach: tuple[float, float]
+    """How far it goes to the right and to the left (m), between these times as well."""
+
+
+class Joined(NamedTuple):
+    """What a rig does in a test, window by window."""
+
+    values: dict[str, Array]
+    """At all times, by channel."""
+    gaps: Array
+    """Between the end of each window and the beginning of the next."""
+    reach: tuple[float, float]
+    """How far it goes to the right and to the left (m)."""
 
 
 def under_sine(
@@ -94,9 +107,10 @@ def _between(out: Array, grid: Array, time: Array, base: Array) -> Moved:
     keep = np.concatenate([[True], step > 1e-12 * max(grid[-1], 1e-300)])
     grid, out, base = grid[keep], out[:, keep], base[keep]
     i = np.clip(np.searchsorted(grid, time, side="right") - 1, 0, max(len(grid) - 2, 0))
+    reach = (float(out[observed.DISPLACEMENT].max()), -float(out[observed.DISPLACEMENT].min()))
     if len(grid) < 2:
         u, v = float(out[0, 0]), float(out[1, 0])
-        return Moved({n: np.full(len(time), out[c, 0]) for n, c in _COLUMNS.items()}, (u, v))
+        return Moved({n: np.full(len(time), out[c, 0]) for n, c in _COLUMNS.items()}, (u, v), reach)
     h = grid[i + 1] - grid[i]
     s = (time - grid[i]) / h
     rows = {name: out[column] for name, column in _COLUMNS.items()}
@@ -114,4 +128,4 @@ def _between(out: Array, grid: Array, time: Array, base: Array) -> Moved:
             + s**2 * (s - 1.0) * h * k[i + 1]
         )
     last = (float(values["displacement"][-1]), float(values["velocity"][-1]))
-    return Moved(values, last)
+    return Moved(values, last, reach)

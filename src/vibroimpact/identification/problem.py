@@ -42,6 +42,20 @@ class Test(Protocol):
     """Noise of each quantity that is measured over that of the test."""
 
     @property
+    def swing(self) -> float:
+        """How far the mass was seen to move (m); 0 where that is not known."""
+
+    @property
+    def blind(self) -> bool:
+        """Whether the mirror image of every rig has the same values."""
+
+    def calibrate(self, sensors: dict[str, float]) -> None:
+        """Begin from what the sensors are taken to show at first."""
+
+    def reach(self, setting: Setting, unknowns: Array) -> tuple[float, float]:
+        """How far the mass of a rig goes to the right and to the left (m)."""
+
+    @property
     def count(self) -> int:
         """Number of its residuals."""
 
@@ -275,6 +289,8 @@ class Problem:
             known = known & there.smooth
             if not fine and not (np.abs(slopes[0]) * shares > _BROKEN).any():
                 break
+        if not slopes:  # its bounds leave no room for a difference
+            return np.zeros(len(here.residuals))
         if len(slopes) == 2:
             right, left = slopes
             smaller = np.where(np.abs(right) < np.abs(left), right, left)

@@ -7,6 +7,7 @@ neighbours is handed on to them.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -45,9 +46,11 @@ class Profile(NamedTuple):
     open_high: bool
 
 
-def refitted(problem: Problem, x: Array, held: int, value: float) -> tuple[Array, float]:
-    """Fit all but one unknown, which is held at a value."""
-    others = np.arange(len(x)) != held
+def refitted(
+    problem: Problem, x: Array, held: int, value: float, kept: Iterable[int] = ()
+) -> tuple[Array, float]:
+    """Fit all but one unknown, which is held at a value, and others that keep theirs."""
+    others = ~np.isin(np.arange(len(x)), [held, *kept])
     start = x.copy()
     start[held] = value
     if not others.any():
@@ -78,8 +81,8 @@ def refitted(problem: Problem, x: Array, held: int, value: float) -> tuple[Array
 class _Refits:
     """The best refit that is known at each value of one parameter."""
 
-    def __init__(self, problem: Problem, x: Array, number: int) -> None:
-        self.problem, self.number = problem, number
+    def __init__(self, problem: Problem, x: Array, number: int, kept: Iterable[int]) -> None:
+        self.problem, self.number, self.kept = problem, number, tuple(kept)
         self.best = problem.cost(x)
         self.factor = 2.0 * moments(problem.tail).deviance
         self.first = float(x[number])
@@ -114,15 +117,25 @@ class _Refits:
 
     def _tried(self, value: float, start: Array) -> bool:
         """Whether a refit from a place is better than what is known."""
-        place, cost = refitted(self.problem, start, self.number, value)
+        place, cost = refitted(self.problem, start, self.number, value, self.kept)
         known = self.places.get(value)
         if known is None or cost < known[1]:
             self.places[value] = place, cost
         return known is None or self.factor * (known[1] - cost) > _CLOSE
 
 
+def limit_of(confidence: float, freedom: int) -> float:
+    """Rise of the deviance at the ends of an interval."""
+    return float(student.ppf(0.5 + 0.5 * confidence, freedom)) ** 2
+
+
 def profile(
-    problem: Problem, x: Array, number: int, around: Spread, confidence: float = 0.95
+    problem: Problem,
+    x: Array,
+    number: int,
+    around: Spread,
+    confidence: float = 0.95,
+    kept: Iterable[int] = (),
 ) -> Profile:
     """Hold one parameter at a value after the other, and fit all others.
 
@@ -136,6 +149,8 @@ def profile(
         The covariance, by which the first step is chosen.
     confidence
         Of the interval.
+    kept
+        Numbers of other unknowns that are not fitted again.
 
     Returns
     -------
@@ -143,10 +158,10 @@ def profile(
         Asymmetric where the problem is; an end may be a bound. Where the rise has several valleys,
         the interval holds all that were seen below its limit.
     """
-    limit = float(student.ppf(0.5 + 0.5 * confidence, around.freedom)) ** 2
+    limit = limit_of(confidence, around.freedom)
     error = min(float(around.error[number] / problem.scale[number]), 1.0)
     error = max(error, 1e-9 * max(abs(x[number]), 1e-3))
-    refits = _Refits(problem, x, number)
+    refits = _Refits(problem, x, number, kept)
     ends = [_end(refits, sign, limit, np.sqrt(limit) * error) for sign in (-1.0, 1.0)]
     values = sorted(refits.places)
     scale = problem.scale[number]

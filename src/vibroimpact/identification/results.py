@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -12,10 +12,12 @@ from scipy.stats import t as student
 from vibroimpact.identification import words
 from vibroimpact.identification.problem import Array, Problem
 from vibroimpact.identification.profiles import Profile
+from vibroimpact.identification.rivals import Rival, came_to, outside
 from vibroimpact.identification.search import Found
 from vibroimpact.identification.shown import Shown
 from vibroimpact.identification.structure import TOLD, Row, Structure, structure
 from vibroimpact.identification.uncertainty import Spread
+from vibroimpact.identification.untouched import Untouched
 from vibroimpact.model import Oscillator
 from vibroimpact.model.access import Setting
 from vibroimpact.response.variables import (
@@ -29,16 +31,22 @@ _SILENT = 1e-6
 """Residuals that are smaller are those of made-up data without noise."""
 
 
-def labelled(
-    problem: Problem,
-    x: Array,
-    found: Found,
-    around: Spread,
-    curves: list[Profile],
-    samples: dict[str, Array | None],
-    confidence: float,
-) -> xr.Dataset:
+class Fit(NamedTuple):
+    """All that was found."""
+
+    problem: Problem
+    x: Array
+    found: Found
+    around: Spread
+    curves: list[Profile]
+    rivals: list[Rival]
+    """Other places that fit as well."""
+    untouched: Untouched
+
+
+def labelled(fit: Fit, samples: dict[str, Array | None], confidence: float) -> xr.Dataset:
     """Put a fit into a dataset."""
+    problem, x, found, around, curves, rivals, idle = fit
     count = len(problem.free)
     values = x[:count] * problem.scale[:count]
     keys = [one.key for one in problem.free]
@@ -51,7 +59,7 @@ def labelled(
     data = data.assign_coords(other_parameter=keys)
     data["covariance"] = (twice, around.covariance)
     data["correlation"] = (twice, around.correlation)
-    interval, is_open = _intervals(problem, values, around, curves, confidence)
+    interval, is_open = _intervals(problem, values, around, curves, confidence, idle)
     data = data.assign_coords(bound=["low", "high"])
     data["interval"] = (("parameter", "bound"), interval)
     data["interval_open"] = (("parameter", "bound"), is_open)
@@ -65,8 +73,15 @@ def labelled(
     for name, drawn in samples.items():
         if drawn is not None:
             data[name] = ((name.replace("_value", "_draw"), "parameter"), drawn)
+    others = [(one, one.x[:count] * problem.scale[:count]) for one in rivals]
+    others = [(one, values) for one, values in others if outside(values, interval)]
+    found = found._replace(alike=came_to(found.near, x, [one.x for one, _ in others], count))
+    if others:
+        table = np.array([values for _, values in others])
+        data["alternative_value"] = (("alternative", "parameter"), table)
+        data["alternative_rise"] = ("alternative", [one.rise for one, _ in others])
+        data["alternative_mirrored"] = ("alternative", [int(one.mirrored) for one, _ in others])
     judged = _points(data, problem, x)
-    cost = problem.cost(x)
     # Of normal residuals whose deviation was found, too, up to what all models have in common.
     number = int(problem.measured.sum())
     groups = list(zip(data["point_test"].values, data["point_variable"].values, strict=True))
@@ -93,13 +108,13 @@ def labelled(
         "rigs": json.dumps(rigs),
         "names": json.dumps([one.name for one in problem.free]),
         "confidence": confidence,
-        "cost": cost,
+        "cost": 0.5 * float(np.sum(data["fit_residual"].values ** 2)),
         "starts": found.starts,
         "starts_alike": found.alike,
         "evaluations": found.evaluations,
         "robust": int(np.isfinite(problem.tail)),
     }
-    data.attrs["findings"] = "\n".join(words.findings(data, problem, x, found, judged))
+    data.attrs["findings"] = "\n".join(words.findings(data, problem, x, found, judged, idle))
     return describe(
         data,
         "vibroimpact.identify",
@@ -113,7 +128,12 @@ def setting_of(rig: dict[str, Any]) -> Setting:
 
 
 def _intervals(
-    problem: Problem, values: Array, around: Spread, curves: list[Profile], confidence: float
+    problem: Problem,
+    values: Array,
+    around: Spread,
+    curves: list[Profile],
+    confidence: float,
+    idle: Untouched,
 ) -> tuple[Array, Array]:
     if curves:
         ends = np.array([(c.low, c.high) for c in curves])
@@ -122,6 +142,8 @@ def _intervals(
     low = np.array([one.low for one in problem.free])
     high = np.array([one.high for one in problem.free])
     ends = np.stack([np.maximum(values - wide, low), np.minimum(values + wide, high)], axis=1)
+    for number in idle.all:
+        ends[number] = idle.gaps.get(number, low[number]), high[number]
     return ends, np.stack([ends[:, 0] == low, ends[:, 1] == high], axis=1).astype(np.int64)
 
 

@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 
 _ALIKE = 0.01
 """Ends whose parameters differ by less than this share are one minimum."""
+_AT_BOUND = 1e-8
+"""Distance from a bound, in sizes, at which a fit has ended on it: the search stays inside."""
 _WORSE = 1.01
 """Of the least cost: an end that costs no more, and lies there, counts as the same."""
 
@@ -38,6 +40,8 @@ class Found(NamedTuple):
     """Local fits that were begun."""
     alike: int
     """How many of them found the same."""
+    near: tuple[Array, ...]
+    """Where these are."""
     others: tuple[Ended, ...]
     """The other ends, the best first."""
     evaluations: int
@@ -69,7 +73,9 @@ def local(problem: Problem, x: Array, most: int = 60, precise: bool = False) -> 
         gtol=tight,
         max_nfev=most,
     )
-    return Ended(done.x, float(done.cost), problem.evaluations - before)
+    x = np.where(done.x - problem.low < _AT_BOUND, problem.low, done.x)
+    x = np.where(problem.high - x < _AT_BOUND, problem.high, x)
+    return Ended(x, float(done.cost), problem.evaluations - before)
 
 
 def search(
@@ -117,7 +123,8 @@ def search(
         if not any(_close(end.x, one.x, count) for one in [first, *others]):
             others.append(end)
     spent = sum(p.evaluations for p in problems)
-    return Found(first.x, first.cost, len(ends), len(near), tuple(others), spent)
+    same = tuple(end.x for end in near)
+    return Found(first.x, first.cost, len(ends), len(near), same, tuple(others), spent)
 
 
 def _same(end: Ended, best: Ended, count: int) -> bool:

@@ -15,6 +15,8 @@ Array = NDArray[np.float64]
 
 _STEEP = 8.0
 """Change of a value over that of a parameter, both as shares, from which on a fold is near."""
+_UNSEEN = 1e-100
+"""Least singular value: what no value depends on has an error of 1e100 sizes."""
 _CHORDS = 4
 
 
@@ -43,13 +45,14 @@ def spread(problem: Problem, x: Array) -> Spread:
     freedom = max(used - len(x), 1)
     # A direction that the data do not see at all has an infinite variance, not a zero one.
     _, s, vt = np.linalg.svd(matrix, full_matrices=False)
-    inverse = 1.0 / np.maximum(s, max(1e-10 * s[0], 1e-150)) ** 2
+    inverse = 1.0 / np.maximum(s, max(1e-10 * s[0], _UNSEEN)) ** 2
     whole = (vt.T * inverse) @ vt * moments(problem.tail).inflation
     count = len(problem.free)
     scale = problem.scale[:count]
-    covariance = whole[:count, :count] * np.outer(scale, scale)
-    error = np.sqrt(np.diag(covariance))
-    return Spread(covariance, covariance / np.outer(error, error), error, freedom, matrix)
+    known = whole[:count, :count]
+    error = np.sqrt(np.diag(known))
+    correlation = known / np.outer(error, error)
+    return Spread(known * np.outer(scale, scale), correlation, error * scale, freedom, matrix)
 
 
 def bootstrap(

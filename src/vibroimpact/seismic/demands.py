@@ -20,9 +20,11 @@ from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.counts import whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rigs import AnyRig
+from vibroimpact.response.accelerogram import record_notes
 from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, oscillator_parameters
+from vibroimpact.scenario.folder import Block as Part
 from vibroimpact.scenario.folder import Kind, create, finished, folder, read
 from vibroimpact.seismic.intensity import Measure, measure
 from vibroimpact.seismic.peaks import MAX_EVENTS, PEAKS, RESIDUALS, Shaken, peaks
@@ -36,7 +38,7 @@ _Array = NDArray[np.float64]
 
 CREATED_BY = "vibroimpact.demands"
 _VALUES = (*PEAKS, *RESIDUALS)
-_KIND = Kind("set of demands", CREATED_BY, frozenset({*_VALUES, "status", "done"}))
+_KIND = Kind("set of demands", CREATED_BY, frozenset({*_VALUES, "status"}))
 _PENDING = -1
 
 
@@ -133,7 +135,8 @@ def demands(
         "max_events": task.max_events,
         "block": (most := whole(block, "block")),
     }
-    with folder(store, _KIND, settings, partial(_make, task=task, most=most)) as group:
+    parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, most))
+    with folder(store, _KIND, settings, partial(_make, task=task, most=most), parts) as group:
         if not finished(group):
             _complete(group, task, most, progress)
             group.attrs["finished"] = True
@@ -150,7 +153,7 @@ def demands(
             "intensity": ("record", known),
         },
     )
-    data = describe(with_both_sides(data), CREATED_BY, settings)
+    data = describe(with_both_sides(data), CREATED_BY, settings, record_notes(shaking))
     for name in ("scale", "intensity"):
         data[name].attrs.update(units=scaled.units, long_name=scaled.name)
     for one in rigs.varied:

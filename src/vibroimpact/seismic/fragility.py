@@ -15,6 +15,7 @@ from vibroimpact.model.counts import share
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS
 from vibroimpact.model.units import pretty
+from vibroimpact.seismic.credible_curves import begin_to_exceed, credible_curves
 from vibroimpact.seismic.suites import described, exceedance, known, limit_of
 
 _Array = NDArray[np.float64]
@@ -46,11 +47,13 @@ def fragility(
     """Fit a lognormal fragility curve to how many records exceed a limit at each scale.
 
     P(scale) = Φ((ln scale − ln θ)/β), with θ and β of the largest binomial likelihood of the
-    numbers of records above the limit (Baker 2015, Earthquake Spectra 31(1)). Since the same
-    records are used at all scales, whether one exceeds at one scale tells of the next: the
-    uncertainty is that between records. It is found by leaving out one after the other (the
-    jackknife), with Student's distribution of as many degrees of freedom as there are records, less
-    one.
+    numbers of records above the limit (Baker 2015, Earthquake Spectra 31(1)).
+
+    Since the same records are used at all scales, the numbers at two scales are not independent.
+    Intervals therefore count each record once, by the two scales between which it begins to exceed.
+    They belong to a set of lognormal curves, each of which rises with the
+    scale, and so does the band. They hold for few records, too; the fitted β is then small on
+    average, and lies in the lower part of its interval.
 
     Parameters
     ----------
@@ -71,8 +74,8 @@ def fragility(
         ``exceeding`` and ``probability`` as those of `exceedance`. NaN where the records do not
         determine a curve (no scale has both records above and below that begin or end to exceed at
         others): a warning, and the attribute ``undetermined``, say of which rigs. Intervals are
-        unbounded where they do not without one of the records: a warning, and the attribute
-        ``unbounded``, say of which curves. Both say which levels would give one.
+        unbounded if fewer than two records begin to exceed within the scales: a warning, and the
+        attribute ``unbounded``, say of which curves. Both say which levels would give one.
 
     Raises
     ------
@@ -205,16 +208,15 @@ def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -
     told = []
     for at in np.argwhere(np.isinf(bounds[1])):
         one = above[(slice(None), slice(None), *at)]
-        rest = one.sum(axis=0) - one
-        levels = _finer(one, values["scale"])
-        if (rest == 0).all(axis=1).any():
-            levels = "higher levels"
-        elif (rest == len(one) - 1).all(axis=1).any():
-            levels = "lower levels"
-        told.append(f"{_whose(values, at)} {levels}".lstrip())
+        begin = begin_to_exceed(one.sum(axis=0), len(one))
+        beyond = (word for word, n in (("lower", begin[0]), ("higher", begin[-1])) if n > 0.0)
+        told.append(f"{_whose(values, at)} {' and '.join(beyond)} levels".lstrip())
     if not told:
         return ""
-    return f"no interval where one record decides; what would give one: {_listed(told)}"
+    return (
+        "no interval where fewer than two records begin to exceed within the levels; what would "
+        f"give one: {_listed(told)}"
+    )
 
 
 def _listed(told: list[str]) -> str:
@@ -246,36 +248,28 @@ def _curve(
 ) -> dict[str, float | _Array] | None:
     """The curve of one rig with its uncertainty; None if it is not determined."""
     from scipy.special import ndtr
-    from scipy.stats import t
 
-    count = len(above)
-    whole = fit(above.sum(axis=0), count, logarithms)
+    exceeding, count = above.sum(axis=0), len(above)
+    whole = fit(exceeding, count, logarithms)
     if whole is None:
         return None
-    left_out = [fit(above.sum(axis=0) - one, count - 1, logarithms, whole) for one in above]
-    reached = whole.reached(logarithms)
-    middle = np.array([*whole, *reached])
-    if any(one is None for one in left_out):
-        width = np.full(len(middle), np.inf)
-    else:
-        parts = np.array([[*one, *one.reached(logarithms)] for one in left_out if one])
-        spread = ((parts - parts.mean(axis=0)) ** 2).sum(axis=0)
-        width = t.ppf(0.5 + 0.5 * confidence, count - 1) * np.sqrt((count - 1) / count * spread)
-        middle = count * middle - (count - 1) * parts.mean(axis=0)
-    ends = np.array([middle - width, middle + width])
-    return {
+    found = {
         "median_capacity": math.exp(whole.log_median),
         "dispersion": math.exp(whole.log_dispersion),
-        "fitted_probability": ndtr(reached),
-        "median_capacity_bound": np.exp(ends[:, 0]),
-        "dispersion_bound": np.exp(ends[:, 1]),
-        "fitted_probability_bound": ndtr(ends[:, 2:]),
+        "fitted_probability": ndtr(whole.reached(logarithms)),
+        "median_capacity_bound": np.array([0.0, np.inf]),
+        "dispersion_bound": np.array([0.0, np.inf]),
+        "fitted_probability_bound": np.array([[0.0], [1.0]]) + 0.0 * logarithms,
     }
+    curves = credible_curves(exceeding, count, logarithms)
+    if curves is not None:
+        found["median_capacity_bound"] = curves.median_range(confidence)
+        found["dispersion_bound"] = curves.dispersion_range(confidence)
+        found["fitted_probability_bound"] = curves.probability_range(logarithms, confidence)
+    return found
 
 
-def fit(
-    exceeding: NDArray[np.int64], count: int, logarithms: _Array, start: Fit | None = None
-) -> Fit | None:
+def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Fit | None:
     """The curve of the largest binomial likelihood.
 
     Parameters
@@ -284,8 +278,6 @@ def fit(
         Records that exceed at each scale, of `count`.
     logarithms
         Of the scales.
-    start
-        A curve near it.
 
     Returns
     -------
@@ -314,9 +306,6 @@ def fit(
         )
 
     first = np.array([0.0, 2.0])
-    if start is not None:
-        dispersion = math.exp(start.log_dispersion)
-        first = np.array([(middle - start.log_median) / dispersion, size / dispersion])
     found = minimize(unlikely, first, jac=True, method="BFGS", options={"gtol": 1e-9 * count})
     a, b = found.x
     if not b > 0.0:

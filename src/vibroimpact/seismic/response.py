@@ -15,6 +15,7 @@ from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rigs import takes_rig_or_record
 from vibroimpact.model.units import shown
 from vibroimpact.response.accelerogram import record_parameters
+from vibroimpact.response.doubts import doubt_gaps
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.seismic.free import free_tail
 from vibroimpact.seismic.peaks import MAX_EVENTS, Shaken, peaks
@@ -100,7 +101,8 @@ def seismic_response(
         "record": record_parameters(record),
         "tail": behind,
     }
-    return describe(data, "vibroimpact.seismic_response", parameters)
+    notes = [*record.about.notes, *doubt_gaps(oscillator, record, data["peak_displacement"])]
+    return describe(data, "vibroimpact.seismic_response", parameters, notes)
 
 
 def with_both_sides(data: xr.Dataset) -> xr.Dataset:

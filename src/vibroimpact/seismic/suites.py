@@ -22,7 +22,7 @@ from vibroimpact.model.quantities import (
     Quantity,
 )
 from vibroimpact.model.units import shown
-from vibroimpact.response.variables import describe, motion_parameters
+from vibroimpact.response.variables import describe, motion_parameters, noted
 from vibroimpact.response.vocabulary import VARIABLES
 
 _Array = NDArray[np.float64]
@@ -206,7 +206,7 @@ def described(
     # A response of an ensemble may have names of its own.
     own = [name for name in data.data_vars if name not in VARIABLES]
     parameters = {**about, "of": motion_parameters(demands)}
-    made = describe(data.drop_vars(own), created_by, parameters)
+    made = describe(data.drop_vars(own), created_by, parameters, noted(demands))
     for name, attributes in kept.items():
         made[name].attrs.update(attributes)
     return made.assign({name: data[name].assign_attrs(demands[name].attrs) for name in own})

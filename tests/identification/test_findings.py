@@ -1,0 +1,204 @@
+"""What excursions cannot tell, what ends at a bound, what is never touched: said, not guessed."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from identification.twins import EXCURSIONS, PEAKS, curves
+from vibroimpact.identification.comparison import asked_of, hertzian
+from vibroimpact.identification.free import SENSORS, frees, size_of
+from vibroimpact.model.parameters import PARAMETERS
+
+CASE = vi.laboratory.case("B2-G2-A2", "identified")
+NEAR = vi.Bumper("400 kN/m", "0.9 kN s/m", "9 mm")
+FAR = vi.Bumper("400 kN/m", "0.9 kN s/m", "12 mm")
+UNEVEN = vi.Oscillator("550 kg", vi.Isolator("31.9 kN/m", "1.1 kN s/m"), NEAR, FAR)
+QUICK = {"tried": 0, "starts": 1, "profiles": False}
+GRID = np.arange(0.8, 3.0, 0.1)
+
+
+def test_right_and_left_exchanged_fit_excursions_as_well_and_are_reported():
+    data = curves(UNEVEN, "0.04 g", 0.01, frequencies=GRID)
+    start = UNEVEN.replace(right=FAR, left=NEAR)
+    found = vi.identify(data, start, "right_gap,left_gap", **QUICK)
+    # The fit keeps to the sides of the start: the truth lies outside both intervals.
+    low, high = found.interval.values.T
+    assert ((np.array([0.009, 0.012]) < low) | (np.array([0.009, 0.012]) > high)).all()
+    (other,) = found.alternative_value.values
+    assert other == pytest.approx(found.fitted_value.values[::-1], rel=1e-9)
+    assert float(found.alternative_rise[0]) < 0.01
+    assert "with right and left exchanged, the rig fits as well: right_gap 9." in found.findings
+    assert "left_gap 12." in found.findings or "left_gap 11.9" in found.findings
+
+
+def test_maxima_and_minima_tell_the_sides():
+    data = curves(UNEVEN, "0.04 g", 0.01, names=PEAKS, frequencies=GRID)
+    found = vi.identify(data, UNEVEN, "right_gap,left_gap", **QUICK)
+    assert "exchanged" not in found.findings
+    assert "alternative_value" not in found
+
+
+def test_sides_that_only_the_given_values_tell_are_reported():
+    data = curves(UNEVEN, "0.04 g", 0.01, frequencies=GRID)
+    found = vi.identify(data, UNEVEN, "right_gap", **QUICK)
+    assert "which side is the right one rests on the values given" in found.findings
+
+
+@pytest.fixture(scope="module")
+def undamped():
+    bumper = CASE.oscillator.right.replace(damping=60.0)
+    return curves(CASE.oscillator.replace(right=bumper, left=bumper), "0.04 g", 0.02, seed=3)
+
+
+@pytest.mark.parametrize("start", [900.0, 0.0, 3.4e-26])
+def test_a_damping_at_its_bound_is_zero_and_as_uncertain_from_there(undamped, start):
+    bumper = CASE.oscillator.right.replace(damping=start)
+    rig = CASE.oscillator.replace(right=bumper, left=bumper)
+    found = vi.identify(undamped, rig, "bumper_damping", tried=0, starts=1)
+    assert found.fitted_value.values[0] == 0.0
+    assert vi.fitted(found).oscillator.right.damping == 0.0
+    assert 100.0 < found.standard_error.values[0] < 300.0
+    low, high = found.interval.values[0]
+    assert (low, list(found.interval_open.values[0])) == (0.0, [1, 0])
+    assert 60.0 < high < 600.0
+
+
+def test_a_contact_of_hertz_inherits_no_certainty(undamped):
+    bumper = CASE.oscillator.right.replace(damping=3.4e-26)
+    contact = hertzian(CASE.oscillator.replace(right=bumper, left=bumper), 2e-3)
+    few = undamped.sel(frequency=[1.5, 1.7, 1.9], method="nearest")
+    found = vi.identify(few, contact, "dissipation", **QUICK)
+    # That of the dashpot, over the force of the spring at that depth.
+    assert 0.01 < found.standard_error.values[0] < 10.0
+
+
+@pytest.mark.parametrize("name", [n for n in PARAMETERS if n not in ("frequency", "amplitude")])
+def test_every_kind_has_a_size(name):
+    setting = (CASE.oscillator, vi.Harmonic("0.04 g", 1.0))
+    rig = CASE.oscillator
+    omega = rig.angular_frequency
+    swing = 0.04 * 9.80665 / omega**2
+    sizes = {
+        "N/m": rig.isolator.stiffness,
+        "N s/m": rig.mass * omega,
+        "N": rig.mass * omega**2 * swing,
+        "m": swing,
+        "kg": rig.mass,
+        "s": 1.0 / omega,
+        "s/m": 1.0 / (omega * swing),
+        "1/m": 1.0 / swing,
+        "": 1.0,
+        "N/m³": rig.isolator.stiffness / swing**2,
+        "N/m^5": rig.isolator.stiffness / swing**4,
+    }
+    quantity = PARAMETERS[name].quantity
+    assert size_of(quantity, setting) == pytest.approx(sizes[quantity.symbol], rel=1e-9)
+    at_rest = (rig, vi.Harmonic(1e-12, 1.0))  # the base of a free vibration
+    assert size_of(quantity, at_rest, swing) == pytest.approx(sizes[quantity.symbol], rel=1e-9)
+
+
+def test_of_a_bumper_that_is_never_touched_only_the_least_gap_is_known():
+    grid = np.arange(0.8, 2.0, 0.1)
+    wide = CASE.oscillator.right.replace(gap="45 mm")
+    rig = CASE.oscillator.replace(right=wide, left=wide)
+    data = curves(rig, "0.04 g", 0.02, frequencies=grid)
+    farthest = 0.5 * float(vi.sweep(rig, "0.04 g", grid).displacement_excursion.max())
+    free = "stiffness,bumper_stiffness,bumper_damping,gap"
+    found = vi.identify(data, rig, free, tried=0, starts=1)
+    low = float(found.interval.sel(parameter="gap", bound="low"))
+    assert 0.9 * farthest < low < farthest
+    assert found.interval_open.sel(parameter="gap").values.tolist() == [0, 1]
+    for name in ("bumper_stiffness", "bumper_damping"):
+        assert found.interval_open.sel(parameter=name).values.all()
+    known = (
+        "gap (gap of each side) is known from below only: in these tests the mass does not touch "
+        f"the stop, and {1e3 * low:.3g} mm and more fits as well"
+    )
+    lines = found.findings.splitlines()
+    assert any(line.startswith(known) for line in lines)
+    untold = "is not determined: in these tests the mass does not touch the stop"
+    assert sum(untold in line for line in lines) == 2
+    quick = vi.identify(data, rig, free, **QUICK)
+    assert quick.interval.sel(parameter="gap", bound="low") == pytest.approx(farthest, rel=0.02)
+    assert np.isinf(quick.interval.sel(parameter="gap", bound="high"))
+
+
+def test_the_cost_tells_a_right_fit_from_a_wrong_one():
+    data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
+    right = vi.identify(data, CASE.oscillator, "stiffness", **QUICK)
+    wrong = vi.identify(data, CASE.oscillator, "stiffness", amplitude="0.06 g", **QUICK)
+    assert wrong.attrs["cost"] > 100.0 * right.attrs["cost"]
+    assert right.attrs["cost"] == pytest.approx(0.5 * 0.01**2 * data[EXCURSIONS[0]].size * 2, 0.5)
+
+
+def test_the_table_of_a_fit_has_its_intervals(tmp_path):
+    data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
+    found = vi.identify(data, CASE.oscillator, "stiffness,gap", tried=0, starts=1)
+    table = vi.to_table(found)
+    assert list(table["interval_low"]) == found.interval.sel(bound="low").values.tolist()
+    assert list(table["interval_high"]) == found.interval.sel(bound="high").values.tolist()
+    vi.save(found, tmp_path / "fit.csv")
+    assert "interval_low" in (tmp_path / "fit.csv").read_text().splitlines()[0]
+
+
+@pytest.mark.parametrize("nonsense", [3, None, 1.5, object(), b"gap", [3], [["gap"]], {3: 1}, True])
+@pytest.mark.parametrize("field", ["free", "each", "priors", "ties", "window"])
+def test_nonsense_is_refused_in_one_line(field, nonsense):
+    if nonsense is None and field != "free":
+        return
+    if field == "window" and nonsense == 3:
+        return
+    data = curves(CASE.oscillator, "0.04 g", frequencies=GRID[:3])
+    with pytest.raises(vi.InputError) as error:
+        vi.identify(data, CASE.oscillator, **{"free": "gap", **QUICK, field: nonsense})
+    assert str(error.value).startswith(field)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ({"free": {"gap": {"begin": 1}}}, "free['gap']: 'begin'"),
+        ({"free": {"gap": [1, 2, 3]}}, "a range (low, high)"),
+        ({"free": {"gap": b"1"}}, "free['gap'].start"),
+        ({"free": {"bumper_stiffness": 0.0}}, "is not greater than 0"),
+        ({"priors": {"gap": 3}}, "priors['gap']: 3; (mean, standard deviation)"),
+        ({"priors": {"gap": "10 mm"}}, "(mean, standard deviation)"),
+        ({"priors": {"gap": ("10 mm", 0)}}, "is not greater than 0"),
+        ({"each": "damping"}, "each: 'damping' is not free"),
+        ({"each": ["nothing"]}, "each: 'nothing'"),
+        ({"ties": {"left_gap": 3}}, "ties: 3"),
+        ({"window": 0}, "window: 0"),
+    ],
+)
+def test_what_is_nearly_right_is_refused_with_what_is_accepted(asked, told):
+    data = curves(CASE.oscillator, "0.04 g", frequencies=GRID[:3])
+    with pytest.raises(vi.InputError) as error:
+        vi.identify(data, CASE.oscillator, **{"free": "gap", **QUICK, **asked})
+    assert told in str(error.value)
+
+
+def test_names_of_each_may_be_a_text_with_commas():
+    settings = {name: (CASE.oscillator, vi.Harmonic(0.4, 1.0)) for name in ("A", "B")}
+    found = frees("gap, stiffness", settings, "gap", None)
+    assert [one.key for one in found] == ["gap[A]", "gap[B]", "stiffness"]
+    assert set(SENSORS) & set(PARAMETERS) == set()
+
+
+def test_what_is_asked_of_another_model_keeps_its_bounds_where_it_means_the_same():
+    asked = {
+        "free": {"gap": ("5 mm", "9 mm"), "bumper_stiffness": (1e5, 1e6), "bumper_damping": None},
+        "each": ["bumper-damping"],
+        "ties": {"left-damping": "right_damping"},
+        "priors": {"gap": (7e-3, 1e-3), "bumper-damping": (1.0, 1.0)},
+        "seed": 3,
+    }
+    assert asked_of("hertz", asked) == {
+        "free": {"gap": ("5 mm", "9 mm"), "bumper_stiffness": None, "dissipation": None},
+        "each": ["dissipation"],
+        "ties": {"left_dissipation": "right_dissipation"},
+        "priors": {"gap": (7e-3, 1e-3)},
+        "seed": 3,
+    }
+    assert asked_of("softening", asked)["free"] == {**asked["free"], "cubic": None}
+    assert asked_of("softening", asked)["priors"].keys() == asked["priors"].keys()
