@@ -23,7 +23,7 @@ from vibroimpact.attraction.followed import NO_TRAPS, Points, Stage, Traps, foll
 from vibroimpact.attraction.memory import forgets
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.capture import GRID, LOW_U, LOW_V, STEP_U, STEP_V
-from vibroimpact.engine.status import Status
+from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError
 from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.stability.same import ALIKE, distance, same
@@ -141,8 +141,8 @@ class Search:
         if len(self.known) == MOST:
             raise InputError(
                 f"oscillator: more than {MOST} motions were found, each of which may be a motion "
-                "of its own state; more damping, a smaller range of states or a larger max_cycles "
-                "is accepted"
+                "of its own state; more damping, a smaller range of states or a larger "
+                f"{MORE_CYCLES} is accepted"
             )
         self.known.append(met)
         self._set_traps()

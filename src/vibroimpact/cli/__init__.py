@@ -6,8 +6,13 @@ A command's module imports what computes only when the command runs, so that
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
-from collections.abc import Callable, Iterable
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any
 
 from cyclopts import App, CycloptsError
 
@@ -27,13 +32,20 @@ from vibroimpact.cli.identify import identify
 from vibroimpact.cli.manifolds import manifolds
 from vibroimpact.cli.map import scenario_map
 from vibroimpact.cli.motion import motion
+from vibroimpact.cli.output import input_warnings_in_lines
 from vibroimpact.cli.paper import paper
 from vibroimpact.cli.record import record
 from vibroimpact.cli.refusal import in_words
 from vibroimpact.cli.simulate import simulate
 from vibroimpact.cli.sweep import sweep
-from vibroimpact.cli.terminal import flush, give_up_stdout, take_any_encoding
+from vibroimpact.cli.terminal import (
+    flush,
+    give_up_stdout,
+    hold_closed_streams,
+    take_any_encoding,
+)
 from vibroimpact.errors import InputError
+from vibroimpact.stderr import print_line
 
 _HELP = """
 Exact, fast dynamics of oscillators that hit deformable stops.
@@ -67,7 +79,8 @@ For example:
 
 More about a command: vibroimpact COMMAND --help
 
-Exit codes: 0 done, 1 what was found cannot be written, 2 wrong input, 130 interrupted.
+Exit codes: 0 done, 1 what was found cannot be written, 2 wrong input, 130 interrupted, 143
+terminated.
 """
 
 _COMMANDS: tuple[Callable[..., int], ...] = (
@@ -100,20 +113,57 @@ def main(arguments: Iterable[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit code: 0 done, 1 what was found cannot be written, 2 wrong input, 130 interrupted.
+        Exit code: 0 done, 1 what was found cannot be written, 2 wrong input, 130 interrupted,
+        143 terminated.
     """
-    words = sys.argv[1:] if arguments is None else list(arguments)
+    if arguments is not None:
+        return _run(list(arguments))
+    hold_closed_streams()
+    code = _run(sys.argv[1:])
+    # What remains is the end of the interpreter, which an interrupt would make a failure.
+    signal.signal(signal.SIGINT, lambda *_: os._exit(130))
+    return code
+
+
+class _Terminated(KeyboardInterrupt):
+    """SIGTERM: it ends a command as Ctrl-C does, and nothing unfinished stays."""
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Let SIGTERM be raised within; signals come to the main thread only."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def raised(*_: Any) -> None:
+        raise _Terminated
+
+    before = signal.signal(signal.SIGTERM, raised)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _run(words: list[str]) -> int:
+    """Run a command; its exit code."""
     take_any_encoding()
     try:
-        result = _app()(words)
+        with _terminable(), input_warnings_in_lines():
+            result = _app()(words)
         flush()
     except (InputError, CycloptsError) as error:
         return _told(in_words(error, words), 2)
+    except _Terminated:
+        print_line("terminated")
+        return 143
     except KeyboardInterrupt:
-        print("vibroimpact: interrupted", file=sys.stderr)
+        print_line("interrupted")
         return 130
-    except BrokenPipeError:
-        # Whoever read the output has left, as `head` does; the files are written by then.
+    except (BrokenPipeError, SystemExit):
+        # Whoever read the output has left, as `head` does; the files are written by then. rich,
+        # which prints help, makes an exit of it.
         give_up_stdout()
         return 0
     except OSError as error:
@@ -126,7 +176,7 @@ def main(arguments: Iterable[str] | None = None) -> int:
 
 
 def _told(message: str, code: int) -> int:
-    print(f"vibroimpact: error: {message}", file=sys.stderr)
+    print_line(f"error: {message}")
     return code
 
 

@@ -175,7 +175,9 @@ def branch(
         for message in dict.fromkeys(str(warning.message) for warning in caught):
             warn(message)
         data.attrs["title"] = what.name
-        drawn = _PHYSICAL.get(quantity, quantity) if physical else quantity
+        # An isolator without stiffness has no free resonance to divide by.
+        undefined = not bool(data[quantity].notnull().any())
+        drawn = _PHYSICAL.get(quantity, quantity) if physical or undefined else quantity
         axes = branch_diagram(data, quantity=drawn, sweep=swept, title=what.title)
         stem = folder / f"{what.slug}-{along.replace('_', '-')}-branches"
         files = {

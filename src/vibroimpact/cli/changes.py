@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import re
 from collections.abc import Callable
 from dataclasses import fields, replace
 from typing import Any, NamedTuple
@@ -12,11 +11,12 @@ from vibroimpact.cli.options import RigOptions
 from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.excitation import QUANTITIES, sized
+from vibroimpact.model.names import file_stem
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.units import pretty, to_si
 
 _LONGEST = 120
-"""Characters of a file name, before what a command adds; disks take 255."""
+"""Bytes of a file name, before what a command adds; disks take 255."""
 
 
 _OTHERS = {"mass": MASS, "weight": FORCE}
@@ -80,17 +80,13 @@ def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
             varied = varied.of(rig)
         quantity = _OTHERS[option] if varied is None else varied.quantity
         text = pretty(to_si(value, quantity, option), quantity)
-    return Change(f"{flag.replace('-', ' ')} {text}", f"{flag}-{slug(text.replace(' ', ''))}")
-
-
-def slug(name: str) -> str:
-    """Return the name as a file name: without a slash, a space or a sign outside ASCII."""
-    return re.sub(r"[^A-Za-z0-9.+-]+", "_", name).strip("_.") or "rig"
+    return Change(f"{flag.replace('-', ' ')} {text}", f"{flag}-{file_stem(text.replace(' ', ''))}")
 
 
 def joined(first: str, found: tuple[Change, ...]) -> str:
     """Return the beginning of the files' names of a changed rig."""
     name = "-".join((first, *(change.slug for change in found)))
-    if len(name) <= _LONGEST:
+    if len(name.encode()) <= _LONGEST:
         return name
-    return f"{name[:_LONGEST]}-{hashlib.sha256(name.encode()).hexdigest()[:8]}"
+    cut = name.encode()[:_LONGEST].decode(errors="ignore")
+    return f"{cut}-{hashlib.sha256(name.encode()).hexdigest()[:8]}"

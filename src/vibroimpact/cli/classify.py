@@ -119,9 +119,12 @@ def _frequencies(
     oscillator, shaken = one_sine(what.oscillator, what.repeated, "excitation")
     if start is None and stop is None and step is None:
         return None
+    import numpy as np
+
     from vibroimpact.cli.grid import frequency_grid
     from vibroimpact.model import to_si
     from vibroimpact.model.quantities import FREQUENCY
+    from vibroimpact.response.free_flight import beside_resonance
     from vibroimpact.scenario.classify import LEAST
     from vibroimpact.scenario.frequencies import LOW, STEP, highest
 
@@ -139,6 +142,8 @@ def _frequencies(
             "accepted"
         )
     held = frequency_grid(*numbers)
+    if step is None:
+        held = tuple(beside_resonance(oscillator, np.array(held)).tolist())
     if len(held) < LEAST:
         raise InputError(
             f"--step: {numbers[2]:g} Hz makes {len(held)} frequencies; at least {LEAST} are "

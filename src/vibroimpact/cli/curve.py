@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -13,6 +14,7 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
+    from vibroimpact.cli.grid import Span
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import Repeated
     from vibroimpact.model.excitation import Of
@@ -145,9 +147,7 @@ def curve(
     return 0
 
 
-def _range(
-    option: str, name: str, text: str | None, default: tuple[float, float], of: Of
-) -> tuple[float, float]:
+def _range(option: str, name: str, text: str | None, default: Span, of: Of) -> tuple[float, float]:
     from vibroimpact.cli.parameters import option_range
 
     if text is None and name == "frequency":
@@ -169,7 +169,7 @@ def _excitation(what: Subject, first: str, frequency: str | None) -> Repeated:
     if frequency is not None:
         hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
     else:
-        hertz = what.oscillator.natural_frequency
+        hertz = what.oscillator.angular_frequency / math.tau or 1.0
     return what.at(hertz, phase)
 
 

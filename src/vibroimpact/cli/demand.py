@@ -87,7 +87,7 @@ def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> 
     counts = {side: int(response[f"impact_count_{side}"]) for side in _SIDES}
     hit = {side: n for side, n in counts.items() if n}
     if not hit:
-        return f"It hits no stop: {_left(response, rig)} are left."
+        return _pressed(response) or f"It hits no stop: {_left(response, rig)} are left."
     times = " and ".join(f"the {side} stop {_times(n)}" for side, n in hit.items())
     force = float(response["peak_force"])
     hard = (
@@ -104,6 +104,19 @@ def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> 
         f"{said}; its acceleration is {plain(ratio, 3)} times that without stops, where it would "
         f"move by {_value(far[0], LENGTHS)} to the {far[1]}."
     )
+
+
+def _pressed(response: xr.Dataset) -> str:
+    """Of stops that it presses from the start, as under preload, and does not meet again."""
+    forces = {side: float(response[f"peak_force_{side}"]) for side in _SIDES}
+    pressed = {side: force for side, force in forces.items() if force > 0.0}
+    if not pressed:
+        return ""
+    told = " and ".join(
+        f"the {side} stop with {pretty(float(f'{force:.4g}'), FORCE)} at most"
+        for side, force in pressed.items()
+    )
+    return f"It presses {told}, from the start on; no impact follows."
 
 
 def _left(response: xr.Dataset, rig: Oscillator) -> str:

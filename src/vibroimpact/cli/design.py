@@ -9,6 +9,7 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import (
     COMPUTATION,
+    FileName,
     OutputOptions,
     RecordOptions,
     RigName,
@@ -32,7 +33,7 @@ def design(
     rig: RigName,
     /,
     *records: Annotated[
-        str,
+        FileName,
         Parameter(
             name="RECORD",
             help="Files of records; none for those of the study, or for sines of its amplitude.",
@@ -75,10 +76,14 @@ def design(
         str | None, _TEXT, Parameter(help="Share of the records that count; 1, all of them.")
     ] = None,
     scale: Annotated[
-        str | None, _TEXT, Parameter(help="Number that records are multiplied by.")
+        str | None,
+        _TEXT,
+        Parameter(help="Number that records are multiplied by; one for all, or one for each."),
     ] = None,
     peak: Annotated[
-        str | None, _TEXT, Parameter(help="The records' peak instead, such as 0.3g.")
+        str | None,
+        _TEXT,
+        Parameter(help="The records' peak instead, such as 0.3g; one for all, or one for each."),
     ] = None,
     start: Annotated[
         str | None, _TEXT, Parameter(name="--from", help="Lowest frequency of sines.")

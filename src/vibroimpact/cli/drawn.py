@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.cli.numbers import ACCELERATIONS, FORCES, LENGTHS, fitting, plain
+from vibroimpact.response.swept import in_contact
 
 _SHARES = (0.05, 0.5, 0.95)
 _PEAKS = {
@@ -27,7 +28,7 @@ def facts(
 ) -> dict[str, Any]:
     """Return fractiles of the peaks over all frequencies, in SI units, and the indices."""
     peaks = _peaks(data)
-    touches = ((data["impacts_right"] + data["impacts_left"]) > 0.0).any(("direction", "frequency"))
+    touches = in_contact(data).any(("direction", "frequency"))
     return {
         "uncertain": given,
         "samples": data.sizes["sample"],

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import (
+    FileName,
     OutputOptions,
     RecordOptions,
     RigName,
     RigOptions,
     Whole,
+    one_or_each,
     record_name,
 )
 from vibroimpact.errors import InputError
@@ -34,16 +36,23 @@ def earthquake(
     rig: RigName,
     /,
     *records: Annotated[
-        str,
+        FileName,
         Parameter(
             name="RECORD", help="Files of records; none for the record of the study. See record."
         ),
     ],
     scale: Annotated[
-        str | None, _TEXT, Parameter(group=_MOTION, help="Number that they are multiplied by.")
+        str | None,
+        _TEXT,
+        Parameter(
+            group=_MOTION,
+            help="Number that they are multiplied by; one for all, or one for each, as 0.2,0.5.",
+        ),
     ] = None,
     peak: Annotated[
-        str | None, _TEXT, Parameter(group=_MOTION, help="Their peak instead, such as 0.3g.")
+        str | None,
+        _TEXT,
+        Parameter(group=_MOTION, help="Their peak instead, such as 0.3g; one or one for each."),
     ] = None,
     tail: Annotated[
         str | None,
@@ -76,10 +85,10 @@ def earthquake(
         vibroimpact earthquake wall.toml quake.AT2 other.V2 --component 1 --peak 0.3g --gap 40mm
         vibroimpact earthquake quake.toml --tail 20s
     """
-    from vibroimpact.cli.changes import slug
     from vibroimpact.cli.output import output_folder, tell
     from vibroimpact.cli.rig import subject
     from vibroimpact.model import to_si
+    from vibroimpact.model.names import file_stem, literal
     from vibroimpact.model.quantities import TIME
 
     out = output or OutputOptions()
@@ -105,9 +114,10 @@ def earthquake(
         facts: list[dict[str, Any]] = []
         for name, record in shaking.items():
             groups = _computed(what.oscillator, record, behind, samples)
-            stem = folder / f"{what.slug}-{slug(name)}-earthquake"
+            stem = folder / f"{what.slug}-{file_stem(name)}-earthquake"
             spectra = {"ground": groups["ground"], "mass": groups["floor"]}
-            page = earthquake_page(groups["motion"], spectra, title=f"{what.title}\n{name}")
+            title = f"{what.title}\n{literal(name)}"
+            page = earthquake_page(groups["motion"], spectra, title=title)
             files[f"data of {name}"] = save(groups, f"{stem}.nc")
             files[f"figure of {name}"] = save_figure(page[0], f"{stem}.{out.figure}")
             responses.append(groups["response"])
@@ -164,11 +174,15 @@ def record_of_study(what: Subject) -> dict[str, Record]:
 def scaled_records(
     records: dict[str, Record], scale: str | None, peak: str | None
 ) -> dict[str, Record]:
-    """Multiply records by a number, or give them a peak."""
+    """Multiply records by a number, or give them a peak: one for all, or one for each."""
     if scale is None and peak is None:
         return records
-    size: str | float = 1.0 if scale is None else scale
-    return {name: one.scaled(size, peak=peak) for name, one in records.items()}
+    sizes = one_or_each("--scale", scale, len(records))
+    peaks = one_or_each("--peak", peak, len(records))
+    return {
+        name: one.scaled(1.0 if size is None else size, peak=most)
+        for (name, one), size, most in zip(records.items(), sizes, peaks, strict=True)
+    }
 
 
 def _computed(

@@ -116,9 +116,9 @@ def ensemble(
     what = subject(rig, changes or RigOptions(), out.name)
     given = _distributions(what, uncertain)
     table = what.study.ensemble if what.study else None
-    low, high, fine = grid.default_range(what)
     swept = what.study.sweep if what.study else None
-    held = grid.frequencies(start, stop, step, frequencies, swept, (low, high, _COARSER * fine))
+    default = grid.default_range(what, _COARSER)
+    held = grid.frequencies(start, stop, step, frequencies, swept, default)
     options: dict[str, Any] = {
         "samples": (table and table.samples) or 128 if samples is None else samples,
         "seed": (table and table.seed) or 0 if seed is None else seed,
@@ -142,6 +142,8 @@ def ensemble(
             warnings.simplefilter("always", RuntimeWarning)
             data = draw(pair, given, response, method=way, progress=progress, **options)
             data.attrs["title"] = what.name
+            # An isolator without stiffness has no free resonance to divide by.
+            physical = physical or not bool(data["eta_d"].notnull().any())
             shown = ("peak_acceleration", "peak_displacement") if physical else ("eta_a", "eta_d")
             axes = resonance_bands(
                 data, quantities=shown, nominal=sweep(*pair, held), title=what.title

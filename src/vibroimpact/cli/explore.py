@@ -45,6 +45,10 @@ def explore(
         vibroimpact explore B3-10mm-A3
         vibroimpact explore building.toml --no-browser --port 8000
     """
+    from vibroimpact.explorer import require_websockets
+
+    require_websockets()
+
     from vibroimpact.cli.output import warn
     from vibroimpact.cli.rig import subject
     from vibroimpact.errors import InputError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from decimal import Decimal
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from vibroimpact.cli.study import SweepTable
 from vibroimpact.errors import InputError
@@ -24,26 +24,47 @@ MOST = 1_000_000
 """More frequencies than anyone means."""
 
 
-def default_range(what: Subject) -> tuple[float, float, float]:
+Range: TypeAlias = tuple[float, float, float] | tuple[None, None, None]
+"""From, to and step in Hz; None where a rig has no natural frequency that they follow from."""
+Span: TypeAlias = tuple[float | None, float | None]
+"""From and to in Hz, in the same way."""
+
+NO_DEFAULT = (
+    "missing; the isolator has no stiffness, so that there is no natural frequency and no default; "
+    "a frequency greater than 0 is accepted"
+)
+
+
+def default_range(what: Subject, coarser: float = 1.0) -> Range:
     """From, to and step in Hz of a sweep: those of the tests, or for another rig as wide a range.
 
-    It follows from the natural frequency, so that the resonance is in it whatever the rig.
+    It follows from the natural frequency, so that the resonance is in it whatever the rig. The
+    step is made `coarser` by this factor.
     """
+    natural = what.oscillator.angular_frequency / math.tau
     if what.published:
-        return _PUBLISHED
-    natural = what.oscillator.natural_frequency
-    return _short(_LOW * natural), _short(_HIGH * natural), _step(natural / _STEPS)
+        low, high, step = _PUBLISHED
+    elif natural > 0.0:
+        low, high, step = _short(_LOW * natural), _short(_HIGH * natural), _step(natural / _STEPS)
+    else:
+        return None, None, None
+    return low, high, coarser * step
 
 
-def default_span(what: Subject) -> tuple[float, float]:
+def default_span(what: Subject) -> Span:
     """From and to in Hz of branches; lower than a sweep, for they cost little there.
 
     An end that the study says for its sweep holds for its branches as well.
     """
-    natural = what.oscillator.natural_frequency
-    low, high = _PUBLISHED_SPAN
-    if not what.published:
+    natural = what.oscillator.angular_frequency / math.tau
+    low: float | None
+    high: float | None
+    if what.published:
+        low, high = _PUBLISHED_SPAN
+    elif natural > 0.0:
         low, high = _short(_SPAN_LOW * natural), _short(_HIGH * natural)
+    else:
+        low = high = None
     table = what.study.sweep if what.study else None
     if table is None:
         return low, high
@@ -100,7 +121,7 @@ def frequencies(
     step: str | None,
     listed: str | None,
     table: SweepTable | None,
-    default: tuple[float, float, float],
+    default: Range,
 ) -> tuple[float, ...] | tuple[str, ...]:
     """Return the frequencies that options and study ask for; options come first.
 
@@ -111,7 +132,7 @@ def frequencies(
     table
         The study's ``[sweep]``.
     default
-        From, to and step in Hz where neither says it.
+        From, to and step in Hz where neither says it; None where there is no default.
 
     Returns
     -------
@@ -121,7 +142,8 @@ def frequencies(
     Raises
     ------
     InputError
-        If a text is no frequency greater than 0, or both ways are used.
+        If a text is no frequency greater than 0, both ways are used, or one is missing that has
+        no default.
     """
     given = {"--from": start, "--to": stop, "--step": step}
     if listed is not None:
@@ -132,12 +154,12 @@ def frequencies(
     if all(text is None for text in given.values()) and table and table.frequencies is not None:
         return tuple(table.frequencies)
     from_study = (table.start, table.to, table.step) if table else (None, None, None)
-    numbers = [
-        to_si(text, FREQUENCY, option, above=0.0)
-        if text is not None
-        else (otherwise if studied is None else studied)
-        for (option, text), studied, otherwise in zip(
-            given.items(), from_study, default, strict=True
-        )
-    ]
+    numbers: list[float] = []
+    for (option, text), studied, otherwise in zip(given.items(), from_study, default, strict=True):
+        number = otherwise if studied is None else studied
+        if text is not None:
+            number = to_si(text, FREQUENCY, option, above=0.0)
+        if number is None:
+            raise InputError(f"{option}: {NO_DEFAULT}")
+        numbers.append(number)
     return frequency_grid(*numbers)

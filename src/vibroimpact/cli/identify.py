@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
-from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigOptions, Whole
+from vibroimpact.cli.options import COMPUTATION, FileName, OutputOptions, RigOptions, Whole
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -17,17 +17,18 @@ if TYPE_CHECKING:
 
 _FIT = Group("Fit", sort_key=1)
 _TEXT = Parameter(group=_FIT, allow_leading_hyphen=True)
+_GIVEN = "as given"
+"""Name of the rig's own laws beside other models."""
 _PAIRS = Parameter(group=_FIT, allow_leading_hyphen=True, negative="", show_default=False)
-_MODELS = ("hertz", "softening")
 
 
 def identify(
     *data: Annotated[
-        str,
+        FileName,
         Parameter(name="DATA", help="Files of tests: CSV, MAT, HDF5, UFF58, TDMS or NetCDF."),
     ],
     rig: Annotated[
-        str,
+        FileName,
         Parameter(
             group=_FIT,
             help="Case code or study file of the rig, with a guess of what is sought.",
@@ -69,6 +70,10 @@ def identify(
     group: Annotated[
         str | None, Parameter(group=_FIT, help="Which of several tests of a file.")
     ] = None,
+    decimal: Annotated[
+        Literal[".", ","] | None,
+        Parameter(group=_FIT, help="Decimal mark of a table, where it does not tell by itself."),
+    ] = None,
     noise: Annotated[
         float | None, Parameter(group=_FIT, help="Noise as a share of a value, 0.02.")
     ] = None,
@@ -107,6 +112,7 @@ def identify(
     """
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
+    from vibroimpact.identification.comparison import MODELS, remodelled
     from vibroimpact.measurement.read import read_measurement
 
     out = output or OutputOptions()
@@ -114,9 +120,18 @@ def identify(
         raise InputError("DATA: missing; the file of a test is accepted")
     named = {key.replace("-", "_"): value for key, value in columns}
     in_units = {key.replace("-", "_") if key.replace("-", "_") else key: v for key, v in units}
-    tests = [read_measurement(path, columns=named, units=in_units, group=group) for path in data]
+    tests = [
+        read_measurement(path, columns=named, units=in_units, group=group, decimal=decimal)
+        for path in data
+    ]
     what = subject(rig, changes or RigOptions(), out.name, _shaken(tests))
+    names = [name.strip().replace("-", "_") for name in free.split(",")]
+    limits = {name.replace("-", "_"): _pair(text, "--bounds") for name, text in bounds}
+    if strange := set(limits) - set(names):
+        raise InputError(f"--bounds: {sorted(strange)[0]!r} is not free; {free} is accepted")
+    wanted = {name: limits.get(name) for name in names}
     asked: dict[str, Any] = {
+        "free": wanted,
         "each": [name.strip() for name in each.split(",")] if each else [],
         "ties": dict(tie),
         "priors": {name: _pair(text, "--prior") for name, text in prior},
@@ -127,14 +142,11 @@ def identify(
         "starts": starts,
         "threads": threads,
     }
-    names = [name.strip().replace("-", "_") for name in free.split(",")]
-    limits = {name.replace("-", "_"): _pair(text, "--bounds") for name, text in bounds}
-    if strange := set(limits) - set(names):
-        raise InputError(f"--bounds: {sorted(strange)[0]!r} is not free; {free} is accepted")
-    wanted = {name: limits.get(name) for name in names}
     others = [name.strip() for name in compare.split(",")] if compare else []
-    if strange := set(others) - set(_MODELS):
+    if strange := set(others) - set(MODELS):
         raise InputError(f"--compare: {sorted(strange)[0]!r}; hertz and softening are accepted")
+    for other in others:
+        remodelled(other, what.oscillator, depth=1e-3)  # refused before anything is computed
     if changes and changes.amplitude is not None:
         asked["amplitude"] = changes.amplitude
 
@@ -144,19 +156,27 @@ def identify(
         from vibroimpact.reporting.identification import fit_report
         from vibroimpact.response.files import save
 
-        subject_rig = _rig(what)
         with progress_bar("fitting") as progress:
-            found = run(tests, subject_rig, wanted, draws=bootstrap, progress=progress, **asked)
-        comparison = None
+            found = run(tests, _rig(what), draws=bootstrap, progress=progress, **asked)
+        fits, comparison, best = {_GIVEN: found}, None, _GIVEN
         if others:
-            fits = {"as given": found}
             for other in others:
-                fits[other] = _other(other, found, tests, wanted, asked)
+                fits[other] = _other(other, found, tests, asked)
             comparison = compare_fits(fits)
-        name = f"{what.slug}-fit"
-        files = {"data": save(found, folder / f"{name}.nc")}
-        files |= fit_report(found, folder.path, name, comparison=comparison, figure=out.figure)
-    text, facts = _summary(found, tests, comparison)
+            best = str(comparison["model"].values[0])
+        written = {f"{what.slug}-fit": found}
+        if best != _GIVEN:
+            with progress_bar(f"fitting {best}") as progress:
+                again = {**asked, "draws": bootstrap, "progress": progress}
+                fits[best] = written[f"{what.slug}-fit-{best}"] = _finished(
+                    best, fits[best], tests, again
+                )
+        files: dict[str, Any] = {}
+        for name, fit in written.items():
+            made = {"data": save(fit, folder / f"{name}.nc")}
+            made |= fit_report(fit, folder.path, name, comparison=comparison, figure=out.figure)
+            files |= {key if fit is found else f"{best}: {key}": path for key, path in made.items()}
+    text, facts = _summary(found, tests, comparison, None if best == _GIVEN else (best, fits[best]))
     tell(text, facts, folder, files, out.json)
     return 0
 
@@ -186,31 +206,28 @@ def _pair(text: str, option: str) -> tuple[str, str]:
     return low, high
 
 
-def _other(
-    name: str, found: xr.Dataset, tests: list[xr.Dataset], wanted: dict[str, Any], asked: Any
-) -> xr.Dataset:
+def _other(model: str, found: xr.Dataset, tests: Any, asked: dict[str, Any]) -> xr.Dataset:
     """The same data fitted by another model, begun from the first fit."""
-    from vibroimpact.identification.comparison import hertzian, softening
-    from vibroimpact.identification.identify import fitted
-    from vibroimpact.identification.identify import identify as run
+    from vibroimpact.identification.comparison import asked_of, remodelled
+    from vibroimpact.identification.identify import fitted, identify
     from vibroimpact.model import Rig
 
-    test = str(found["test"].values[0])
-    rig = fitted(found, test)
-    sought = dict.fromkeys(wanted)
-    if name == "hertz":
-        made = hertzian(rig.oscillator, _depth(found, rig.oscillator))
-        sought = {
-            key.replace("bumper_damping", "dissipation").replace(
-                "right_damping", "right_dissipation"
-            ).replace("left_damping", "left_dissipation"): None
-            for key in sought
-        }  # fmt: skip
-    else:
-        made = softening(rig.oscillator)
-        sought["cubic"] = None
-    keys = {key: value for key, value in asked.items() if key not in ("priors", "starts")}
-    return run(tests, Rig(made, rig.amplitude), sought, profiles=False, starts=2, tried=16, **keys)
+    rigs = {}
+    for test in found["test"].values.tolist():
+        rig = fitted(found, test)
+        depth = _depth(found, rig.oscillator) if model == "hertz" else 0.0
+        rigs[test] = Rig(remodelled(model, rig.oscillator, depth), rig.amplitude)
+    search = {"profiles": False, "starts": 2, "tried": 16}
+    return identify(tests, rigs, **{**asked_of(model, asked), **search})
+
+
+def _finished(model: str, fit: xr.Dataset, tests: Any, asked: dict[str, Any]) -> xr.Dataset:
+    """A fit of another model again, from where it ended, with its intervals."""
+    from vibroimpact.identification.comparison import asked_of
+    from vibroimpact.identification.identify import fitted, identify
+
+    rigs = {test: fitted(fit, test) for test in fit["test"].values.tolist()}
+    return identify(tests, rigs, **{**asked_of(model, asked), "starts": 1, "tried": 0})
 
 
 def _depth(found: xr.Dataset, oscillator: Any) -> float:
@@ -225,22 +242,18 @@ def _depth(found: xr.Dataset, oscillator: Any) -> float:
 
 
 def _summary(
-    found: xr.Dataset, tests: list[xr.Dataset], comparison: xr.Dataset | None
+    found: xr.Dataset,
+    tests: list[xr.Dataset],
+    comparison: xr.Dataset | None,
+    best: tuple[str, xr.Dataset] | None,
 ) -> tuple[Any, dict[str, Any]]:
+    """What is printed; `best` is another model that fits better, if one was found."""
     from rich.console import Group as Together
-    from rich.table import Table
     from rich.text import Text
 
     from vibroimpact.identification.advice import next_test
-    from vibroimpact.reporting.identification import amplitude_of, parameter_rows
+    from vibroimpact.reporting.identification import amplitude_of
 
-    table = Table(box=None, pad_edge=False, padding=(0, 2))
-    share = f"{100.0 * float(found.attrs['confidence']):g} % interval"
-    for head in ("parameter", "value", "standard error", share):
-        table.add_column(head)
-    rows = parameter_rows(found)
-    for row in rows:
-        table.add_row(*row[:4])
     notes = [line for test in tests for line in _notes(test, many=len(tests) > 1)]
     names = [str(test) for test in found["test"].values]
     amplitudes = {name: amplitude_of(found, name) for name in names}
@@ -249,25 +262,55 @@ def _summary(
     compared = [] if comparison is None else comparison.attrs["findings"].splitlines()
     lines = [*findings, *compared, *advice]
     parts: list[Any] = [Text(f"amplitude of {name}: {told}") for name, told in amplitudes.items()]
-    parts += [Text(), table, Text(), *(Text(f"- {line}") for line in lines)]
+    parts += [Text(), _table(found), Text(), *(Text(f"- {line}") for line in lines)]
+    if best:
+        name, fit = best
+        parts += [Text(), Text(f"The model that fits best, {name}:"), _table(fit), Text()]
+        parts += [Text(f"- {line}") for line in fit.attrs["findings"].splitlines()]
     if notes:
         parts += [Text(), Text("Reading"), *(Text(f"- {line}") for line in notes)]
     facts = {
-        "parameters": {
-            str(key): {
-                "value": float(found["fitted_value"].sel(parameter=key)),
-                "standard_error": float(found["standard_error"].sel(parameter=key)),
-                "interval": found["interval"].sel(parameter=key).values.tolist(),
-            }
-            for key in found["parameter"].values
-        },
+        "parameters": _values(found),
         "amplitudes": amplitudes,
         "findings": findings,
         "comparison": compared,
         "next": advice,
         "reading": notes,
     }
+    if best:
+        name, fit = best
+        facts["best_model"] = {
+            "model": name,
+            "parameters": _values(fit),
+            "findings": fit.attrs["findings"].splitlines(),
+        }
     return Together(*parts), facts
+
+
+def _table(found: xr.Dataset) -> Any:
+    """The parameters of a fit, a row each."""
+    from rich.table import Table
+
+    from vibroimpact.reporting.identification import parameter_rows
+
+    table = Table(box=None, pad_edge=False, padding=(0, 2))
+    share = f"{100.0 * float(found.attrs['confidence']):g} % interval"
+    for head in ("parameter", "value", "standard error", share):
+        table.add_column(head)
+    for row in parameter_rows(found):
+        table.add_row(*row[:4])
+    return table
+
+
+def _values(found: xr.Dataset) -> dict[str, Any]:
+    return {
+        str(key): {
+            "value": float(found["fitted_value"].sel(parameter=key)),
+            "standard_error": float(found["standard_error"].sel(parameter=key)),
+            "interval": found["interval"].sel(parameter=key).values.tolist(),
+        }
+        for key in found["parameter"].values
+    }
 
 
 def _notes(test: xr.Dataset, *, many: bool) -> list[str]:

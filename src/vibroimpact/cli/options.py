@@ -24,8 +24,14 @@ OUTPUT = Group("Output", sort_key=4)
 # A text with units may begin with a minus sign: the model says what is wrong with it.
 _RIG = Parameter(group=RIG, allow_leading_hyphen=True)
 
+if TYPE_CHECKING:
+    FileName: TypeAlias = str
+else:
+    FileName: TypeAlias = str | Path
+"""Text that may name a file: shells complete file names where a path is among the types."""
+
 RigName: TypeAlias = Annotated[
-    str,
+    FileName,
     Parameter(
         name="CASE|STUDY.toml",
         help=(
@@ -200,69 +206,85 @@ class RecordOptions:
         str | None,
         Parameter(
             group=READING,
-            help="Which of several: its name in the file, such as 90, Up or HNE, or its number.",
+            help=(
+                "Which of several: its name in the file, such as 90, Up or HNE, or its number. "
+                "One for all records, or one for each, as 90,Up."
+            ),
         ),
     ] = None
     unit: Annotated[
         str | None,
         Parameter(
             group=READING,
-            help="Of the values, such as g or cm/s^2; a length, such as mm, is differentiated.",
+            help=(
+                "Of the values, such as g or cm/s^2; a length, such as mm, is differentiated. One "
+                "for all records, or one for each."
+            ),
         ),
     ] = None
     step: Annotated[
         str | None,
         Parameter(
-            group=READING, allow_leading_hyphen=True, help="Time between samples, such as 10ms."
+            group=READING,
+            allow_leading_hyphen=True,
+            help=(
+                "Time between samples, such as 10ms; replaces the times of a file. One for all "
+                "records, or one for each."
+            ),
         ),
     ] = None
+    decimal: Annotated[
+        Literal[".", ","] | None,
+        Parameter(group=READING, help="Decimal mark of a table, where it does not tell by itself."),
+    ] = None
+
+    def said(self) -> dict[str, Any]:
+        """What is said of every file, but for the component."""
+        return {"unit": self.unit, "step": self.step, "decimal": self.decimal}
 
     def read(self, files: Iterable[str]) -> dict[str, Record]:
         """Read the files of records, by their names.
-
-        Where it is said otherwise than a file says itself, or nobody says a unit, that is told.
 
         Raises
         ------
         InputError
             If one cannot be read, or two have one name.
         """
+        from vibroimpact.model import Record
+
         found: dict[str, Record] = {}
-        for file in dict.fromkeys(files):
-            name = record_name(file, self.component)
+        names = list(files)
+        options = (("--component", self.component), ("--unit", self.unit), ("--step", self.step))
+        said = (one_or_each(option, text, len(names)) for option, text in options)
+        for file, *own in dict.fromkeys(zip(names, *said, strict=True)):
+            component, unit, step = own
+            name = record_name(file, component)
             if name in found:
                 raise InputError(
                     f"RECORD: {file!r} has the name of another one; files of different names are "
                     "accepted"
                 )
-            found[name] = self._read(file)
+            found[name] = Record.read(file, component, unit=unit, step=step, decimal=self.decimal)
         return found
 
-    def _read(self, file: str) -> Record:
-        from vibroimpact.cli.output import warn
-        from vibroimpact.model import Record
-        from vibroimpact.model.quantities import TIME
-        from vibroimpact.model.record import NO_UNIT
-        from vibroimpact.model.units import pretty
 
-        read = Record.read(file, self.component, unit=self.unit, step=self.step)
-        if NO_UNIT in read.about.notes:
-            warn(f"{file!r}: {NO_UNIT}; --unit g says another")
-        for option, given in (("step", self.step), ("unit", self.unit)):
-            if given is None:
-                continue
-            left = {"unit": self.unit, "step": self.step, option: None}
-            try:
-                own = Record.read(file, self.component, **left)
-            except InputError:  # the file does not say it
-                continue
-            if option == "step" and own.step != read.step:
-                said, now = pretty(own.step, TIME), pretty(read.step, TIME)
-                warn(f"--step: {now} instead of the {said} that {file!r} says")
-            own_unit = own.about.unit if NO_UNIT not in own.about.notes else read.about.unit
-            if option == "unit" and own_unit != read.about.unit:
-                warn(f"--unit: {read.about.unit} instead of the {own_unit} that {file!r} says")
-        return read
+def one_or_each(option: str, text: str | None, count: int) -> list[str | None]:
+    """One text for all of so many records, or one for each, separated by commas.
+
+    Raises
+    ------
+    InputError
+        If there are more than one, and not as many as records.
+    """
+    parts: list[str | None] = [text]
+    if text is not None and count > 1:
+        parts = [part.strip() for part in text.split(",")]
+    if len(parts) not in (1, count):
+        raise InputError(
+            f"{option}: {text!r} are {len(parts)} for {count} records; one for all, or one for "
+            "each, is accepted"
+        )
+    return parts if len(parts) == count else parts * count
 
 
 def record_name(file: str, component: str | None) -> str:
@@ -276,7 +298,7 @@ class OutputOptions:
     """Where results go, and how they are told."""
 
     output: Annotated[
-        str,
+        FileName,
         Parameter(
             name=["--output", "-o"],
             group=OUTPUT,

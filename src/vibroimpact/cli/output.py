@@ -7,13 +7,15 @@ import json
 import math
 import sys
 import tempfile
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from vibroimpact.cli.terminal import in_columns
-from vibroimpact.errors import InputError
+from vibroimpact.cli.terminal import in_columns, without_commands
+from vibroimpact.errors import InputError, InputWarning
+from vibroimpact.stderr import print_line
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -86,10 +88,12 @@ def _remove_empty(folders: list[Path]) -> None:
 
 
 @contextmanager
-def progress_bar(what: str) -> Iterator[Callable[[int, int | None], None] | None]:
-    """Yield a function that shows progress on stderr, or None where nobody would see it."""
-    if not sys.stderr.isatty():
-        yield None
+def progress_bar(what: str) -> Iterator[Callable[[int, int | None], None]]:
+    """Yield a function that shows progress on stderr: a bar, or lines now and then in a log."""
+    if not (sys.stderr and sys.stderr.isatty()):
+        from vibroimpact.response.progress import progress_lines
+
+        yield progress_lines(what)
         return
     from rich.console import Console
     from rich.progress import Progress
@@ -129,7 +133,7 @@ def tell(
         # A path is never broken, and never cut.
         console.print(Text("\n".join(["Files", *lines])), soft_wrap=True)
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
-    for line in captured.get().splitlines():
+    for line in without_commands(captured.get()).splitlines():
         print(in_columns(line if terminal else line.rstrip(), encoding))
 
 
@@ -147,16 +151,37 @@ def _wide_enough(summary: RenderableType, width: int) -> int:
     return width
 
 
-def write_text(path: Path, summary: RenderableType) -> None:
-    """Write a summary to a file as plain text of `WIDTH` columns."""
+def as_plain_text(summary: RenderableType) -> str:
+    """A summary as plain text of `WIDTH` columns."""
     from vibroimpact.facts.tables import as_text
 
-    path.write_text(as_text(summary, WIDTH), encoding="utf-8")
+    return as_text(summary, WIDTH)
 
 
 def warn(message: str) -> None:
     """Print one line on stderr."""
-    print(f"vibroimpact: warning: {' '.join(message.split())}", file=sys.stderr)
+    print_line(f"warning: {' '.join(message.split())}")
+
+
+@contextmanager
+def input_warnings_in_lines() -> Iterator[None]:
+    """Print each `InputWarning` as one line on stderr, and none twice."""
+    printed: set[str] = set()
+    with warnings.catch_warnings():
+        usual = warnings.showwarning
+
+        def show(
+            message: Warning | str, category: type[Warning], *where: Any, **others: Any
+        ) -> None:
+            if not issubclass(category, InputWarning):
+                usual(message, category, *where, **others)
+            elif str(message) not in printed:
+                printed.add(str(message))
+                warn(str(message))
+
+        warnings.showwarning = show
+        warnings.simplefilter("always", InputWarning)
+        yield
 
 
 def _plain(value: Any) -> Any:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
-from vibroimpact.cli.options import COMPUTATION, OUTPUT, Whole
+from vibroimpact.cli.options import COMPUTATION, OUTPUT, FileName, Whole
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def paper(
         Parameter(group=COMPUTATION, help="How many sweeps run at once; one a processor."),
     ] = None,
     output: Annotated[
-        str,
+        FileName,
         Parameter(
             name=["--output", "-o"],
             group=OUTPUT,

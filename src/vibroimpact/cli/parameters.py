@@ -9,6 +9,7 @@ from cyclopts import Parameter
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
+    from vibroimpact.cli.grid import Span
     from vibroimpact.model import Oscillator
     from vibroimpact.model.excitation import Of
 
@@ -49,12 +50,12 @@ def option_range(
     low: str | None,
     high: str | None,
     options: tuple[str, str],
-    default: tuple[float, float],
+    default: Span,
     field: str = "--parameter",
     rig: Oscillator | None = None,
     of: Of = "acceleration",
 ) -> tuple[float, float]:
-    """A range of a parameter from two options; that of a frequency has a default, in Hz.
+    """A range of a parameter from two options; that of a frequency may have a default, in Hz.
 
     `field` is the option that names the parameter, whose unit may depend on the rig; `of` says
     what an amplitude is one of.
@@ -64,6 +65,7 @@ def option_range(
     InputError
         If there is no such parameter, an end is missing or cannot be used, or none lies between.
     """
+    from vibroimpact.cli.grid import NO_DEFAULT
     from vibroimpact.model import to_si
     from vibroimpact.model.parameters import parameter
 
@@ -78,6 +80,8 @@ def option_range(
         ]
     ends = []
     for text, option in zip(given, options, strict=True):
+        if text is None and name == "frequency":
+            raise InputError(f"{option}: {NO_DEFAULT}")
         if text is None:
             raise InputError(f"{option}: missing; the end of the range of {name} is accepted")
         if name == "frequency":

@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Group, Parameter
 
-from vibroimpact.cli.options import READING, OutputOptions, RecordOptions, Whole, record_name
+from vibroimpact.cli.options import (
+    READING,
+    FileName,
+    OutputOptions,
+    RecordOptions,
+    Whole,
+    record_name,
+)
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -20,7 +27,9 @@ _TEXT = Parameter(allow_leading_hyphen=True)
 
 
 def record(
-    file: Annotated[str, Parameter(name="FILE", help="The record's file, packed by gzip or not.")],
+    file: Annotated[
+        FileName, Parameter(name="FILE", help="The record's file, packed by gzip or not.")
+    ],
     /,
     *,
     station: Annotated[str | None, Parameter(group=READING, help="Name of the station.")] = None,
@@ -67,12 +76,13 @@ def record(
         vibroimpact record CE89146.V1 --component Up --damping 0.02,0.05,0.1
         vibroimpact record quake.csv --unit g --step 10ms --baseline mean --peak 0.3g
     """
-    from vibroimpact.cli.changes import slug
     from vibroimpact.cli.output import output_folder, tell
     from vibroimpact.model import Record, to_si
+    from vibroimpact.model.names import check_name, file_stem, literal
     from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 
     out, how = output or OutputOptions(), reading or RecordOptions()
+    called = check_name(out.name, "--name") if out.name else None
     ratios = [to_si(part, DIMENSIONLESS, "--damping") for part in damping.split(",")]
     first = to_si(shortest, TIME, "--shortest", above=0.0)
     last = to_si(longest, TIME, "--longest", above=0.0)
@@ -80,9 +90,7 @@ def record(
         raise InputError(f"--longest: {longest}; a period longer than {shortest} is accepted")
     if periods < 2:
         raise InputError(f"--periods: {periods}; a whole number of at least 2 is accepted")
-    found = Record.read(
-        file, how.component, unit=how.unit, step=how.step, station=station, label=label
-    )
+    found = Record.read(file, how.component, station=station, label=label, **how.said())
     if start is not None or end is not None:
         found = found.cut(start or 0.0, end)
     if baseline is not None:
@@ -100,10 +108,10 @@ def record(
 
         spectrum = response_spectrum(found, np.geomspace(first, last, periods), ratios)
         name = record_name(file, how.component)
-        stem = folder / f"{slug(out.name or name.replace(' ', '-'))}-record"
+        stem = folder / f"{file_stem(called or name.replace(' ', '-'))}-record"
         about = found.about
         where = ", ".join(part for part in (about.station, about.component) if part)
-        axes = accelerogram(found, spectrum, title=out.name or where or name)
+        axes = accelerogram(found, spectrum, title=literal(called or where or name))
         files = {
             "data": save({"record": as_dataset(found), "spectrum": spectrum}, f"{stem}.nc"),
             "figure": save_figure(axes[0], f"{stem}.{out.figure}"),

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from cyclopts import CycloptsError
-from cyclopts.exceptions import UnusedCliTokensError
+from cyclopts.exceptions import UnknownCommandError, UnusedCliTokensError
 
 _FIELD = re.compile(r"([a-z_.]+)(?=(\[\d+\])?: )")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
@@ -19,6 +19,11 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
         count = len(error.unused_tokens)
         said = " ".join(error.unused_tokens)
         told = f"{said!r} {f'are {count} words' if count > 1 else 'is one word'} too many"
+    elif isinstance(error, UnknownCommandError) and error.app is not None:
+        # cyclopts lists some of the commands only.
+        first, _, _ = str(error).partition(" Available commands:")
+        names = ", ".join(name for name in error.app if not name.startswith("-"))
+        told = f"{first} {names} are accepted"
     else:
         told = str(error).rstrip(".")
     if isinstance(error, CycloptsError):

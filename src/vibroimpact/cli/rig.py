@@ -6,9 +6,8 @@ import textwrap
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from vibroimpact.cli.changes import changes, joined, slug
+from vibroimpact.cli.changes import changes, joined
 from vibroimpact.cli.options import RigOptions
-from vibroimpact.cli.output import warn
 from vibroimpact.cli.study import Study, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
@@ -27,11 +26,11 @@ from vibroimpact.model import (
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.laboratory import Case, Parameters
-from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, LENGTH, PERIOD
-from vibroimpact.model.record import NO_UNIT
+from vibroimpact.model.names import check_name, file_stem, literal
+from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
 from vibroimpact.model.rigs import as_shaking
-from vibroimpact.model.units import pretty, to_si
-from vibroimpact.response.free_flight import reference_excursions
+from vibroimpact.model.units import to_si
+from vibroimpact.response.doubts import doubt_gaps
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
 """Fields of a bumper, and the options that set them on both sides."""
@@ -39,9 +38,6 @@ _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": 
 
 _ANY_BUMPER = Bumper(1.0, 0.0, 0.0)
 """What the fields of a new bumper are read by."""
-
-_FAR = 100.0
-"""Gap over the largest displacement of free flight from which on it is doubted."""
 
 
 class Subject(NamedTuple):
@@ -84,7 +80,7 @@ class Subject(NamedTuple):
     def title(self) -> str:
         """The name, in lines that fit above a figure, broken between changes."""
         whole = self.name.replace(" ", "\N{NO-BREAK SPACE}").replace(",\N{NO-BREAK SPACE}", ", ")
-        return textwrap.fill(whole, 72).replace("\N{NO-BREAK SPACE}", " ")
+        return literal(textwrap.fill(whole, 72).replace("\N{NO-BREAK SPACE}", " "))
 
 
 class _Named(NamedTuple):
@@ -142,14 +138,13 @@ def subject(
     made = changes(options, rig_of, oscillator)
     what = Subject(
         ", ".join((name or found.title, *(change.words for change in made))),
-        slug(name) if name else joined(found.slug, made),
+        file_stem(check_name(name, "--name")) if name else joined(found.slug, made),
         oscillator,
         shaking,
         found.study,
         found.case and oscillator.angular_frequency == found.oscillator.angular_frequency,
     )
-    for line in doubts(what.oscillator, what.shaking):
-        warn(line)
+    doubt_gaps(what.oscillator, what.shaking)
     return what
 
 
@@ -199,28 +194,10 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
             "a case has parameter sets"
         )
     title, oscillator, shaking = study.rig(Path(path), parameters)
-    if isinstance(shaking, Record) and NO_UNIT in shaking.about.notes:
-        warn(f"study {path!r}: excitation.record: {NO_UNIT}; excitation.unit says another")
-    first = slug(title)
+    first = file_stem(title)
     if study.case is not None and parameters != (study.parameters or (parameters and "table")):
         title, first = f"{title}, {parameters} parameters", f"{first}-{parameters}"
     return _Named(title, first, oscillator, shaking, study, study.case is not None)
-
-
-def doubts(oscillator: Oscillator, shaking: Repeated | Record) -> list[str]:
-    """What of a rig is probably not meant, in words: gaps that nothing ever crosses."""
-    if not isinstance(shaking, Harmonic) or not oscillator.isolator.linear:
-        return []
-    reach = 0.5 * reference_excursions(oscillator, shaking)[0]
-    if not reach > 0.0 or oscillator.isolator.damping == 0.0 or oscillator.force:
-        return []  # there is no peak to compare with
-    gaps = {b.gap for b in (oscillator.right, oscillator.left) if b is not None}
-    return [
-        f"a gap of {pretty(gap, LENGTH)} is {gap / reach:.3g} times the largest displacement of "
-        f"free flight, {pretty(reach, LENGTH)}; is {pretty(1e-3 * gap, LENGTH)} meant?"
-        for gap in sorted(gaps)
-        if gap > _FAR * reach
-    ]
 
 
 def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:

@@ -40,7 +40,10 @@ def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[s
         "front": [{str(name): _item(value) for name, value in one.items()} for one in _front(data)],
         "best": None
         if least is None
-        else {str(name): value.item() for name, value in least.data_vars.items()},
+        else {
+            **{str(name): value.item() for name, value in least.data_vars.items()},
+            "notes": _notes(least),
+        },
     }
 
 
@@ -97,6 +100,12 @@ def text(
         yield Text()
         of = "" if share is None else f", as {_percent(share)} fractiles"
         yield Text(f"Least acceleration for {_gaps(rig)}: {best}: {_demands(least)}{of}.")
+        for note in _notes(least):
+            yield Text(f"Of this design: {note}.")
+
+
+def _notes(least: xr.Dataset) -> list[str]:
+    return str(least.attrs.get("notes", "")).splitlines()
 
 
 def _records_facts(gap: xr.Dataset) -> dict[str, Any]:

@@ -31,6 +31,9 @@ from vibroimpact.model import Model, study
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
 from vibroimpact.model.validation import Accepts
 
+_MOST = 2**63 - 1
+"""Of a whole number: the engine counts in 64 bits."""
+
 _Frequency = Annotated[float | None, Accepts(FREQUENCY, above=0.0, optional=True)]
 
 
@@ -44,7 +47,7 @@ class _SweepTable(Model):
     tolerance: Annotated[
         float | None, Accepts(DIMENSIONLESS, above=0.0, maximum=1.0, optional=True)
     ] = None
-    max_cycles: Annotated[int | None, Field(ge=1)] = None
+    max_cycles: Annotated[int | None, Field(ge=1, le=_MOST)] = None
 
     @property
     def start(self) -> float | None:
@@ -75,7 +78,7 @@ class SimulateTable(Model):
 
     frequency: _Frequency = None
     cycles: Annotated[float | None, Accepts(DIMENSIONLESS, above=0.0, optional=True)] = None
-    samples: Annotated[int | None, Field(ge=1)] = None
+    samples: Annotated[int | None, Field(ge=1, le=_MOST)] = None
     tail: Annotated[float | None, Accepts(TIME, minimum=0.0, optional=True)] = None
     displacement: Annotated[float | None, Accepts(LENGTH, optional=True)] = None
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
@@ -103,9 +106,9 @@ class EnsembleTable(Model):
     """
 
     uncertain: dict[str, str] | None = None
-    samples: Annotated[int | None, Field(ge=1)] = None
+    samples: Annotated[int | None, Field(ge=1, le=_MOST)] = None
     method: Literal["sobol", "latin", "random"] | None = None
-    seed: Annotated[int | None, Field(ge=0)] = None
+    seed: Annotated[int | None, Field(ge=0, le=_MOST)] = None
 
 
 class Study(study.RigStudy):

@@ -90,7 +90,7 @@ def sweep(
         vibroimpact sweep building.toml --physical --direction forward --json
     """
     from vibroimpact.cli import grid, summary
-    from vibroimpact.cli.output import output_folder, progress_bar, tell, write_text
+    from vibroimpact.cli.output import as_plain_text, output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import sweeps
 
@@ -109,6 +109,7 @@ def sweep(
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
 
+        from vibroimpact.engine.status import MORE_CYCLES
         from vibroimpact.response import resonance
         from vibroimpact.response.files import save, write_whole
         from vibroimpact.response.sweep import DIRECTIONS, advice
@@ -125,18 +126,20 @@ def sweep(
             )
         data.attrs["title"] = what.name
         found = resonance.features(data)
-        hints = advice(data)
+        hints = [line.replace(MORE_CYCLES, "--max-cycles") for line in advice(data)]
         text = Together(summary.rig_text(what), sweeps.text(data, found, hints))
 
         # Imported late: whoever waits for numbers need not wait for matplotlib.
         from vibroimpact.figures import resonance_curves, save_figure
 
-        axes = resonance_curves(data, found=found, title=what.title, physical=physical)
+        # An isolator without stiffness has no free resonance to divide by.
+        drawn_physical = physical or not bool(data["eta_d"].notnull().any())
+        axes = resonance_curves(data, found=found, title=what.title, physical=drawn_physical)
         stem = folder / f"{what.slug}-sweep"
         files = {
             "data": save(data, f"{stem}.nc"),
             "figure": save_figure(axes[0], f"{stem}.{out.figure}"),
-            "summary": write_whole(f"{stem}.txt", lambda path: write_text(path, text)),
+            "summary": write_whole(f"{stem}.txt", as_plain_text(text)),
         }
     facts = {**summary.rig_facts(what), **sweeps.facts(data, found, hints)}
     tell(text, facts, folder, files, out.json)

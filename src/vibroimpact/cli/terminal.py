@@ -9,6 +9,10 @@ import sys
 import unicodedata
 from contextlib import suppress
 
+from vibroimpact.errors import printable
+
+_COLOUR = re.compile("(\x1b\\[[0-9;]*m)")
+
 _PLAIN = {
     "η": "eta",
     "λ": "lambda",
@@ -78,11 +82,29 @@ def _columns(text: str) -> int:
     return sum(not unicodedata.combining(sign) for sign in text)
 
 
+def without_commands(text: str) -> str:
+    """Write control characters as escapes; colours, which rich sets, stay."""
+    parts = _COLOUR.split(text)
+    return "".join(part if i % 2 else printable(part) for i, part in enumerate(parts))
+
+
 def take_any_encoding() -> None:
     """Let stdout and stderr write what their encoding lacks in plain letters."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="vibroimpact.plain")
+
+
+def hold_closed_streams() -> None:
+    """Let nothing that is opened take the place of a standard stream that is closed.
+
+    What a library writes to standard error would end in a file of results.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # it takes the lowest number that is free
 
 
 def flush() -> None:

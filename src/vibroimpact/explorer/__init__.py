@@ -14,3 +14,24 @@ One page, one session, one immutable state::
 The page itself (HTML, CSS, JavaScript) is in ``page/``: it draws what it is
 sent and computes nothing.
 """
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+from vibroimpact.errors import InputError
+
+
+def require_websockets() -> None:
+    """Refuse to serve a page without the websocket library, before anything is computed.
+
+    Raises
+    ------
+    InputError
+        If it is missing.
+    """
+    if find_spec("websockets") is None:
+        raise InputError(
+            "explore: the package websockets is not installed; pip install 'vibroimpact[explore]' "
+            "installs it"
+        )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from vibroimpact.errors import InputError
 from vibroimpact.explorer.laws import isolator_of, stop_of
@@ -127,7 +128,7 @@ def chosen(state: State, direction: str, frequency: float | str) -> State:
     )
 
 
-def looked(state: State, **how: bool) -> State:
+def looked(state: State, how: Mapping[str, bool]) -> State:
     """Return the state with pictures asked for or put away, and curves in η or physical.
 
     Raises

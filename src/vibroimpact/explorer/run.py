@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable
 
 from vibroimpact.errors import InputError
+from vibroimpact.explorer import require_websockets
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.share import address
 from vibroimpact.explorer.state import State, begin
@@ -48,15 +49,9 @@ async def serving(
     stop: asyncio.Event | None = None,
 ) -> None:
     """Do what `serve` does, until `stop` is set."""
-    try:
-        from vibroimpact.explorer.server import start
-    except ModuleNotFoundError as error:
-        if error.name != "websockets":
-            raise
-        raise InputError(
-            "explore: the package websockets is not installed; pip install 'vibroimpact[explore]' "
-            "installs it"
-        ) from None
+    require_websockets()
+    from vibroimpact.explorer.server import start
+
     token = "" if host in LOOPBACK else secrets.token_urlsafe(24)
     try:
         server, where = await start(first, host, port, token)

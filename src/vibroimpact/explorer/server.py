@@ -19,13 +19,14 @@ import socket
 import time
 import traceback
 from collections.abc import Awaitable, Callable
+from concurrent.futures import ThreadPoolExecutor
 from http import HTTPStatus
 from importlib import resources
 from typing import Any, NamedTuple
 from urllib.parse import parse_qs, urlsplit
 
 from websockets.asyncio.server import Server, ServerConnection, serve
-from websockets.datastructures import Headers
+from websockets.datastructures import Headers, MultipleValuesError
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
@@ -39,11 +40,12 @@ MOST_SESSIONS = 16
 MOST_MESSAGE = 16_384
 """Bytes of a message from a page."""
 MOST_COMPUTING = 4
-"""Pictures that are made at once; a sweep has threads of its own."""
+"""Pictures that are made at once; a sweep has threads of its own, and files have another place."""
 _MOMENT = 0.1
 """Seconds that a picture which is overtaken is waited for."""
 _SELDOM = 0.3
 """Seconds between two tellings of progress."""
+_ONE_FILE = "file: another one is being made; it will be offered in a moment"
 _ANY = ("0.0.0.0", "::")
 _LIVE = "/live"
 _PAGES = {"/": "index.html"}
@@ -83,10 +85,20 @@ class Explorer:
     def __init__(self, first: State, limits: Callable[[], Limits]) -> None:
         self._first, self._limits, self._files = first, limits, _files()
         self._sessions = 0
-        self._computing = asyncio.Semaphore(MOST_COMPUTING)
+        self._telling: set[asyncio.Future[None]] = set()
+        # A place is taken until its thread is free again, whoever has left meanwhile; files have
+        # one of their own, so that no picture waits for them.
+        self._pictures_in = ThreadPoolExecutor(MOST_COMPUTING, "explorer-picture")
+        self._files_in = ThreadPoolExecutor(1, "explorer-file")
 
     def answer(self, connection: ServerConnection, request: Request) -> Response | None:
         """Answer what is asked for over HTTP; None lets a websocket begin."""
+        try:
+            return self._answered(request)
+        except (ValueError, MultipleValuesError):
+            return _refused(HTTPStatus.BAD_REQUEST, "the address or a header is not understood")
+
+    def _answered(self, request: Request) -> Response | None:
         asked, limits = urlsplit(request.path), self._limits()
         host = request.headers.get("Host", "").lower()
         if not limits.token and host not in limits.hosts:
@@ -113,21 +125,31 @@ class Explorer:
         self._sessions += 1
         session, awake = Session(self._first), asyncio.Event()
         pictures = asyncio.create_task(self._pictures(session, awake, connection.send))
+        saving: asyncio.Task[None] | None = None
         try:
             await connection.send(_text({**session.hello(), **session.told()}))
             awake.set()
             async for raw in connection:
                 message = _read(raw)
                 if isinstance(message, dict) and message.get("do") == "file":
-                    await connection.send(_text(await self._file(session, message)))
+                    if saving is not None and not saving.done():
+                        await connection.send(_text({"refused": _ONE_FILE}))
+                        continue
+                    # Beside the messages: what is turned meanwhile is answered at once.
+                    kind = str(message.get("kind"))
+                    saving = asyncio.create_task(
+                        self._save(session, session.state, kind, connection.send)
+                    )
                     continue
                 await connection.send(_text(session.take(message)))
                 awake.set()
         except ConnectionClosed:
             pass
         finally:
-            session.asked += 1  # what is being computed is not wanted any more
+            session.end()  # what is being computed is not wanted any more
             pictures.cancel()
+            if saving is not None:
+                saving.cancel()
             self._sessions -= 1
 
     async def _pictures(
@@ -178,27 +200,50 @@ class Explorer:
             if total and time.monotonic() - told > _SELDOM:
                 told = time.monotonic()
                 share = _text({"progress": stage.kind, "share": round(done / total, 3)})
-                asyncio.run_coroutine_threadsafe(_sent(send, share), loop)
+                try:
+                    loop.call_soon_threadsafe(self._tell, send, share)
+                except RuntimeError:  # the server has ended
+                    raise Stopped from None
 
         number = session.number
-        async with self._computing:
-            try:
-                made = await asyncio.to_thread(session.make, stage, asked, progress)
-                return _text({**made, "n": number})
-            except InputError as error:
-                return _text({"picture": stage.kind, "none": str(error)})
-            except Stopped:
-                raise
-            except Exception as error:  # a fault of ours must not leave the page waiting for ever
-                traceback.print_exc()
-                return _text({"picture": stage.kind, "none": f"{stage.kind}: failed ({error!r})"})
+        try:
+            made = await loop.run_in_executor(
+                self._pictures_in, session.make, stage, asked, progress
+            )
+            return _text({**made, "n": number})
+        except InputError as error:
+            return _text({"picture": stage.kind, "none": str(error)})
+        except Stopped:
+            raise
+        except Exception as error:  # a fault of ours must not leave the page waiting for ever
+            traceback.print_exc()
+            return _text({"picture": stage.kind, "none": f"{stage.kind}: failed ({error!r})"})
 
-    async def _file(self, session: Session, message: Message) -> Message:
-        async with self._computing:
-            try:
-                return await asyncio.to_thread(session.file, str(message.get("kind")))
-            except InputError as error:
-                return {"refused": str(error)}
+    def _tell(self, send: Callable[[str], Awaitable[None]], share: str) -> None:
+        """Send how far a picture is, beside all else."""
+        task = asyncio.ensure_future(_sent(send, share))
+        self._telling.add(task)  # or it might be collected before it is done
+        task.add_done_callback(self._telling.discard)
+
+    async def _save(
+        self,
+        session: Session,
+        state: State,
+        kind: str,
+        send: Callable[[str], Awaitable[None]],
+    ) -> None:
+        """Make a file of a state, and send it."""
+        loop = asyncio.get_running_loop()
+        try:
+            found = await loop.run_in_executor(self._files_in, session.file, kind, state)
+        except InputError as error:
+            found = {"refused": str(error)}
+        except Stopped:
+            return
+        except Exception as error:
+            traceback.print_exc()
+            found = {"refused": f"file: failed ({error!r})"}
+        await _sent(send, _text(found))
 
 
 async def _ready(task: asyncio.Task[str], awake: asyncio.Event | None) -> bool:
@@ -223,13 +268,18 @@ async def _sent(send: Callable[[str], Awaitable[None]], text: str) -> None:
 
 def _read(raw: str | bytes) -> Any:
     try:
-        return json.loads(raw)
+        return json.loads(raw, parse_constant=_no_number)
     except (ValueError, RecursionError):
         return None
 
 
+def _no_number(word: str) -> None:
+    raise ValueError(f"{word} is no JSON")
+
+
 def _text(message: Message) -> str:
-    return json.dumps(message, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    # ASCII: what a page has sent may hold half a letter, which no encoding has.
+    return json.dumps(message, separators=(",", ":"), allow_nan=False)
 
 
 def _whole(body: bytes, kind: str) -> Response:

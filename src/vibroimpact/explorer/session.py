@@ -60,6 +60,8 @@ class Session:
         """Counts requests; a stage of an older one is not wanted any more."""
         self.number: int | None = None
         """What the page calls the last request."""
+        self.ended = False
+        """Whether the page has gone."""
         self._dragging = False
         self._sent: dict[str, Hashable] = {}
         self._sweeps: dict[bool, tuple[Hashable, xr.Dataset]] = {}
@@ -97,7 +99,8 @@ class Session:
         except (InputError, ArithmeticError) as error:
             # Numbers whose products are none: nobody means them, and they are told as such.
             words = str(error) if isinstance(error, InputError) else _NO_NUMBER
-            refused = {"refused": words, "path": message.get("path"), "n": number}
+            path = message.get("path") if isinstance(message.get("path"), str) else None
+            refused = {"refused": words, "path": path, "n": number}
             return refused if message.get("do") != "open" else {**refused, **self.told()}
         self.history = history
         self.asked += 1
@@ -137,7 +140,7 @@ class Session:
             there = change.chosen(now, _text(message, "direction"), _value(message, "frequency"))
             return history.to(there, "choose")
         if do == "look":
-            there = change.looked(now, **{_text(message, "what"): message.get("on") is True})
+            there = change.looked(now, {_text(message, "what"): message.get("on") is True})
             return history.to(there, "look")
         if do == "place":
             point = (_number(message, "x"), _number(message, "y"))
@@ -183,7 +186,7 @@ class Session:
                     continue
                 try:
                     where = plane.plane(state)
-                except InputError as error:
+                except (InputError, ArithmeticError) as error:
                     yield Stage(kind, (word, str(error)), _refusal(error))
                     break
                 yield Stage(kind, (word, *where), _scenarios(where, fine))
@@ -227,18 +230,31 @@ class Session:
 
         if self.asked != asked:
             raise Stopped
-        return stage.make(check)
+        return _bounded(lambda: stage.make(check))
 
-    def file(self, kind: str) -> Message:
-        """Return a file of what is shown, for the page to save.
+    def file(self, kind: str, state: State | None = None) -> Message:
+        """Return a file for the page to save: of a state, or of what is shown.
 
         Raises
         ------
         InputError
             If there is no such file.
+        Stopped
+            If the page has gone.
         """
-        state = self.state
-        return made(kind, state, lambda: self._swept(state, True))
+        here = state or self.state
+
+        def check(done: int, total: int | None) -> None:
+            if self.ended:
+                raise Stopped
+
+        check(0, None)
+        return _bounded(lambda: made(kind, here, lambda: self._swept(here, True, check)))
+
+    def end(self) -> None:
+        """Note that the page has gone, and nothing is wanted any more."""
+        self.ended = True
+        self.asked += 1
 
     def _swept(self, state: State, fine: bool, progress: Progress | None = None) -> xr.Dataset:
         """The sweep of a state; the last one of either fineness is kept."""
@@ -306,7 +322,21 @@ def _scenarios(where: plane.Plane, fine: bool) -> Callable[[Progress], Message]:
     return lambda check: plane.scenarios(where, fine, check)
 
 
-def _refusal(error: InputError) -> Callable[[Progress], Message]:
+def _bounded(make: Callable[[], Message]) -> Message:
+    """Make something of a rig whose numbers may have no bound.
+
+    Raises
+    ------
+    InputError
+        If they have none.
+    """
+    try:
+        return make()
+    except ArithmeticError:
+        raise InputError(_NO_NUMBER) from None
+
+
+def _refusal(error: Exception) -> Callable[[Progress], Message]:
     def refused(check: Progress) -> Message:
         raise error
 

@@ -77,7 +77,7 @@ def _from_table(table: Any) -> State:
         raise InputError(
             f"address: name: {shown(name)}; up to {_LONGEST_NAME} letters are accepted"
         )
-    if direction not in get_args(Direction) or of not in QUANTITIES:
+    if direction not in get_args(Direction) or of not in list(QUANTITIES):
         raise InputError("address: a choice in it is unknown; one of the page is accepted")
     if not (isinstance(span, list) and len(span) == 2):
         raise InputError(f"address: span: {shown(span)}; two frequencies are accepted")
@@ -93,7 +93,7 @@ def _from_table(table: Any) -> State:
     listed = table["shown"]
     if not isinstance(listed, list) or not all(isinstance(item, str) for item in listed):
         raise InputError("address: shown: a list of pictures is accepted")
-    state = looked(state, physical=table["physical"] is True, **dict.fromkeys(listed, True))
+    state = looked(state, {**dict.fromkeys(listed, True), "physical": table["physical"] is True})
     if table["together"] is True and oscillator.right == oscillator.left:
         return joined(state, True)
     return joined(state, False)
@@ -101,7 +101,7 @@ def _from_table(table: Any) -> State:
 
 def study(state: State) -> str:
     """Return the study file of a state, which every command takes."""
-    lines = [f"name = {json.dumps(state.name, ensure_ascii=False)}", "", "[oscillator]"]
+    lines = [f"name = {_quoted(state.name)}", "", "[oscillator]"]
     for key, value in state.oscillator.model_dump(exclude_none=True).items():
         lines.append(f"{key} = {_toml(value)}")
     low, high = state.span
@@ -137,7 +137,13 @@ def _toml(value: Any) -> str:
             f"{key} = {_toml(item)}" for key, item in value.items() if item is not None
         )
         return f"{{ {inside} }}"
-    return json.dumps(value) if isinstance(value, str) else repr(value)
+    return _quoted(value) if isinstance(value, str) else repr(value)
+
+
+def _quoted(text: str) -> str:
+    """A string of TOML: that of JSON, but for signs that TOML wants escaped or cannot hold."""
+    whole = text.encode("utf-8", "replace").decode()  # half a letter is none
+    return json.dumps(whole, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def program(state: State) -> str:
@@ -150,9 +156,10 @@ def program(state: State) -> str:
     for kind in kinds:
         written = _prefixed(written, kind)
     # The name may come from an address: a comment of one line can do nothing.
+    name = "".join(sign if sign.isprintable() else " " for sign in state.name)
     return f'''"""Resonance curves, scenario and one motion."""
 
-# {" ".join(state.name.split())}
+# {" ".join(name.split())}
 
 import numpy as np
 

@@ -20,6 +20,7 @@ from vibroimpact.model.quantities import (
     fitting,
 )
 from vibroimpact.model.units import plain
+from vibroimpact.response.phases import touches
 
 _MOST_CONTACTS = 12
 """Contacts that are printed of a motion; the file has them all."""
@@ -127,7 +128,7 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         (
             "impacts",
             f"{plain(data['impacts_right'].item(), 4)} right, "
-            f"{plain(data['impacts_left'].item(), 4)} left per cycle",
+            f"{plain(data['impacts_left'].item(), 4)} left per cycle" + _pressed(data),
         ),
         (
             "energy",
@@ -142,6 +143,19 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
     for row in rows:
         table.add_row(*row)
     return [Text(f"{name}: {', '.join(_kind(data))}", style="bold"), table, *contact_tables(data)]
+
+
+def _pressed(data: xr.Dataset) -> str:
+    """Words for the stops that the mass never leaves."""
+    contact = data["contact"].values
+    sides = [
+        name
+        for name, side in (("right", 1), ("left", -1))
+        if not data[f"impacts_{name}"] and touches(contact, side).all()
+    ]
+    if len(sides) == 2:
+        return "; both stops stay pressed"
+    return f"; the {sides[0]} stop stays pressed" if sides else ""
 
 
 def _exponents(data: xr.Dataset) -> str:

@@ -7,12 +7,14 @@ import io
 from rich.console import Console, RenderableType
 from rich.table import Table
 
+from vibroimpact.errors import printable
+
 
 def as_text(told: RenderableType, width: int = 100) -> str:
     """Return what is told as plain text of so many columns."""
     console = Console(record=True, file=io.StringIO(), width=width, highlight=False)
     console.print(told)
-    lines = console.export_text(styles=False).splitlines()
+    lines = printable(console.export_text(styles=False)).splitlines()
     return "".join(f"{line.rstrip()}\n" for line in lines)
 
 

@@ -98,8 +98,9 @@ def fragility_curves(
     """Draw a fragility curve, its confidence band, and the shares of the records as marks.
 
     The legend has its median θ and its dispersion β. A curve whose interval is unbounded, because
-    one record decides, has no band; the legend says so. Where the records determine no curve there
-    are marks alone, and the legend says which levels would give one.
+    too few records begin to exceed within the levels, has no band; the legend says so. Where the
+    records determine no curve there are marks alone, and the legend says which levels would give
+    one.
 
     Parameters
     ----------
@@ -117,7 +118,7 @@ def fragility_curves(
     """
     if not isinstance(fragility, xr.Dataset) or "fitted_probability" not in fragility:
         raise InputError("fragility: this is no fragility; a dataset of fragility is accepted")
-    from scipy.special import ndtr
+    from scipy.special import ndtr, ndtri
 
     others = [str(dim) for dim in fragility["median_capacity"].dims]
     if len(others) > 1 or fragility["median_capacity"].size > len(_LOOKS):
@@ -156,7 +157,7 @@ def fragility_curves(
             words = f"{whole}: {words}"
         bounded = not np.isinf(one["median_capacity_bound"].values).any()
         if not bounded:
-            words += " (no band: one record decides)"
+            words += " (no band: too few records begin within the levels)"
         ax.plot(
             fine,
             ndtr((np.log(fine) - np.log(median)) / spread),
@@ -167,11 +168,14 @@ def fragility_curves(
             zorder=3,
         )
         if bounded:
-            lower, upper = one["fitted_probability_bound"].transpose("bound", "scale").values
+            # Between the levels along straight lines of probit paper, on which the curve is one.
+            bounds = one["fitted_probability_bound"].transpose("bound", "scale").values
+            probits = np.clip(ndtri(bounds), -_BEYOND, _BEYOND)
+            lower, upper = (ndtr(np.interp(np.log(fine), np.log(level), z)) for z in probits)
             sure = 100.0 * json.loads(fragility.attrs["parameters"])["confidence"]
             band = f"its {sure:g} % band" if name is None else None
             ax.fill_between(
-                level, lower, upper, color=colour, alpha=0.15, linewidth=0.0, label=band, zorder=1
+                fine, lower, upper, color=colour, alpha=0.15, linewidth=0.0, label=band, zorder=1
             )
         ax.plot(level, shares, label="share of the records" if whole is None else None, **marks)
     ax.set_xlim(level[0], level[-1])
@@ -182,6 +186,8 @@ def fragility_curves(
     return ax
 
 
+_BEYOND = 38.0
+"""Probits of what is 0 or 1 to all digits."""
 _LOOKS = (
     ("black", "-", "o"),
     ("#c8102e", "--", "s"),

@@ -16,6 +16,7 @@ from vibroimpact.figures.motions import SIDES, Shown, named, shown
 from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
 from vibroimpact.figures.style import EDGE, LEGEND, also_in_g
 from vibroimpact.model import GRAVITY
+from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, fitting
 from vibroimpact.response.phases import any_recorded
 
@@ -158,7 +159,7 @@ def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
             color=_COLOURS[i % len(_COLOURS)],
             linestyle=_DASHES[i % len(_DASHES)],
             linewidth=1.2,
-            label=f"{name}, $\\zeta$ = {float(spectrum['damping_ratio']):g}",
+            label=f"{literal(str(name))}, $\\zeta$ = {float(spectrum['damping_ratio']):g}",
         )
     periods = next(iter(spectra.values()))["natural_period"].values
     ax.set_xscale("log")

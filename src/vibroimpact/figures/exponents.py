@@ -12,6 +12,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND, MOTIONS
+from vibroimpact.model.names import literal
 
 _WIDE = 2.0
 """Standard uncertainties to both sides that the band shows."""
@@ -57,7 +58,7 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
     several = found.sizes["rig"] > 1
     for r in range(found.sizes["rig"]):
         one, look = found.isel(rig=r).transpose(name, "exponent"), MOTIONS[r % len(MOTIONS)]
-        rig = f"{one['rig'].item()}, " if several else ""
+        rig = f"{literal(str(one['rig'].item()))}, " if several else ""
         for k, words in enumerate(("largest", "second")):
             y, error = (one[key].values[:, k] for key in ("exponents", "exponents_uncertainty"))
             style: dict[str, Any] = {"color": look.colour, "linestyle": "-" if k == 0 else ":"}

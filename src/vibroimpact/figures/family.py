@@ -15,6 +15,7 @@ from matplotlib.patches import FancyArrowPatch
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import FREE, LEGEND, SWEEPS
+from vibroimpact.model.names import literal
 from vibroimpact.response.resonance import features
 
 Quantity = Literal["eta_a", "eta_d", "acceleration_excursion", "displacement_excursion"]
@@ -148,9 +149,8 @@ def resonance_family(
         )
     for i, name in enumerate(names):
         look = _look((markers or {}).get(name, i), (colours or {}).get(name))
-        _curves(
-            ax, data.isel(rig=i, drop=True), quantity, factor, look, (labels or {}).get(name, name)
-        )
+        called = (labels or {}).get(name, literal(name))
+        _curves(ax, data.isel(rig=i, drop=True), quantity, factor, look, called)
     ax.set_xlabel("excitation frequency $f$ (Hz)")
     ax.set_ylabel(label)
     if legend:

@@ -12,6 +12,7 @@ from scipy.special import chdtri
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels, new_axes
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
+from vibroimpact.model.names import literal
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.response.vocabulary import VARIABLES
 
@@ -69,7 +70,7 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
             )
         curves = str(result["test_kind"].sel(test=test).values) == "curves"
         ax.set_xlabel("excitation frequency $f$ (Hz)" if curves else "time $t$ (s)")
-        ax.set_ylabel(f"{test}\nresidual over noise (–)")
+        ax.set_ylabel(f"{literal(test)}\nresidual over noise (–)")
     given[0].legend(ncols=2, **LEGEND)
     return given
 

@@ -7,17 +7,45 @@ pyplot answer with nothing: pyplot shows them itself.
 
 from __future__ import annotations
 
+import re
+import warnings
 from io import BytesIO
 from typing import Any
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from numpy.typing import NDArray
+
+from vibroimpact.errors import InputWarning
+
+_MISSING = re.compile(r"Glyph (\d+) .* missing from font")
 
 
 class Drawing(Figure):
-    """A figure that a notebook shows."""
+    """A figure that a notebook shows; its text is set by matplotlib, and never by LaTeX."""
+
+    def savefig(self, *args: Any, **how: Any) -> None:
+        """Write the figure; the labels have signs that LaTeX lacks, and it may not be there."""
+        for text in self.findobj(Text):
+            text.set_usetex(False)
+        with rc_context({"text.usetex": False}), warnings.catch_warnings(record=True) as seen:
+            warnings.simplefilter("always")
+            super().savefig(*args, **how)
+        missing = [found[1] for one in seen if (found := _MISSING.match(str(one.message)))]
+        for one in seen:
+            if not _MISSING.match(str(one.message)):
+                warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+        if missing:
+            signs = "".join(chr(int(code)) for code in dict.fromkeys(missing))
+            warnings.warn(
+                f"figure: its font lacks {signs}, and boxes are drawn; a font that has these signs "
+                "is accepted as font.family of a matplotlibrc",
+                InputWarning,
+                stacklevel=2,
+            )
 
     def _repr_png_(self) -> bytes:
         picture = BytesIO()

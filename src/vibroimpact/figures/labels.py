@@ -47,7 +47,10 @@ class Names:
         A curve that is too short for it gets none; nor does, where `once`, one that lies on
         another that has a name.
         """
-        at = self._visible(x, y)
+        known = np.isfinite(x) & np.isfinite(y)
+        if not known.any():
+            return
+        at = self._visible(x[known], y[known])
         if once and any(np.hypot(*(at - spot).T).min(initial=np.inf) < _ON for spot in self._names):
             return
         wide = self._letter * len(name)

@@ -66,7 +66,7 @@ def spectrum_lines(
     factor, label = _LABELS[quantity]
     ax = axes_or_new(ax, (5.6, 3.6), title)
     frequency = None
-    for i, ((name, data), look) in enumerate(zip(given.items(), looks(list(given)), strict=True)):
+    for i, (data, look) in enumerate(zip(given.values(), looks(list(given)), strict=True)):
         kept = data["order"].values <= highest
         order = data["order"].values[kept]
         height = factor * data[f"{quantity}_amplitude"].values[kept]
@@ -74,7 +74,7 @@ def spectrum_lines(
         shift = (i - 0.5 * (len(given) - 1)) * 0.12
         frequency = motion_parameters(data)["frequency"]
         if len(order) > 30 * highest:  # nearly continuous
-            ax.plot(order, height, color=look.colour, linewidth=0.8, label=name)
+            ax.plot(order, height, color=look.colour, linewidth=0.8, label=look.label)
             continue
         ax.vlines(order + shift, 0.0, height, color=look.colour, linewidth=1.4)
         ax.plot(
@@ -85,7 +85,7 @@ def spectrum_lines(
             markersize=4.0,
             color=look.colour,
             markerfacecolor=look.colour if look.filled else "white",
-            label=name,
+            label=look.label,
         )
     ax.set_xlim(-0.4, highest + 0.4)
     ax.set_xticks(np.arange(0, int(highest) + 1, max(1, int(highest) // 6)))

@@ -16,6 +16,7 @@ from vibroimpact.figures.inline import new_axes
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
 from vibroimpact.measurement.read import is_measured
 from vibroimpact.model import Record, units
+from vibroimpact.model.names import literal
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import any_recorded, phases, recorded, touches
 from vibroimpact.response.sine import forcing_sine, slope
@@ -100,7 +101,7 @@ def looks(names: list[str]) -> list[Look]:
     for name in names:
         known = [look for key, look in SWEEPS.items() if key in name]
         look = known[0] if len(known) == 1 else next(spare)
-        found.append(look._replace(label=name))
+        found.append(look._replace(label=literal(name)))
     return found
 
 

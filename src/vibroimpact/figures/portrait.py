@@ -10,6 +10,9 @@ from matplotlib.axes import Axes
 
 from vibroimpact.figures.motions import axes_or_new, gap_lines, name_lines, named, shown
 
+_MOST_VECTORS = 50_000
+"""Points of a curve from which on it is a picture in SVG and PDF, which else had megabytes."""
+
 
 def phase_portrait(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
@@ -52,6 +55,7 @@ def phase_portrait(
             alpha=0.5 if long else 1.0,
             label=curve.look.label,
             zorder=3,
+            rasterized=len(u) > _MOST_VECTORS,
         )
         if "cycle" not in motion:  # through a record
             continue
@@ -67,6 +71,7 @@ def phase_portrait(
             edgecolor="black",
             linewidth=0.3 if long else 0.8,
             zorder=5,
+            rasterized=len(whole) > _MOST_VECTORS,
         )
     gap_lines(ax, curves, horizontal=False)
     ax.set_xlabel("relative displacement $u$ (mm)")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from vibroimpact.figures.measured import halves_of, measured_curves, measured_po
 from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
 from vibroimpact.measurement.read import as_measured, is_measured
-from vibroimpact.response.resonance import Features, Jump, features
+from vibroimpact.response.resonance import Features, Hysteresis, Jump, features
 
 _HATCHES = {"right": "", "left": "/////"}
 _LABELS = {
@@ -95,13 +96,25 @@ def resonance_curves(
         ax.set_ylabel(one.label)
     upper = given[0]
     given[-1].set_xlabel("excitation frequency $f$ (Hz)")
-    entries = _legend(data, found, marked=measured is None)
+    frequency = data["frequency"].values
+    sides = {
+        _side(frequency, one, item) for one in drawn for item in found.hysteresis if item.settled
+    }
+    entries = _legend(data, sides, marked=measured is None)
     entries += [line.entry() for one in drawn for line in one.levels]
     if measured is not None:
         names = [one.name for one in drawn]
         entries += measured_points(given, names, data, measured)
     upper.legend(handles=entries, ncols=2 if len(entries) <= 4 else 3, **LEGEND)
     return given
+
+
+def _side(frequency: NDArray[np.float64], drawn: Drawn, item: Hysteresis) -> str:
+    """Which sweep lies above in a panel: where accelerations are larger, displacements need not."""
+    within = (frequency >= item.low) & (frequency <= item.high)
+    apart = drawn.curves["forward"][within] - drawn.curves["backward"][within]
+    total = float(np.nansum(apart))
+    return item.side if total == 0.0 else "right" if total > 0.0 else "left"
 
 
 def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked: bool) -> None:
@@ -117,7 +130,7 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked:
                 facecolor=SHADE,
                 edgecolor=EDGE,
                 lw=0.0,
-                hatch=_HATCHES[item.side],
+                hatch=_HATCHES[_side(frequency, drawn, item)],
                 zorder=0,
             )
     for level in drawn.levels:
@@ -225,7 +238,7 @@ def _draw_jumps(ax: Axes, frequency: NDArray[np.float64], drawn: Drawn, jumps: l
         )
 
 
-def _legend(data: xr.Dataset, found: Features, *, marked: bool) -> list[Artist]:
+def _legend(data: xr.Dataset, sides: Set[str], *, marked: bool) -> list[Artist]:
     """Return an entry for each thing that is there to see."""
     entries: list[Artist] = []
     loose: list[Artist] = []
@@ -246,7 +259,6 @@ def _legend(data: xr.Dataset, found: Features, *, marked: bool) -> list[Artist]:
     entries.append(
         Line2D([], [], color="black", linestyle=FREE.dashes, linewidth=FREE.width, label=FREE.label)
     )
-    sides = {item.side for item in found.hysteresis if item.settled}
     entries += [
         Patch(facecolor=SHADE, edgecolor=EDGE, lw=0.0, hatch=_HATCHES[side], label=_LABELS[side])
         for side in ("right", "left")

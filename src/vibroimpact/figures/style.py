@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -200,7 +201,6 @@ def save_figure(drawn: Any, path: Path | str) -> Path:
         raise InputError(f"figure: {drawn!r} is none; axes or a figure are accepted")
     # SVG marks its parts with random names unless it is given a seed.
     with matplotlib.rc_context({"svg.hashsalt": "vibroimpact", "svg.fonttype": "none"}):
-        return write_whole(
-            path,
-            lambda beside: figure.savefig(beside, format=kind, dpi=200, metadata=blank[kind]),
-        )
+        picture = io.BytesIO()
+        figure.savefig(picture, format=kind, dpi=200, metadata=blank[kind])
+    return write_whole(path, picture.getvalue())

@@ -165,15 +165,8 @@ def write(report: Report, folder: Path) -> dict[str, Path]:
     for kind, template in names.items():
         text = _environment().get_template(template).render(report=report, **_facts())
         path = folder / f"{report.stem}{Path(template).stem.removeprefix('report')}"
-        files[kind] = write_whole(path, _writer(text))
+        files[kind] = write_whole(path, text)
     return files
-
-
-def _writer(text: str) -> Callable[[Path], None]:
-    def write_text(path: Path) -> None:
-        path.write_text(text, encoding="utf-8")
-
-    return write_text
 
 
 def _environment() -> Environment:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+import re
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -12,7 +13,7 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from vibroimpact._version import __version__
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, printable
 from vibroimpact.figures import resonance_curves, save_figure
 from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
 from vibroimpact.identification.advice import next_test
@@ -21,6 +22,7 @@ from vibroimpact.identification.identify import fitted
 from vibroimpact.identification.results import setting_of
 from vibroimpact.identification.words import amplitude_words
 from vibroimpact.measurement.read import as_measured
+from vibroimpact.model.names import file_stems
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS, Quantity
 from vibroimpact.model.units import pretty
@@ -30,6 +32,9 @@ from vibroimpact.response.sweep import sweep
 
 _DENSE = 4
 """Frequencies of a computed curve for each measured one, at least."""
+
+_MARKS = re.compile(r"[\\|<>`*]|\](?=[(\[:])")
+"""What begins a cell, a tag, code, emphasis or a link's address in Markdown."""
 
 Format = Literal["png", "pdf", "svg"]
 
@@ -86,9 +91,10 @@ def fit_report(
         files[f"figure {key}"] = path
         figures.append(Figure(path.name, caption))
 
+    stems = file_stems(str(test) for test in result["test"].values)
     for test, kind in zip(result["test"].values, result["test_kind"].values, strict=True):
         key = "curves" if kind == "curves" else "history"
-        key = key if result.sizes["test"] == 1 else f"{key}-{_slug(str(test))}"
+        key = key if result.sizes["test"] == 1 else f"{key}-{stems[str(test)]}"
         if kind == "curves":
             measured = measured_of(result, str(test))
             rig = fitted(result, str(test))
@@ -104,7 +110,7 @@ def fit_report(
               "by the dotted line at the ends of its interval")  # fmt: skip
     for key, text, label in _studies(result, name):
         path = where / f"{key}.toml"
-        files[label] = write_whole(path, _writer(text))
+        files[label] = write_whole(path, text)
     advice = next_test(result).attrs["findings"].splitlines()
     told = {
         "name": name,
@@ -121,13 +127,23 @@ def fit_report(
         "correlations": _correlations(result),
     }
     for label, template in (("markdown", "fit.md.jinja"), ("report", "fit.html.jinja")):
-        text = _environment().get_template(template).render(**told)
-        files[label] = write_whole(where / f"{name}{Path(template).stem[3:]}", _writer(text))
+        given = _inert(told) if label == "markdown" else told
+        text = _environment().get_template(template).render(**given)
+        files[label] = write_whole(where / f"{name}{Path(template).stem[3:]}", text)
     return files
 
 
-def _slug(text: str) -> str:
-    return "".join(c if c.isalnum() else "-" for c in text)
+def _inert(told: Any) -> Any:
+    """The same with what Markdown would take for its own: tables, links, tags."""
+    if isinstance(told, str):
+        return _MARKS.sub(r"\\\g<0>", " ".join(printable(told).split()))
+    if isinstance(told, dict):
+        return {key: _inert(one) for key, one in told.items()}
+    if isinstance(told, Figure):
+        return Figure(told.file, _inert(told.caption))
+    if isinstance(told, list | tuple):
+        return [_inert(one) for one in told]
+    return told
 
 
 def parameter_rows(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
@@ -139,12 +155,15 @@ def parameter_rows(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
         known = PARAMETERS.get(bare)
         quantity = known.quantity if known else _sensor(bare)
         low, high = one["interval"].values.tolist()
-        marks = ["" if not o else " (bound)" for o in one["interval_open"].values]
+        is_open = one["interval_open"].values
+        marks = ["" if not o else " (bound)" for o in is_open]
+        error = float(one["standard_error"])
+        unknown = bool(is_open.any()) and error > high - low
         rows.append(
             (
                 str(key),
                 pretty(float(one["fitted_value"]), quantity, 5),
-                pretty(float(one["standard_error"]), quantity, 2),
+                "not known" if unknown else pretty(error, quantity, 2),
                 f"{pretty(low, quantity, 4)}{marks[0]} to {pretty(high, quantity, 4)}{marks[1]}",
                 known.long_name if known else bare.replace("_", " "),
             )
@@ -201,6 +220,7 @@ def _dense(frequency: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
 def _studies(result: xr.Dataset, name: str) -> Iterable[tuple[str, str, str]]:
     """Key, text and label of the study files: one for each different rig."""
     rigs = json.loads(result.attrs["rigs"])
+    stems = file_stems(rigs)
     seen: set[str] = set()
     for test in rigs:
         text = json.dumps([rigs[test]["oscillator"], rigs[test]["excitation"]["amplitude"]])
@@ -208,9 +228,7 @@ def _studies(result: xr.Dataset, name: str) -> Iterable[tuple[str, str, str]]:
             continue
         seen.add(text)
         rig = fitted(result, test)
-        key = (
-            name if len(rigs) == 1 else f"{name}-{''.join(c if c.isalnum() else '-' for c in test)}"
-        )
+        key = name if len(rigs) == 1 else f"{name}-{stems[test]}"
         about = f"Fitted by vibroimpact {__version__} to {test}.\n" + "\n".join(
             f"{row[0]} = {row[1]}, standard error {row[2]}" for row in parameter_rows(result)
         )
@@ -257,10 +275,3 @@ def _environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-
-
-def _writer(text: str) -> Callable[[Path], None]:
-    def write_text(path: Path) -> None:
-        path.write_text(text, encoding="utf-8")
-
-    return write_text

@@ -17,7 +17,7 @@ from vibroimpact.scenario.axes import Shaken
 from vibroimpact.scenario.behind import with_folds, with_kinds
 from vibroimpact.scenario.curves import swept_alone
 from vibroimpact.scenario.evidence import Evidence, shown
-from vibroimpact.scenario.frequencies import cycles, grid, highest
+from vibroimpact.scenario.frequencies import cycles, held, highest
 from vibroimpact.scenario.thresholds import Thresholds
 from vibroimpact.scenario.verdict import confidence, scenario
 
@@ -110,8 +110,8 @@ def _seen(
     if waited is None:
         waited = cycles(*rig, high, MAX_CYCLES)
         transient = cycles(*rig, high, 1) / (high * rig.oscillator.natural_frequency)
-    held = grid(high, step) * rig.oscillator.natural_frequency
-    curves, ended = swept_alone(rig, held, waited, WINDOW, tally, transient)
+    swept = held(rig.oscillator, high, step)
+    curves, ended = swept_alone(rig, swept, waited, WINDOW, tally, transient)
     check()
     found = shown(rig, curves, 0.5 * thresholds.prominence)
     found = with_kinds(found, *rig, ended, KIND_CYCLES, check, brief=True)

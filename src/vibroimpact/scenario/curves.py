@@ -28,6 +28,8 @@ UNEVEN = 1e-6
 _TOLERANCE, _MAX_EVENTS = 1e-12, 10_000
 """As of `sweeps`."""
 _CONTACTS = ("impacts_right", "impacts_left")
+_TOUCHED = [hold.HITS_RIGHT, hold.HITS_LEFT, hold.FORCE_RIGHT, hold.FORCE_LEFT]
+"""What is above 0 where a stop is touched; as `in_contact` of `response.swept`."""
 DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
 
 
@@ -136,7 +138,7 @@ def swept_alone(
         excursion / ready.largest[0],
         period > 0,
         period,
-        each[hold.HITS_RIGHT] + each[hold.HITS_LEFT] > 0.0,
+        np.any(each[_TOUCHED] > 0.0, axis=0),
     )
     curves = Curves(
         both,

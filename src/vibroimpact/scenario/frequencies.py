@@ -10,7 +10,12 @@ from numpy.typing import NDArray
 
 from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, Stop
 from vibroimpact.model.room import room
-from vibroimpact.response.free_flight import peak_ratio, reference_excursions, resonance_ratio
+from vibroimpact.response.free_flight import (
+    beside_resonance,
+    peak_ratio,
+    reference_excursions,
+    resonance_ratio,
+)
 
 LOW = 0.4
 """Lowest frequency over the natural one: that at which the published tests begin (0.40 to
@@ -121,7 +126,12 @@ def frequencies(
     oscillator: Oscillator, shaken: Harmonic, step: float = STEP
 ) -> NDArray[np.float64]:
     """Frequencies (Hz) from `LOW` by `step` to `highest`, all over the natural frequency."""
-    return grid(highest(oscillator, shaken), step) * oscillator.natural_frequency
+    return held(oscillator, highest(oscillator, shaken), step)
+
+
+def held(oscillator: Oscillator, high: float, step: float) -> NDArray[np.float64]:
+    """Frequencies (Hz) of `grid`; beside the natural one where free flight has no bound there."""
+    return beside_resonance(oscillator, grid(high, step) * oscillator.natural_frequency)
 
 
 def grid(high: float, step: float) -> NDArray[np.float64]:

@@ -21,7 +21,7 @@ from vibroimpact.model.excitation import Of
 from vibroimpact.model.parameters import parameter
 from vibroimpact.scenario.axes import Axis
 from vibroimpact.scenario.cell import COUNTS, VALUES
-from vibroimpact.scenario.folder import Kind, create, finished, folder, read
+from vibroimpact.scenario.folder import Block, Kind, create, finished, folder, read
 from vibroimpact.scenario.kinds import Scenario
 from vibroimpact.scenario.nodes import UNKNOWN
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:  # it takes long to load: only where a map is made or read
 
 CREATED_BY = "vibroimpact.scenario_map"
 
-_KIND = Kind("map", CREATED_BY, frozenset({"scenario", "level", "done", *VALUES, *COUNTS}))
+_KIND = Kind("map", CREATED_BY, frozenset({"scenario", "level", *VALUES, *COUNTS}))
 
 
 class MapStore:
@@ -126,7 +126,16 @@ def map_store(
     """
     of = parameters["base"].get("of", "acceleration")
     make = partial(_make, axes=axes, chunk=chunk, levels=levels, of=of)
-    with folder(path, _KIND, parameters, make) as group:
+    rows, columns = (range(0, len(one.values), chunk) for one in reversed(axes))
+    blocks = (
+        Block(
+            tuple((level, r, c) for level in range(levels)),
+            (slice(row, row + chunk), slice(column, column + chunk)),
+        )
+        for r, row in enumerate(rows)
+        for c, column in enumerate(columns)
+    )
+    with folder(path, _KIND, parameters, make, blocks) as group:
         yield MapStore(group)
 
 

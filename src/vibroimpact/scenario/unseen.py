@@ -27,7 +27,7 @@ _SAME = 1e-6
 def unseen(both: Swept, ended: Holds) -> list[tuple[int, int]]:
     """The stretches in which folds may hide: numbers of the first and the last frequency."""
     contacts = ended.contacts
-    touching = np.asarray(contacts.any(axis=(0, 2)))
+    touching = np.asarray(both.touching.any(axis=0))
     other = (contacts[:, 1:] != contacts[:, :-1]).any(axis=(0, 2))
     plain = (ended.period == 1).all(axis=0)
     may = other | ~(plain[1:] & plain[:-1])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,15 +11,17 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Bumper, Oscillator
+from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.units import pretty
 from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.response.vocabulary import VARIABLES
 from vibroimpact.seismic.plan import Runs, runs
-from vibroimpact.sizing.limits import limits_of
+from vibroimpact.sizing.limits import QUANTITIES, limits_of
 from vibroimpact.sizing.shaking import AnyShaken, Asked, asked, one_rig
 from vibroimpact.sizing.sines import STEP
 
@@ -98,6 +100,8 @@ class _Known:
         return np.where(np.isfinite(found), found, _VAST)
 
 
+_NEAR = 0.01
+"""Share of a limit, or of a range, within which the best design is at its end."""
 _VAST = 1e30
 """Stands for infinity, of which the search knows no more and no less."""
 
@@ -147,7 +151,14 @@ def least_acceleration(
     -------
     xarray.Dataset
         Without dims: the parameters by name, and the variables of `design` there;
-        ``evaluations``, the designs that were tried.
+        ``evaluations``, the designs that were tried. The attribute ``notes`` says if the best
+        design touches no stop, which limits it stays away from, and which parameters ended at an
+        end of their range.
+
+    Warns
+    -----
+    InputWarning
+        If the best design touches no stop: what the stops are like then plays no part.
 
     Raises
     ------
@@ -182,6 +193,9 @@ def least_acceleration(
     (best,) = known(np.asarray(found.x)[:, np.newaxis])
     _refuse(best, most)
     values = space.values(np.asarray(found.x)[:, np.newaxis])[:, 0]
+    notes = [*_untouched(rig, best), *_slack(best, most), *_at_ends(space, values)]
+    if rig.stops and not best["hitting"]:
+        warn_of_input("least_acceleration", notes)
     data = xr.Dataset(
         {
             **dict(zip(space.names, values.tolist(), strict=True)),
@@ -199,7 +213,7 @@ def least_acceleration(
         "seed": seed,
         **what.parameters(),
     }
-    return describe(data, "vibroimpact.least_acceleration", parameters)
+    return describe(data, "vibroimpact.least_acceleration", parameters, [*what.notes(), *notes])
 
 
 def _space(rig: Oscillator, ranges: Any) -> _Space:
@@ -241,6 +255,35 @@ def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
         "bumper_stiffness": (_STIFFNESSES[0] * spring, _STIFFNESSES[1] * spring),
         "bumper_damping": (_DAMPINGS[0] * critical, _DAMPINGS[1] * critical),
     }
+
+
+def _untouched(rig: Oscillator, best: Mapping[str, float]) -> Iterator[str]:
+    if rig.stops and not best["hitting"]:
+        yield "the best design touches no stop, so what the stops are like plays no part"
+
+
+def _slack(best: Mapping[str, float], limits: Mapping[str, float]) -> Iterator[str]:
+    """Limits that the best design does not come near."""
+    for name, limit in limits.items():
+        if best[name] < (1.0 - _NEAR) * limit:
+            quantity = QUANTITIES[VARIABLES[name].units]
+            reached, allowed = (
+                pretty(float(f"{value:.4g}"), quantity) for value in (best[name], limit)
+            )
+            yield f"the limit of {name.replace('_', ' ')} does not bind: {reached} of {allowed}"
+
+
+def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
+    """Parameters whose range may hide a better design."""
+    for name, value, low, high, logs in zip(
+        space.names, values, space.low, space.high, space.logarithmic, strict=True
+    ):
+        at, first, last = np.log([value, low, high]) if logs else (value, low, high)
+        share = (at - first) / (last - first)
+        if not _NEAR < share < 1.0 - _NEAR:
+            end = pretty(float(low if share <= _NEAR else high), PARAMETERS[name].quantity)
+            which = "lower" if share <= _NEAR else "upper"
+            yield f"{name} ended at the {which} end of its range, {end}"
 
 
 def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:

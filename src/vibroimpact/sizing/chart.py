@@ -119,7 +119,7 @@ def design(
         "limits": most,
         **what.parameters(),
     }
-    data = describe(data, "vibroimpact.design", parameters)
+    data = describe(data, "vibroimpact.design", parameters, what.notes())
     for one in plan.varied:
         data[one.name].attrs.update(units=one.units, long_name=one.long_name)
     return data

@@ -72,7 +72,7 @@ def required_gap(
             "is accepted"
         )
     parameters = {"oscillator": oscillator_parameters(rig), **what.parameters()}
-    return describe(found, "vibroimpact.required_gap", parameters)
+    return describe(found, "vibroimpact.required_gap", parameters, what.notes())
 
 
 def _in_closed_form(free: Oscillator, sines: Sines) -> xr.Dataset:

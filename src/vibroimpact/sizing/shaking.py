@@ -16,6 +16,7 @@ from vibroimpact.model import Harmonic, Oscillator, Record, to_si
 from vibroimpact.model.counts import share
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
 from vibroimpact.model.rigs import as_rig
+from vibroimpact.response.accelerogram import record_notes
 from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import excitation_parameters
 from vibroimpact.scenario.axes import one_sine
@@ -77,6 +78,10 @@ class BySines(NamedTuple):
             "status": np.array([one.status for one in worst], dtype=np.int64),
         }
 
+    def notes(self) -> list[str]:
+        """None of sines."""
+        return []
+
     def parameters(self) -> dict[str, Any]:
         """The sine, and the range."""
         return {
@@ -93,6 +98,10 @@ class ByRecords(NamedTuple):
     fractile: float
     """Share of the records below; 1 for the largest of all."""
     tail: float | None
+
+    def notes(self) -> list[str]:
+        """What was noted of the records."""
+        return record_notes(self.records)
 
     def runs(
         self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None

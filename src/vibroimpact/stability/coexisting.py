@@ -69,7 +69,7 @@ def coexisting(
     frequencies
         Frequencies of the sweeps in Hz, rising; those below the excitation's are held going up,
         those above going down. None for steps of a hundredth of the natural frequency from 0.3
-        to 6 times it.
+        to 6 times it; of the excitation's own where the isolator has no stiffness.
     starts
         Further starts by name.
     random

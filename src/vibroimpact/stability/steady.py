@@ -17,6 +17,7 @@ from vibroimpact.model import Oscillator, Repeated, State, equilibrium
 from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.contacts import contact_log
+from vibroimpact.response.doubts import doubt_gaps
 from vibroimpact.response.measuring import measured
 from vibroimpact.response.phases import Recorded, cut
 from vibroimpact.response.simulate import simulate
@@ -217,7 +218,9 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     }
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
-    return describe(data, "vibroimpact.steady")
+    ends = [values["displacement_max"], values["displacement_min"]]
+    notes = doubt_gaps(found.oscillator, found.excitation, ends)
+    return describe(data, "vibroimpact.steady", notes=notes)
 
 
 def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:

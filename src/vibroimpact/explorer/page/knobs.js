@@ -38,6 +38,7 @@ export class Knobs {
 
   build(state, choices) {
     const focused = document.activeElement?.id;
+    const typed = [...this.rows.values()].find((row) => row.text.id === focused && !row.asked);
     this.rows.clear();
     this.laws(state, choices);
     const groups = document.getElementById("groups");
@@ -53,7 +54,10 @@ export class Knobs {
       }
       this.row(knob, group);
     }
-    if (focused) document.getElementById(focused)?.focus();
+    if (!focused) return;
+    const field = document.getElementById(focused);
+    if (typed && field) field.value = typed.text.value; // what is being typed is not finished
+    field?.focus();
   }
 
   row(knob, group) {
@@ -61,7 +65,7 @@ export class Knobs {
     const box = made("div", { className: "knob" }, group);
     const title = made("label", { htmlFor: `text-${id}`, textContent: `${knob.label} ` }, box);
     if (knob.symbol) made("i", { textContent: knob.symbol }, title);
-    const text = made("input", { type: "text", id: `text-${id}`, autocomplete: "off", spellcheck: false }, box);
+    const text = made("input", { type: "text", id: `text-${id}`, value: knob.text, autocomplete: "off", spellcheck: false }, box);
     text.setAttribute("aria-describedby", `why-${id}`);
     const slider = made("input", { type: "range", id: `knob-${id}`, min: 0, max: STEPS, step: 1 }, box);
     slider.setAttribute("aria-label", `${knob.label}, ${knob.group}`);

@@ -13,6 +13,7 @@ from vibroimpact.facts import sweeps as told
 from vibroimpact.facts.tables import as_text
 from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
 from vibroimpact.response import resonance
+from vibroimpact.response.free_flight import beside_resonance
 from vibroimpact.response.sweep import advice, sweep
 from vibroimpact.response.threads import Progress
 
@@ -26,7 +27,8 @@ _PATIENCE, _WINDOW = 300, 100
 
 def swept(state: State, fine: bool, progress: Progress | None = None) -> xr.Dataset:
     """Sweep the rig over the span of the page."""
-    frequencies = np.linspace(*state.span, FINE if fine else COARSE)
+    count = FINE if fine else COARSE
+    frequencies = beside_resonance(state.oscillator, np.linspace(*state.span, count))
     few: dict[str, Any] = {} if fine else {"max_cycles": _PATIENCE, "window": _WINDOW}
     data = sweep(*state.rig, frequencies, progress=progress, **few)
     data.attrs["title"] = state.name

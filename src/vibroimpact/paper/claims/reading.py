@@ -14,7 +14,7 @@ from vibroimpact.paper.claim import Claim, Finding, Kind
 from vibroimpact.paper.study import HIGH, LOW, STEP, PublishedStudy
 from vibroimpact.response.peaks import Curve, Peak
 from vibroimpact.response.spectrum import spectrum
-from vibroimpact.response.swept import Direction
+from vibroimpact.response.swept import Direction, in_contact
 from vibroimpact.scenario.evidence import SAME
 
 TEST_STEP = 0.1
@@ -168,7 +168,7 @@ def backward_less(forward: Trend, backward: Trend) -> bool:
 
 def touching(data: xr.Dataset) -> xr.DataArray:
     """Where a sweep's mass hits a bumper."""
-    return (data["impacts_right"] + data["impacts_left"]) > 0.0
+    return in_contact(data)
 
 
 def contact_span(study: PublishedStudy, code: str) -> tuple[float, float]:
