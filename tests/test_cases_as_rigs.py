@@ -113,6 +113,7 @@ def test_a_study_that_is_shaken_by_several_harmonics_or_not_at_all(study):
         vi.sweep(path, GRID)
 
 
+@pytest.mark.filterwarnings("ignore::vibroimpact.errors.InputWarning")
 def test_a_study_that_cannot_be_used(study, tmp_path):
     with pytest.raises(vi.InputError, match=r"none\.toml' cannot be read .*study file"):
         vi.sweep(str(tmp_path / "none.toml"), GRID)
@@ -128,6 +129,7 @@ def test_a_study_that_cannot_be_used(study, tmp_path):
         vi.simulate(path, "2 Hz", 5)
 
 
+@pytest.mark.filterwarnings("ignore::vibroimpact.errors.InputWarning")
 def test_a_study_that_is_shaken_by_a_record(study, tmp_path):
     (tmp_path / "quake.txt").write_text("0.1\n0.2\n-0.1\n", encoding="utf-8")
     path = study('[excitation]\nrecord = "quake.txt"\nstep = "0.1 s"\nunit = "g"')

@@ -76,7 +76,7 @@ def test_public_names_are_documented():
         if name != "__version__":
             assert inspect.getdoc(thing), name
             assert f"`{name}" in page, f"{name} is not in docs/names.md"
-    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+    with pytest.raises(AttributeError, match="vibroimpact attribute nothing"):
         _ = vi.nothing
 
 

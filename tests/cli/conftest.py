@@ -4,12 +4,21 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from vibroimpact.cli import main
+
+
+@pytest.fixture(scope="module", autouse=True)
+def no_lines_of_progress():
+    """Where the engine has to be compiled a command may take long enough for one."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("vibroimpact.response.progress.LINES", math.inf)
+        yield
 
 
 @pytest.fixture(scope="module")

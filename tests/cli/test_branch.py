@@ -361,6 +361,28 @@ def test_a_first_orbit_that_cannot_be(run, words, named):
     assert errors.count("\n") == 1
 
 
+def test_an_isolator_without_stiffness(run, tmp_path):
+    """Between two springs that both touch the mass it is linear, and its swing known."""
+    (tmp_path / "study.toml").write_text(
+        "[oscillator]\nmass = 1.0\nisolator = { stiffness = 0, damping = 1.0 }\n"
+        "right = { stiffness = 100, damping = 0, gap = 0 }\n"
+        "left = { stiffness = 100, damping = 0, gap = 0 }\n[excitation]\namplitude = 1.0\n"
+    )
+    span = ("--from", "0.8Hz", "--to", "1.2Hz")
+    code, _, errors = run("study.toml", *span, "--frequency", "1Hz", "--period", "1")
+    assert (code, errors) == (0, "")
+    data = vi.load(tmp_path / "out/study-frequency-branches.nc")
+    omega = 2.0 * np.pi * data["frequency"].values
+    swing = 1.0 / np.hypot(100.0 - omega**2, omega)
+    np.testing.assert_allclose(data["peak_displacement"], swing, rtol=1e-7)
+    assert run("study.toml", *span[:2]) == (
+        2,
+        "",
+        "vibroimpact: error: --to: missing; the isolator has no stiffness, so that there is no "
+        "natural frequency and no default; a frequency greater than 0 is accepted\n",
+    )
+
+
 def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
     (tmp_path / "quay.toml").write_text(QUAY, encoding="utf-8")
     code, _, errors = run("quay.toml", "--from", "1.9Hz", "--to", "2Hz")

@@ -128,7 +128,9 @@ def test_a_replaced_file_is_told(run, tmp_path):
 def test_a_gap_in_metres_that_was_meant_in_millimetres(run):
     code, _, errors = run("B2-G1-A3", *FEW, "--gap", "15")
     assert code == 0
-    assert errors.startswith("vibroimpact: warning: a gap of 15 m is 434 times the largest disp")
+    assert errors.startswith(
+        "vibroimpact: warning: gap: 15 m is 434 times the largest displacement "
+    )
     assert errors.endswith("is 15 mm meant?\n")
     assert errors.count("\n") == 1
     for gap in ("15mm", "1m", "0"):

@@ -145,11 +145,12 @@ def test_what_keeps_the_gap_is_told_where_the_chart_varies_it(run, study):
     assert "The designs vary the gap; the gap of 50 mm plays no part in them." in told
     code, told, _ = run("building.toml", *narrow)
     assert "The designs vary" not in told
-    limit = ("--limit", "penetration", "80mm")
+    limit = ("--limit", "penetration", "800mm")
     code, told, _ = run("building.toml", "--best", "--gap", "50mm", *narrow, *limit)
     assert code == 0
     assert "The designs vary the gap; only the search keeps the gap of 50 mm." in told
     assert told.rstrip().count("as 50 % fractiles.") == 1
+    assert "Of this design: the limit of penetration does not bind: " in " ".join(told.split())
     stiff = ("--vary", "bumper-stiffness", "50MN/m:60MN/m:2")
     code, told, _ = run("building.toml", "--gap", "50mm", *stiff)
     assert "The designs vary" not in told
@@ -205,6 +206,7 @@ def test_sines_best_and_json(run, study):
     limits = {"penetration": 0.06}
     best = vi.least_acceleration(rig, "0.1 g", limits=limits, frequencies=(0.3, 0.5))
     assert facts["best"]["bumper_damping"] == pytest.approx(float(best["bumper_damping"]))
+    assert facts["best"]["notes"] == best.attrs.get("notes", "").splitlines()
     for path in facts["files"].values():
         assert (study / path).is_file()
 

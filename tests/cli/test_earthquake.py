@@ -73,6 +73,31 @@ def test_several_records_options_and_json(run, tmp_path, quake):
         assert (tmp_path / path).is_file()
 
 
+def test_each_record_of_a_suite_has_its_own_component_and_scale(run, tmp_path, quake):
+    head, *rows = (tmp_path / quake).read_text().splitlines()
+    both = [f"{row},{2.0 * float(row.split(',')[1]):.9g}" for row in rows]
+    (tmp_path / "two.csv").write_text("\n".join([f"{head},East (m/s^2)", *both]) + "\n")
+    words = ("B2-G1-A3", "two.csv", "two.csv", "--component", "North,East", "--json")
+    code, told, errors = run(*words, "--scale", "0.2, 0.3")
+    assert (code, errors) == (0, "")
+    first, second = json.loads(told)["records"]
+    assert (first["name"], second["name"]) == ("two.csv North", "two.csv East")
+    for one, name, scale in ((first, "North", 0.2), (second, "East", 0.3)):
+        record = vi.Record.read(tmp_path / "two.csv", name).scaled(scale)
+        direct = vi.seismic_response("B2-G1-A3", record)
+        assert one["peak_displacement_right"] == float(direct["peak_displacement_right"])
+    code, told, _ = run(*words, "--peak", "0.02g,0.01g")
+    peaks = [one["record"]["peak"] for one in json.loads(told)["records"]]
+    assert peaks == ["0.02 g", "0.01 g"]
+    for option, value in (("--scale", "1,2,3"), ("--peak", "1,2,3"), ("--component", "1,2,3")):
+        given = [*words[:4], value] if option == "--component" else [*words, option, value]
+        assert run(*given)[::2] == (
+            2,
+            f"vibroimpact: error: {option}: '1,2,3' are 3 for 2 records; one for all, or one for "
+            "each, is accepted\n",
+        )
+
+
 def test_a_study_with_its_record_and_one_without(run, tmp_path, quake):
     rig = """
     [oscillator]
@@ -124,13 +149,12 @@ def test_what_is_said_in_place_of_a_file_is_told(run, tmp_path):
     (tmp_path / "made.AT2").write_text("\n".join(lines) + "\n")
     code, _, errors = run("B2-G1-A3", "made.AT2", "--step", "33ms", "--unit", "cm/s^2")
     assert code == 0
-    assert "--step: 33 ms instead of the 10 ms that 'made.AT2' says" in errors
-    assert "--unit: cm/s^2 instead of the " in errors
-    assert all(line.startswith("vibroimpact: warning: ") for line in errors.splitlines())
+    noted = "step 33 ms, not the file's 0.01 s; unit cm/s^2, not the file's g; the peak is "
+    assert errors.startswith(f"vibroimpact: warning: record 'made.AT2': {noted}")
+    assert errors.count("\n") == 1
     (tmp_path / "bare.csv").write_text("\n".join(f"{i % 3 - 1}" for i in range(50)) + "\n")
-    for unit in ("m/s^2", "gal"):
-        code, _, errors = run("B2-G1-A3", "bare.csv", "--step", "10ms", "--unit", unit)
-        assert (code, errors) == (0, "")
+    code, _, errors = run("B2-G1-A3", "bare.csv", "--step", "10ms", "--unit", "m/s^2")
+    assert (code, errors) == (0, "")
 
 
 def test_a_unit_that_nobody_says_is_told(run, tmp_path):
@@ -138,17 +162,14 @@ def test_a_unit_that_nobody_says_is_told(run, tmp_path):
     code, _, errors = run("B2-G1-A3", "bare.csv", "--step", "10ms")
     note = "unit m/s², for the file says none"
     assert code == 0
-    assert errors == f"vibroimpact: warning: 'bare.csv': {note}; --unit g says another\n"
+    assert errors == f"vibroimpact: warning: record 'bare.csv': {note}\n"
     (tmp_path / "rig.toml").write_text(
         '[oscillator]\nmass = "550 kg"\nisolator = { stiffness = "26 kN/m", damping = 1000 }\n'
         '[excitation]\nrecord = "bare.csv"\nstep = "10 ms"\n'
     )
     code, _, errors = run("rig.toml")
     assert code == 0
-    assert errors == (
-        f"vibroimpact: warning: study 'rig.toml': excitation.record: {note}; excitation.unit says "
-        "another\n"
-    )
+    assert errors == f"vibroimpact: warning: record 'bare.csv': {note}\n"
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ import pytest
 
 from vibroimpact.cli.grid import default_range, default_span, frequencies, frequency_grid
 from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.parameters import option_range
 from vibroimpact.cli.rig import subject
 from vibroimpact.cli.study import SweepTable
 from vibroimpact.errors import InputError
@@ -87,6 +88,38 @@ def test_the_default_range_follows_from_the_rig(tmp_path):
     assert default_span(subject("B2-G1-A3", RigOptions())) == (0.3, 5.0)
     path.write_text('case = "B2-G1-A1"')
     assert default_range(subject(str(path), RigOptions())) == (0.5, 5.0, 0.01)
+
+
+NO_SPRING = """
+[oscillator]
+mass = 1.0
+isolator = { stiffness = 0, damping = 1.0 }
+right = { stiffness = 100, damping = 0, gap = 0 }
+left = { stiffness = 100, damping = 0, gap = 0 }
+[excitation]
+amplitude = 1.0
+"""
+
+
+def test_without_a_natural_frequency_nothing_is_refused_but_the_default(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(NO_SPRING)
+    what = subject(str(path), RigOptions())
+    assert frequencies("1Hz", "2Hz", "1Hz", None, None, default_range(what)) == (1.0, 2.0)
+    for missing, given in (
+        ("--from", (None, "2Hz", "1Hz")),
+        ("--to", ("1Hz", None, "1Hz")),
+        ("--step", ("1Hz", "2Hz", None)),
+    ):
+        with pytest.raises(InputError, match=f"{missing}: missing; the isolator has no stiffness"):
+            frequencies(*given, None, None, default_range(what))
+    ends = ("--from", "--to")
+    assert option_range("frequency", "1Hz", "2Hz", ends, default_span(what)) == (1.0, 2.0)
+    assert option_range("gap", "1mm", "2mm", ends, default_span(what)) == (0.001, 0.002)
+    with pytest.raises(InputError, match="--to: missing; the isolator has no stiffness"):
+        option_range("frequency", "1Hz", None, ends, default_span(what))
+    path.write_text(NO_SPRING + '[sweep]\nfrom = "1 Hz"\nto = "3 Hz"\n')
+    assert default_span(subject(str(path), RigOptions())) == (1.0, 3.0)
 
 
 @pytest.mark.parametrize(

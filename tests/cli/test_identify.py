@@ -73,6 +73,57 @@ def test_an_amplitude_without_a_unit_is_told_and_named_where_nothing_fits(file, 
     assert not any("the amplitude was taken" in line for line in found["findings"])
 
 
+def test_the_model_that_wins_has_values_a_report_and_a_study(tmp_path, capsys):
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    isolator = vi.PolynomialIsolator("31.9 kN/m", "1.1 kN s/m", cubic=4e7, quintic=0.0)
+    rig = vi.Oscillator("550 kg", isolator)
+    data = curves(rig, case.amplitude, 0.005, frequencies=[0.8, 1.0, 1.1, 1.2, 1.3, 1.4, 1.6, 2.0])
+    vi.save(data.assign_attrs(vibroimpact_version=vi.__version__), tmp_path / "test.nc")
+    guess = tmp_path / "guess.toml"
+    guess.write_text(
+        '[oscillator]\nmass = "550 kg"\n'
+        'isolator = { stiffness = "35 kN/m", damping = "1.1 kN s/m" }\n'
+    )
+    words = [
+        "identify",
+        str(tmp_path / "test.nc"),
+        "--rig",
+        str(guess),
+        "--free",
+        "stiffness",
+        "--bounds",
+        "stiffness",
+        "20e3:50e3",
+        "--compare",
+        "softening",
+        "--starts",
+        "1",
+    ]
+    assert main([*words, "-o", str(tmp_path), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    best = told["best_model"]
+    assert best["model"] == "softening"
+    for name, value in (("stiffness", 31900.0), ("cubic", 4e7)):
+        found = best["parameters"][name]
+        low, high = found["interval"]
+        assert low < found["value"] < high
+        assert abs(found["value"] - value) < 4.0 * found["standard_error"]
+    assert {"softening: report", "softening: data"} < set(told["files"])
+    assert "cubic" in (tmp_path / "guess-fit-softening.toml").read_text()
+
+
+def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_path, capsys):
+    rig = tmp_path / "wall.toml"
+    rig.write_text(
+        '[oscillator]\nmass = "550 kg"\n'
+        'isolator = { stiffness = "31 kN/m", damping = "1.1 kN s/m" }\n'
+        'right = { kind = "rigid", restitution = 0.8, gap = "10 mm" }\n'
+    )
+    words = ["identify", str(file), "--rig", str(rig), "--free", "gap", "--compare", "hertz"]
+    assert main([*words, "-o", str(tmp_path)]) == 2
+    assert "it has no linear bumper" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [

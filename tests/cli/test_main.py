@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -75,6 +76,66 @@ def test_installed_program(tmp_path):
     )
     assert (wrong.returncode, wrong.stdout) == (2, "")
     assert "Traceback" not in wrong.stderr
+
+
+def test_help_for_a_reader_that_leaves():
+    """Until it has left, nothing is written."""
+    code = (
+        "import sys, time; from vibroimpact.cli import main\ntime.sleep(0.5)\n"
+        "sys.exit(main(['--help']))"
+    )
+    words = [sys.executable, "-c", code]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 0
+
+
+ENDED = """
+import os, signal, sys, time
+import vibroimpact.response.sweep as module
+from vibroimpact.cli import main
+def computing(*_, **__):
+    print("computing", flush=True)
+    time.sleep(30)
+module.sweeps = computing
+sys.argv[1:] = ["sweep", "B2-G1-A3", "--frequencies", "1Hz,2Hz"]
+sys.exit(main())
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="its processes have no such signals")
+@pytest.mark.parametrize(("name", "word", "code"), [("TERM", "terminated", 143)])
+def test_a_signal_ends_a_command_and_leaves_nothing(tmp_path, name, word, code):
+    with subprocess.Popen(
+        [sys.executable, "-c", ENDED],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdout.readline() == "computing\n"
+        process.send_signal(getattr(signal, f"SIG{name}"))
+        _, errors = process.communicate(timeout=20)
+    assert (process.returncode, errors) == (code, f"vibroimpact: {word}\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+LATE = """
+import atexit, os, signal, sys
+from vibroimpact.cli import main
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.argv[1:] = ["--version"]
+code = main()
+os.kill(os.getpid(), signal.SIGINT)
+sys.exit(code)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="its processes have no such signals")
+def test_an_interrupt_after_the_end_has_its_exit_code():
+    done = subprocess.run([sys.executable, "-c", LATE], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (130, "")
 
 
 def test_a_reader_that_leaves(tmp_path):

@@ -325,6 +325,21 @@ def test_phase_of_a_study(run, tmp_path):
     assert "--frequency: missing" in errors
 
 
+def test_an_isolator_without_stiffness(run, tmp_path):
+    """Between two springs that both touch the mass it is linear, and its swing known."""
+    (tmp_path / "study.toml").write_text(
+        "[oscillator]\nmass = 1.0\nisolator = { stiffness = 0, damping = 1.0 }\n"
+        "right = { stiffness = 100, damping = 0, gap = 0 }\n"
+        "left = { stiffness = 100, damping = 0, gap = 0 }\n[excitation]\namplitude = 1.0\n"
+    )
+    code, told, errors = run("study.toml", "--frequency", "1Hz", "--random", "1", "--json")
+    assert (code, errors) == (0, "")
+    (motion,) = json.loads(told)["motions"]
+    omega = 2.0 * math.pi
+    swing = 1.0 / math.hypot(100.0 - omega**2, omega)
+    assert motion["displacement_max"] == pytest.approx(swing, rel=1e-9)
+
+
 def test_a_motion_that_is_given_up(run, tmp_path):
     """Nothing takes the energy of a mass that bounces through half of a very slow cycle."""
     words = ("--damping", "0", "--bumper-damping", "0", "--frequency", "0.0001Hz")

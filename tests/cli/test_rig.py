@@ -31,7 +31,7 @@ def test_parameter_sets(which):
 
 def test_name():
     assert subject("B2-G1-A3", RigOptions(), "my/rig 1")[:2] == ("my/rig 1", "my_rig_1")
-    assert subject("B2-G1-A3", RigOptions(), "../..").slug == "rig"
+    assert subject("B2-G1-A3", RigOptions(), "../..").slug == "rig-0cfd1c96"
 
 
 def test_every_option_replaces_its_value_and_nothing_else():

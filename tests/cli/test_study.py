@@ -234,7 +234,8 @@ class TestWhatShakes:
         path = write(
             RIG + '[excitation]\nrecord = "quake.csv"\nstep = "20 ms"\n[simulate]\ntail = "5 s"\n'
         )
-        what = subject(str(path), RigOptions())
+        with pytest.warns(vi.InputWarning, match="unit m/s², for the file says none"):
+            what = subject(str(path), RigOptions())
         assert what.shaking == vi.Record(values, 0.02)
         assert what.study.simulate.tail == 5.0
         with pytest.raises(vi.InputError, match=r"^excitation.record: a record has no period"):
@@ -246,7 +247,8 @@ class TestWhatShakes:
         rows = (f"{float(t)!r},{float(x)!r}" for t, x in zip(time, moved, strict=True))
         write("\n".join(["t,x", *rows]), "x.csv")
         path = write(RIG + '[excitation]\nrecord = "x.csv"\nunit = "mm"\n')
-        shaking = subject(str(path), RigOptions()).shaking
+        with pytest.warns(vi.InputWarning, match="displacements, differentiated twice"):
+            shaking = subject(str(path), RigOptions()).shaking
         expected = vi.Record.from_displacement(1e-3 * moved, 0.05)
         assert shaking.step == pytest.approx(expected.step, rel=1e-14)
         assert shaking.acceleration == pytest.approx(expected.acceleration, abs=1e-11)

@@ -61,6 +61,7 @@ def test_left_hysteresis_and_advice(run):
     _, told, _ = run(*words)
     assert "0.68 to 0.72 Hz: left (backward above forward)" in told
     assert "Not settled\n" in told
+    assert "raise --max-cycles" in told
     assert "Advice: " in told
 
 
@@ -120,9 +121,10 @@ def test_figure_is_repeated_to_the_byte(run, tmp_path):
     assert figures[0] == figures[1]
 
 
-def test_no_bar_where_nobody_sees_it(monkeypatch):
+def test_no_bar_where_nobody_sees_it(monkeypatch, capsys):
     with output.progress_bar("sweeping") as progress:
-        assert progress is None
+        progress(1, 2)
+    assert capsys.readouterr().err == ""
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     with output.progress_bar("sweeping") as progress:
         progress(1, 2)
@@ -216,7 +218,7 @@ def test_interrupted_while_writing_leaves_the_old_file(run, tmp_path, monkeypatc
     before = (tmp_path / "out/B2-G1-A3-sweep.png").read_bytes()
 
     def interrupted(self, beside, **_):
-        beside.write_bytes(b"half a fig")
+        beside.write(b"half a fig")
         raise KeyboardInterrupt
 
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", interrupted)

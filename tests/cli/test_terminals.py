@@ -110,6 +110,26 @@ def test_a_closed_stdout(tmp_path):
     assert (tmp_path / "out/B2-G1-A3-sweep.nc").is_file()
 
 
+@pytest.mark.parametrize("stream", ["2>&-", "2>&- >&-", "2>/dev/full"])
+def test_a_closed_stderr(tmp_path, stream):
+    if "full" in stream and not os.path.exists("/dev/full"):
+        pytest.skip("no full disk at hand")
+    # A gap that nobody means is doubted in a warning.
+    line = f"{' '.join(PROGRAM)} sweep B2-G1-A3 --frequencies 1Hz,2Hz --gap 5m {stream}"
+    done = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert ("Resonances" in done.stdout) == (">&-" not in stream.removeprefix("2>&-"))
+    (written,) = (tmp_path / "out").glob("*-sweep.nc")
+    assert written.read_bytes()[1:4] in (b"HDF", b"DF\x01")
+    wrong = subprocess.run(
+        ["sh", "-c", f"{' '.join(PROGRAM)} sweep B9 {stream}"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+    )
+    assert (wrong.returncode, wrong.stdout) == (2, "")
+
+
 def test_a_file_that_fails_beneath(tmp_path, monkeypatch, capsys):
     def broken(*_, **__):
         raise PermissionError(13, "Permission denied", "cache")

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
+
 import pytest
 
-from vibroimpact.cli import main
+from vibroimpact.cli import _app, main
 
 CASE = "B2-G1-A3"
 FEW = ("--frequencies", "1Hz,2Hz")
@@ -77,6 +80,14 @@ def test_unused_words_are_told_plainly(refused):
     )
 
 
+def test_an_unknown_command_lists_all_of_them(refused):
+    line = refused("swep")
+    assert line.startswith('Unknown command "swep". Did you mean "sweep"? ')
+    listed = line.partition("? ")[2].partition(" are accepted")[0].split(", ")
+    assert len(listed) == 19
+    assert set(listed) == {name for name in _app() if not name.startswith("-")}
+
+
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion_is_installed(tmp_path, monkeypatch, capsys, shell):
     monkeypatch.setenv("HOME", str(tmp_path))
@@ -88,3 +99,42 @@ def test_completion_is_installed(tmp_path, monkeypatch, capsys, shell):
     scripts = "".join(p.read_text() for p in tmp_path.rglob("*") if p.is_file())
     assert "sweep" in scripts
     assert "--bumper-stiffness" in scripts
+
+
+@pytest.fixture(scope="module")
+def script(tmp_path_factory):
+    """What bash completes words by."""
+    home = tmp_path_factory.mktemp("home")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HOME", str(home))
+        assert main(["--install-completion", "--shell", "bash"]) == 0
+    found = [p for p in home.rglob("vibroimpact") if p.is_file()]
+    return next(path for path in found if "complete -F" in path.read_text())
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="no bash is installed")
+@pytest.mark.parametrize(
+    ("words", "completed"),
+    [
+        (["sweep", "stu"], "study.toml"),
+        (["record", "qua"], "quake.AT2"),
+        (["earthquake", CASE, "quake.AT2", "qua"], "quake.AT2"),
+        (["identify", "test.csv", "--rig", "stu"], "study.toml"),
+        (["identify", "qua"], "quake.AT2"),
+        (["map", "stu"], "study.toml"),
+        (["sweep", CASE, "--output", "res"], "results"),
+    ],
+)
+def test_file_names_are_completed(tmp_path, script, words, completed):
+    for name in ("study.toml", "quake.AT2"):
+        (tmp_path / name).touch()
+    (tmp_path / "results").mkdir()
+    typed = " ".join(["vibroimpact", *words])
+    asked = f"source {script}; COMP_WORDS=({typed}); COMP_CWORD={len(words)}; _vibroimpact"
+    done = subprocess.run(
+        ["bash", "-c", f'{asked}; printf "%s\\n" "${{COMPREPLY[@]}}"'],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+    )
+    assert done.stdout.split() == [completed], done.stderr

@@ -17,7 +17,7 @@ def test_every_public_name_occurs_once():
     for page in (ROOT / "docs/reference").glob("*.md"):
         for module, names in LISTED.findall(page.read_text(encoding="utf-8")):
             found.update(f"{module}.{name}" for name in re.findall(r"^   (\w+)$", names, re.M))
-    public = {f"vibroimpact.{name}" for name in {*vi.__all__, *vi._HOME}}
+    public = {f"vibroimpact.{name}" for name in vi.__all__}
     public -= {"vibroimpact.__version__", "vibroimpact.laboratory"}  # the latter is a module
     public |= {f"vibroimpact.model.laboratory.{name}" for name in ("case", "campaign")}
     public |= {f"vibroimpact.figures.{name}" for name in figures.__all__}

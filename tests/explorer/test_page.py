@@ -119,6 +119,19 @@ def test_a_wrong_value_is_told_beside_the_field(opened):
     page.wait_for_selector("#frequency-why:not(:empty)")
 
 
+def test_a_value_that_changes_the_set_of_knobs_stays_in_its_field(opened):
+    page = opened()
+    for value, shown in (("0", "0 N s/m"), ("1.2 kN s/m", "1.2 kN s/m")):
+        page.fill("#text-isolator-damping", value)
+        page.keyboard.press("Enter")
+        # A gap over free flight's peak, which has no bound without damping.
+        there = "attached" if value != "0" else "detached"
+        page.wait_for_selector("#text-stops-gap_ratio", state=there)
+        assert page.input_value("#text-isolator-damping") == shown
+        focused = page.evaluate("document.activeElement.id")
+        assert focused == "text-isolator-damping"
+
+
 def test_a_click_on_a_curve_shows_the_motion_there(opened):
     page = opened()
     orbit = page.locator("#views [data-name='orbit']")

@@ -5,8 +5,11 @@ from __future__ import annotations
 import contextlib
 import json
 import signal
+import socket
 import subprocess
 import sys
+import threading
+import time
 import urllib.error
 import urllib.request
 
@@ -18,6 +21,8 @@ import vibroimpact as vi
 from explorer.conftest import Served
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.server import MOST_MESSAGE, MOST_SESSIONS
+from vibroimpact.explorer.session import Session
+from vibroimpact.response.threads import Stopped
 
 
 def live(served, **options):
@@ -84,7 +89,15 @@ def test_a_page_may_run_its_own_files_only(served):
     assert b"http" not in body  # nothing is loaded from elsewhere
 
 
-@pytest.mark.parametrize("raw", ["", "{", "[1]", "null", '{"do": 1}', "[" * 5000, b"\x80\x04."])
+@pytest.mark.parametrize(
+    "raw",
+    [
+        *("", "{", "[1]", "null", '{"do": 1}', "[" * 5000, b"\x80\x04."),
+        '{"do": "look", "what": "state", "on": true}',
+        '{"do": "change", "path": NaN, "value": 1}',
+        '{"do": "change", "path": "\\ud800", "value": 1}',
+    ],
+)
 def test_what_is_not_understood_is_refused(served, raw):
     with live(served) as socket:
         socket.recv()
@@ -107,6 +120,76 @@ def test_messages_are_bounded(served):
             for _ in range(100):
                 socket.recv(timeout=30)
         assert socket.close_code == 1009
+
+
+def until(socket, key):
+    """The next message with this key."""
+    while key not in (told := json.loads(socket.recv(timeout=30))):
+        pass
+    return told
+
+
+def test_a_knob_does_not_wait_for_a_file(served, monkeypatch):
+    ready = threading.Event()
+
+    def slow(session, kind, state):
+        assert ready.wait(30)
+        return {"file": f"{state.oscillator.mass:g} kg", "mime": "", "bytes": ""}
+
+    monkeypatch.setattr("vibroimpact.explorer.server.Session.file", slow)
+    with live(served) as socket:
+        socket.recv()
+        socket.send('{"do": "file", "kind": "csv"}')
+        for k in range(40):  # more than wait in line
+            socket.send(json.dumps({"do": "change", "path": "mass", "value": 600 + k, "n": k}))
+        while until(socket, "state")["n"] != 39:
+            pass
+        socket.send('{"do": "file", "kind": "csv"}')
+        assert "another one is being made" in until(socket, "refused")["refused"]
+        ready.set()
+        assert until(socket, "file")["file"] == "550 kg"  # as it was when it was asked for
+
+
+def test_who_has_left_takes_no_place(served, monkeypatch):
+    begun, left = threading.Event(), threading.Event()
+    real = Session.file
+
+    def until_left(session, kind, state):
+        if kind != "wait":
+            return real(session, kind, state)
+        begun.set()
+        while not session.ended:
+            time.sleep(0.01)
+        left.set()
+        raise Stopped
+
+    monkeypatch.setattr("vibroimpact.explorer.server.Session.file", until_left)
+    with live(served) as socket:
+        socket.recv()
+        socket.send('{"do": "file", "kind": "wait"}')
+        assert begun.wait(30)
+    assert left.wait(30)
+    with live(served) as socket:
+        socket.recv()
+        socket.send('{"do": "file", "kind": "study"}')
+        assert until(socket, "file")["file"] == f"{FIRST}.toml"
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "GET http://[/ HTTP/1.1\r\nHost: {host}",
+        "GET / HTTP/1.1\r\nHost: {host}\r\nHost: evil.example",
+        "GET /live HTTP/1.1\r\nHost: {host}\r\nOrigin: http://[",
+        "GET /live HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nOrigin: http://{host}",
+    ],
+)
+def test_a_request_that_is_none_is_told_so(served, head):
+    with contextlib.closing(socket.create_connection(("127.0.0.1", served.port))) as plain:
+        host = f"127.0.0.1:{served.port}"
+        plain.sendall(head.format(host=host).encode() + b"\r\n\r\n")
+        plain.settimeout(30)
+        assert plain.recv(100).startswith(b"HTTP/1.1 400 ")
 
 
 def test_sessions_are_bounded(served):
@@ -161,6 +244,20 @@ def test_the_command_says_where_and_ends_with_ctrl_c():
             process.kill()  # if it has not ended
     assert process.returncode == 0
     assert said.endswith("The explorer has ended.\n")
+
+
+def test_without_websockets_that_is_said_before_anything_is_loaded():
+    code = (
+        "import sys; import vibroimpact.explorer as module; module.find_spec = lambda name: None\n"
+        "from vibroimpact.cli import main; code = main(['explore'])\n"
+        "heavy = {'numpy', 'numba', 'xarray', 'matplotlib', 'pydantic', 'pint'}\n"
+        "assert not heavy & set(sys.modules), heavy & set(sys.modules)\n"
+        "sys.exit(code)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "pip install 'vibroimpact[explore]'" in done.stderr
+    assert done.stderr.count("\n") == 1
 
 
 def test_in_a_notebook():

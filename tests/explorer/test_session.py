@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import json
 
 import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.explorer import share
 from vibroimpact.explorer.presets import preset
+from vibroimpact.explorer.server import _text
 from vibroimpact.explorer.session import Session
 from vibroimpact.response.threads import Stopped
 
@@ -110,6 +113,10 @@ def test_what_is_overtaken_is_not_made(session):
         {"do": "place", "x": 1e400, "y": 2},
         {"do": "preset", "name": "../../etc/passwd"},
         {"do": "open", "address": "AAAA"},
+        {"do": "look", "what": "state", "on": True},
+        {"do": "change", "path": float("nan"), "value": 1},
+        {"do": "change", "path": "\ud800", "value": 1},
+        {"do": "preset", "name": "\ud800", "path": ["mass"]},
     ],
 )
 def test_what_is_wrong_is_refused_and_changes_nothing(session, message):
@@ -117,6 +124,68 @@ def test_what_is_wrong_is_refused_and_changes_nothing(session, message):
     told = session.take(message)
     assert told["refused"]
     assert session.history == before
+    assert json.loads(_text(told).encode()) == told  # it can be sent
+
+
+ODD = [
+    None,
+    True,
+    [],
+    {},
+    [1],
+    {"kind": []},
+    "",
+    "x",
+    "nan",
+    "\ud800",
+    0,
+    -1,
+    1e308,
+    1e-320,
+    10**400,
+]
+
+
+def places(table, path=()):
+    yield path
+    inner = table.items() if isinstance(table, dict) else enumerate(table)
+    for key, value in inner:
+        yield from places(value, (*path, key)) if isinstance(value, dict | list) else [(*path, key)]
+
+
+@pytest.mark.parametrize("odd", ODD, ids=repr)
+def test_an_address_of_wrong_types_is_answered(session, odd):
+    written = json.loads(base64.urlsafe_b64decode(share.address(session.state) + "=="))
+    for path in places(written):
+        table = {"whole": json.loads(json.dumps(written))}
+        part = table
+        for key in (keys := ("whole", *path))[:-1]:
+            part = part[key]
+        part[keys[-1]] = odd
+        address = base64.urlsafe_b64encode(json.dumps(table["whole"]).encode()).decode()
+        told = session.take({"do": "open", "address": address})
+        assert "state" in json.loads(_text(told).encode())
+        session.take({"do": "open", "address": share.address(preset("B2-G1-A3"))})
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize("path", ["isolator.damping", "damping_ratio", "amplitude", "force"])
+def test_knobs_beyond_all_bounds_are_told_in_words(session, path):
+    session.take({"do": "look", "what": "map", "on": True})
+    for value in (1e150, 1e300):
+        if "refused" in session.take({"do": "change", "path": path, "value": value}):
+            continue
+        for stage in session.stages():
+            if not stage.long and stage.kind != "map":
+                with contextlib.suppress(vi.InputError):
+                    session.make(stage, session.asked)
+
+
+def test_without_damping_there_is_a_scenario(session):
+    told = session.take({"do": "change", "path": "isolator.damping", "value": 0})
+    assert "refused" not in told
+    classified = next(s for s in session.stages() if s.kind == "scenario" and s.long)
+    assert session.make(classified, session.asked)["scenario"] == "S4"
 
 
 def test_files(session, tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import tomllib
 import tracemalloc
 
 import pytest
@@ -121,7 +122,7 @@ def test_a_history_does_not_grow():
     "name", ["S4: motions that are not regular (B3, 10 mm, A3)", presets.BUILDING, "B1-G4-A1"]
 )
 def test_an_address_gives_the_state_back(name):
-    state = change.looked(presets.preset(name), physical=True)
+    state = change.looked(presets.preset(name), {"physical": True})
     state = change.chosen(state, "backward", sum(state.span) / 3)
     for law in ("rigid", "power"):
         state = change.with_law(state, "stops", law)
@@ -188,6 +189,19 @@ def test_a_name_runs_nothing():
             share.from_address(made(name=forged))
     many = share.program(state._replace(name="a\nraise SystemExit"))
     exec(many.split("frequencies =")[0], names)
+
+
+@pytest.mark.parametrize(
+    "name", ["a\x7fb", "a\0b", 'a"\\b', "防撞 🏗", "a\x85b", "\x1b[31m", "half \ud800"]
+)
+def test_files_of_odd_names_can_be_read(tmp_path, name):
+    state = CASE._replace(name=name)
+    path = tmp_path / "study.toml"
+    path.write_bytes(share.study(state).encode())
+    assert tomllib.loads(path.read_text("utf-8"))["name"] == name.replace("\ud800", "?")
+    names: dict[str, object] = {}
+    exec(share.program(state).encode().split(b"frequencies =")[0], names)
+    assert names["oscillator"] == CASE.oscillator
 
 
 def test_what_a_page_can_begin_with():

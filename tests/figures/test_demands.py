@@ -59,16 +59,34 @@ def test_accelerations_are_drawn_in_g() -> None:
     np.testing.assert_allclose(incremental_curves(data).lines[0].get_xdata(), SCALES / 9.80665)
 
 
-def test_a_curve_that_one_record_decides_has_no_band() -> None:
+def test_the_band_is_that_of_the_levels_and_holds_the_curve_between_them() -> None:
+    found = vi.fragility(
+        lognormal(np.random.default_rng(1), 12, SCALES[::2], 0.4), "peak_displacement", 1.0
+    )
+    ax = fragility_curves(found)
+    (outline,) = ax.collections[0].get_paths()
+    at, curve = ax.lines[0].get_data()
+    for x, p in zip(at[1:-1], curve[1:-1], strict=True):
+        column = outline.vertices[np.isclose(outline.vertices[:, 0], x), 1]
+        assert column.min() - 1e-12 <= p <= column.max() + 1e-12
+        assert column.max() - column.min() < 0.75
+    low, high = found["fitted_probability_bound"].values
+    for x, *ends in zip(SCALES[::2][1:-1], low[1:-1], high[1:-1], strict=True):
+        near = outline.vertices[np.abs(outline.vertices[:, 0] / x - 1.0) < 4e-3, 1]
+        assert near.min() == pytest.approx(ends[0], abs=0.02)
+        assert near.max() == pytest.approx(ends[1], abs=0.02)
+
+
+def test_a_curve_of_too_few_records_within_the_levels_has_no_band() -> None:
     scales = np.array([1.0, 2.0, 3.0, 4.0])
-    early, late = np.array([0.5, 2.0, 2.0, 2.0]), np.array([0.5, 0.6, 0.7, 2.0])
-    data = suite(np.array([early, late, early]), scales)
-    with pytest.warns(RuntimeWarning, match="one record decides"):
+    first, early, last = (np.where(scales >= begin, 2.0, 0.5) for begin in (0.0, 2.0, 9.0))
+    data = suite(np.array([first, early, last, last]), scales)
+    with pytest.warns(RuntimeWarning, match="fewer than two records begin"):
         found = vi.fragility(data, "peak_displacement", 1.0)
     ax = fragility_curves(found)
     assert len(ax.collections) == 0
     words = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert words[0].endswith("(no band: one record decides)")
+    assert words[0].endswith("(no band: too few records begin within the levels)")
     assert words[1:] == ["share of the records"]
     many = lognormal(np.random.default_rng(1), 20, scales, 0.9)
     sound = vi.fragility(many, "peak_displacement", 2.0)
@@ -77,7 +95,7 @@ def test_a_curve_that_one_record_decides_has_no_band() -> None:
     ax = fragility_curves(both)
     assert len(ax.collections) == 1
     words = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert [text.endswith("one record decides)") for text in words] == [True, False]
+    assert [text.endswith("within the levels)") for text in words] == [True, False]
 
 
 def test_what_has_no_curve_says_which_levels_would_give_one() -> None:

@@ -713,3 +713,11 @@ def test_wrong_numbers_of_axes_or_columns_are_refused():
     refused(lambda: motion_page({"a": {}}), "motions: ", "at least one")
     refused(lambda: motion_page({"a": xr.Dataset()}), "motion: ")
     refused(lambda: motion_page({"a": hitting()}, highest=0.0), "highest: 0")
+
+
+def test_a_long_portrait_is_a_small_file(tmp_path):
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 1e-4))
+    long = vi.simulate(rig, vi.Harmonic(0.1, 0.3), 300, samples=256)
+    path = save_figure(phase_portrait(long), tmp_path / "long.svg")
+    assert "<image" in path.read_text(encoding="utf-8")
+    assert path.stat().st_size < 1_000_000  # 76,801 samples as lines have more

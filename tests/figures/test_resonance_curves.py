@@ -164,6 +164,17 @@ class TestOtherSweeps:
         assert "left hysteresis (backward above)" in legend_texts(upper)
         assert {"forward jump up", "backward jump down"} < set(arrows(upper))
 
+    def test_each_panel_shows_which_sweep_is_above_in_it(self):
+        """Larger accelerations may come with smaller displacements."""
+        data = swept("B3-10mm-A3", 0.5, 1.0, 0.01)
+        turned = data.assign(eta_d=(data["eta_d"].dims, data["eta_d"].values[::-1]))
+        for given, hatched in ((data, [True, True]), (turned, [True, False])):
+            axes = resonance_curves(given)
+            assert [shades(ax)[0][2] for ax in axes] == hatched
+        assert {"left hysteresis (backward above)", "right hysteresis (forward above)"} < set(
+            legend_texts(axes[0])
+        )
+
     def test_unsettled_motions_are_marked(self):
         data = swept("B3-10mm-A3", 0.5, 4, 0.01)
         upper, lower = resonance_curves(data)

@@ -113,3 +113,30 @@ def test_models_are_compared(case, data, fit):
     wrong = vi.identify(other, case.oscillator, "gap", **asked)
     with pytest.raises(vi.InputError, match="other data"):
         vi.compare_fits({"one": fit, "other": wrong})
+
+
+def test_names_of_tests_are_no_markdown_and_no_html(tmp_path):
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    data = curves(case.oscillator, case.amplitude, 0.02, frequencies=np.arange(1.0, 2.0, 0.1))
+    names = ["<script>alert(1)</script> | x", "<script>alert(1)</script> / x", "[a](b) *c* `d`"]
+    found = vi.identify(
+        dict.fromkeys(names, data), case, "stiffness", tried=0, starts=1, profiles=False
+    )
+    files = vi.fit_report(found, tmp_path)
+    text = files["markdown"].read_text()
+    assert "<script>" not in text.replace("\\<script\\>", "")
+    assert "](b)" not in text.replace("\\](b)", "")
+    rows = [line for line in text.splitlines() if line.startswith("| \\<script")]
+    assert all(line.replace("\\|", "").count("|") == 6 for line in rows)
+    assert len(rows) == 2
+    assert "<script>" not in files["report"].read_text()
+    # Names that differ in what a file name cannot hold have files of their own.
+    drawn = [path for key, path in files.items() if key.startswith("figure curves")]
+    assert len(set(drawn)) == 3
+
+
+def test_a_name_that_a_terminal_would_obey_is_refused():
+    case = vi.laboratory.case("B2-G2-A2", "identified")
+    data = curves(case.oscillator, case.amplitude, frequencies=np.array([1.0, 1.1]))
+    with pytest.raises(vi.InputError, match=r"^data: .*control character"):
+        vi.identify({"a\x1b[2J": data}, case, "stiffness")

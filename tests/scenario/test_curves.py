@@ -28,6 +28,19 @@ def test_a_sweep_without_a_dataset_shows_the_same(gaps):
         np.testing.assert_array_equal(one, other)
 
 
+def test_a_bumper_that_stays_pressed_is_touched_in_both():
+    oscillator, shaken = one_sine(*vi.from_dimensionless(20.0, 0.5, 0.01, 0.15), "rig")
+    pressed = oscillator.left.replace(gap=-3.0 * oscillator.left.gap)
+    rig = one_sine(oscillator.replace(left=pressed), shaken, "rig")
+    grid = np.array([0.5, 0.7]) * oscillator.natural_frequency
+    data = vi.sweep(*rig, grid, max_cycles=300, window=100)
+    assert not data["impacts_left"].any()
+    curves, _ = swept_alone(rig, grid, 300, 100, np.zeros(2, dtype=np.int64))
+    (told,) = each_curves(as_rigs(data))
+    assert curves.both.touching.all()
+    assert told.both.touching.all()
+
+
 def test_the_end_of_a_hold_is_where_the_mass_goes_on():
     rig = one_sine(*vi.from_dimensionless(20.0, 0.3, 0.01, 0.15), "rig")
     grid = np.array([1.2, 1.3]) * rig.oscillator.natural_frequency

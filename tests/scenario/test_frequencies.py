@@ -52,3 +52,18 @@ def test_bounds():
     assert 1.1 * 1.0983 / 0.5 < highest(*wide) < 1.1 * 1.0983 / 0.5 + 0.6  # π√(1-ξ²)/(2√2 δ)
     narrow = sine(24.0, 1e-6, 0.01, 0.15)
     assert 5.5 < highest(*narrow) < 6.1  # √(1 + λ) = 5
+
+
+@pytest.mark.parametrize("stops", [True, False])
+def test_an_undamped_isolator_is_not_held_at_its_resonance(stops):
+    case = vi.laboratory.case("B2-G1-A3")
+    rig = case.oscillator.replace(isolator=vi.Isolator(case.oscillator.isolator.stiffness, 0.0))
+    rig = rig if stops else rig.without_bumpers()
+    ratios = frequencies(*one_sine(rig, case.amplitude, "")) / rig.natural_frequency
+    assert np.abs(ratios - 1.0).min() == pytest.approx(0.005)
+    assert np.diff(ratios).min() == pytest.approx(0.005)
+    damped = rig.replace(isolator=case.oscillator.isolator)
+    there = frequencies(*one_sine(damped, case.amplitude, "")) / rig.natural_frequency
+    assert np.count_nonzero(np.abs(there[: len(ratios)] - ratios[: len(there)]) > 1e-9) == 1
+    if not stops:
+        assert vi.classify(rig, case.amplitude).scenario == "S0"

@@ -62,13 +62,32 @@ def test_of_sines() -> None:
 
 def test_a_wide_gap_leaves_nothing_to_choose() -> None:
     need = float(vi.required_gap(RIG, RECORDS)["required_gap"])
-    found = vi.least_acceleration(RIG, RECORDS, gap=need + 1e-9)
+    untouched = (
+        "the best design touches no stop, so what the stops are like plays no part; the limit of "
+        "peak force does not bind: 0 N of 1 MN"
+    )
+    with pytest.warns(vi.InputWarning, match=f"^least_acceleration: {untouched}"):
+        found = vi.least_acceleration(RIG, RECORDS, gap=need + 1e-9, limits={"peak_force": "1 MN"})
+    assert found.attrs["notes"].splitlines()[:2] == untouched.split("; ")
     free = max(
         float(vi.seismic_response(RIG.without_bumpers(), one)["peak_acceleration"])
         for one in RECORDS
     )
     assert float(found["hitting"]) == 0.0
     assert float(found["peak_acceleration"]) == pytest.approx(free, rel=1e-10)
+
+
+def test_what_binds_and_what_does_not_is_noted() -> None:
+    """A limit that is reached is not noted, one that is not is, and so is the end of a range."""
+    limits = {"penetration": "2 mm", "peak_force": "1 MN"}
+    found = vi.least_acceleration(RIG, RECORDS, RANGES, limits=limits)
+    assert float(found["penetration"]) == pytest.approx(2e-3, rel=1e-2)
+    (note,) = found.attrs["notes"].splitlines()
+    assert note.startswith("the limit of peak force does not bind: ")
+    assert note.endswith(" N of 1 MN")
+    stiff = {"bumper_stiffness": (2e6, 3e6)}
+    ended = vi.least_acceleration(RIG, RECORDS, stiff, gap="10 mm")
+    assert ended.attrs["notes"] == "bumper_stiffness ended at the lower end of its range, 2000 kN/m"
 
 
 def test_it_is_repeatable() -> None:
