@@ -15,6 +15,7 @@ ENDS = (
     "it is born at",
     "no orbit could be found",
     "400 points",
+    "orbits are not isolated",
 )
 
 
@@ -30,6 +31,7 @@ def test_every_point_comes_back_to_itself(motion: Motion, phase: float) -> None:
         assume(False)
     for name in ("ended_low", "ended_high"):
         assert data.attrs[name].startswith(ENDS)
+    assert "unexplained_changes" not in data.attrs  # nor a warning, which would be an error
     assert np.isfinite(data["displacement_excursion"]).all()
     assert float(data["frequency"].min()) >= low * (1 - 1e-12)
     assert float(data["frequency"].max()) <= high * (1 + 1e-12)

@@ -40,6 +40,7 @@ MARKS = {
     "symmetry breaking": _Mark("s", "#7a3e9d", True),
     "period doubling": _Mark("^", "#00795c", True),
     "Neimark-Sacker": _Mark("D", "#b0006d", True),
+    "branching": _Mark("X", "#1f4fbf", True),
     # A ring around what it falls on: a fold or a period doubling is often a hair away.
     "grazing": _Mark("o", "black", False, 9.0),
 }

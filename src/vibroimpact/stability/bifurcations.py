@@ -6,6 +6,9 @@ symmetry breaking      of a motion that is its own mirror image: an eigenvalue o
                        half a cycle and the mirror passes −1, det(H + I) changes its sign
 period doubling        a multiplier passes −1: det(M + I) changes its sign
 Neimark–Sacker         a complex pair passes the unit circle
+branching              a multiplier passes 1 though the branch does not turn: det(M − I) changes
+                       its sign. A symmetry breaking, if the orbit is its own mirror image
+                       though its rig is not
 grazing                the contacts change (`trace`)
 =====================  =====================================================================
 """
@@ -26,7 +29,7 @@ from vibroimpact.continuation.zero import between_zeros, zero_within
 from vibroimpact.engine import section_map
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.fixed_points import SEEN, Orbit, corrected, is_fixed
+from vibroimpact.stability.fixed_points import SEEN, Orbit, corrected, evaluated, is_fixed
 from vibroimpact.stability.parents import half_plus, parent, slid
 from vibroimpact.stability.trace import Station, solved
 
@@ -37,7 +40,12 @@ BREAKING = "symmetry breaking"
 DOUBLING = "period doubling"
 NEIMARK = "Neimark-Sacker"
 GRAZING = "grazing"
+BRANCHING = "branching"
 
+_CERTAIN = 1e-9
+"""Of det(M − I), beyond which rounding does not decide its sign."""
+_MIRRORS = 1e-4
+"""Scaled distance from where a multiplier passes 1, within which a mirrored orbit is the same."""
 _SMALL = 1e-4
 """Of its larger value at the ends of a step, to which a test function must come down."""
 _MEMORY = 1e-9
@@ -64,6 +72,13 @@ def spiral(orbit: Orbit) -> float:
     values = orbit.map_multipliers
     complex_ones = np.abs(values[np.abs(values.imag) > 1e-9 * np.abs(values)])
     return math.log(complex_ones.max()) if complex_ones.size else -1.0
+
+
+def minus_one(orbit: Orbit) -> float:
+    """det(M − I) of an orbit's map: zero where an eigenvalue is 1."""
+    matrix = orbit.own
+    with np.errstate(all="ignore"):
+        return float(np.linalg.det(matrix - np.eye(len(matrix))))
 
 
 def remembers(orbit: Orbit) -> bool:
@@ -113,6 +128,77 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
             else:
                 orbit, arclength = _locate(here, there, function)
             yield Bifurcation(kind, orbit, arclength, turns or kind == FOLD, orbit.contacts)
+        if not turning and met is None and (other := _branching(here, there)) is not None:
+            yield other
+
+
+def _branching(here: Station, there: Station) -> Bifurcation | None:
+    """Where a multiplier passes 1 between two orbits though the branch does not turn, if it does.
+
+    An orbit may be its own mirror image where the rig is not: it does not reach the stops.
+    """
+    ends = minus_one(here.orbit), minus_one(there.orbit)
+    if ends[0] * ends[1] >= 0.0 or min(abs(end) for end in ends) < _CERTAIN:
+        return None
+    if here.tangent[PARAMETER] * there.tangent[PARAMETER] <= 0.0:
+        return None
+    orbit, arclength = _locate(here, there, minus_one)
+    own = _own_image(orbit)
+    kind = BRANCHING if own is None else BREAKING
+    return Bifurcation(kind, own or orbit, arclength, False, orbit.contacts)
+
+
+def _own_image(near: Orbit) -> Orbit | None:
+    """The orbit that is its own mirror image, at its symmetry breaking near an orbit, if any.
+
+    As a fixed point of the map over half a period and the mirror it is regular there.
+    """
+    section = near.section
+    if section.mirror or section.count % 2 == 0 or near.contacts != (0, 0):
+        return None
+    if not section.family.excitation.half_wave:
+        return None
+    half, mode = section.simpler(section.count, mirror=True), near.facts[section_map.MODE]
+
+    def at(value: float) -> Orbit | None:
+        point = near.point.copy()
+        point[PARAMETER] = value
+        status, found = corrected(half, point, mode)
+        away = (found.point - near.point) / section.scale * SEEN
+        close = np.linalg.norm(away) <= _MIRRORS
+        return found if status is Status.DONE and close and found.contacts == (0, 0) else None
+
+    step = 1e-6 * section.scale[PARAMETER]
+    first, second = at(near.value), at(near.value + step)
+    if first is None or second is None:
+        return None
+    rise = half_plus(second) - half_plus(first)
+    exact = at(near.value - half_plus(first) * step / rise) if rise else None
+    if exact is None:
+        return None
+    # With the derivative over the whole period, as the other orbits of the branch.
+    status, whole, _ = evaluated(section, exact.point, mode)
+    return whole if status is Status.DONE else None
+
+
+def unexplained(stations: list[Station], found: list[Bifurcation]) -> list[tuple[float, float]]:
+    """Values of the parameter between which stability changes though no bifurcation is found."""
+    listed = [one.arclength for one in found]
+    changes = []
+    for here, there in itertools.pairwise(stations):
+        if here.orbit.stable == there.orbit.stable or here.piece != there.piece:
+            continue  # a grazing explains the change from piece to piece
+        if _neutral(here.orbit) or _neutral(there.orbit):
+            continue  # as without damping: rounding alone decides which it is
+        low, high = sorted((here.arclength, there.arclength))
+        if not any(low - _CERTAIN <= one <= high + _CERTAIN for one in listed):
+            changes.append((here.orbit.value, there.orbit.value))
+    return changes
+
+
+def _neutral(orbit: Orbit) -> bool:
+    """Whether the largest multiplier lies on the unit circle, to rounding."""
+    return bool(abs(np.abs(orbit.map_multipliers[0]) - 1.0) <= _CERTAIN)
 
 
 def _between_folds(stations: list[Station]) -> Iterator[Station]:

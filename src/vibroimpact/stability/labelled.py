@@ -79,6 +79,17 @@ def as_dataset(
         prefix = f"branch_{i}_" if created == "resonance_diagram" else ""
         data.attrs[f"{prefix}ended_low"], data.attrs[f"{prefix}ended_high"] = one.ended
         data.attrs[f"{prefix}closed"] = int(one.closed)
+        unexplained = bifurcations.unexplained(one.stations, one.bifurcations)
+        if unexplained:
+            data.attrs[f"{prefix}unexplained_changes"] = [v for pair in unexplained for v in pair]
+            low, high = unexplained[0]
+            warnings.warn(
+                f"stability changes {len(unexplained)} times along this branch where no "
+                f"bifurcation was found, first between {name} {low:.9g} and {high:.9g}: the list "
+                "of bifurcations is incomplete there",
+                RuntimeWarning,
+                stacklevel=4,
+            )
     return describe(
         data,
         f"vibroimpact.{created}",

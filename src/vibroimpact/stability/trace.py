@@ -38,6 +38,14 @@ _Array = NDArray[np.float64]
 
 CLOSED = "it is closed"
 """Why a branch is not followed further that has come back to its first orbit."""
+CONTINUUM = (
+    "a multiplier is 1 all along, and motions beside an orbit, such as those of another offset, "
+    "are orbits too"
+)
+"""Why a branch is not followed further where orbits fill a surface."""
+_APART, _NEUTRAL = 1e-4, 1e-9
+"""Arclength between two orbits, and distance of a multiplier of both from 1, by which orbits are
+not isolated: at a bifurcation a multiplier is 1 at one orbit only."""
 PHASES = (1.0, 2.1, 3.3, 0.4)
 """rad, by which the section is moved in turn."""
 _TOUCHES = 1e-8  # scaled margin of an orbit that grazes, to rounding
@@ -134,6 +142,8 @@ class Branch:
             return [replace(there, tangent=-here.tangent)], _born_grazing(simplest(there.orbit))
         if self._returned(here, there):
             return [there], CLOSED
+        if there.arclength - here.arclength >= _APART and neutral(here) and neutral(there):
+            return [], f"orbits are not isolated beyond {here.orbit.value:.9g}: {CONTINUUM}"
         met = None if here.orbit.section.count % 2 else parent(here.orbit, there.orbit)
         if met is not None:
             # Beyond, the same orbits come again, half a period later.
@@ -291,6 +301,11 @@ class Branch:
             if found is not None and found.contacts == last.contacts:
                 return found, length
         return last, good
+
+
+def neutral(here: Station) -> bool:
+    """Whether a multiplier is 1, to rounding."""
+    return bool(np.abs(here.orbit.multipliers - 1.0).min() <= _NEUTRAL)
 
 
 def solved(start: Station, length: float) -> Orbit | None:

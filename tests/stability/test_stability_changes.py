@@ -1,0 +1,64 @@
+"""No change of stability along a branch without a bifurcation, and none where there is none."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from stability.followed import values
+from vibroimpact.stability.bifurcations import unexplained
+from vibroimpact.stability.branch import _begun, _both_ways
+
+
+@pytest.mark.parametrize("gap", [None, 0.006331861949463645])
+def test_a_symmetry_breaking_of_an_orbit_that_does_not_reach_the_only_stop(gap):
+    """Symmetry is a property of the motion: the bifurcation is the same with a stop or without."""
+    left = None if gap is None else vi.Bumper(5074.3966275400335, 0.0, gap)
+    isolator = vi.PolynomialIsolator(
+        damping=15.644468520541908,
+        stiffness=162.2412809793537,
+        cubic=3906050.5514135016,
+        quintic=212157551060.25104,
+    )
+    rig = vi.Oscillator(453.0518198083075, isolator, left=left)
+    shaken = vi.Harmonic("1.436060444936944 N", 0.045)
+    start = vi.steady(rig, shaken)["final_state"]
+    data = vi.branch(rig, shaken, start, low=0.0434, high=0.046)
+    assert np.abs(values(data, "symmetry breaking") - 0.04373158).min() < 1e-8
+    assert "unexplained_changes" not in data.attrs
+
+
+def test_a_branch_ends_where_orbits_are_not_isolated():
+    """A bilinear rig that no longer yields swings about any offset."""
+    bumper = vi.Bumper(28.071718336261494, 0.0, 0.02690309417168668)
+    isolator = vi.BilinearIsolator(
+        damping=0.420965764683605,
+        elastic_stiffness=8.565865055631514,
+        post_yield_stiffness=3.536918093526268,
+        yield_force=0.5138491291330257,
+    )
+    rig = vi.Oscillator(1.7149120760510639, isolator, right=bumper, left=bumper)
+    shaken = vi.Periodic(
+        1.1356545349333251,
+        [0.15316268495910734, 0.0, 0.02529428169786426, 0.05313511587543692],
+        [0.32482235353280076, 4.930546887254801, 0.546722119591505, 3.8428435448530753],
+    )
+    f = shaken.frequency
+    start = vi.steady(rig, shaken)["final_state"]
+    data = vi.branch(rig, shaken, start, low=0.9 * f, high=1.1 * f)
+    assert data.sizes["point"] < 100
+    assert data.sizes["bifurcation"] == 0
+    for end in ("low", "high"):
+        assert "not isolated" in data.attrs[f"ended_{end}"]
+
+
+def test_a_change_that_no_bifurcation_explains_is_told():
+    """If those that explain it are left out."""
+    case = vi.laboratory.case("B2-G1-A3")
+    _, span, first = _begun(
+        case.oscillator, vi.Harmonic(case.amplitude, 2.0), None, "frequency", 0.8, 4.0, None
+    )
+    stations, _, _ = _both_ways(first, span, 5000)
+    (change,) = unexplained(stations, [])[:1]
+    assert 0.8 < change[0] < 4.0
