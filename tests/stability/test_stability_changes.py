@@ -62,3 +62,12 @@ def test_a_change_that_no_bifurcation_explains_is_told():
     stations, _, _ = _both_ways(first, span, 5000)
     (change,) = unexplained(stations, [])[:1]
     assert 0.8 < change[0] < 4.0
+
+
+def test_a_branch_that_grows_until_its_points_are_used_up_says_so():
+    """Below Den Hartog's bound dry friction does not limit a resonance."""
+    rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.3))
+    shaken = vi.Harmonic(1.0, 0.11)
+    data = vi.branch(rig, shaken, low=0.1, high=0.2, most_points=400)
+    assert "points were reached" in data.attrs["ended_high"]
+    assert "times the first and still grows" in data.attrs["ended_high"]

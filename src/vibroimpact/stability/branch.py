@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import xarray as xr
 
 from vibroimpact.continuation import arclength
@@ -18,6 +19,9 @@ from vibroimpact.stability.fixed_points import HELD, Orbit
 from vibroimpact.stability.labelled import Followed, as_dataset
 from vibroimpact.stability.trace import CLOSED, Branch, Station
 from vibroimpact.stability.turning import FREE, InContact, bounded_by_flight, turns_into_flight
+
+_GROWN = 3.0
+"""Size over that of the first orbit from which a motion that still grows is reported as such."""
 
 
 @takes_rig
@@ -154,7 +158,21 @@ def _both_ways(
         traces.append(trace)
         if trace.ended == CLOSED:
             break
-    ended, closed = (traces[0].ended, traces[-1].ended), len(traces) == 1
+    ended, closed = (_why(traces[0]), _why(traces[-1])), len(traces) == 1
     if closed:
         return traces[0].points, ended, closed
     return bifurcations.joined(traces[0].points, traces[1].points), ended, closed
+
+
+def _why(trace: arclength.Trace[Station]) -> str:
+    """Why a branch ends; where its points were used up, whether its motion still grows."""
+    if not trace.ended.endswith("points were reached"):
+        return trace.ended
+    chosen = (trace.points[0], trace.points[len(trace.points) // 2], trace.points[-1])
+    first, middle, last = (
+        float(np.hypot(*(one.y[:2] / one.orbit.section.scale[:2]))) for one in chosen
+    )
+    if last > _GROWN * first and last > middle:
+        times = last / first
+        return f"{trace.ended}; the motion is {times:.3g} times the first and still grows"
+    return trace.ended
