@@ -198,6 +198,13 @@ def test_one_branch(run, tmp_path):
     assert vi.load(path, group="backward_branch")["motion"].item() == "periodic"
 
 
+def test_a_branch_that_was_asked_for_is_not_called_the_only_motion(run):
+    words = ("B2-G1-A3", "--frequency", "2Hz", "--branch", "backward", "--samples", "32")
+    code, out, _ = run(*words)
+    assert code == 0
+    assert "2 Hz: the motion of the backward branch; others may coexist with it" in out
+
+
 def test_list_of_frequencies(run, tmp_path):
     words = ("--frequency", "0.58Hz, 2.6Hz", "--random", "0", "--samples", "32")
     code, out, _ = run("B2-G1-A3", *words, "--output", "figure8", "--name", "two", *AS_PDF)

@@ -68,6 +68,47 @@ def test_a_branch_that_grows_until_its_points_are_used_up_says_so():
     """Below Den Hartog's bound dry friction does not limit a resonance."""
     rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.3))
     shaken = vi.Harmonic(1.0, 0.11)
-    data = vi.branch(rig, shaken, low=0.1, high=0.2, most_points=400)
+    data = vi.branch(rig, shaken, low=0.1, high=0.2, most_points=300)
     assert "points were reached" in data.attrs["ended_high"]
     assert "times the first and still grows" in data.attrs["ended_high"]
+
+
+def test_a_branch_ends_where_its_motion_grows_without_bound():
+    """Long before its points are used up: at the resonance, from either side of it."""
+    rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.3))
+    resonance = 0.5 / np.pi
+    for frequency, end in ((0.11, "high"), (0.19, "low")):
+        data = vi.branch(rig, vi.Harmonic(1.0, frequency), low=0.1, high=0.2)
+        assert f"without bound near frequency = {resonance:.6g}" in data.attrs[f"ended_{end}"]
+        assert data.sizes["point"] < 2500
+        ratio = data["displacement_max"].max() / data["displacement_max"].min()
+        assert ratio > 1e3
+
+
+@pytest.mark.parametrize("damping_ratio", [1e-2, 1e-3])
+def test_a_slightly_damped_resonance_is_passed(damping_ratio):
+    """However large it is: its peak is that of the closed form."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2.0 * damping_ratio))
+    data = vi.branch(rig, vi.Harmonic(1.0, 0.11), low=0.1, high=0.2)
+    assert data.attrs["ended_high"] == "the range ends at 0.2"
+    peak = 0.5 / damping_ratio
+    assert float(data["displacement_max"].max()) == pytest.approx(peak, rel=1e-3)
+
+
+def test_a_motion_that_grows_with_the_amplitude_is_no_resonance():
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.2))
+    shaken = vi.Harmonic(1e-3, 0.11)
+    data = vi.branch(rig, shaken, parameter="amplitude", low=1e-3, high=100.0)
+    assert data.attrs["ended_high"] == "the range ends at 100"
+
+
+def test_a_pair_passes_the_circle_where_the_section_lies_in_a_contact():
+    """The left bumper remembers for longer than a period, which the third multiplier hides."""
+    right = vi.Bumper(1.0, 0.028284271247461905, 0.0)
+    left = vi.Bumper(0.01, 2.009975124224178, 10.0)
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), right, left)
+    shaken = vi.Harmonic(1.0, 0.5 / np.pi)
+    data = vi.branch(rig, shaken, low=0.11, high=0.21)
+    assert "unexplained_changes" not in data.attrs
+    (value,) = values(data, "Neimark-Sacker")
+    assert value == pytest.approx(0.191607879, abs=1e-8)

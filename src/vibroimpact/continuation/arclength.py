@@ -20,6 +20,8 @@ FIRST, LEAST, MOST = 0.01, 1e-9, 0.05
 """Length of the first step, of the least and of the largest one, in scaled components."""
 AGAIN = 1e-3
 """Length of the first step behind a corner, or in other coordinates."""
+_LARGE = 10.0
+"""Distance from the first point beyond which the largest step grows in proportion to it."""
 TURN = 0.97
 """Cosine of the largest turn of the tangent in a step."""
 _GENTLE = 0.997  # below this turn the step may grow
@@ -119,7 +121,8 @@ def follow(
             if len(points) > _CREEP and here.arclength - points[-_CREEP].arclength < _CREPT:
                 return Trace(points, path.lost(here))
             if turn > _GENTLE:
-                length = min(_GROWN * length, MOST)
+                away = distance(path, here.y, start.y)
+                length = min(_GROWN * length, MOST * max(1.0, away / _LARGE))
             continue
         if (corner or length <= _SHORT) and (behind := path.corner(here, length)):
             if (last := path.end(here, behind[0])) is not None:

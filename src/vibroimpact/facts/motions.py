@@ -50,6 +50,9 @@ _SCALARS = (
 
 _STABILITY = {1: "stable", 0: "unstable", -1: "neutral (disturbances neither grow nor decay)"}
 
+_BRANCHES = ("forward branch", "backward branch")
+"""Names of motions that a sweep leads to."""
+
 Found = dict[float, dict[str, xr.Dataset]]
 """Motions by name, by frequency."""
 
@@ -67,11 +70,19 @@ def text(found: Found) -> RenderableType:
     """Return the verdicts and the contacts as tables."""
     parts: list[RenderableType] = []
     for hertz, motions in found.items():
-        many = f"{len(motions)} motions coexist" if len(motions) > 1 else "one motion found"
+        many = f"{len(motions)} motions coexist" if len(motions) > 1 else _only(motions)
         parts += [Text(), Text(f"{plain(hertz, 10)} Hz: {many}", style="bold")]
         for name, data in motions.items():
             parts += [Text(), *_motion(name, data)]
     return Group(*parts)
+
+
+def _only(motions: dict[str, xr.Dataset]) -> str:
+    """Words for a single motion; unless all starts were tried, others may coexist with it."""
+    ((name, data),) = motions.items()
+    if name in _BRANCHES and "starts" not in data.attrs:
+        return f"the motion of the {name}; others may coexist with it"
+    return "one motion found"
 
 
 def _facts(data: xr.Dataset) -> dict[str, Any]:

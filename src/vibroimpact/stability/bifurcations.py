@@ -82,10 +82,11 @@ def minus_one(orbit: Orbit) -> float:
 
 
 def remembers(orbit: Orbit) -> bool:
-    """Whether a bumper's deformation outlives a period.
+    """Whether a bumper's deformation outlives a period, as far as the section shows it.
 
-    If none does, the product of the other two multipliers is that of the damping, at most 1, and
-    no pair passes the unit circle (docs/theory.md, 6.5).
+    It does not show it where it lies in a contact with that bumper. If none outlives a period,
+    the product of the other two multipliers is that of the damping, at most 1, and no pair passes
+    the unit circle (docs/theory.md, 6.5).
     """
     return bool(np.abs(orbit.map_multipliers[2]) > _MEMORY)
 
@@ -119,8 +120,11 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
             turns = kind == FOLD and met is not None
             if not (turns or first * second < 0.0 or (first == 0.0 and second != 0.0)):
                 continue
-            if kind == NEIMARK and (-1.0 in (first, second) or not remembers(here.orbit)):
-                continue  # a pair became complex, or only rounding passes the unit circle
+            if kind == NEIMARK and -1.0 in (first, second):
+                continue  # a pair became complex
+            rounded = min(abs(first), abs(second)) <= _CERTAIN and not remembers(here.orbit)
+            if kind == NEIMARK and rounded:
+                continue  # only rounding passes the unit circle
             if kind == FOLD and met is not None:
                 # The branch turns where it meets that of the motions which it left.
                 kind, orbit = BREAKING if met.section.mirror else DOUBLING, met

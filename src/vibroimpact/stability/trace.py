@@ -46,6 +46,9 @@ CONTINUUM = (
 _APART, _NEUTRAL = 1e-4, 1e-9
 """Arclength between two orbits, and distance of a multiplier of both from 1, by which orbits are
 not isolated: at a bifurcation a multiplier is 1 at one orbit only."""
+_UNBOUNDED, _STANDS = 1e4, 1e-2
+"""Distance from the first orbit, scaled, and share of the parameter's way so far that would be left
+if the motion went on to grow as it does, by which it is reported to grow without bound."""
 PHASES = (1.0, 2.1, 3.3, 0.4)
 """rad, by which the section is moved in turn."""
 _TOUCHES = 1e-8  # scaled margin of an orbit that grazes, to rounding
@@ -144,12 +147,33 @@ class Branch:
             return [there], CLOSED
         if there.arclength - here.arclength >= _APART and neutral(here) and neutral(there):
             return [], f"orbits are not isolated beyond {here.orbit.value:.9g}: {CONTINUUM}"
+        if (pole := self._pole(here, there)) is not None:
+            return [there], pole
         met = None if here.orbit.section.count % 2 else parent(here.orbit, there.orbit)
         if met is not None:
             # Beyond, the same orbits come again, half a period later.
             cycles = met.section.period
             return [there], f"it is born at {met.value:.9g}, from the orbits of period {cycles}"
         return None
+
+    def _pole(self, here: Station, there: Station) -> str | None:
+        """Why a branch ends whose motion grows towards a value that the parameter never passes.
+
+        As beside the resonance of a linear rig without damping, the size is taken to grow in
+        inverse proportion to the distance from that value.
+        """
+        first, times = self.first.y, distance(self, there.y, self.first.y)
+        growth = times - distance(self, here.y, first)
+        if times < _UNBOUNDED or not growth > 0.0:
+            return None
+        left = times * (there.orbit.value - here.orbit.value) / growth
+        if abs(left) > _STANDS * abs(there.orbit.value - self.first.orbit.value):
+            return None
+        name = there.orbit.section.family.parameter.name
+        return (
+            f"the motion grows without bound near {name} = {there.orbit.value + left:.6g}: it is "
+            f"{times:.1g} times as large as the first and still grows"
+        )
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:
         """The orbit at the end of the range, if there is one."""

@@ -53,12 +53,13 @@ def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
     motion = steady(
         state.oscillator, shaken, section, _SAMPLES, window=_WINDOW, exponent_cycles=_GROWTH
     )
+    found = {shaken.frequency: {f"{state.direction} branch": motion}}
     drawn = motion.isel(time=slice(_MOST_CYCLES * _SAMPLES + 1))
     return {
         **_drawn(state, drawn, shaken),
         "fine": True,
         "words": told.words(motion),
-        "table": as_text(told.text({shaken.frequency: {"motion": motion}}), WIDTH),
+        "table": as_text(told.text(found), WIDTH),
         "spectrum": _spectrum(motion),
         "hits": [
             {"time": one(start), "side": int(side), "speed": one(1e3 * speed)}
