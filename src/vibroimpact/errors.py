@@ -11,6 +11,10 @@ _LONGEST = 1200
 """Letters of a message; lists of names that are accepted have some hundreds."""
 
 
+_LONG_WORD = re.compile(r"(\S{60})\S{140,}")
+"""A value that was given whole; a path may have 200 letters."""
+
+
 class InputError(ValueError):
     """A value that the caller gave cannot be used.
 
@@ -19,7 +23,7 @@ class InputError(ValueError):
     """
 
     def __init__(self, message: object = "") -> None:
-        text = str(message)
+        text = _LONG_WORD.sub(r"\1...", " ".join(printable(str(message)).split()))
         if len(text) > _LONGEST:
             text = f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 4 :]}"
         super().__init__(text)
@@ -48,6 +52,12 @@ def warn_of_input(what: str, notes: Iterable[str], stacklevel: int = 3) -> None:
         warnings.warn(f"{what}: {told}", InputWarning, stacklevel=stacklevel)
 
 
+def shown(value: object) -> str:
+    """Show a refused value on one short line."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
 def meant(name: object, accepted: Iterable[str]) -> str:
     """Words for the name that a wrong one is nearest to, such as ``did you mean gap?``, or none."""
     if not isinstance(name, str):
@@ -61,7 +71,7 @@ def unknown(name: object, accepted: Iterable[str]) -> str:
     """Words for a message about a name that is none of those accepted."""
     names = list(accepted)
     hint = meant(name, names)
-    return f"{name!r}; {hint}{'One' if hint else 'one'} of {', '.join(names)} is accepted"
+    return f"{shown(name)}; {hint}{'One' if hint else 'one'} of {', '.join(names)} is accepted"
 
 
 UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")

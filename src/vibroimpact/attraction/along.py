@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_list, check_progress
 from vibroimpact.attraction.attractors import Attractor
 from vibroimpact.attraction.described import POINTS, ranked
 from vibroimpact.attraction.followed import Stage
@@ -19,7 +20,7 @@ from vibroimpact.attraction.shares import interval
 from vibroimpact.attraction.window import Window, walls, window
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, to_si
-from vibroimpact.model.counts import whole
+from vibroimpact.model.counts import MOST_EVENTS, whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
@@ -95,8 +96,12 @@ def basin_stability(
     InputError
         If a value cannot be used, or nothing dies out.
     """
-    drawn, seed = whole(states, "states"), whole(seed, "seed", 0)
-    max_cycles, max_events = whole(max_cycles, "max_cycles"), whole(max_events, "max_events")
+    check_progress(progress)
+    drawn, seed = whole(states, "states", most=MOST_STATES), whole(seed, "seed", 0)
+    max_cycles, max_events = (
+        whole(max_cycles, "max_cycles"),
+        whole(max_events, "max_events", most=MOST_EVENTS),
+    )
     workers = placed(threads, where)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
@@ -169,12 +174,18 @@ def _values(
             raise InputError("parameter: missing; the name of what is varied is accepted")
         return None, [0.0]
     varied = parameter(name, of=excitation.of).of(oscillator)
-    if values is None or isinstance(values, str):
-        raise InputError(f"values: {values!r}; values of {varied.name} are accepted")
-    given = [to_si(one, varied.quantity, f"values[{i}]") for i, one in enumerate(values)]
+    listed = check_list(values, "values", MOST_VALUES, f"a list of values of {varied.name}")
+    given = [to_si(one, varied.quantity, f"values[{i}]") for i, one in enumerate(listed)]
     if not given:
         raise InputError(f"values: none are given; values of {varied.name} are accepted")
     return varied, given
+
+
+MOST_STATES = 10_000_000
+"""That are drawn."""
+
+MOST_VALUES = 100_000
+"""Of the parameter that is varied."""
 
 
 def _around(ranges: Iterable[tuple[float, float]]) -> tuple[float, float]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence, Set
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.attraction.described import ranked, shares, variables
 from vibroimpact.attraction.followed import Stage
 from vibroimpact.attraction.lattice import Lattice, lattice
@@ -17,9 +18,10 @@ from vibroimpact.attraction.search import Search
 from vibroimpact.attraction.window import walls, window
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, to_si
-from vibroimpact.model.counts import whole
+from vibroimpact.model.counts import MOST_EVENTS, whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.units import shown
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress
@@ -103,7 +105,11 @@ def basins(
         If a value cannot be used, or nothing dies out, so that each state has its own motion.
     """
     check_bounded(oscillator, excitation)
-    max_cycles, max_events = whole(max_cycles, "max_cycles"), whole(max_events, "max_events")
+    check_progress(progress)
+    max_cycles, max_events = (
+        whole(max_cycles, "max_cycles"),
+        whole(max_events, "max_events", most=MOST_EVENTS),
+    )
     workers = placed(threads, where)
     refine = whole(refine, "refine", 0)
     first = _nodes(nodes)
@@ -142,7 +148,7 @@ def basins(
 def _nodes(given: int | tuple[int, int]) -> tuple[int, int]:
     pair = given if isinstance(given, tuple | list) else (given, given)
     if len(pair) != 2:
-        raise InputError(f"nodes: {given!r}; one number, or one for each axis, is accepted")
+        raise InputError(f"nodes: {shown(given)}; one number, or one for each axis, is accepted")
     return whole(pair[0], "nodes", 2), whole(pair[1], "nodes", 2)
 
 
@@ -152,8 +158,11 @@ def span_of(
     """Read the lowest and the highest of a window; None if none is given."""
     if given is None:
         return None
-    if isinstance(given, str) or not hasattr(given, "__len__") or len(given) != 2:
-        raise InputError(f"{field}: {given!r}; a pair of the lowest and the highest is accepted")
+    is_list = hasattr(given, "__len__") and not isinstance(given, str | bytes | Mapping | Set)
+    if not is_list or getattr(given, "shape", None) not in (None, (2,)) or len(given) != 2:
+        raise InputError(
+            f"{field}: {shown(given)}; a pair of the lowest and the highest is accepted"
+        )
     low, high = (to_si(one, quantity, f"{field}[{i}]") for i, one in enumerate(given))
     if not low < high:
         raise InputError(f"{field}: {low:g} is not below {high:g}; a rising pair is accepted")

@@ -20,7 +20,7 @@ from vibroimpact.attraction.unstable import unstable_curve
 from vibroimpact.attraction.window import window
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
-from vibroimpact.model.counts import share, whole
+from vibroimpact.model.counts import MOST_CYCLES, MOST_EVENTS, share, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import to_si
@@ -90,8 +90,11 @@ def manifolds(
         restitution that the saddle presses at the phase of the excitation.
     """
     check_bounded(oscillator, excitation)
-    period = whole(period, "period")
-    max_cycles, max_events = whole(max_cycles, "max_cycles"), whole(max_events, "max_events")
+    period = whole(period, "period", most=MOST_CYCLES)
+    max_cycles, max_events = (
+        whole(max_cycles, "max_cycles"),
+        whole(max_events, "max_events", most=MOST_EVENTS),
+    )
     workers = placed(threads)
     spacing = share(spacing, "spacing")
     longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)

@@ -16,16 +16,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_name, check_variables
 from vibroimpact.engine import hold
-from vibroimpact.errors import InputError
 from vibroimpact.identification.free import NEAR_ZERO, SENSORS, size_of
 from vibroimpact.identification.held import Rig, sizes
 from vibroimpact.identification.results import setting_of
 from vibroimpact.model.access import Setting
 from vibroimpact.model.counts import share as fraction
-from vibroimpact.model.excitation import sized
+from vibroimpact.model.excitation import listed, sized
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.model.units import pretty
+from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model.units import pretty, to_si
 from vibroimpact.response.sweep import check_frequencies
 from vibroimpact.response.variables import describe
 
@@ -85,12 +86,10 @@ def next_test(
     InputError
         If the dataset is no fit, or a candidate cannot be used.
     """
-    if "covariance" not in result:
-        raise InputError("result: this is no fit; a dataset of identify is accepted")
+    check_variables(result, ["covariance"], "result", "a dataset of identify")
     rigs = json.loads(result.attrs["rigs"])
     name = next(iter(rigs)) if test is None else test
-    if name not in rigs:
-        raise InputError(f"test: {name!r}; one of {list(rigs)} is accepted")
+    check_name(name, rigs, "test")
     oscillator, shaken = setting_of(rigs[name])
     natural = oscillator.angular_frequency / (2.0 * np.pi) or float(shaken.frequency)
     grid = (
@@ -101,12 +100,19 @@ def next_test(
     levels = (
         shaken.amplitude * np.array(_FACTORS)
         if amplitudes is None
-        else np.array([sized(a, shaken.of, "amplitudes", positive=True)[0] for a in amplitudes])
+        else np.array(
+            [
+                sized(one, shaken.of, f"amplitudes[{i}]", positive=True)[0]
+                for i, one in enumerate(listed(amplitudes, "amplitudes"))
+            ]
+        )
     )
     own = float(result["noise"].sel(test=name))
     curves = str(result["test_kind"].sel(test=name).values) == "curves"
-    share = noise if noise is not None else max(own, 1e-4) if curves else _NOISE
-    margin = 0.0 if margin == 0 else fraction(margin, "margin")
+    told = None if noise is None else to_si(noise, DIMENSIONLESS, "noise", above=0.0)
+    share = told if told is not None else max(own, 1e-4) if curves else _NOISE
+    margin = to_si(margin, DIMENSIONLESS, "margin", minimum=0.0)
+    margin = fraction(margin, "margin") if margin else 0.0
     keys = [str(key) for key in result["parameter"].values]
     covariance = result["covariance"].values
     shape = (len(levels), 2, len(grid))

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_mapping, check_variables
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.identification.structure import CERTAIN
 from vibroimpact.model import Bumper, Isolator, Oscillator, PolynomialIsolator, PowerBumper
@@ -38,12 +39,13 @@ def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
     InputError
         If there are fewer than two, one is no fit, or they were fitted to other data.
     """
+    check_mapping(fits, "fits", "a mapping of names to fits")
     if len(fits) < 2:
         raise InputError(f"fits: {len(fits)} given; at least two models are accepted")
     first = next(iter(fits.values()))
     for name, fit in fits.items():
-        if "akaike" not in fit:
-            raise InputError(f"fits[{name!r}]: this is no fit; a dataset of identify is accepted")
+        needed = ("akaike", "measured_value")
+        check_variables(fit, needed, f"fits[{name!r}]", "a dataset of identify")
         same = fit.sizes["point"] == first.sizes["point"] and np.array_equal(
             fit["measured_value"].values, first["measured_value"].values, equal_nan=True
         )

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_name, check_variables
 from vibroimpact.errors import InputError
 from vibroimpact.identification import results
 from vibroimpact.identification.free import frees, written
@@ -195,8 +196,7 @@ def fitted(result: xr.Dataset, test: str | None = None) -> Rig:
     InputError
         If the dataset is no fit, or the test is not among its own.
     """
-    if "fitted_value" not in result:
-        raise InputError("result: this is no fit; a dataset of identify is accepted")
+    check_variables(result, ["fitted_value"], "result", "a dataset of identify")
     rigs = json.loads(result.attrs["rigs"])
     if (
         test is None
@@ -205,8 +205,7 @@ def fitted(result: xr.Dataset, test: str | None = None) -> Rig:
     ):
         raise InputError(f"test: missing, and their rigs differ; one of {list(rigs)} is accepted")
     name = next(iter(rigs)) if test is None else test
-    if name not in rigs:
-        raise InputError(f"test: {name!r}; one of {list(rigs)} is accepted")
+    check_name(name, rigs, "test")
     oscillator, shaken = results.setting_of(rigs[name])
     assert isinstance(shaken, Harmonic)
     return Rig(oscillator, shaken.amplitude)

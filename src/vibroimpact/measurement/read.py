@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_path, check_texts
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.measurement import hdf5, lvm, mat, tdms, text, uff
 from vibroimpact.measurement.beside import shaking
@@ -16,6 +17,7 @@ from vibroimpact.measurement.curves import curves
 from vibroimpact.measurement.histories import history
 from vibroimpact.measurement.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
 from vibroimpact.measurement.sampling import timed
+from vibroimpact.model.units import shown
 from vibroimpact.records.commas import Decimal, checked
 from vibroimpact.records.guard import regular
 from vibroimpact.response.files import load
@@ -86,7 +88,9 @@ def read_measurement(
     InputError
         If the file cannot be read, or a column or unit cannot be told.
     """
-    file = Path(path)
+    file = check_path(path, "measurement")
+    for field, given in (("columns", columns), ("units", units)):
+        check_texts(given, field)
     if file.is_dir():
         raise InputError(f"measurement: {str(path)!r} is a folder; a file of a test is accepted")
     if not file.exists():
@@ -199,9 +203,9 @@ def _chosen(
         others = [name for i, name in enumerate(names) if i != usable[0]]
         notes.append(f"without a time or a frequency, and left out: {', '.join(others)}")
         return tables[usable[0]]
-    if group in names:
+    if isinstance(group, str) and group in names:
         return tables[names.index(group)]
-    given = f"{group!r} is none of them" if group is not None else "none is chosen"
+    given = f"{shown(group)} is none of them" if group is not None else "none is chosen"
     raise InputError(
         f"group: {path!r} holds {len(tables)} tests, and {given}; "
         f"{', '.join(map(repr, names))} are accepted"
@@ -231,7 +235,7 @@ def _known(
             raise InputError(f"columns: {unknown(variable, accepted)}")
         if name not in names:
             raise InputError(
-                f"columns[{variable!r}]: {name!r} is no column of {table.path!r}; one of "
+                f"columns[{variable!r}]: {shown(name)} is no column of {table.path!r}; one of "
                 f"{', '.join(names)} is accepted"
             )
         chosen[names.index(name)] = Meaning(bare, way)  # type: ignore[arg-type]

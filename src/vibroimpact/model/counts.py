@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from numbers import Integral
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
+
+LARGEST = 2**62
+"""What the engine counts with."""
 
 MOST_SAMPLES = 20_000_000
 """Samples of one record: about 3 GB."""
@@ -25,16 +28,25 @@ def check_samples(cycles: float, samples: int, field: str) -> None:
         )
 
 
-def whole(value: object, field: str, least: int = 1) -> int:
+MOST_CYCLES = 10_000
+"""Forcing cycles of an orbit's period."""
+
+MOST_EVENTS = 10_000_000
+"""Contacts and detachments in one cycle at which a run may be given up."""
+
+
+def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int:
     """Read a whole number, numpy's included.
 
     Raises
     ------
     InputError
-        If it is none, or less than `least`.
+        If it is none, less than `least` or more than `most`.
     """
     if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < least:
-        raise InputError(f"{field}: {value!r}; a whole number of at least {least} is accepted")
+        raise InputError(f"{field}: {shown(value)}; a whole number of at least {least} is accepted")
+    if int(value) > most:
+        raise InputError(f"{field}: {shown(value)}; a whole number up to {most} is accepted")
     return int(value)
 
 
@@ -51,5 +63,5 @@ def share(value: object, field: str) -> float:
 
     number = to_si(value, DIMENSIONLESS, field, above=0.0)
     if not number < 1.0:
-        raise InputError(f"{field}: {value!r}; a number between 0 and 1 is accepted")
+        raise InputError(f"{field}: {shown(value)}; a number between 0 and 1 is accepted")
     return number

@@ -33,6 +33,8 @@ from vibroimpact.model.validation import Accepts, Model, constructor
 PerSide: TypeAlias = "float | str | tuple[float | str | None, float | str | None] | None"
 """One value for both sides, or a pair (right, left); None is a side without a bumper."""
 
+_NO_DAMPING = 1e-150
+"""A damping ratio below which the peak is larger than any number."""
 _ALL_DAMPING = 1e100
 """Damping ratio from which on the mass moves with the base, to rounding."""
 
@@ -353,7 +355,7 @@ def largest_free_flight(
         In m and m/s².
     """
     xi, static = damping_ratio, amplitude / angular_frequency**2
-    if xi == 0.0:
+    if xi < _NO_DAMPING:
         return math.inf, math.inf
     peaked = xi < math.sqrt(0.5)
     swing = static / (2.0 * xi * math.sqrt(1.0 - xi**2)) if peaked else static

@@ -7,7 +7,7 @@ the mass. The amplitude's dimension says which.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sized
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeAlias
 
 import numpy as np
@@ -31,6 +31,8 @@ QUANTITIES: dict[Of, Quantity] = {
 
 MOST = 32
 """How many harmonics there may be."""
+MOST_LISTED = 1_000_000
+"""Values of a list that is not a record."""
 
 
 class _Repeated(Model):
@@ -263,7 +265,7 @@ def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[floa
     InputError
         If it cannot be used, or its unit is not that of what it is said to be.
     """
-    if of is not None and of not in QUANTITIES:
+    if of is not None and not (isinstance(of, str) and of in QUANTITIES):
         raise InputError(f"of: {shown(of)}; {', '.join(map(repr, QUANTITIES))} is accepted")
     allowed = QUANTITIES if of is None else {of: QUANTITIES[of]}
     least = {"above": 0.0} if positive else {"minimum": 0.0}
@@ -279,6 +281,8 @@ def listed(value: Any, field: str) -> tuple[Any, ...]:
     InputError
         If it is none.
     """
-    if isinstance(value, str) or not isinstance(value, Iterable):
+    if isinstance(value, str) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) == 0:
         raise InputError(f"{field}: {shown(value)} is not a list; a list is accepted")
+    if isinstance(value, Sized) and len(value) > MOST_LISTED:
+        raise InputError(f"{field}: {len(value)} of them; at most {MOST_LISTED} are accepted")
     return tuple(value)

@@ -110,7 +110,7 @@ def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> P
     InputError
         If there is none of that name.
     """
-    key = name.replace("-", "_") if isinstance(name, str) else name
+    key = name.replace("-", "_") if isinstance(name, str) else ""
     if key not in PARAMETERS:
         raise InputError(f"{field}: {unknown(name, PARAMETERS)}")
     if key == "amplitude" and of != "acceleration":

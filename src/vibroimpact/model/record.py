@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model.about import About, read_values
+from vibroimpact.model.counts import MOST_SAMPLES
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, TIME, Quantity
 from vibroimpact.model.table import table
 from vibroimpact.model.units import pretty, shown, to_si
@@ -327,9 +328,11 @@ def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDA
     if hasattr(values, "magnitude"):
         unit = to_si(1.0 * values.units, quantity, field)
         values = np.asarray(values.magnitude, dtype=float) * unit
+    if hasattr(values, "__len__") and getattr(values, "ndim", 1) > 0 and len(values) > MOST_SAMPLES:
+        raise InputError(f"{field}: {len(values)} samples; at most {MOST_SAMPLES} are accepted")
     try:
         found = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(
             f"{field}: {shown(values)} is not a list of numbers; samples in "
             f"{quantity.symbol} are accepted"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from numbers import Integral
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
@@ -18,9 +19,9 @@ def _contact(value: Any) -> int | None:
         return None
     if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
         value = value.item()  # a numpy scalar or an array of no dimension
-    for side in (-1, 0, 1, 2):
-        if not isinstance(value, bool | str) and value == side:
-            return side
+    is_number = isinstance(value, Integral | float) and not isinstance(value, bool)
+    if is_number and value in (-1, 0, 1, 2):
+        return int(value)
     raise InputError(
         f"{shown(value)} is not a side; -1 (left), 0 (none), 1 (right) or 2 (both) is accepted"
     )

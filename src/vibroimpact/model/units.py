@@ -19,6 +19,7 @@ from functools import cache, lru_cache
 from typing import Any
 
 from vibroimpact.errors import InputError, warn_of_input
+from vibroimpact.errors import shown as shown
 from vibroimpact.model import quantities
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -211,12 +212,6 @@ def doubt_damping_ratio(value: float, field: str) -> None:
         warn_of_input(
             field, [f"{value:g} is {value:g} times the critical damping; was {value:g} % meant?"]
         )
-
-
-def shown(value: object) -> str:
-    """Show a refused value on one short line."""
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def plain(value: float, digits: int = 6) -> str:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import Literal
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 
 Decimal = Literal[".", ","]
 
@@ -25,9 +25,11 @@ def checked(decimal: object) -> Decimal | None:
     InputError
         If it is neither a point nor a comma.
     """
-    if decimal not in (None, ".", ","):
-        raise InputError(f"decimal: {decimal!r}; '.' or ',' is accepted")
-    return decimal
+    if decimal is None:
+        return None
+    if not isinstance(decimal, str) or decimal not in (".", ","):
+        raise InputError(f"decimal: {shown(decimal)}; '.' or ',' is accepted")
+    return decimal  # type: ignore[return-value]
 
 
 def decimal_mark(lines: Iterable[str], where: str) -> Decimal:

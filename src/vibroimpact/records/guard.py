@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from pathlib import Path
 
+from vibroimpact.arguments import check_path
 from vibroimpact.errors import InputError
 
 MOST_BYTES = 2**28
@@ -20,7 +21,7 @@ def regular(path: Path | str, field: str) -> None:
     InputError
         If it is there, and cannot be used.
     """
-    file = Path(path)
+    file = check_path(path, field)
     if file.exists() and not file.is_file():
         kind = "a folder" if file.is_dir() else "no regular file"
         raise InputError(f"{field}: {str(path)!r} is {kind}; a file is accepted")

@@ -12,7 +12,8 @@ from pathlib import Path
 import xarray as xr
 
 from vibroimpact._version import __version__
-from vibroimpact.errors import InputError, warn_of_input
+from vibroimpact.arguments import check_mapping, check_path, check_variables
+from vibroimpact.errors import InputError, shown, warn_of_input
 from vibroimpact.response.table import as_text
 
 _SEAL = b"\nvibroimpact sha256 "
@@ -71,7 +72,7 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
         If the ending is another, or the file cannot be written; a file that was there is then as
         it was.
     """
-    ending = Path(path).suffix.lower()
+    ending = check_path(path, "path").suffix.lower()
     if ending not in (".nc", ".csv"):
         raise InputError(
             f"path: {str(path)!r} ends in {ending or 'nothing'!r}; .nc (NetCDF) or .csv (a table) "
@@ -86,6 +87,9 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
         return write_whole(path, as_text(dataset))
     if isinstance(dataset, xr.Dataset):
         return write_whole(path, _sealed(dataset))
+    check_mapping(dataset, "dataset", "a dataset, or a mapping of names to datasets")
+    for name, one in dataset.items():
+        check_variables(one, (), f"dataset[{name!r}]", "a dataset")
     names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
     if len(set(names.values())) < len(names):
         raise InputError(
@@ -145,14 +149,14 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     InputWarning
         If the file has no checksum, because another program has written to it since.
     """
-    if not Path(path).is_file():
+    if not check_path(path, "file").is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")
     try:
         content, is_sealed = _unsealed(Path(path).read_bytes())
         file = io.BytesIO(content)
         groups = [part.strip("/") for part in xr.open_groups(file, engine="h5netcdf")]
         groups = [part for part in groups if part]
-        if group in groups or (group is None and not groups):
+        if (isinstance(group, str) and group in groups) or (group is None and not groups):
             data: xr.Dataset = xr.load_dataset(file, engine="h5netcdf", group=group)
     except (OSError, ValueError, KeyError, RuntimeError, TypeError, AttributeError) as error:
         reason = (str(error).splitlines() or [type(error).__name__])[0]
@@ -160,10 +164,10 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
             f"file: {str(path)!r} is damaged or not a NetCDF file ({reason}); "
             "a file written by vibroimpact is accepted"
         ) from None
-    if group not in groups and (groups or group is not None):
-        given = "it holds several datasets" if group is None else f"it has no group {group!r}"
+    if not (isinstance(group, str) and group in groups) and (groups or group is not None):
+        given = "it holds several datasets" if group is None else f"it has no group {shown(group)}"
         accepted = f"{', '.join(groups)} are accepted" if groups else "None is accepted"
-        raise InputError(f"group: {group!r} of {str(path)!r}: {given}; {accepted}")
+        raise InputError(f"group: {shown(group)} of {str(path)!r}: {given}; {accepted}")
     if "vibroimpact_version" not in data.attrs:
         raise InputError(
             f"file: {str(path)!r} was not written by vibroimpact; a file that it wrote is accepted"

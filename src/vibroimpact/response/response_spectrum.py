@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.arguments import check_list
 from vibroimpact.engine import spectra
 from vibroimpact.errors import InputError
 from vibroimpact.model import Record
@@ -161,9 +162,13 @@ def _dataset(
     return describe(data, "vibroimpact.response_spectrum", parameters, notes)
 
 
+MOST_NUMBERS = 1_000_000
+"""Of a list of periods or of damping ratios."""
+
+
 def _components(record: Any) -> tuple[Record, ...]:
     """One record, or two that belong together."""
-    given = (record,) if isinstance(record, Record) else tuple(np.ravel(record))
+    given = tuple(record) if isinstance(record, list | tuple) else (record,)
     if not 1 <= len(given) <= 2 or not all(isinstance(one, Record) for one in given):
         raise InputError(
             f"record: {shown(record)}; a Record, or two perpendicular components, are accepted"
@@ -183,9 +188,11 @@ def _components(record: Any) -> tuple[Record, ...]:
 
 def _numbers(values: ArrayLike, field: str, least: float, below: float, accepted: str) -> _Array:
     """One number or a list of them, 0 or from the least on."""
+    if getattr(values, "ndim", 1) > 0 and hasattr(values, "__len__"):
+        values = check_list(values, field, MOST_NUMBERS, accepted)
     try:
         found = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"{field}: {shown(values)}; {accepted} are accepted") from None
     if found.ndim > 1 or found.size == 0:
         raise InputError(f"{field}: shape {found.shape}; {accepted} are accepted")

@@ -11,7 +11,7 @@ import xarray as xr
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import to_si
-from vibroimpact.model.counts import whole
+from vibroimpact.model.counts import check_samples, whole
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.follow import grown, moved_on
@@ -53,6 +53,7 @@ def stroboscopic_section(
     origin = recorded(motion)
     angle = to_si(phase, ANGLE, "phase")
     count = max(1, math.floor(origin.cycles)) if cycles is None else whole(cycles, "cycles")
+    check_samples(count, 1, "cycles")
     start = beginning(motion)
     state = engine_state(origin.oscillator, start)
     rig = engine_rig(origin.oscillator, origin.excitation)

@@ -7,6 +7,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from vibroimpact.arguments import check_variables
 from vibroimpact.engine import fourier
 from vibroimpact.errors import InputError
 from vibroimpact.model import Repeated, to_si
@@ -55,6 +56,7 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
         If the dataset is not that of a motion with samples, or ``highest`` is not positive.
     """
     limit = to_si(highest, DIMENSIONLESS, "highest", above=0.0)
+    check_variables(motion, (), "motion", "the dataset of a motion")
     if motion.attrs.get("kind") == "history" and "event_time" not in motion:
         return _of_measured(motion, limit)
     origin = recorded(motion)

@@ -19,7 +19,8 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State, to_si
-from vibroimpact.model.counts import share, whole
+from vibroimpact.model.counts import MOST_EVENTS, share, whole
+from vibroimpact.model.excitation import listed
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.rigs import (
     AnyRig,
@@ -30,6 +31,7 @@ from vibroimpact.model.rigs import (
     rig_name,
     takes_rig,
 )
+from vibroimpact.model.units import shown
 from vibroimpact.response.doubts import doubt_gaps
 from vibroimpact.response.held import held
 from vibroimpact.response.places import THREADS, placed
@@ -183,7 +185,7 @@ def sweeps(
         angle = state.phase
     tolerance = share(tolerance, "tolerance")
     max_cycles, window = whole(max_cycles, "max_cycles"), whole(window, "window")
-    max_events = whole(max_events, "max_events")
+    max_events = whole(max_events, "max_events", most=MOST_EVENTS)
     workers = placed(threads, where)
 
     ready = [
@@ -247,14 +249,9 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     """
     if isinstance(frequencies, str):
         raise InputError(
-            f"frequencies: {frequencies!r} is one text; a list of frequencies is accepted"
+            f"frequencies: {shown(frequencies)} is one text; a list of frequencies is accepted"
         )
-    try:
-        items = list(frequencies)
-    except TypeError:
-        raise InputError(
-            f"frequencies: {frequencies!r} is not a list; a list of frequencies is accepted"
-        ) from None
+    items = list(listed(frequencies, "frequencies"))
     if isinstance(frequencies, np.ndarray) and frequencies.dtype == float and frequencies.ndim == 1:
         items = frequencies.tolist()  # of plain floats, which are read at once
     grid = np.array(
@@ -301,10 +298,12 @@ def named_rigs(
 
 
 def _directions(directions: Sequence[str]) -> tuple[str, ...]:
-    given = (directions,) if isinstance(directions, str) else tuple(directions)
+    given = (directions,) if isinstance(directions, str) else listed(directions, "directions")
     for direction in given:
-        if direction not in DIRECTIONS:
-            raise InputError(f"directions: {direction!r}; 'forward' and 'backward' are accepted")
+        if not isinstance(direction, str) or direction not in DIRECTIONS:
+            raise InputError(
+                f"directions: {shown(direction)}; 'forward' and 'backward' are accepted"
+            )
     if not given or len(set(given)) < len(given):
         raise InputError(
             f"directions: {list(given)!r}; 'forward', 'backward' or both, once each, are accepted"

@@ -14,6 +14,7 @@ from typing import Any, Protocol, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.errors import InputError
 
 _Item = TypeVar("_Item")
@@ -103,6 +104,7 @@ def each(
     list
         What was found, in the order of the items.
     """
+    check_progress(progress)
     if not items:
         return []
     total = len(items) if steps is None else steps

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.units import shown
 
 
 @dataclass(frozen=True)
@@ -47,9 +47,9 @@ class Thresholds:
         for name in self.names():
             value = getattr(self, name)
             number = isinstance(value, Real) and not isinstance(value, bool)
-            if not (number and math.isfinite(value) and 0.0 < value <= 1.0):
+            if not (number and 0.0 < value <= 1.0):
                 raise InputError(
-                    f"{name}: {value!r}; a number greater than 0 and at most 1 is accepted"
+                    f"{name}: {shown(value)}; a number greater than 0 and at most 1 is accepted"
                 )
 
     @classmethod

@@ -10,7 +10,7 @@ import xarray as xr
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.counts import whole
+from vibroimpact.model.counts import MOST_EVENTS, whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rigs import takes_rig_or_record
 from vibroimpact.model.units import shown
@@ -88,7 +88,7 @@ def seismic_response(
         tail=behind,
         energies=True,
         residuals=True,
-        max_events=whole(max_events, "max_events"),
+        max_events=whole(max_events, "max_events", most=MOST_EVENTS),
         threads=1,
     )
     data = with_both_sides(xr.Dataset({name: values[0, 0] for name, values in found.items()}))

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_list, check_name
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
@@ -69,7 +70,7 @@ def fractiles(
     values = (_drawn if over == "sample" else known)(demands, quantity)
     chosen = [
         to_si(share, DIMENSIONLESS, f"shares[{i}]", minimum=0.0, maximum=1.0)
-        for i, share in enumerate(shares)
+        for i, share in enumerate(check_list(shares, "shares", 1000, "a list of shares"))
     ]
     if not chosen:
         raise InputError("shares: none given; one or more from 0 to 1 are accepted")
@@ -178,8 +179,7 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
         for name, one in demands.data_vars.items()
         if one.dims == demands["status"].dims and name != "status"
     ]
-    if quantity not in peaks:
-        raise InputError(f"quantity: {shown(quantity)}; one of {', '.join(peaks)} is accepted")
+    check_name(quantity, peaks, "quantity")
     status = demands["status"].values
     for code in np.unique(status[(status != Status.DONE) & ~np.isin(status, UNSTABLE)]):
         raise InputError(

@@ -8,7 +8,7 @@ import xarray as xr
 from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
-from vibroimpact.model.counts import whole
+from vibroimpact.model.counts import MOST_CYCLES, whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.threads import Progress, counted
@@ -131,7 +131,7 @@ def _begun(
             f"low: {span[0]:g} to {span[1]:g} leaves out the first orbit's {parameter}, "
             f"{fam.value:g}; a range that holds it is accepted"
         )
-    period = None if period is None else whole(period, "period")
+    period = None if period is None else whole(period, "period", most=MOST_CYCLES)
     return fam, span, first_orbit(fam, span, start, period)
 
 

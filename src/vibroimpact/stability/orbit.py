@@ -6,7 +6,7 @@ import xarray as xr
 
 from vibroimpact.engine import section_map
 from vibroimpact.model import Oscillator, Repeated, State
-from vibroimpact.model.counts import whole
+from vibroimpact.model.counts import MOST_CYCLES, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.variables import describe
 from vibroimpact.stability.family import family
@@ -54,7 +54,7 @@ def orbit(
     InputError
         If a value cannot be used, or Newton's method finds no orbit near the guess.
     """
-    period = None if period is None else whole(period, "period")
+    period = None if period is None else whole(period, "period", most=MOST_CYCLES)
     samples = whole(samples, "samples")
     fam = family(oscillator, excitation, "frequency")
     found = first_orbit(fam, (0.0, 1.0), guess, period, symmetric=False)

@@ -23,8 +23,8 @@ _DIGITS = 290.0
 
 def _whole(value: Any) -> int:
     """Read an exponent; 2.0 is 2."""
-    number = float(value) if isinstance(value, Integral | float) else math.nan
-    if isinstance(value, bool) or not number.is_integer() or not 1.0 <= number <= 100.0:
+    number: Any = value if isinstance(value, Integral | float) else math.nan
+    if isinstance(value, bool) or not 1 <= number <= 100 or not float(number).is_integer():
         raise InputError(f"{shown(value)}; a whole number from 1 to 100 is accepted, such as 1")
     return int(number)
 

@@ -1,0 +1,595 @@
+"""Valid arguments of every public function, cheap to run, and nonsense to put in their places."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from decimal import Decimal
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+import vibroimpact as vi
+
+Call = tuple[Callable[..., Any], dict[str, Any]]
+
+LONG = "x" * 100_000
+
+NONSENSE: dict[str, Any] = {
+    "None": None,
+    "empty text": "",
+    "text": "nonsense",
+    "long text": LONG,
+    "control characters": "a\x00b\nc\x1b[31m",
+    "lone surrogate": "\ud800",
+    "NaN": np.nan,
+    "infinity": np.inf,
+    "minus one": -1,
+    "zero": 0,
+    "half": 0.5,
+    "tiny": 1e-320,
+    "huge": 1e308,
+    "huge whole number": 10**400,
+    "large whole number": 10**12,
+    "complex": 1 + 2j,
+    "decimal": Decimal("sNaN"),
+    "true": True,
+    "bytes": b"abc",
+    "empty list": [],
+    "list of lists": [[1.0, 2.0], [3.0]],
+    "list of None": [None, None],
+    "long range": range(10**9),
+    "matrix": np.eye(30),
+    "array of no dimension": np.array(5.0),
+    "empty array": np.array([]),
+    "array of texts": np.array(["a", "b"]),
+    "array of dates": np.array(["2020-01-01"], dtype="datetime64[s]"),
+    "mapping": {"a": 1},
+    "mapping with odd keys": {None: None, 1: LONG},
+    "set": {1, 2},
+    "function": lambda *args, **kwargs: None,
+    "class": int,
+    "object": object(),
+    "empty dataset": xr.Dataset(),
+    "other dataset": xr.Dataset({"a": ("b", [1.0])}, attrs={"kind": "nothing"}),
+    "table": pd.DataFrame({"a": [1]}),
+    "path": Path("/nowhere/at/all"),
+    "folder": Path("/"),
+}
+"""What a user may put anywhere by mistake."""
+
+
+def rig() -> vi.Oscillator:
+    """A rig whose motions settle soon."""
+    return vi.Oscillator(
+        1.0,
+        vi.Isolator(100.0, 4.0),
+        right=vi.Bumper(1000.0, 5.0, 0.02),
+        left=vi.Bumper(1000.0, 5.0, 0.02),
+    )
+
+
+def shaken() -> vi.Harmonic:
+    """What shakes it."""
+    return vi.Harmonic(2.0, 1.5)
+
+
+def record() -> vi.Record:
+    """A short record."""
+    return vi.Record(3.0 * np.sin(np.arange(50) * 0.2), 0.02)
+
+
+@cache
+def motion() -> xr.Dataset:
+    return vi.simulate(rig(), shaken(), 20, samples=32)
+
+
+@cache
+def orbit() -> xr.Dataset:
+    return vi.orbit(rig(), shaken())
+
+
+@cache
+def demanded() -> xr.Dataset:
+    return vi.demands(rig(), [record()] * 4, [0.01, 1.0, 2.0])
+
+
+@cache
+def fit() -> xr.Dataset:
+    data = [vi.simulate(rig(), vi.Harmonic(2.0, f), 3, samples=24) for f in (1.2, 1.6)]
+    return vi.identify(data, rig(), {"stiffness": "90 N/m"}, starts=1, tried=1, profiles=False)
+
+
+_SMALL: dict[str, Any] = {"max_cycles": 50, "max_events": 200}
+
+
+def calls(folder: Path) -> Mapping[str, Call]:
+    """A valid call of each public name that can be called, with every argument given."""
+    two = {"oscillator": rig(), "excitation": shaken()}
+    swept = {"oscillator": rig(), "amplitude": 2.0}
+    near = [-0.01, 0.01]
+    made: dict[str, dict[str, Any]] = {
+        "BilinearIsolator": {
+            "elastic_stiffness": 100.0,
+            "post_yield_stiffness": 50.0,
+            "yield_force": 1.0,
+            "damping": 1.0,
+            "damping_exponent": 1.0,
+        },
+        "BoucWenIsolator": {
+            "elastic_stiffness": 100.0,
+            "post_yield_stiffness": 50.0,
+            "yield_force": 1.0,
+            "damping": 1.0,
+            "exponent": 1,
+            "beta": 0.5,
+            "gamma": 0.5,
+            "damping_exponent": 1.0,
+        },
+        "Bumper": {"stiffness": 1.0, "damping": 1.0, "gap": 0.1},
+        "Dimensionless": {"damping_ratio": 0.1, "right": None, "left": None},
+        "ExponentialIsolator": {
+            "reversal_stiffness": 100.0,
+            "final_stiffness": 50.0,
+            "decay": 30.0,
+            "damping": 1.0,
+            "hardening": 0.0,
+            "hardening_force": 1.0,
+            "damping_exponent": 1.0,
+        },
+        "FrictionIsolator": {
+            "stiffness": 1.0,
+            "damping": 1.0,
+            "friction": 0.1,
+            "damping_exponent": 1.0,
+        },
+        "Harmonic": {"amplitude": 1.0, "frequency": 1.0, "phase": 0.0, "of": "acceleration"},
+        "Isolator": {"stiffness": 1.0, "damping": 1.0, "damping_exponent": 1.0},
+        "JankowskiBumper": {"stiffness": 1.0, "gap": 0.1, "restitution": 0.5, "mass": 1.0},
+        "Oscillator": {
+            "mass": 1.0,
+            "isolator": vi.Isolator(1.0, 0.1),
+            "right": vi.RigidStop(0.5, 0.1),
+            "left": None,
+            "force": 0.0,
+        },
+        "Periodic": {
+            "frequency": 1.0,
+            "amplitudes": [1.0, 2.0],
+            "phases": [0.0, 1.0],
+            "phase": 0.0,
+            "of": "acceleration",
+        },
+        "PolynomialIsolator": {
+            "stiffness": 1.0,
+            "damping": 1.0,
+            "cubic": 1.0,
+            "quintic": 1.0,
+            "damping_exponent": 1.0,
+        },
+        "PowerBumper": {
+            "stiffness": 1.0,
+            "gap": 0.1,
+            "exponent": 1.5,
+            "dissipation": None,
+            "restitution": 0.5,
+            "relation": "exact",
+        },
+        "Record": {"acceleration": [0.0, 1.0, 0.0], "step": 0.01},
+        "Record.read": {"path": folder / "record.csv"},
+        "Record.from_displacement": {"displacement": [0.0, 0.001] * 8, "step": 0.01},
+        "Rig": {"oscillator": rig(), "amplitude": 1.0},
+        "RigidStop": {"restitution": 0.5, "gap": 0.1},
+        "State": {
+            "displacement": 0.0,
+            "velocity": 0.0,
+            "right_bumper": None,
+            "left_bumper": None,
+            "phase": None,
+            "contact": None,
+            "isolator": 0.0,
+        },
+        "Thresholds": {"prominence": 0.02, "extent": 0.08, "touch": 0.1, "deformation": 0.1},
+        "basin_stability": {
+            **two,
+            **_SMALL,
+            "displacement": near,
+            "velocity": near,
+            "parameter": "frequency",
+            "values": [1.5],
+            "states": 4,
+            "seed": 0,
+            "threads": 1,
+            "where": "threads",
+            "progress": None,
+        },
+        "basins": {
+            **two,
+            **_SMALL,
+            "displacement": near,
+            "velocity": near,
+            "nodes": 3,
+            "refine": 0,
+            "right_bumper": 0.0,
+            "left_bumper": 0.0,
+            "isolator": 0.0,
+            "threads": 1,
+            "where": "threads",
+            "progress": None,
+        },
+        "bifurcation_curve": {
+            **two,
+            "start": orbit(),
+            "parameters": ("frequency", "amplitude"),
+            "low": (1.4, 1.9),
+            "high": (1.6, 2.1),
+            "most_points": 5,
+            "progress": None,
+        },
+        "bifurcation_diagram": {
+            **two,
+            **_SMALL,
+            "parameter": "frequency",
+            "low": 1.4,
+            "high": 1.6,
+            "steps": 2,
+            "directions": ("up",),
+            "starts": None,
+            "random": 0,
+            "seed": 0,
+            "section": "stroboscopic",
+            "log": False,
+            "points": 5,
+            "exponent_cycles": 10,
+            "tolerance": 1e-6,
+            "threads": 1,
+            "where": "threads",
+            "progress": None,
+        },
+        "branch": {
+            **two,
+            "start": orbit(),
+            "parameter": "frequency",
+            "low": 1.49,
+            "high": 1.51,
+            "period": None,
+            "most_points": 4,
+            "progress": None,
+        },
+        "classify": {
+            **swept,
+            "frequencies": [1.4, 1.5, 1.6],
+            "thresholds": None,
+            "max_cycles": 50,
+            "threads": 1,
+            "progress": None,
+        },
+        "coexisting": {
+            **two,
+            **_SMALL,
+            "frequencies": [1.5],
+            "starts": None,
+            "random": 1,
+            "seed": 0,
+            "samples": 8,
+            "window": 5,
+            "exponent_cycles": 10,
+        },
+        "compare_fits": {"fits": {"a": fit(), "b": fit()}},
+        "contacts": {"motion": motion(), "grazing": 0.001},
+        "demands": {
+            "oscillator": rig(),
+            "records": [record()],
+            "scales": [1.0],
+            "intensity": "factor",
+            "gaps": None,
+            "vary": None,
+            "tail": None,
+            "max_events": 200,
+            "store": None,
+            "block": 4,
+            "threads": 1,
+            "where": "threads",
+            "progress": None,
+        },
+        "design": {
+            "oscillator": rig(),
+            "shaking": record(),
+            "vary": {"gap": [0.01, 0.02]},
+            "limits": None,
+            "fractile": 1.0,
+            "frequencies": None,
+            "step": 0.02,
+            "tail": None,
+            "threads": 1,
+            "where": "threads",
+            "progress": None,
+        },
+        "ensemble": {
+            "rig": vi.Rig(rig(), 2.0),
+            "distributions": {"mass": "uniform(0.9, 1.1)"},
+            "response": _response,
+            "samples": 4,
+            "method": "sobol",
+            "seed": 0,
+            "block": None,
+            "progress": None,
+        },
+        "exceedance": {"demands": demanded(), "quantity": "peak_displacement", "limit": 0.01},
+        "fit_report": {
+            "result": fit(),
+            "folder": folder / "report",
+            "name": "fit",
+            "comparison": None,
+            "figure": "png",
+        },
+        "fitted": {"result": fit(), "test": None},
+        "floor_record": {"motion": _shaken_by_record()},
+        "fractiles": {
+            "demands": demanded(),
+            "quantity": "peak_displacement",
+            "shares": [0.5],
+        },
+        "fragility": {
+            "demands": demanded(),
+            "quantity": "peak_displacement",
+            "limit": 0.01,
+            "confidence": 0.9,
+        },
+        "from_dimensionless": {
+            "stiffness_ratio": 10.0,
+            "gap": 0.5,
+            "relaxation_time": 0.01,
+            "damping_ratio": 0.05,
+            "mass": 1.0,
+            "stiffness": 1.0,
+            "amplitude": 1.0,
+        },
+        "identify": {
+            "data": motion(),
+            "oscillator": rig(),
+            "free": {"stiffness": "90 N/m"},
+            "amplitude": None,
+            "each": (),
+            "ties": None,
+            "priors": None,
+            "noise": None,
+            "robust": True,
+            "confidence": 0.95,
+            "starts": 1,
+            "tried": 1,
+            "profiles": False,
+            "draws": 0,
+            "posterior": 0,
+            "window": None,
+            "steady": False,
+            "seed": 0,
+            "threads": 1,
+            "progress": None,
+        },
+        "impact_section": {"motion": motion()},
+        "laboratory.case": {"code": "B2-G1-A3"},
+        "least_acceleration": {
+            "oscillator": rig(),
+            "shaking": record(),
+            "ranges": {"gap": (0.01, 0.02), "stiffness": (500.0, 1000.0)},
+            "gap": None,
+            "limits": None,
+            "fractile": 1.0,
+            "frequencies": None,
+            "step": 0.02,
+            "tail": None,
+            "seed": 0,
+            "threads": 1,
+            "where": "threads",
+            "progress": None,
+        },
+        "load": {"path": folder / "motion.nc", "group": None},
+        "lyapunov_exponents": {
+            "rigs": vi.Rig(rig(), 2.0),
+            "frequencies": [1.5],
+            "cycles": 20,
+            "transient": 5,
+            "start": None,
+            "vary": None,
+            "phase": 0.0,
+            "max_events": 200,
+            "threads": 1,
+            "where": "threads",
+            "progress": None,
+        },
+        "manifolds": {
+            **two,
+            **_SMALL,
+            "saddles": None,
+            "displacement": near,
+            "velocity": near,
+            "period": 1,
+            "spacing": 0.1,
+            "longest": 1.0,
+            "threads": 1,
+        },
+        "next_test": {
+            "result": fit(),
+            "frequencies": [1.4, 1.5],
+            "amplitudes": [2.0],
+            "test": None,
+            "noise": None,
+            "margin": 0.02,
+        },
+        "one_by_one": {"function": _response, "threads": 1},
+        "orbit": {**two, "guess": None, "period": 1, "samples": 8},
+        "progress_bar": {"what": "done", "every": 0.2},
+        "read_measurement": {
+            "path": folder / "measured.csv",
+            "columns": None,
+            "units": None,
+            "direction": None,
+            "group": None,
+            "amplitude": None,
+            "frequency": None,
+            "decimal": None,
+        },
+        "required_gap": {
+            "oscillator": rig(),
+            "shaking": record(),
+            "fractile": 1.0,
+            "frequencies": None,
+            "step": 0.02,
+            "tail": None,
+            "threads": 1,
+            "where": "threads",
+            "progress": None,
+        },
+        "resonance_diagram": {
+            **swept,
+            "low": 1.45,
+            "high": 1.55,
+            "parameter": "frequency",
+            "frequency": None,
+            "phase": 0.0,
+            "longest": 1,
+            "most_branches": 1,
+            "most_points": 20,
+            "starts": 2,
+            "random": 0,
+            "seed": 0,
+            "basins": (),
+            "progress": None,
+        },
+        "response_spectrum": {
+            "record": record(),
+            "periods": [0.5, 1.0],
+            "damping": 0.05,
+            "progress": None,
+        },
+        "save": {"dataset": motion(), "path": folder / "kept.nc"},
+        "scenario_map": {
+            "x": ("gap_ratio", [0.5]),
+            "y": ("stiffness_ratio", [10.0]),
+            "base": None,
+            "step": 0.3,
+            "refine": 0,
+            "thresholds": None,
+            "max_cycles": 50,
+            "store": None,
+            "block": 20,
+            "threads": 1,
+            "where": None,
+            "progress": None,
+        },
+        "seismic_response": {
+            "oscillator": rig(),
+            "record": record(),
+            "tail": None,
+            "max_events": 200,
+        },
+        "sensitivity": {
+            "rig": vi.Rig(rig(), 2.0),
+            "distributions": {"mass": "uniform(0.9, 1.1)"},
+            "response": _response,
+            "quantity": "displacement_max",
+            "samples": 4,
+            "seed": 0,
+            "resamples": 0,
+            "block": None,
+            "progress": None,
+        },
+        "simulate": {
+            **two,
+            "cycles": 3,
+            "start": None,
+            "samples": 8,
+            "tail": None,
+            "max_events": 200,
+            "progress": None,
+        },
+        "spectrum": {"motion": motion(), "highest": 10.0},
+        "steady": {
+            **two,
+            **_SMALL,
+            "start": None,
+            "samples": 8,
+            "window": 5,
+            "tolerance": 1e-6,
+            "exponent_cycles": 10,
+        },
+        "stroboscopic_section": {"motion": motion(), "phase": 0.0, "cycles": None},
+        "sweep": {
+            **swept,
+            "frequencies": [1.5],
+            "directions": ("forward",),
+            "start": None,
+            "phase": 0.0,
+            "tolerance": 1e-6,
+            "max_cycles": 50,
+            "window": 5,
+            "max_events": 200,
+            "threads": 1,
+            "progress": None,
+        },
+        "sweeps": {
+            "rigs": vi.Rig(rig(), 2.0),
+            "frequencies": [1.5],
+            "directions": ("forward",),
+            "start": None,
+            "phase": 0.0,
+            "tolerance": 1e-6,
+            "max_cycles": 50,
+            "window": 5,
+            "max_events": 200,
+            "threads": 1,
+            "where": "threads",
+            "progress": None,
+        },
+        "to_dimensionless": {"oscillator": rig(), "amplitude": 2.0},
+        "to_table": {"dataset": demanded(), "rows": None},
+        "totals": {"motion": motion()},
+    }
+    return {name: (_public(name), given) for name, given in made.items()}
+
+
+def public() -> list[str]:
+    """Names of the package that can be called, but for errors."""
+    names = [name for name in vi.__all__ if callable(getattr(vi, name))]
+    return [n for n in names if not _is_error(getattr(vi, n))]
+
+
+def parameters(name: str) -> list[str]:
+    """The names of a public function's arguments."""
+    kinds = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+    found = inspect.signature(_public(name)).parameters.values()
+    return [one.name for one in found if one.kind in kinds]
+
+
+def write_files(folder: Path) -> None:
+    """Write the files that the calls read."""
+    vi.save(motion(), folder / "motion.nc")
+    lines = [f"{0.01 * n:.2f},{0.001 * (n % 7):.4f}" for n in range(60)]
+    text = "time (s),displacement (m)\n" + "\n".join(lines) + "\n"
+    (folder / "measured.csv").write_text(text)
+    (folder / "record.csv").write_text(text.replace("displacement (m)", "acceleration (m/s2)"))
+
+
+def _is_error(held: Any) -> bool:
+    return isinstance(held, type) and issubclass(held, Exception)
+
+
+def _public(name: str) -> Callable[..., Any]:
+    held: Any = vi
+    for part in name.split("."):
+        held = getattr(held, part)
+    return held  # type: ignore[no-any-return]
+
+
+def _response(drawn: Any) -> xr.Dataset:
+    return vi.sweeps([one.rig for one in drawn], [1.5], ("forward",), max_cycles=20)
+
+
+@cache
+def _shaken_by_record() -> xr.Dataset:
+    return vi.simulate(rig(), record(), samples=4)
