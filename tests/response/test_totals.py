@@ -71,6 +71,58 @@ def test_no_energy_is_lost_count_of(name: str, shaken: vi.Harmonic | vi.Record) 
     assert float(balance) == pytest.approx(change, abs=1e-11 * scale)
 
 
+CURVED = {
+    "power": vi.Oscillator(
+        550.0, vi.Isolator(26800.0, 1100.0), left=vi.PowerBumper(5e6, 0.002, 1.5)
+    ),
+    "friction": vi.Oscillator(
+        550.0, vi.FrictionIsolator(26800.0, 1100.0, 50.0), left=vi.Bumper(2e5, 900.0, 0.0003)
+    ),
+    "polynomial": vi.Oscillator(
+        550.0,
+        vi.PolynomialIsolator(26800.0, 1100.0, 1e6, 0.0),
+        vi.Bumper(1e5, 500.0, 0.0003),
+        vi.Bumper(2e5, 900.0, 0.0003),
+    ),
+    "bilinear": vi.Oscillator(
+        550.0, vi.BilinearIsolator(40000.0, 20000.0, 100.0, 500.0), left=vi.Bumper(2e5, 900.0, 0.0003)
+    ),
+}
+SHAKINGS = {
+    "even": vi.Periodic(2.0, [0.0, 1.0]),
+    "odd and even": vi.Periodic(2.0, [0.7, 1.0, 0.3, 0.4], [0.3, 1.0, -0.4, 2.0]),
+    "force": vi.Periodic(2.0, [300.0, 500.0], [0.3, 1.0], of="force"),
+    "record": vi.Record(np.random.default_rng(7).uniform(-2.0, 2.0, 200), 0.05),
+}
+
+
+@pytest.mark.parametrize("shaken", SHAKINGS)
+@pytest.mark.parametrize("law", CURVED)
+def test_the_supplied_energy_is_the_integral_of_the_power(law: str, shaken: str) -> None:
+    """On either side: a balance among totals passes if two of them are wrong alike."""
+    for rig in (CURVED[law], CURVED[law].mirrored()):
+        excitation = SHAKINGS[shaken]
+        how = {} if isinstance(excitation, vi.Record) else {"cycles": 20}
+        data = vi.simulate(rig, excitation, samples=2000, **how)
+        found = vi.totals(data)
+        if shaken == "force":
+            push = data["applied_force"].values
+        else:
+            push = -rig.mass * data["base_acceleration"].values
+        power = push * data["velocity"].values
+        turnover = float(np.trapezoid(np.abs(power), data["time"]))
+        supplied = float(np.trapezoid(power, data["time"]))
+        assert data["contact"].values.any()
+        assert float(found["total_supplied"]) == pytest.approx(supplied, abs=1e-4 * turnover)
+
+
+def test_the_energy_supplied_to_a_steady_motion_is_what_is_lost() -> None:
+    data = vi.steady(CURVED["power"], SHAKINGS["even"])
+    lost = float(data["energy_isolator"] + data["energy_bumpers"])
+    assert lost > 0.1
+    assert float(data["energy_supplied"]) == pytest.approx(lost, rel=1e-9)
+
+
 def test_those_of_a_steady_motion() -> None:
     case = vi.laboratory.case("B2-G1-A3")
     data = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, 2.0))

@@ -335,7 +335,7 @@ def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
 @kernel
 def still(plan: Vector, motion: Motion, limit: float) -> Ended:
     """At rest on a rigid stop, or held by friction, until something lets go of the mass."""
-    headed(plan, 0.25 / change_rate(plan))  # by which several harmonics find their way
+    headed(plan, 0.25 / change_rate(plan), False)  # by which several harmonics find their way
     if stuck(plan, motion):
         return held(plan, motion, limit)
     return rest(plan, motion, limit)

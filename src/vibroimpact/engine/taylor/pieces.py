@@ -126,7 +126,7 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
         unit = min(natural, 8.0 * turning)
         v = frame.sign * motion.v
         length = step(plan, frame, laws, x, v, z, motion.clock, unit, natural, most)
-    headed(plan, length / PIECES)
+    headed(plan, length / PIECES, motion.mode == LEFT)
     plan[HEADER + RESTING] = 1.0 if held else 0.0
     return frame, length
 

@@ -354,10 +354,10 @@ def scale(plan: Vector, reach: float, hysteretic: bool) -> None:
 
 
 @kernel
-def headed(plan: Vector, h: float) -> None:
-    """Write the header of pieces of this length, as a table's."""
+def headed(plan: Vector, h: float, mirrored: bool) -> None:
+    """Write the header of pieces of this length, as a table's, mirrored or not."""
     for n in range(1, count(plan) + 1):
-        part = wave(plan, n, False)
+        part = wave(plan, n, mirrored)
         there = HEADER + plane(plan, n)
         plan[there + H], plan[there + RATE] = h, 1.0 / h
         plan[there + SCALED_W] = part.rate * h
