@@ -104,7 +104,7 @@ def check_progress(value: Any) -> None:
     InputError
         If it is neither None nor a function.
     """
-    if value is not None and not callable(value):
+    if value is not None and (isinstance(value, type) or not callable(value)):
         raise InputError(
             f"progress: {shown(value)}; None or a function of the number done and the number in "
             "all, such as progress_bar(), is accepted"

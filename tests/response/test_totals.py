@@ -85,7 +85,9 @@ CURVED = {
         vi.Bumper(2e5, 900.0, 0.0003),
     ),
     "bilinear": vi.Oscillator(
-        550.0, vi.BilinearIsolator(40000.0, 20000.0, 100.0, 500.0), left=vi.Bumper(2e5, 900.0, 0.0003)
+        550.0,
+        vi.BilinearIsolator(40000.0, 20000.0, 100.0, 500.0),
+        left=vi.Bumper(2e5, 900.0, 0.0003),
     ),
 }
 SHAKINGS = {
