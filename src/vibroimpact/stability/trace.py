@@ -176,14 +176,15 @@ class Branch:
         growth = times - distance(self, here.y, first)
         if times < _UNBOUNDED or not growth > 0.0:
             return None
-        left = times * (there.orbit.value - here.orbit.value) / growth
-        if abs(left) > _STANDS * abs(there.orbit.value - self.first.orbit.value):
+        value = there.orbit.value
+        left = times * (value - here.orbit.value) / growth
+        if abs(left) > _STANDS * abs(value - self.first.orbit.value):
             return None
         name = there.orbit.section.family.parameter.name
-        return (
-            f"the motion grows without bound near {name} = {there.orbit.value + left:.6g}: it is "
-            f"{times:.1g} times as large as the first and still grows"
-        )
+        damped = there.orbit.setting[0].isolator.damping > 0.0
+        beyond = f"beyond {times:.1g} times the first" if damped else "without bound"
+        limit = "the isolator's dashpot may limit it" if damped else f"{times:.1g} times the first"
+        return f"the motion grows {beyond} near {name} = {value + left:.6g} ({limit})"
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:
         """The orbit at the end of the range, if there is one."""
