@@ -95,6 +95,13 @@ def test_a_slightly_damped_resonance_is_passed(damping_ratio):
     assert float(data["displacement_max"].max()) == pytest.approx(peak, rel=1e-3)
 
 
+def test_a_dashpot_limits_a_resonance_that_is_not_followed_to_its_peak():
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2e-5))
+    data = vi.branch(rig, vi.Harmonic(1.0, 0.11), low=0.1, high=0.2)
+    assert "without bound" not in data.attrs["ended_high"]
+    assert data.attrs["ended_high"].startswith("the motion grows beyond 1e+04 times the first")
+
+
 def test_a_motion_that_grows_with_the_amplitude_is_no_resonance():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.2))
     shaken = vi.Harmonic(1e-3, 0.11)

@@ -8,6 +8,10 @@ from vibroimpact.response.variable import Variable
 
 _OVER = "over that of the largest free flight of the same isolator and amplitude at any frequency"
 _RIGID = "infinite where a rigid stop was struck"
+_CHATTER = (
+    "a chatter that ends at rest on a rigid stop has infinitely many impacts; only those before it "
+    "is taken as complete are counted"
+)
 
 _OWN = "in the parameter's own SI unit"
 
@@ -53,8 +57,8 @@ VARIABLES: dict[str, Variable] = {
     "peak_impulse_right": Variable("N s", "largest impulse of an impact on the right rigid stop"),
     "peak_impulse_left": Variable("N s", "largest impulse of an impact on the left rigid stop"),
     "eccentricity": Variable("m", "eccentricity", "half the sum of the displacement's extremes"),
-    "impacts_right": Variable("1", "contacts with the right stop per forcing cycle"),
-    "impacts_left": Variable("1", "contacts with the left stop per forcing cycle"),
+    "impacts_right": Variable("1", "contacts with the right stop per forcing cycle", _CHATTER),
+    "impacts_left": Variable("1", "contacts with the left stop per forcing cycle", _CHATTER),
     "motion": Variable(
         "1",
         "kind of motion",

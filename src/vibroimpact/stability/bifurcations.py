@@ -132,8 +132,8 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
             else:
                 orbit, arclength = _locate(here, there, function)
             yield Bifurcation(kind, orbit, arclength, turns or kind == FOLD, orbit.contacts)
-        if not turning and met is None and (branching := _branching(here, there)) is not None:
-            yield branching
+        if not turning and met is None and (crossed := _branching(here, there)) is not None:
+            yield crossed
 
 
 def _branching(here: Station, there: Station) -> Bifurcation | None:

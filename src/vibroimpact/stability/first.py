@@ -24,6 +24,7 @@ from vibroimpact.stability.fixed_points import (
     is_fixed,
     vector_of,
 )
+from vibroimpact.stability.resting import placed_at_rest
 from vibroimpact.stability.settled import Settled, apart, approach, later, reach, reach_at_rest
 
 _Array = NDArray[np.float64]
@@ -66,6 +67,7 @@ def first_orbit(
         status, found = _least(fam, span, period or 1, point, mode)
         if status is not Status.DONE:
             raise _no_orbit(period or 1, status)
+    found = placed_at_rest(found)
     return symmetric_if_so(found) if symmetric else found
 
 

@@ -33,6 +33,7 @@ from vibroimpact.stability.fixed_points import (
 )
 from vibroimpact.stability.impacts import at_wall, dies_out, has_rigid_stop, taken_up
 from vibroimpact.stability.parents import parent, shrinks_onto, simplest, slid
+from vibroimpact.stability.resting import Rested, completed_elsewhere, placed_at_rest, rests
 
 _Array = NDArray[np.float64]
 
@@ -53,6 +54,8 @@ PHASES = (1.0, 2.1, 3.3, 0.4)
 """rad, by which the section is moved in turn."""
 _TOUCHES = 1e-8  # scaled margin of an orbit that grazes, to rounding
 _BISECTIONS = 55
+_REST = 1e-12
+"""Arclength between two orbits at rest whose contacts differ."""
 _LOOK = 12  # bisections after which a grazing must show
 _BEYOND = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7)
 """Scaled distances behind a grazing at which the map must have the new contacts."""
@@ -93,6 +96,8 @@ class Branch:
     """Range of the parameter; the branch ends on it."""
     marks: dict[float, list[tuple[_Array, _Array]]] = field(default_factory=dict)
     """Sections of the first orbit, and the branch's tangents there, by the forcing's phase."""
+    rested: Rested = field(default_factory=Rested)
+    """The orbits along which the mass rests on a rigid stop."""
     seen = SEEN
 
     @property
@@ -117,7 +122,7 @@ class Branch:
         status, found = corrected(section, aim, mode, normal)
         if status is not Status.DONE or strays(self, found.point, aim, length) or slid(found):
             return None
-        return found
+        return placed_at_rest(found)
 
     def step(self, here: Station, length: float) -> tuple[Station | None, bool]:
         """See `Path`."""
@@ -143,6 +148,11 @@ class Branch:
         if slid(there.orbit):
             # The impacts by which it differed are gone: beyond, the same orbits come again.
             return [replace(there, tangent=-here.tangent)], _born_grazing(simplest(there.orbit))
+        if self.rested.comes_again(here.orbit):
+            return (
+                [],
+                f"beyond {here.orbit.value:.9g} the orbits come again at which the mass rests",
+            )
         if self._returned(here, there):
             return [there], CLOSED
         if there.arclength - here.arclength >= _APART and neutral(here) and neutral(there):
@@ -166,14 +176,15 @@ class Branch:
         growth = times - distance(self, here.y, first)
         if times < _UNBOUNDED or not growth > 0.0:
             return None
-        left = times * (there.orbit.value - here.orbit.value) / growth
-        if abs(left) > _STANDS * abs(there.orbit.value - self.first.orbit.value):
+        value = there.orbit.value
+        left = times * (value - here.orbit.value) / growth
+        if abs(left) > _STANDS * abs(value - self.first.orbit.value):
             return None
         name = there.orbit.section.family.parameter.name
-        return (
-            f"the motion grows without bound near {name} = {there.orbit.value + left:.6g}: it is "
-            f"{times:.1g} times as large as the first and still grows"
-        )
+        damped = there.orbit.setting[0].isolator.damping > 0.0
+        beyond = f"beyond {times:.1g} times the first" if damped else "without bound"
+        limit = "the isolator's dashpot may limit it" if damped else f"{times:.1g} times the first"
+        return f"the motion grows {beyond} near {name} = {value + left:.6g} ({limit})"
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:
         """The orbit at the end of the range, if there is one."""
@@ -243,6 +254,8 @@ class Branch:
     def corner(self, here: Station, length: float) -> list[Station]:
         """See `Path`: the last orbit with the contacts of `here`, and one just behind it."""
         contacts = here.orbit.contacts
+        if (passed := self._through_rest(here, length)) is not None:
+            return passed
         rigid = has_rigid_stop(here.orbit)
         back = replace(here, tangent=-here.tangent)
         if rigid and (met := dies_out(here.orbit, lambda length: self.stepped(back, length))):
@@ -280,6 +293,29 @@ class Branch:
             if behind is not None:
                 return [before, behind]
         return []
+
+    def _through_rest(self, here: Station, length: float) -> list[Station] | None:
+        """Where the contacts change between two orbits at which the mass rests; None if it leaves.
+
+        Their map does not depend on the state, so that a grazing is no corner that could turn.
+        """
+        if not rests(here.orbit):
+            return None
+        good, bad, last, other = 0.0, length, here.orbit, self.stepped(here, length)
+        while bad - good > _REST:
+            middle = 0.5 * (good + bad)
+            found = self.stepped(here, middle)
+            if found is not None and found.contacts == here.orbit.contacts:
+                good, last = middle, found
+            else:
+                bad, other = middle, found
+        if other is None or not rests(other) or other.contacts == last.contacts:
+            return None
+        there = self._after(here, other)
+        if completed_elsewhere(last, other):
+            return [there]
+        before = replace(self._after(here, last), grazing=True)
+        return [before, replace(there, piece=here.piece + 1)]
 
     def _behind(self, before: Station, tangent: _Array) -> Station | None:
         """The branch just behind a grazing."""
