@@ -62,3 +62,17 @@ def random_rig(rng: np.random.Generator) -> tuple[vi.Oscillator, vi.Harmonic]:
         10.0 ** rng.uniform(-1, 0.7), 10.0 ** rng.uniform(-0.7, 0.7) / math.tau, rng.uniform(0, 6)
     )
     return vi.Oscillator(1.0, random_isolator(rng), right, left), shaken
+
+
+def any_shaking(
+    rng: np.random.Generator, plain: vi.Harmonic
+) -> vi.Harmonic | vi.Periodic | vi.Record:
+    """Another shaking of about the same size: several harmonics, even ones too, or a record."""
+    if rng.random() < 0.3:
+        count, step = int(rng.integers(20, 80)), plain.period * float(rng.uniform(0.02, 0.3))
+        return vi.Record(3.0 * plain.amplitude * rng.uniform(-1.0, 1.0, count), step)
+    of = str(rng.choice(["acceleration", "displacement", "force"]))
+    unit = plain.angular_frequency**-2 if of == "displacement" else 1.0
+    sizes = unit * plain.amplitude * rng.uniform(0.0, 1.0, int(rng.integers(2, 6)))
+    phases = rng.uniform(0.0, math.tau, len(sizes)).tolist()
+    return vi.Periodic(plain.frequency, sizes.tolist(), phases, plain.phase, of=of)
