@@ -53,6 +53,21 @@ def test_words_figure_and_data(run, tmp_path, quake):
     assert float(values["peak_force (N)"]) == float(direct["peak_force"])
 
 
+def test_a_residual_that_nothing_damps_is_not_called_settled(run, tmp_path, quake):
+    study = """
+[oscillator]
+mass = 1.0
+[oscillator.isolator]
+stiffness = 40.0
+damping = %s
+"""
+    for damping, expected in ((0.0, True), (1.0, False)):
+        (tmp_path / "rig.toml").write_text(study % damping)
+        code, told, _ = run("rig.toml", quake)
+        assert code == 0
+        assert ("not settled: the isolator has no damping" in " ".join(told.split())) == expected
+
+
 def test_several_records_options_and_json(run, tmp_path, quake):
     (tmp_path / "weak.csv").write_text((tmp_path / quake).read_text())
     code, told, _ = run(

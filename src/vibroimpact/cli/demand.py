@@ -14,6 +14,7 @@ from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import GRAVITY, Oscillator, Record
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
+from vibroimpact.seismic.free import settles
 
 _SIDES = ("right", "left")
 
@@ -75,9 +76,18 @@ def text(
     table.add_row(
         "comes to rest at",
         pretty(rest, LENGTH),
-        "" if still else f"still swinging by ±{pretty(swing, LENGTH)}",
+        _unsettled(rig, swing, still),
     )
     return Group(Text(name, style="bold"), table, Text(sentence(response, rig, free)))
+
+
+def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
+    """Words for a mass that does not come to rest, or may not."""
+    if not is_still:
+        return f"still swinging by ±{pretty(swing, LENGTH)}"
+    if rig.isolator.damping == 0.0 and not settles(rig):
+        return "not settled: the isolator has no damping, and the mass may swing about it for ever"
+    return ""
 
 
 def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> str:
