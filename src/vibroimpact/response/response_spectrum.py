@@ -188,7 +188,11 @@ def _components(record: Any) -> tuple[Record, ...]:
 
 def _numbers(values: ArrayLike, field: str, least: float, below: float, accepted: str) -> _Array:
     """One number or a list of them, 0 or from the least on."""
-    if getattr(values, "ndim", 1) > 0 and hasattr(values, "__len__"):
+    if (
+        getattr(values, "ndim", 1) > 0
+        and hasattr(values, "__len__")
+        and not isinstance(values, str)
+    ):
         values = check_list(values, field, MOST_NUMBERS, accepted)
     try:
         found = np.asarray(values, dtype=np.float64)
