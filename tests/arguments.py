@@ -105,6 +105,16 @@ def fit() -> xr.Dataset:
 
 
 _SMALL: dict[str, Any] = {"max_cycles": 50, "max_events": 200}
+_SWEEP: dict[str, Any] = {
+    "frequencies": [1.5],
+    "directions": ("forward",),
+    "start": None,
+    "phase": 0.0,
+    "tolerance": 1e-6,
+    **_SMALL,
+    "window": 5,
+    "threads": 1,
+}
 
 
 def calls(folder: Path) -> Mapping[str, Call]:
@@ -521,28 +531,12 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "stroboscopic_section": {"motion": motion(), "phase": 0.0, "cycles": None},
         "sweep": {
             **swept,
-            "frequencies": [1.5],
-            "directions": ("forward",),
-            "start": None,
-            "phase": 0.0,
-            "tolerance": 1e-6,
-            "max_cycles": 50,
-            "window": 5,
-            "max_events": 200,
-            "threads": 1,
+            **_SWEEP,
             "progress": None,
         },
         "sweeps": {
             "rigs": vi.Rig(rig(), 2.0),
-            "frequencies": [1.5],
-            "directions": ("forward",),
-            "start": None,
-            "phase": 0.0,
-            "tolerance": 1e-6,
-            "max_cycles": 50,
-            "window": 5,
-            "max_events": 200,
-            "threads": 1,
+            **_SWEEP,
             "where": "threads",
             "progress": None,
         },

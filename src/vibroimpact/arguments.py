@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 import os
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from vibroimpact.errors import InputError, shown, unknown
 
 LONGEST_PATH = 4096
 """Letters of a path, as operating systems take them."""
+MOST_LISTED = 1_000_000
+"""Items of a list that is not a record."""
 
 
 def check_path(value: object, field: str) -> Path:
@@ -111,20 +114,39 @@ def check_progress(value: Any) -> None:
         )
 
 
-def check_list(value: Any, field: str, most: int, what: str) -> list[Any]:
+def check_list(
+    value: object, field: str, most: int = MOST_LISTED, what: str = "a list"
+) -> tuple[Any, ...]:
     """Return the items of a list, an array or another collection.
+
+    Parameters
+    ----------
+    value
+        The argument.
+    field
+        Its name.
+    most
+        How many items it may have.
+    what
+        What is accepted, in words.
 
     Raises
     ------
     InputError
-        If it is not a list, is a text, or holds more than `most`.
+        If it is not a list, is a text, or has more items than `most`.
     """
-    is_list = hasattr(value, "__len__") and getattr(value, "ndim", 1) > 0
-    if isinstance(value, str | bytes | Mapping) or not is_list:
+    if not is_list(value):
         raise InputError(f"{field}: {shown(value)} is not a list; {what} is accepted")
-    if len(value) > most:
-        raise InputError(f"{field}: {len(value)} of them; at most {most} are accepted")
-    return list(value)
+    items = tuple(itertools.islice(cast("Iterable[Any]", value), most + 1))
+    if len(items) > most:
+        raise InputError(f"{field}: more than {most} items; at most {most} are accepted")
+    return items
+
+
+def is_list(value: object) -> bool:
+    """Whether a value has items that are read one by one: a text, bytes and mappings do not."""
+    is_scalar = isinstance(value, str | bytes | Mapping) or getattr(value, "ndim", 1) == 0
+    return isinstance(value, Iterable) and not is_scalar
 
 
 def _is_encodable(text: str) -> bool:

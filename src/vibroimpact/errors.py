@@ -9,8 +9,6 @@ from collections.abc import Iterable
 
 _LONGEST = 1200
 """Letters of a message; lists of names that are accepted have some hundreds."""
-
-
 _LONG_WORD = re.compile(r"(\S{60})\S{140,}")
 """A value that was given whole; a path may have 200 letters."""
 

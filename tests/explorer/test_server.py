@@ -147,7 +147,7 @@ def test_a_knob_does_not_wait_for_a_file(served, monkeypatch):
         socket.send('{"do": "file", "kind": "csv"}')
         assert "another one is being made" in until(socket, "refused")["refused"]
         ready.set()
-        assert until(socket, "file")["file"] == "550 kg"  # as it was when it was asked for
+        assert until(socket, "file")["file"] == "550 kg"  # the rig at the time of the request
 
 
 def test_who_has_left_takes_no_place(served, monkeypatch):

@@ -20,7 +20,7 @@ from vibroimpact.attraction.shares import interval
 from vibroimpact.attraction.window import Window, walls, window
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, to_si
-from vibroimpact.model.counts import MOST_EVENTS, whole
+from vibroimpact.model.counts import check_max_events, whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
@@ -30,6 +30,11 @@ from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 
 _Array = NDArray[np.float64]
+
+MOST_STATES = 10_000_000
+"""States that are drawn."""
+MOST_VALUES = 100_000
+"""Values of the parameter that is varied."""
 
 _SIZES = ("displacement_excursion", "acceleration_excursion", "eccentricity")
 
@@ -98,10 +103,7 @@ def basin_stability(
     """
     check_progress(progress)
     drawn, seed = whole(states, "states", most=MOST_STATES), whole(seed, "seed", 0)
-    max_cycles, max_events = (
-        whole(max_cycles, "max_cycles"),
-        whole(max_events, "max_events", most=MOST_EVENTS),
-    )
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads, where)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
@@ -179,13 +181,6 @@ def _values(
     if not given:
         raise InputError(f"values: none are given; values of {varied.name} are accepted")
     return varied, given
-
-
-MOST_STATES = 10_000_000
-"""That are drawn."""
-
-MOST_VALUES = 100_000
-"""Of the parameter that is varied."""
 
 
 def _around(ranges: Iterable[tuple[float, float]]) -> tuple[float, float]:

@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Sequence, Set
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
+from vibroimpact.arguments import check_progress, is_list
 from vibroimpact.attraction.described import ranked, shares, variables
 from vibroimpact.attraction.followed import Stage
 from vibroimpact.attraction.lattice import Lattice, lattice
 from vibroimpact.attraction.measures import border_distances, entropies, uncertainty_exponent
 from vibroimpact.attraction.search import Search
 from vibroimpact.attraction.window import walls, window
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Repeated, to_si
-from vibroimpact.model.counts import MOST_EVENTS, whole
+from vibroimpact.model.counts import check_max_events, whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.model.units import shown
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.threads import Progress
@@ -106,10 +105,7 @@ def basins(
     """
     check_bounded(oscillator, excitation)
     check_progress(progress)
-    max_cycles, max_events = (
-        whole(max_cycles, "max_cycles"),
-        whole(max_events, "max_events", most=MOST_EVENTS),
-    )
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads, where)
     refine = whole(refine, "refine", 0)
     first = _nodes(nodes)
@@ -158,8 +154,8 @@ def span_of(
     """Read the lowest and the highest of a window; None if none is given."""
     if given is None:
         return None
-    is_list = hasattr(given, "__len__") and not isinstance(given, str | bytes | Mapping | Set)
-    if not is_list or getattr(given, "shape", None) not in (None, (2,)) or len(given) != 2:
+    is_ordered = is_list(given) and hasattr(given, "__len__") and not isinstance(given, Set)
+    if not is_ordered or getattr(given, "ndim", 1) != 1 or len(given) != 2:
         raise InputError(
             f"{field}: {shown(given)}; a pair of the lowest and the highest is accepted"
         )

@@ -20,7 +20,7 @@ from vibroimpact.attraction.unstable import unstable_curve
 from vibroimpact.attraction.window import window
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
-from vibroimpact.model.counts import MOST_CYCLES, MOST_EVENTS, share, whole
+from vibroimpact.model.counts import MOST_CYCLES, check_max_events, share, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import to_si
@@ -91,10 +91,7 @@ def manifolds(
     """
     check_bounded(oscillator, excitation)
     period = whole(period, "period", most=MOST_CYCLES)
-    max_cycles, max_events = (
-        whole(max_cycles, "max_cycles"),
-        whole(max_events, "max_events", most=MOST_EVENTS),
-    )
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads)
     spacing = share(spacing, "spacing")
     longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)

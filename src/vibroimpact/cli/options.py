@@ -239,7 +239,7 @@ class RecordOptions:
     ] = None
 
     def said(self) -> dict[str, Any]:
-        """What is said of every file, but for the component."""
+        """Options that are the same for all files; the component is not among them."""
         return {"unit": self.unit, "step": self.step, "decimal": self.decimal}
 
     def read(self, files: Iterable[str]) -> dict[str, Record]:

@@ -84,6 +84,8 @@ class Trace(NamedTuple, Generic[P]):
     points: list[P]
     ended: str
     """Why it was not followed further."""
+    is_complete: bool = True
+    """Whether it was followed until something ended it, not until its points were used up."""
 
 
 def follow(
@@ -139,7 +141,7 @@ def follow(
             continue
         if length < LEAST:
             return Trace(points, path.lost(here))
-    return Trace(points, f"{most_points} points were reached")
+    return Trace(points, f"{most_points} points were reached", is_complete=False)
 
 
 def predicted(path: Path[P], here: P, length: float) -> Array:

@@ -47,7 +47,7 @@ def seal(directory: Path, name: str) -> None:
 
 
 def remove_damaged(directory: Path, name: str) -> None:
-    """Remove an entry's files if one of them is not as it was written, or not the user's alone."""
+    """Remove an entry's files if one has changed, or if another user may write to it."""
     files = list(_code(directory, name))
     if not all(_is_sealed(path) for path in files):
         remove(files)

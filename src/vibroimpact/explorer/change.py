@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer.laws import isolator_of, stop_of
 from vibroimpact.explorer.state import ON_DEMAND, State
 from vibroimpact.model import Oscillator, to_si
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import FREQUENCY
-from vibroimpact.model.units import shown
 
 SIDES = ("right", "left")
 DIMENSIONLESS = ("stiffness_ratio", "gap_ratio", "relaxation_time")

@@ -11,10 +11,9 @@ from typing import Any
 
 import xarray as xr
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer import share
 from vibroimpact.explorer.state import State
-from vibroimpact.model.units import shown
 from vibroimpact.response.files import save
 from vibroimpact.response.table import to_table
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer.state import State
 from vibroimpact.model import (
     AnyIsolator,
@@ -27,7 +27,6 @@ from vibroimpact.model import (
 from vibroimpact.model.dimensionless import largest_free_flight
 from vibroimpact.model.isolators import ISOLATORS
 from vibroimpact.model.stops import STOPS
-from vibroimpact.model.units import shown
 
 NONE = "none"
 """The law of a stop that is not there."""

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer.state import State, begin
 from vibroimpact.model import Bumper, Isolator, Oscillator, Rig, laboratory
-from vibroimpact.model.units import shown
 
 FIRST = "B2-G1-A3"
 """What a page begins with: right hysteresis, plain to see."""

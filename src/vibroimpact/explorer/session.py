@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import xarray as xr
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer import change, presets, share
 from vibroimpact.explorer.controls import controls
 from vibroimpact.explorer.files import made
@@ -21,7 +21,7 @@ from vibroimpact.explorer.pictures import basins, branch, curves, motion, plane,
 from vibroimpact.explorer.state import ON_DEMAND, History, State
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model.quantities import FREQUENCY
-from vibroimpact.model.units import pretty, shown
+from vibroimpact.model.units import pretty
 from vibroimpact.response.threads import Progress, Stopped
 from vibroimpact.scenario.axes import one_sine
 

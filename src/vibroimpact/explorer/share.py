@@ -8,14 +8,14 @@ import json
 import re
 from typing import Any, get_args
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer.change import joined, looked
 from vibroimpact.explorer.pictures.curves import FINE
 from vibroimpact.explorer.state import Direction, State
 from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.quantities import FREQUENCY
-from vibroimpact.model.units import pretty, shown
+from vibroimpact.model.units import pretty
 from vibroimpact.scenario.axes import one_sine
 
 MOST = 8000

@@ -11,11 +11,12 @@ import xarray as xr
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from vibroimpact import errors
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import new_axes
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
 from vibroimpact.measurement.read import is_measured
-from vibroimpact.model import Record, units
+from vibroimpact.model import Record
 from vibroimpact.model.names import literal
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.phases import any_recorded, phases, recorded, touches
@@ -142,7 +143,7 @@ def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axe
     if isinstance(ax, Axes):
         return ax
     if ax is not None:
-        raise InputError(f"ax: {units.shown(ax)}; axes of matplotlib, or None, are accepted")
+        raise InputError(f"ax: {errors.shown(ax)}; axes of matplotlib, or None, are accepted")
     made: Axes = new_axes(1, 1, size)[0, 0]
     if title:
         # Above the legend, which is above the axes.

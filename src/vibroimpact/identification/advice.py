@@ -16,14 +16,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_name, check_variables
+from vibroimpact.arguments import check_list, check_name, check_variables
 from vibroimpact.engine import hold
 from vibroimpact.identification.free import NEAR_ZERO, SENSORS, size_of
 from vibroimpact.identification.held import Rig, sizes
 from vibroimpact.identification.results import setting_of
 from vibroimpact.model.access import Setting
 from vibroimpact.model.counts import share as fraction
-from vibroimpact.model.excitation import listed, sized
+from vibroimpact.model.excitation import sized
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.units import pretty, to_si
@@ -103,7 +103,7 @@ def next_test(
         else np.array(
             [
                 sized(one, shaken.of, f"amplitudes[{i}]", positive=True)[0]
-                for i, one in enumerate(listed(amplitudes, "amplitudes"))
+                for i, one in enumerate(check_list(amplitudes, "amplitudes"))
             ]
         )
     )

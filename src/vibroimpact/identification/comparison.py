@@ -107,7 +107,7 @@ def remodelled(model: str, oscillator: Oscillator, depth: float) -> Oscillator:
 
 
 def asked_of(model: str, asked: Mapping[str, Any]) -> dict[str, Any]:
-    """What is free, and what is said of it, in the terms of another model.
+    """Translate the free parameters, with guesses and bounds, into those of another model.
 
     Parameters
     ----------

@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, meant
+from vibroimpact.errors import InputError, meant, shown
 from vibroimpact.model.access import Setting
 from vibroimpact.model.parameters import PARAMETERS, Parameter, parameter
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, Quantity
-from vibroimpact.model.units import shown, to_si
+from vibroimpact.model.units import to_si
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import xarray as xr
 
-from vibroimpact.errors import InputError, printable, unknown
+from vibroimpact.errors import InputError, printable, shown, unknown
 from vibroimpact.identification.curves import CurveTest
 from vibroimpact.identification.history import HistoryTest
 from vibroimpact.identification.problem import Test
@@ -20,7 +20,7 @@ from vibroimpact.model.names import check_name
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.rigs import as_rig, as_shaking
-from vibroimpact.model.units import shown, to_si
+from vibroimpact.model.units import to_si
 
 BASE = "the measured base"
 """Where the amplitude of a history is from whose base was measured."""

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_path, check_texts
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.measurement import hdf5, lvm, mat, tdms, text, uff
 from vibroimpact.measurement.beside import shaking
 from vibroimpact.measurement.columns import Array, Column, Columns
@@ -17,7 +17,6 @@ from vibroimpact.measurement.curves import curves
 from vibroimpact.measurement.histories import history
 from vibroimpact.measurement.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
 from vibroimpact.measurement.sampling import timed
-from vibroimpact.model.units import shown
 from vibroimpact.records.commas import Decimal, checked
 from vibroimpact.records.guard import regular
 from vibroimpact.response.files import load
@@ -79,7 +78,7 @@ def read_measurement(
     xarray.Dataset
         Curves have the dims ``direction`` and ``frequency``, and ``repeat`` where a frequency was
         held more than once; histories have ``time``. Variables are named as in `sweep` and
-        `simulate`, in SI units. The attribute ``notes`` tells what was guessed and left out, of
+        `simulate`, in SI units. The attribute ``notes`` lists what was assumed and what was left out, of
         columns and of numbers beside them, a line each; ``left_out`` names the columns that were
         not understood, ``amplitude_source`` says where the amplitude is from.
 

@@ -50,6 +50,17 @@ def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int
     return int(value)
 
 
+def check_max_events(value: object) -> int:
+    """Read how many contacts and detachments are followed in one cycle.
+
+    Raises
+    ------
+    InputError
+        If it is not a whole number from 1 to `MOST_EVENTS`.
+    """
+    return whole(value, "max_events", most=MOST_EVENTS)
+
+
 def share(value: object, field: str) -> float:
     """Read a number between 0 and 1, both excluded.
 

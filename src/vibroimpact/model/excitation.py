@@ -7,16 +7,17 @@ the mass. The amplitude's dimension says which.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sized
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import model_validator
 
-from vibroimpact.errors import InputError
+from vibroimpact.arguments import check_list
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.quantities import ACCELERATION, ANGLE, FORCE, FREQUENCY, LENGTH, Quantity
-from vibroimpact.model.units import one_of, pretty, shown, to_si
+from vibroimpact.model.units import one_of, pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 Of = Literal["acceleration", "displacement", "force"]
@@ -31,8 +32,6 @@ QUANTITIES: dict[Of, Quantity] = {
 
 MOST = 32
 """How many harmonics there may be."""
-MOST_LISTED = 1_000_000
-"""Values of a list that is not a record."""
 
 
 class _Repeated(Model):
@@ -189,7 +188,7 @@ class Periodic(_Repeated):
     def _dimension(cls, data: Any) -> Any:
         if not isinstance(data, Mapping) or "amplitudes" not in data:
             return data
-        given, of = listed(data["amplitudes"], "amplitudes"), data.get("of")
+        given, of = check_list(data["amplitudes"], "amplitudes"), data.get("of")
         if not 1 <= len(given) <= MOST:
             raise InputError(f"amplitudes: {len(given)} of them; 1 to {MOST} are accepted")
         values = []
@@ -197,7 +196,7 @@ class Periodic(_Repeated):
             value, of = sized(one, of, f"amplitudes[{i}]")
             values.append(value)
         phases = data.get("phases")
-        turned = listed(phases, "phases") if phases is not None else (0.0,) * len(values)
+        turned = check_list(phases, "phases") if phases is not None else (0.0,) * len(values)
         if not turned:
             turned = (0.0,) * len(values)
         if len(turned) != len(values):
@@ -271,18 +270,3 @@ def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[floa
     least = {"above": 0.0} if positive else {"minimum": 0.0}
     number, quantity = one_of(value, list(allowed.values()), field, **least)
     return number, next(name for name, one in allowed.items() if one is quantity)
-
-
-def listed(value: Any, field: str) -> tuple[Any, ...]:
-    """A list of values, of whatever kind.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-    """
-    if isinstance(value, str) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) == 0:
-        raise InputError(f"{field}: {shown(value)} is not a list; a list is accepted")
-    if isinstance(value, Sized) and len(value) > MOST_LISTED:
-        raise InputError(f"{field}: {len(value)} of them; at most {MOST_LISTED} are accepted")
-    return tuple(value)

@@ -22,8 +22,7 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, core_schema
 
-from vibroimpact.errors import InputError
-from vibroimpact.model.units import shown
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.validation import Choice, Model, constructor
 
 

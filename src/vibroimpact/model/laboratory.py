@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal, NamedTuple, TypeAlias, get_args
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.isolators import (
     AnyIsolator,
@@ -31,7 +31,7 @@ from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, STIFFNESS, Quantity
 from vibroimpact.model.stops import Bumper
 from vibroimpact.model.table import table
-from vibroimpact.model.units import pretty, read, shown
+from vibroimpact.model.units import pretty, read
 
 Parameters: TypeAlias = Literal["table", "identified", "refined"]
 

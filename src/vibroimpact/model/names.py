@@ -9,8 +9,7 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Any
 
-from vibroimpact.errors import UNPRINTABLE, InputError, printable
-from vibroimpact.model.units import shown
+from vibroimpact.errors import UNPRINTABLE, InputError, printable, shown
 
 _LONGEST = 200
 """Letters of a name."""
@@ -66,7 +65,7 @@ def _kept(sign: str) -> bool:
 def file_stem(name: str) -> str:
     """A name as the first part of a file's name: letters and digits of any script, ``.+-_``.
 
-    Names of which nothing remains are told apart by a hash, and long ones end with one.
+    If no letter remains, or the name is long, a hash distinguishes it from others.
     """
     signs = [sign if _kept(sign) else " " for sign in unicodedata.normalize("NFC", name)]
     stem = re.sub("[ _]+", "_", "".join(signs)).strip("_.")

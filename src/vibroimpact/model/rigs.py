@@ -15,11 +15,10 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Concatenate, NamedTuple, ParamSpec, Protocol, TypeAlias, TypeVar, overload
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.record import Record
-from vibroimpact.model.units import shown
 
 _Shaken = TypeVar("_Shaken", contravariant=True)
 _Found = TypeVar("_Found", covariant=True)

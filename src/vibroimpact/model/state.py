@@ -8,9 +8,8 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
-from vibroimpact.model.units import shown
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 

@@ -18,8 +18,7 @@ from decimal import Decimal
 from functools import cache, lru_cache
 from typing import Any
 
-from vibroimpact.errors import InputError, warn_of_input
-from vibroimpact.errors import shown as shown
+from vibroimpact.errors import InputError, shown, warn_of_input
 from vibroimpact.model import quantities
 from vibroimpact.model.quantities import (
     ACCELERATION,

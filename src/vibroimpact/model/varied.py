@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.access import Setting
 from vibroimpact.model.excitation import Repeated
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.units import doubt_damping_ratio, shown, to_si
+from vibroimpact.model.units import doubt_damping_ratio, to_si
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
 """Parameters that set a damping too, which one that is named behind them replaces."""

@@ -6,9 +6,8 @@ import importlib
 import importlib.util
 from typing import Any
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.counts import whole
-from vibroimpact.model.units import shown
 from vibroimpact.response.cluster import Cluster
 from vibroimpact.response.processes import Processes, may_start
 from vibroimpact.response.threads import Workers

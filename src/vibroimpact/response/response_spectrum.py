@@ -10,11 +10,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.arguments import check_list
+from vibroimpact.arguments import check_list, is_list
 from vibroimpact.engine import spectra
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Record
-from vibroimpact.model.units import shown
 from vibroimpact.response.accelerogram import record_parameters
 from vibroimpact.response.threads import Progress, Tally, available, each
 from vibroimpact.response.variables import describe
@@ -162,10 +161,6 @@ def _dataset(
     return describe(data, "vibroimpact.response_spectrum", parameters, notes)
 
 
-MOST_NUMBERS = 1_000_000
-"""Of a list of periods or of damping ratios."""
-
-
 def _components(record: Any) -> tuple[Record, ...]:
     """One record, or two that belong together."""
     given = tuple(record) if isinstance(record, list | tuple) else (record,)
@@ -188,12 +183,8 @@ def _components(record: Any) -> tuple[Record, ...]:
 
 def _numbers(values: ArrayLike, field: str, least: float, below: float, accepted: str) -> _Array:
     """One number or a list of them, 0 or from the least on."""
-    if (
-        getattr(values, "ndim", 1) > 0
-        and hasattr(values, "__len__")
-        and not isinstance(values, str)
-    ):
-        values = check_list(values, field, MOST_NUMBERS, accepted)
+    if is_list(values):
+        values = check_list(values, field)
     try:
         found = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):

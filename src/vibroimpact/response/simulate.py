@@ -16,7 +16,7 @@ from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, Repeated, State, equilibrium, to_si
-from vibroimpact.model.counts import MOST_EVENTS, check_samples, whole
+from vibroimpact.model.counts import check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.rigs import takes_rig_or_record
 from vibroimpact.response.free_flight import check_bounded
@@ -84,7 +84,7 @@ def simulate(
     InputError
         If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
     """
-    max_events = whole(max_events, "max_events", most=MOST_EVENTS)
+    max_events = check_max_events(max_events)
     per = 256 if isinstance(excitation, Repeated) else 1
     samples = per if samples is None else whole(samples, "samples", 0)
     if isinstance(excitation, Record):

@@ -14,13 +14,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_list
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Repeated, State, to_si
-from vibroimpact.model.counts import MOST_EVENTS, share, whole
-from vibroimpact.model.excitation import listed
+from vibroimpact.model.counts import check_max_events, share, whole
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.rigs import (
     AnyRig,
@@ -31,7 +31,6 @@ from vibroimpact.model.rigs import (
     rig_name,
     takes_rig,
 )
-from vibroimpact.model.units import shown
 from vibroimpact.response.doubts import doubt_gaps
 from vibroimpact.response.held import held
 from vibroimpact.response.places import THREADS, placed
@@ -185,7 +184,7 @@ def sweeps(
         angle = state.phase
     tolerance = share(tolerance, "tolerance")
     max_cycles, window = whole(max_cycles, "max_cycles"), whole(window, "window")
-    max_events = whole(max_events, "max_events", most=MOST_EVENTS)
+    max_events = check_max_events(max_events)
     workers = placed(threads, where)
 
     ready = [
@@ -251,7 +250,7 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
         raise InputError(
             f"frequencies: {shown(frequencies)} is one text; a list of frequencies is accepted"
         )
-    items = list(listed(frequencies, "frequencies"))
+    items = list(check_list(frequencies, "frequencies"))
     if isinstance(frequencies, np.ndarray) and frequencies.dtype == float and frequencies.ndim == 1:
         items = frequencies.tolist()  # of plain floats, which are read at once
     grid = np.array(
@@ -298,7 +297,7 @@ def named_rigs(
 
 
 def _directions(directions: Sequence[str]) -> tuple[str, ...]:
-    given = (directions,) if isinstance(directions, str) else listed(directions, "directions")
+    given = (directions,) if isinstance(directions, str) else check_list(directions, "directions")
     for direction in given:
         if not isinstance(direction, str) or direction not in DIRECTIONS:
             raise InputError(

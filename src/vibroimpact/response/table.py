@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
-from vibroimpact.errors import InputError
-from vibroimpact.model.units import shown
+from vibroimpact.errors import InputError, shown
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 
-from vibroimpact.errors import InputError
-from vibroimpact.model.units import shown
+from vibroimpact.errors import InputError, shown
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.counts import MOST_EVENTS, whole
+from vibroimpact.model.counts import check_max_events, whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.response.accelerogram import record_notes
@@ -122,7 +122,7 @@ def demands(
         list(shaking.values()),
         factors,
         None if tail is None else to_si(tail, TIME, "tail", minimum=0.0),
-        whole(max_events, "max_events", most=MOST_EVENTS),
+        check_max_events(max_events),
         placed(threads, where),
     )
     settings = {

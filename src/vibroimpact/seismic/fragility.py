@@ -51,9 +51,9 @@ def fragility(
 
     Since the same records are used at all scales, the numbers at two scales are not independent.
     Intervals therefore count each record once, by the two scales between which it begins to exceed.
-    They belong to a set of lognormal curves, each of which rises with the
-    scale, and so does the band. They hold for few records, too; the fitted β is then small on
-    average, and lies in the lower part of its interval.
+    They belong to a set of lognormal curves, each of which rises with the scale, and so does the
+    band. They hold for few records, too; the fitted β is then small on average, and lies in the
+    lower part of its interval.
 
     Parameters
     ----------

@@ -7,10 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Record, to_si
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, TIME, Quantity
-from vibroimpact.model.units import shown
 from vibroimpact.response.response_spectrum import response_spectrum
 
 _Array = NDArray[np.float64]

@@ -11,11 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Harmonic, Oscillator, Record
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.rigs import as_rig, rig_name
-from vibroimpact.model.units import shown
 from vibroimpact.model.varied import Varied, varied, written
 
 _Array = NDArray[np.float64]

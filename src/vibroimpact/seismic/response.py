@@ -8,12 +8,11 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.counts import MOST_EVENTS, whole
+from vibroimpact.model.counts import check_max_events
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rigs import takes_rig_or_record
-from vibroimpact.model.units import shown
 from vibroimpact.response.accelerogram import record_parameters
 from vibroimpact.response.doubts import doubt_gaps
 from vibroimpact.response.variables import describe, oscillator_parameters
@@ -90,7 +89,7 @@ def seismic_response(
         tail=behind,
         energies=True,
         residuals=True,
-        max_events=whole(max_events, "max_events", most=MOST_EVENTS),
+        max_events=check_max_events(max_events),
         threads=1,
     )
     data = with_both_sides(xr.Dataset({name: values[0, 0] for name, values in found.items()}))

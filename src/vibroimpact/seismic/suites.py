@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list, check_name
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import to_si
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -22,7 +22,6 @@ from vibroimpact.model.quantities import (
     LENGTH,
     Quantity,
 )
-from vibroimpact.model.units import shown
 from vibroimpact.response.variables import describe, motion_parameters, noted
 from vibroimpact.response.vocabulary import VARIABLES
 

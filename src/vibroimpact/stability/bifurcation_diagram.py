@@ -15,7 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.access import Setting
-from vibroimpact.model.counts import MOST_EVENTS, share, whole
+from vibroimpact.model.counts import check_max_events, share, whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.rigs import takes_rig
@@ -138,7 +138,7 @@ def bifurcation_diagram(
         share(tolerance, "tolerance"),
         whole(max_cycles, "max_cycles"),
         whole(points, "points"),
-        whole(max_events, "max_events", most=MOST_EVENTS),
+        check_max_events(max_events),
     )
     look = Look(
         section, patience.window, whole(exponent_cycles, "exponent_cycles"), patience.max_events

@@ -192,7 +192,7 @@ def unexplained(stations: list[Station], found: list[Bifurcation]) -> list[tuple
     for here, there in itertools.pairwise(stations):
         if here.orbit.stable == there.orbit.stable or here.piece != there.piece:
             continue  # a grazing explains the change from piece to piece
-        if _neutral(here.orbit) or _neutral(there.orbit):
+        if _on_unit_circle(here.orbit) or _on_unit_circle(there.orbit):
             continue  # as without damping: rounding alone decides which it is
         low, high = sorted((here.arclength, there.arclength))
         if not any(low - _CERTAIN <= one <= high + _CERTAIN for one in listed):
@@ -200,7 +200,7 @@ def unexplained(stations: list[Station], found: list[Bifurcation]) -> list[tuple
     return changes
 
 
-def _neutral(orbit: Orbit) -> bool:
+def _on_unit_circle(orbit: Orbit) -> bool:
     """Whether the largest multiplier lies on the unit circle, to rounding."""
     return bool(abs(np.abs(orbit.map_multipliers[0]) - 1.0) <= _CERTAIN)
 

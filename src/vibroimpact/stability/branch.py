@@ -166,7 +166,7 @@ def _both_ways(
 
 def _why(trace: arclength.Trace[Station]) -> str:
     """Why a branch ends; where its points were used up, whether its motion still grows."""
-    if not trace.ended.endswith("points were reached"):
+    if trace.is_complete:
         return trace.ended
     chosen = (trace.points[0], trace.points[len(trace.points) // 2], trace.points[-1])
     first, middle, last = (

@@ -14,7 +14,7 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
 from vibroimpact.model.access import Setting
-from vibroimpact.model.counts import MOST_EVENTS, whole
+from vibroimpact.model.counts import check_max_events, whole
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rigs import AnyRig
@@ -110,7 +110,7 @@ def lyapunov_exponents(
     if state is not None and state.phase is not None:
         angle = state.phase
     cycles, transient = whole(cycles, "cycles"), whole(transient, "transient", 0)
-    max_events = whole(max_events, "max_events", most=MOST_EVENTS)
+    max_events = check_max_events(max_events)
     workers = placed(threads, where)
     first = pairs[0][0]
     every = tuple(

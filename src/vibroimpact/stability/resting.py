@@ -16,7 +16,6 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.motion import LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
-from vibroimpact.model.stops import RigidStop
 from vibroimpact.stability.fixed_points import (
     MAX_EVENTS,
     SEEN,
@@ -26,6 +25,7 @@ from vibroimpact.stability.fixed_points import (
     evaluated,
     vector_of,
 )
+from vibroimpact.stability.impacts import has_rigid_stop
 
 _Array = NDArray[np.float64]
 
@@ -39,9 +39,7 @@ _FIXED = 1e-9
 
 def rests(found: Orbit) -> bool:
     """Whether the mass comes to rest on a rigid stop: there all disturbances of it end."""
-    stops = found.section.family.oscillator.stops
-    rigid = any(isinstance(stop, RigidStop) for stop in stops)
-    return rigid and not found.carried[:2, :2].any()
+    return has_rigid_stop(found) and not found.carried[:2, :2].any()
 
 
 @dataclass
@@ -119,7 +117,7 @@ def _same(one: _Array, other: _Array) -> bool:
 
 
 def _chatters(found: Orbit) -> list[_Array] | None:
-    """The events of a period, cut behind each rest that begins: time in cycles, kind and side."""
+    """Return the events of a period (time in cycles, kind, side), cut where each rest begins."""
     section = found.section
     system = section.family.system(found.value)
     phase, frequency = section.family.phase, float(system[section_map.FREQUENCY])

@@ -14,7 +14,7 @@ from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State, equilibrium
-from vibroimpact.model.counts import MOST_EVENTS, check_samples, whole
+from vibroimpact.model.counts import check_max_events, check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.contacts import contact_log
 from vibroimpact.response.doubts import doubt_gaps
@@ -97,10 +97,7 @@ def steady(
         If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
     """
     samples, window = whole(samples, "samples"), whole(window, "window")
-    max_cycles, max_events = (
-        whole(max_cycles, "max_cycles"),
-        whole(max_events, "max_events", most=MOST_EVENTS),
-    )
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     exponent_cycles = whole(exponent_cycles, "exponent_cycles")
     check_samples(window, samples, "window")
     if exponent_cycles > MOST_CYCLES:

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.model.units import shown, to_si
+from vibroimpact.model.units import to_si
 
 _Array = NDArray[np.float64]
 

@@ -10,11 +10,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.model.units import shown
 from vibroimpact.response.threads import Progress, each
 from vibroimpact.response.variables import origin
 from vibroimpact.uncertainty.distributions import Distribution

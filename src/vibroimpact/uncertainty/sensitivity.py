@@ -10,11 +10,10 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.model.units import shown
 from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe
 from vibroimpact.uncertainty.distributions import Distribution

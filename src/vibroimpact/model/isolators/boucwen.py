@@ -8,10 +8,9 @@ from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BeforeValidator, model_validator
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.isolators.law import YieldingLaw
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.model.units import shown
 from vibroimpact.model.validation import Accepts, constructor
 
 _SETTLED = 40.0

@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.quantities import (
     DIMENSIONLESS,
     FORCE,
@@ -15,7 +15,7 @@ from vibroimpact.model.quantities import (
     MASS,
     PERIOD,
 )
-from vibroimpact.model.units import doubt_damping_ratio, one_of, shown
+from vibroimpact.model.units import doubt_damping_ratio, one_of
 from vibroimpact.model.validation import Accepts
 
 if TYPE_CHECKING:

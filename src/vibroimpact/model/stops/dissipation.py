@@ -11,8 +11,7 @@ import math
 from collections.abc import Callable
 from typing import Literal, TypeAlias
 
-from vibroimpact.errors import InputError
-from vibroimpact.model.units import shown
+from vibroimpact.errors import InputError, shown
 
 Relation: TypeAlias = Literal["exact", "hunt-crossley", "lankarani-nikravesh", "flores", "gonthier"]
 """Name of a relation between d and e."""
