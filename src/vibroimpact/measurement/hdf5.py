@@ -91,9 +91,9 @@ def _lists(item: Any) -> tuple[dict[str, Any], list[str]]:
     fields = item.dtype.names
     own = {}
     each: list[str] = []
+    count = len(fields) if fields else min(item.shape, default=0) if item.ndim == 2 else 0
     for name, value in item.attrs.items():
         listed = np.ravel(np.asarray(value))
-        count = len(fields) if fields else min(item.shape, default=0) if item.ndim == 2 else 0
         if "unit" in name.lower() and listed.size == count > 1 and listed.dtype.kind in "OSU":
             each = [as_text(one).strip() for one in listed]
         else:

@@ -78,9 +78,9 @@ def read_measurement(
     xarray.Dataset
         Curves have the dims ``direction`` and ``frequency``, and ``repeat`` where a frequency was
         held more than once; histories have ``time``. Variables are named as in `sweep` and
-        `simulate`, in SI units. The attribute ``notes`` lists what was assumed and what was left out, of
-        columns and of numbers beside them, a line each; ``left_out`` names the columns that were
-        not understood, ``amplitude_source`` says where the amplitude is from.
+        `simulate`, in SI units. The attribute ``notes`` lists, a line each, what was assumed and
+        what was left out of columns and of single numbers; ``left_out`` names the columns that
+        were not understood, ``amplitude_source`` says where the amplitude is from.
 
     Raises
     ------

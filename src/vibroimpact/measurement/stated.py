@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.measurement.sampling import is_sampling, step_of
 
 _UNIT = re.compile(r"unit|einheit", re.IGNORECASE)
@@ -87,7 +87,7 @@ def stated(attributes: Mapping[str, Any], where: str) -> Stated:
             text = "" if value is None and np.size(given) == 0 else value
             if not isinstance(text, str):
                 raise InputError(
-                    f"{where}: its {name!r} is {_short(given)}, which is no unit; a text such as "
+                    f"{where}: its {name!r} is {shown(given)}, which is no unit; a text such as "
                     "'m/s^2' is accepted"
                 )
             if text.strip().upper() not in ("", "NONE"):
@@ -96,7 +96,7 @@ def stated(attributes: Mapping[str, Any], where: str) -> Stated:
             number = _number(value)
             if number is None or (key in _SCALES and number == 0.0):
                 raise InputError(
-                    f"{where}: its {name!r} is {_short(given)}, which is no scale or offset; a "
+                    f"{where}: its {name!r} is {shown(given)}, which is no scale or offset; a "
                     "number is accepted"
                 )
             found["scale" if key in _SCALES else "offset"] = number
@@ -131,8 +131,3 @@ def _number(value: Any) -> float | None:
     except (TypeError, ValueError):
         return None
     return number if np.isfinite(number) else None
-
-
-def _short(value: Any) -> str:
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 40 else f"{text[:37]}..."

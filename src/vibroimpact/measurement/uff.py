@@ -81,9 +81,9 @@ def _whole(path: Path) -> None:
     InputError
         If the last one has none.
     """
-    marks = [line for line in path.read_bytes().splitlines() if line.strip() == b"-1"]
-    ends = [line for line in path.read_bytes().splitlines() if line.strip()][-1:]
-    if marks and (len(marks) % 2 or ends[0].strip() != b"-1"):
+    lines = [line for one in path.read_bytes().splitlines() if (line := one.strip())]
+    marks = lines.count(b"-1")
+    if marks and (marks % 2 or lines[-1] != b"-1"):
         raise _cut(path)
 
 
