@@ -175,3 +175,13 @@ def test_over_any_parameters():
 def test_values_that_are_refused(vary, told):
     with pytest.raises(vi.InputError, match=told):
         vi.lyapunov_exponents(["B2-G1-A3"], [2.0], 10, vary=vary)
+
+
+def test_a_chattering_mass_that_rests_on_its_wall_loses_both_disturbances():
+    """Rest on a wall leaves nothing of a disturbance: −∞ twice, and never NaN."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), right=vi.RigidStop(0.8, 0.157))
+    frequency = 2.4 / (2.0 * np.pi)
+    shaken = vi.Rig(rig, vi.Harmonic(1.0, frequency, of="force"))
+    data = vi.lyapunov_exponents({"rattle": shaken}, [frequency], 300)
+    assert data["status"].item() == 0
+    np.testing.assert_array_equal(data["exponents"].values.ravel(), [-np.inf, -np.inf])

@@ -77,7 +77,10 @@ def growth(
             events, motion, notes = cycle(plan, section, clock, period, max_events, notes)
             if number >= 0 and events <= max_events:
                 row = out[number]
-                row[FIRST], row[SECOND] = notes.first, notes.both - notes.first
+                row[FIRST] = notes.first
+                # A rest on a wall leaves nothing of either: the difference would be no number.
+                lost = notes.both == -math.inf
+                row[SECOND] = -math.inf if lost else notes.both - notes.first
                 row[DISSIPATION] = notes.dissipation
                 row[SECTION], row[SECTION + 1] = motion.u, motion.v
                 row[SECTION + 2], row[SECTION + 3] = motion.right, -motion.left
