@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import assume, given
@@ -185,3 +187,22 @@ def test_a_chattering_mass_that_rests_on_its_wall_loses_both_disturbances():
     data = vi.lyapunov_exponents({"rattle": shaken}, [frequency], 300)
     assert data["status"].item() == 0
     np.testing.assert_array_equal(data["exponents"].values.ravel(), [-np.inf, -np.inf])
+
+
+def test_a_direction_that_sticking_takes_is_lost_in_every_answer():
+    """Second exponent of a mass that sticks: steady, the averages and the multipliers agree."""
+    rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.9))
+    shaken = vi.Harmonic(1.0, 0.8 / (2.0 * math.pi))
+    steady = vi.steady(rig, shaken)["exponents"].values
+    averaged = vi.lyapunov_exponents({"rig": vi.Rig(rig, shaken)}, [shaken.frequency], 200)
+    assert steady[0] == pytest.approx(-0.26024431, abs=1e-7)
+    np.testing.assert_allclose(averaged["exponents"].values.ravel(), steady, atol=1e-8)
+    assert steady[1] == -math.inf
+
+
+def test_strong_damping_leaves_a_second_exponent():
+    """A multiplier of 5e-29, lost in rounding beside 0.45: their sum is the damping."""
+    rig, shaken = vi.Oscillator(1.0, vi.Isolator(1.0, 8.0)), vi.Harmonic(1.0, 0.8 / (2 * math.pi))
+    slow = 4.0 - math.sqrt(15.0)
+    exact = np.array([-slow, -(8.0 - slow)])
+    np.testing.assert_allclose(vi.steady(rig, shaken)["exponents"], exact, rtol=1e-12)

@@ -20,6 +20,8 @@ _Array = NDArray[np.float64]
 
 _TINY = 1e-10
 """A multiplier smaller than this times the largest one is lost in its rounding."""
+_TURNING = 8
+"""Periods in which disturbances turn into their directions, where the second one is lost."""
 
 
 def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int, Status]:
@@ -44,8 +46,10 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
             nothing = np.full(2, np.nan)
             told = Judgement("undecided", 0, nothing, nothing, Status(outcome).advice)
             return told, math.nan, 0, Status(outcome)
-        rates.append(_rates(carried, damping[0]) / found.period)
+        rates.append(_rates(carried) / found.period)
     first, second = rates
+    if np.isnan(first[1]) or np.isnan(second[1]):
+        first[1] = second[1] = _second(found, state, max_events)
     finite = np.isfinite(first) & np.isfinite(second)
     spread = np.abs(np.subtract(first, second, where=finite, out=np.zeros(2)))
     largest = math.exp(min(first[0] * found.period, 700.0))
@@ -59,12 +63,10 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
     return kind, float(damping[0]) / found.period, 2 * found.period, Status.DONE
 
 
-def _rates(carried: _Array, damping: float) -> _Array:
-    """Logarithms of the two largest multipliers of an orbit.
+def _rates(carried: _Array) -> _Array:
+    """Logarithms of the two largest multipliers of an orbit; NaN if the second is lost in rounding.
 
-    A bumper that is never touched only relaxes; it is left out. A second multiplier that is
-    lost in rounding follows from the damping over the orbit, which is that of a motion whose
-    bumpers forget.
+    A bumper that is never touched only relaxes; it is left out.
     """
     touched = [j for j in (2, 3, 4) if carried[:2, j].any() or carried[j, :2].any()]
     kept = [0, 1, *touched]
@@ -72,8 +74,25 @@ def _rates(carried: _Array, damping: float) -> _Array:
     with np.errstate(divide="ignore"):
         logarithms: _Array = np.log(moduli[:2])
     if moduli[0] > 0.0 and moduli[1] <= _TINY * moduli[0]:  # a rest leaves nothing of either
-        logarithms[1] = min(logarithms[0], -damping - logarithms[0])
+        logarithms[1] = np.nan
     return logarithms
+
+
+def _second(found: Settled, state: _Array, max_events: int) -> float:
+    """Second exponent per cycle of an orbit whose second multiplier is lost in rounding.
+
+    It is followed cycle by cycle, as for a motion that is not periodic: strong damping leaves a
+    number, and a mass that sticks, or comes to rest, minus infinity.
+    """
+    status, rows = grown(
+        engine_rig(found.oscillator, found.excitation),
+        found.excitation,
+        state.copy(),
+        found.period,
+        max_events,
+        discard=_TURNING * found.period,
+    )
+    return float(rows[:, lyapunov.SECOND].mean()) if status == Status.DONE else math.nan
 
 
 def judge_wandering(
