@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
 from vibroimpact.model.dimensionless import largest_free_flight
+from vibroimpact.model.unbounded import grows, has_no_bound, undamped_frequency
 from vibroimpact.response.own_flight import largest_flight, resonance
 
 _RESONANT = 1e-14
@@ -66,17 +67,27 @@ def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[floa
     2A/ω0² and 2A, those under a base acceleration that changes slowly. Under a given displacement
     of the base the acceleration grows on with the frequency: it is taken where the displacement
     is largest. Without a spring there is no such scale, and both are NaN. Of an isolator that is
-    not linear they are those of a backward sweep of its own free flight (`own_flight`).
+    not linear they are those of a backward sweep of its own free flight (`own_flight`); if that has
+    no bound either, as with little friction and no dashpot, those of its spring alone, with
+    ω0² = K/M, under a base acceleration that changes slowly.
     """
     if not oscillator.isolator.linear:
-        return largest_flight(oscillator, shaken)
+        if not has_no_bound(oscillator, shaken):
+            return largest_flight(oscillator, shaken)
+        natural = undamped_frequency(oscillator)
+        if isinstance(shaken, Periodic):
+            return _slow(oscillator, shaken, natural)
+        size = 2.0 * float(shaken.acceleration(oscillator.mass, math.tau * natural))
+        return size / (math.tau * natural) ** 2, size
     omega0 = oscillator.angular_frequency
     if omega0 == 0.0:
         return math.nan, math.nan
     xi = oscillator.damping_ratio
     peaked = 0.0 < xi < math.sqrt(0.5)
     if isinstance(shaken, Periodic):
-        return _largest(oscillator, shaken) if xi > 0.0 else _slow(oscillator, shaken)
+        if xi > 0.0:
+            return _largest(oscillator, shaken)
+        return _slow(oscillator, shaken, oscillator.natural_frequency)
     size = float(shaken.acceleration(oscillator.mass, omega0))
     if xi == 0.0:
         return 2.0 * size / omega0**2, 2.0 * size
@@ -102,6 +113,8 @@ def resonance_ratio(oscillator: Oscillator, shaken: Harmonic) -> float:
     """
     if oscillator.isolator.linear:
         return peak_ratio(oscillator.damping_ratio, shaken)
+    if has_no_bound(oscillator, shaken):
+        return undamped_frequency(oscillator) / oscillator.natural_frequency
     found = resonance(oscillator, shaken) / oscillator.natural_frequency
     return found if math.isfinite(found) else 1.0
 
@@ -125,7 +138,7 @@ def check_bounded(oscillator: Oscillator, shaken: Repeated, field: str = "freque
 
 
 def check_each_bounded(oscillator: Oscillator, shaken: Repeated, frequencies: _Array) -> None:
-    """The same of each frequency of a sweep."""
+    """The same of each frequency of a sweep, of which the shaking may have any amplitude."""
     if not oscillator.stops:
         _check(oscillator, shaken, frequencies, "frequencies[{}]")
 
@@ -135,11 +148,11 @@ def beside_resonance(oscillator: Oscillator, frequencies: _Array) -> _Array:
 
     Where the user has not chosen them, a default must not be what is refused.
     """
-    isolator = oscillator.isolator
-    if not isolator.linear or isolator.damping > 0.0 or isolator.initial_stiffness == 0.0:
+    natural = undamped_frequency(oscillator)
+    if natural == 0.0:
         return frequencies
     step = frequencies[1] - frequencies[0]
-    there = np.abs(frequencies / oscillator.natural_frequency - 1.0) < _AT_RESONANCE
+    there = np.abs(frequencies / natural - 1.0) < _AT_RESONANCE
     return frequencies + np.where(there, 0.5 * step, 0.0)
 
 
@@ -147,20 +160,17 @@ def _check(
     oscillator: Oscillator, shaken: Repeated, frequencies: Iterable[float], field: str
 ) -> None:
     """Refuse resonance of an undamped isolator; the field may have a place for the position."""
-    isolator = oscillator.isolator
-    if not isolator.linear or isolator.damping > 0.0 or isolator.initial_stiffness == 0.0:
+    if undamped_frequency(oscillator) == 0.0:
         return
-    sizes = shaken.amplitudes if isinstance(shaken, Periodic) else (shaken.amplitude,)
+    held = "" if oscillator.isolator.linear else ", whose bounded force is too small to hold it,"
     for i, frequency in enumerate(frequencies):
-        for n, size in enumerate(sizes, start=1):
-            ratio = n * frequency / oscillator.natural_frequency
-            if size and abs((1.0 - ratio) * (1.0 + ratio)) <= _RESONANT:
-                which = "" if n == 1 else f" over {n}"
-                raise InputError(
-                    f"{field.format(i)}: {float(frequency)!r} Hz is the natural frequency{which} "
-                    "of an undamped isolator, where free flight grows without bound; another "
-                    "frequency or some isolator damping is accepted"
-                )
+        if n := grows(oscillator, shaken, float(frequency), _RESONANT):
+            which = "" if n == 1 else f" over {n}"
+            raise InputError(
+                f"{field.format(i)}: {float(frequency)!r} Hz is the natural frequency{which} "
+                f"of an undamped isolator{held} where free flight grows without bound; another "
+                "frequency or some isolator damping is accepted"
+            )
 
 
 def harmonics(
@@ -246,13 +256,13 @@ def _sampled(phasors: _Complex) -> _Array:
     return np.asarray(top(values) + top(-values))
 
 
-def _slow(oscillator: Oscillator, shaken: Periodic) -> tuple[float, float]:
+def _slow(oscillator: Oscillator, shaken: Periodic, natural: float) -> tuple[float, float]:
     """What an excitation that changes slowly does to displacement and acceleration."""
-    here = shaken.replace(frequency=oscillator.natural_frequency)
+    here = shaken.replace(frequency=natural)
     sizes = here.acceleration(oscillator.mass, here.angular_frequency)
     low, high = extremes(_turned(shaken, sizes[np.newaxis]))
     wave = float(high[0] - low[0])
-    return wave / oscillator.angular_frequency**2, wave
+    return wave / (math.tau * natural) ** 2, wave
 
 
 def _largest(oscillator: Oscillator, shaken: Periodic) -> tuple[float, float]:

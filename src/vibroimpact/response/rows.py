@@ -66,8 +66,9 @@ def prepared(
     InputError
         If the sizes do not go with the frequencies, or the state or a frequency not with the rig.
     """
-    check_each_bounded(oscillator, shaken, frequencies)
     levels = _levels(sizes, shaken, frequencies)
+    least = shaken if sizes is None else shaken.replace(amplitude=levels.min())
+    check_each_bounded(oscillator, least, frequencies)
     if oscillator.isolator.linear:
         free = np.array(free_flight_excursions(oscillator, shaken, frequencies))
         free *= levels / shaken.amplitude

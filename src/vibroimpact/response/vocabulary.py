@@ -230,6 +230,7 @@ VARIABLES: dict[str, Variable] = {
     "exponents": Variable("s-1", "largest two Lyapunov exponents"),
     "exponents_uncertainty": Variable("s-1", "standard uncertainty of the Lyapunov exponents"),
     "exponents_cycles": Variable("1", "forcing cycles over which the exponents were found"),
+    "settling": Variable("1", "whether the motion still came closer to a periodic one"),
     "effective_damping": Variable(
         "s-1",
         "mean damping per unit mass, a bumper's included while it is pressed",

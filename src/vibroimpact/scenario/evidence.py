@@ -18,6 +18,7 @@ import xarray as xr
 
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.room import at_rest, room
+from vibroimpact.model.unbounded import has_no_bound
 from vibroimpact.response.free_flight import reference_excursions, resonance_ratio
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps_beside, runs
@@ -270,10 +271,9 @@ def _resonance_within(rig: Shaken, both: Swept) -> bool:
 
 
 def _largest(rig: Shaken, free: Array) -> float:
-    """Largest amplitude of free flight (m); without damping that at the frequencies swept."""
-    isolator = rig.oscillator.isolator
-    damped = not isolator.linear or isolator.damping > 0.0
-    return 0.5 * reference_excursions(*rig)[0] if damped else float(np.nanmax(free))
+    """Largest amplitude of free flight (m); if it has no bound, that at the frequencies swept."""
+    bounded = not has_no_bound(*rig)
+    return 0.5 * reference_excursions(*rig)[0] if bounded else float(np.nanmax(free))
 
 
 def _irregular(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -26,7 +27,7 @@ from vibroimpact.response.start import as_state, engine_rig, engine_state
 from vibroimpact.response.sweep import check_frequencies, named_rigs
 from vibroimpact.response.threads import Progress, Tally, each
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
-from vibroimpact.stability.kind import averages
+from vibroimpact.stability.kind import averages, settling
 
 DISCARD = 100
 """Cycles in which the disturbances turn into their directions."""
@@ -40,6 +41,7 @@ class _Grown(NamedTuple):
     damping: float
     cycles: int
     status: Status
+    settling: bool
 
 
 def lyapunov_exponents(
@@ -96,7 +98,8 @@ def lyapunov_exponents(
         Dims ``rig``, ``frequency``, one for each parameter that is varied, and ``exponent`` (the
         largest first): ``exponents`` in 1/s,
         their ``exponents_uncertainty`` (of the mean, from 32 blocks of cycles; infinite with
-        fewer cycles), ``effective_damping``, ``exponents_cycles`` and ``status``.
+        fewer cycles), ``effective_damping``, ``exponents_cycles``, ``status``, and ``settling``:
+        whether the motion still came closer to a periodic one, of which a warning tells.
 
     Raises
     ------
@@ -133,10 +136,18 @@ def lyapunov_exponents(
         )
         if not len(rows):
             nothing = np.full(2, np.nan)
-            return _Grown(nothing, nothing, math.nan, 0, status)
+            return _Grown(nothing, nothing, math.nan, 0, status, False)
         mean, spread = averages(rows[:, : lyapunov.DISSIPATION])
         lost = float(rows[:, lyapunov.DISSIPATION].mean())
-        return _Grown(mean * frequency, spread * frequency, lost * frequency, len(rows), status)
+        size = np.array([1.0, here.angular_frequency, 1.0, 1.0, 1.0])
+        return _Grown(
+            mean * frequency,
+            spread * frequency,
+            lost * frequency,
+            len(rows),
+            status,
+            settling(rows[:, lyapunov.SECTION :] / size),
+        )
 
     lyapunov.growth.prepare(*vectors)  # once, before threads would queue
     found = each(grow, list(zip(items, vectors, strict=True)), threads=workers, progress=progress)
@@ -153,6 +164,7 @@ def lyapunov_exponents(
             },
             "effective_damping": (dims, np.reshape([f.damping for f in found], shape)),
             "exponents_cycles": (dims, np.reshape([f.cycles for f in found], shape)),
+            "settling": (dims, np.reshape([f.settling for f in found], shape)),
             "status": (dims, np.reshape([int(f.status) for f in found], shape)),
         },
         coords={"rig": names, "frequency": grid, **{one.name: one.values for one in every}},
@@ -172,6 +184,14 @@ def lyapunov_exponents(
         "max_events": max_events,
     }
     data = describe(data, "vibroimpact.lyapunov_exponents", parameters)
+    if count := sum(f.settling for f in found):
+        warnings.warn(
+            f"{count} of {len(found)} motions still approach a periodic one after "
+            f"{transient} + {DISCARD} cycles: their exponents are not those of its orbit; a larger "
+            "transient is accepted; `settling` tells which",
+            RuntimeWarning,
+            stacklevel=2,
+        )
     for one in every:
         data[one.name].attrs.update(units=one.units, long_name=one.long_name)
     return data

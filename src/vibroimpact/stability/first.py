@@ -31,6 +31,8 @@ _Array = NDArray[np.float64]
 
 _SAME = 1e-6
 """Distance, over the motion's size, from the motion from rest of an orbit that is it."""
+_SINGULAR = 1e-7
+"""A singular value of P' - 1, scaled, below which it counts as singular."""
 _RETURNS = 400
 """Forcing cycles over which the motion from rest is watched for close returns."""
 _LARGER = (1e3, 1e6)
@@ -66,16 +68,28 @@ def first_orbit(
         mode = float(record.TOUCHING.index(state.contact or 0))
         status, found = _least(fam, span, period or 1, point, mode)
         if status is not Status.DONE:
-            raise _no_orbit(period or 1, status)
+            raise _no_orbit(period or 1, status, found)
     found = placed_at_rest(found)
     return symmetric_if_so(found) if symmetric else found
 
 
-def _no_orbit(period: int, status: Status) -> InputError:
+def _no_orbit(period: int, status: Status, failed: Orbit | None) -> InputError:
+    if failed is not None and status is Status.NOT_SETTLED and _neutral(failed):
+        return InputError(
+            f"start: the orbits of period {period} near it are not isolated, or a fold is near (a "
+            "multiplier of 1), so that Newton's method does not converge to one of them; some "
+            "isolator damping, or another start, is accepted"
+        )
     return InputError(
         f"start: Newton's method finds no orbit of period {period} near it "
         f"({told(status)}); a state nearer to one is accepted"
     )
+
+
+def _neutral(found: Orbit) -> bool:
+    """Whether P' - 1 is singular at a point: a disturbance of state stays as it is."""
+    values = np.linalg.svd(found.jacobian[:2, :2], compute_uv=False)
+    return bool(values[-1] <= _SINGULAR)
 
 
 def _least(
@@ -111,12 +125,12 @@ def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Or
         )
     period = period or rest.period
     repeats = rest.period and period % rest.period == 0
-    least, status = None, Status.NOT_SETTLED
+    least, failed, status = None, None, Status.NOT_SETTLED
     for vector in [rest.state] if repeats else _returns(rest, begin, period):
         point = np.array([vector[2], vector[3], vector[4], -vector[5], vector[6], fam.value])
         outcome, found = _least(fam, span, period, point, float(vector[layout.MODE]))
         if outcome is not Status.DONE:
-            status = outcome
+            status, failed = outcome, found
             continue
         # A close return over several cycles may be due to an orbit of fewer.
         if least is None or found.section.period == period:
@@ -124,7 +138,7 @@ def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Or
         if repeats or found.section.period == period:
             break
     if least is None:
-        raise _no_orbit(period, status)
+        raise _no_orbit(period, status, failed)
     _tell_another(rest, least)
     return least
 

@@ -9,6 +9,7 @@ neighbouring tori shear (no dissipation).
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +19,8 @@ _Array = NDArray[np.float64]
 
 BLOCKS = 32
 """Blocks of cycles whose means tell how sure an average is."""
+_BRIDGE = math.sqrt(math.pi / 2.0)
+"""Mean range of a Brownian bridge: of the sum of independent numbers about its line, over √N σ."""
 SIGNIFICANT = 5.0
 """Standard uncertainties by which an exponent must differ from zero."""
 CLEAR = 20.0
@@ -31,6 +34,10 @@ FORGOTTEN = 1e-2
 bumpers forget; with bumpers that remember it differs by a good part."""
 LONGEST = 64
 """Period of the longest orbit that is sought where a motion settles slowly."""
+GROWING = 0.02
+"""Share of the size by which each quarter of a motion that still grows is larger than the last."""
+FALLING = 0.9
+"""Share to which the distance from an orbit falls, quarter by quarter, while it is approached."""
 SAME = 1e-8
 """Share of the motion's size within which two points of the section are one."""
 
@@ -54,7 +61,11 @@ class Judgement(NamedTuple):
 # A wall that is grazed stretches disturbances without bound.
 @np.errstate(invalid="ignore")
 def averages(logarithms: _Array) -> tuple[_Array, _Array]:
-    """Mean growth per cycle and its standard uncertainty, from the means of blocks of cycles.
+    """Mean growth per cycle and its standard uncertainty.
+
+    The quadratic mean of two estimates: from the means of blocks of cycles, and from how far the
+    sum goes from a straight line. Blocks see too little of a rotation (a complex pair of
+    multipliers) that comes again in each of them.
 
     Parameters
     ----------
@@ -71,7 +82,11 @@ def averages(logarithms: _Array) -> tuple[_Array, _Array]:
         mean = logarithms.mean(axis=0) if cycles else np.full(2, np.nan)
         return mean, np.full(2, np.inf)
     blocks = logarithms[cycles - size * BLOCKS :].reshape(BLOCKS, size, 2).mean(axis=1)
-    return logarithms.mean(axis=0), blocks.std(axis=0, ddof=1) / math.sqrt(BLOCKS)
+    mean = logarithms.mean(axis=0)
+    away = np.cumsum(logarithms - mean, axis=0)
+    ends = (away.max(axis=0) - away.min(axis=0)) / (_BRIDGE * cycles)
+    spread = blocks.std(axis=0, ddof=1) / math.sqrt(BLOCKS)
+    return mean, np.sqrt(0.5 * (spread**2 + ends**2))
 
 
 @np.errstate(invalid="ignore")
@@ -117,6 +132,8 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
     if bounded and damping is not None and forgets(logarithms, damping):
         told = f"{grown}: as on a torus, but where bumpers forget there is none; it settles slowly"
         return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
+    if rise := growing(section):
+        return Judgement("undecided", 0, mean, uncertainty, f"{grown}: the motion grows, {rise}")
     if bounded and cycles >= ENOUGH:
         return Judgement(
             "quasi-periodic", 0, mean, uncertainty, f"{grown}: no more than on a torus"
@@ -133,6 +150,28 @@ def forgets(logarithms: _Array, damping: _Array) -> bool:
     """Whether areas shrink as the damping says, and not otherwise: by the sum of the exponents."""
     lost = float(damping.mean())
     return lost > 0.0 and abs(float(logarithms.sum(axis=1).mean()) + lost) <= FORGOTTEN * lost
+
+
+def growing(section: _Array) -> str:
+    """By how much a motion grows from quarter to quarter, in words; nothing if it does not."""
+    sizes = [math.sqrt(float((part[:, :2] ** 2).mean())) for part in np.array_split(section, 4)]
+    if not min(np.diff(sizes)) > GROWING * sizes[-1]:
+        return ""
+    return f"to {sizes[-1] / sizes[0]:.3g} times its size from the first to the last quarter"
+
+
+def settling(section: _Array) -> bool:
+    """Whether a motion still comes closer to a periodic one at the end of what was followed.
+
+    Its distance from where it was a period ago then falls from quarter to quarter.
+    """
+    if len(section) < 2 * LONGEST:
+        return False
+    period = returns(section)
+    away = np.abs(section[period:] - section[:-period]).max(axis=1)
+    medians = [float(np.median(part)) for part in np.array_split(away, 4)]
+    falls = all(after <= FALLING * before for before, after in pairwise(medians))
+    return falls and medians[-1] > SAME * float(np.abs(section).max())
 
 
 def returns(section: _Array) -> int:

@@ -136,6 +136,12 @@ class ExponentialIsolator(IsolatorLaw):
         return held / spring if spring else 0.0
 
     @property
+    def linear_and_bounded(self) -> tuple[float, float] | None:
+        """k_b and f̄, without hardening."""
+        hardens = self.hardening * self.hardening_force != 0.0
+        return None if hardens else (self.final_stiffness, self.hysteretic_force)
+
+    @property
     def reach(self) -> float:
         """Where a softening one has its largest static force, in m; ∞ if it hardens."""
 

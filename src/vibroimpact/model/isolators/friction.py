@@ -141,6 +141,11 @@ class FrictionIsolator(SpringLaw):
         weight = m * GRAVITY
         return cls(weight / r, damping, mu * weight)
 
+    @property
+    def linear_and_bounded(self) -> tuple[float, float]:
+        """K and F_c."""
+        return self.stiffness, self.friction
+
     def static_force(self, displacement: float) -> float:
         """K u + F_c sgn u in N, at a displacement in m; at rest it may be anything up to ±F_c."""
         friction = math.copysign(self.friction, displacement) if displacement else 0.0

@@ -80,6 +80,11 @@ class IsolatorLaw(Named):
         return math.inf if self.reach == math.inf else self.static_force(self.reach)
 
     @property
+    def linear_and_bounded(self) -> tuple[float, float] | None:
+        """The static force as K u + q with ``|q|`` at most Q: (K, Q), or None."""
+        return None
+
+    @property
     def restoring_reach(self) -> float:
         """Displacement (m) up to which its elastic part pushes back to rest; ∞ if everywhere."""
         return math.inf
@@ -272,6 +277,16 @@ class YieldingLaw(IsolatorLaw):
     def initial_stiffness(self) -> float:
         """k_e, N/m."""
         return self.elastic_stiffness
+
+    @property
+    def linear_and_bounded(self) -> tuple[float, float]:
+        """k_p, and (k_e - k_p) times the limit of z."""
+        return self.post_yield_stiffness, self.hysteretic_stiffness * self.hysteretic_limit
+
+    @property
+    def hysteretic_limit(self) -> float:
+        """What ``|z|`` never exceeds, m."""
+        return self.yield_displacement
 
     def static_force(self, displacement: float) -> float:
         """Force in N of a first loading to a displacement in m: k_p u + (k_e - k_p) z."""

@@ -45,6 +45,11 @@ class Isolator(SpringLaw):
         )
 
     @property
+    def linear_and_bounded(self) -> tuple[float, float]:
+        """K, and nothing beside it."""
+        return self.stiffness, 0.0
+
+    @property
     def linear(self) -> bool:
         """Whether its force is K u + C v."""
         return self.damping_exponent == 1.0

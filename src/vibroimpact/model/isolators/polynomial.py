@@ -62,6 +62,11 @@ class PolynomialIsolator(SpringLaw):
         return displacement * (self.stiffness + square * (self.cubic + square * self.quintic))
 
     @property
+    def linear_and_bounded(self) -> tuple[float, float] | None:
+        """K, without powers."""
+        return None if self.cubic or self.quintic else (self.stiffness, 0.0)
+
+    @property
     def reach(self) -> float:
         """The least u > 0 with K + 3 k₃ u² + 5 k₅ u⁴ = 0, in m; ∞ if there is none."""
         return _first_zero(self.stiffness, 3.0 * self.cubic, 5.0 * self.quintic)

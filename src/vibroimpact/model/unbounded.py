@@ -1,0 +1,65 @@
+"""Resonances without bound: free flight that no dashpot, no spring and no stop holds.
+
+Where the force of an isolator is K u + q with |q| at most Q, and there is no dashpot, let the
+harmonic n of what shakes it have the natural frequency √(K/M) and the size M A_n. Multiplied by
+the free motion of that phase and taken over a cycle, the equation of motion says how fast this
+motion grows: by the work of M A_n, less than that of q, which is at most 4 Q/π times as large as
+that of a unit sine. Above M A_n = 4 Q/π no motion is bounded. For friction it is Den Hartog's
+bound (1931), F_c/(M A) = π/4.
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.model.excitation import Periodic, Repeated
+from vibroimpact.model.oscillator import Oscillator
+
+
+def undamped_frequency(oscillator: Oscillator) -> float:
+    """√(K/M)/2π in Hz, if the isolator is K u and a bounded force without a dashpot; or 0."""
+    isolator = oscillator.isolator
+    parts = isolator.linear_and_bounded
+    if isolator.damping > 0.0 or parts is None:
+        return 0.0
+    if isolator.linear:
+        return oscillator.natural_frequency
+    return math.sqrt(parts[0] / oscillator.mass) / math.tau
+
+
+def grows(oscillator: Oscillator, shaken: Repeated, frequency: float, within: float) -> int:
+    """Harmonic at which free flight has no bound at a frequency (Hz); 0 if there is none.
+
+    Parameters
+    ----------
+    within
+        |1 - r²| up to which the two frequencies are one.
+    """
+    natural = undamped_frequency(oscillator)
+    if natural == 0.0:
+        return 0
+    for n, size in enumerate(_sizes(oscillator, shaken, frequency), start=1):
+        ratio = n * frequency / natural
+        if abs((1.0 - ratio) * (1.0 + ratio)) <= within and _exceeds(oscillator, size):
+            return n
+    return 0
+
+
+def has_no_bound(oscillator: Oscillator, shaken: Repeated) -> bool:
+    """Whether free flight grows without bound at some frequency."""
+    natural = undamped_frequency(oscillator)
+    if natural == 0.0:
+        return False
+    count = len(shaken.amplitudes) if isinstance(shaken, Periodic) else 1
+    return any(grows(oscillator, shaken, natural / n, 1e-12) for n in range(1, count + 1))
+
+
+def _sizes(oscillator: Oscillator, shaken: Repeated, frequency: float) -> list[float]:
+    """Base acceleration (m/s²) of each harmonic, or what does the same."""
+    found = shaken.replace(frequency=frequency).acceleration(oscillator.mass, math.tau * frequency)
+    return [abs(float(one)) for one in (found if isinstance(shaken, Periodic) else [found])]
+
+
+def _exceeds(oscillator: Oscillator, size: float) -> bool:
+    parts = oscillator.isolator.linear_and_bounded
+    return parts is not None and oscillator.mass * size > 4.0 / math.pi * parts[1]
