@@ -206,3 +206,34 @@ def test_strong_damping_leaves_a_second_exponent():
     slow = 4.0 - math.sqrt(15.0)
     exact = np.array([-slow, -(8.0 - slow)])
     np.testing.assert_allclose(vi.steady(rig, shaken)["exponents"], exact, rtol=1e-12)
+
+
+def test_what_has_not_settled_says_so():
+    """A multiplier of 0.991: a few hundred cycles later the motion still comes closer."""
+    rig = vi.Rig(
+        vi.Oscillator(1.0, vi.Isolator(1.0, 0.003), vi.Bumper(30.0, 0.0, 100.0)),
+        vi.Harmonic(1.0, 0.2),
+    )
+    with pytest.warns(RuntimeWarning, match="1 of 1 motions still approach"):
+        data = vi.lyapunov_exponents({"slow": rig}, [0.2], 500, transient=0)
+    assert data["settling"].item()
+    settled = vi.lyapunov_exponents({"slow": rig}, [0.2], 500, transient=20_000)
+    assert not settled["settling"].item()
+
+
+def test_the_uncertainty_of_a_complex_pair_covers_its_error():
+    """Against the multipliers of the orbit: a rotation comes again in each block of cycles."""
+    for law in (vi.FrictionIsolator(1.0, 0.1, 0.1), vi.BilinearIsolator(2.0, 1.0, 0.3, 0.05)):
+        oscillator = vi.Oscillator(1.0, law)
+        for frequency in (0.11, 0.23):
+            shaken = vi.Harmonic(1.0, frequency)
+            orbit = vi.orbit(oscillator, shaken)
+            pair = orbit["multiplier_real"].values + 1j * orbit["multiplier_imag"].values
+            assert abs(pair[0].imag) > 1e-3
+            exact = frequency * np.log(np.abs(pair[:2]))
+            for cycles in (200, 500, 1300):
+                data = vi.lyapunov_exponents(
+                    {"one": vi.Rig(oscillator, shaken)}, [frequency], cycles, transient=500
+                )
+                error = np.abs(data["exponents"].values.ravel() - exact)
+                assert (error <= 4.0 * data["exponents_uncertainty"].values.ravel()).all()

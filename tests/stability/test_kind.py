@@ -10,7 +10,7 @@ import pytest
 
 import vibroimpact as vi
 from reference.zero_one import rotation_number, zero_one
-from vibroimpact.stability.kind import averages, judge, recurrence
+from vibroimpact.stability.kind import averages, judge, recurrence, settling
 
 
 def noise(*shape: int, seed: int = 5) -> np.ndarray:
@@ -244,3 +244,26 @@ def test_growth_without_bound_is_judged_without_a_warning():
     logarithms = growth(0.5, 1.0)
     logarithms[7] = np.inf, -np.inf
     assert judge(logarithms, WANDERING).motion == "undecided"
+
+
+def spiral(cycles: int, multiplier: complex, scale: float = 1.0) -> np.ndarray:
+    """Sections of a motion that comes to an orbit away from zero, or leaves it."""
+    away = scale * multiplier ** np.arange(cycles)
+    return np.column_stack([1.0 + away.real, away.imag, np.zeros((cycles, 3))])
+
+
+def test_a_motion_that_grows_has_no_kind():
+    growing = np.linspace(1.0, 4.0, 4000)[:, np.newaxis] * noise(4000, 2, seed=7)
+    section = np.column_stack([growing, np.zeros((4000, 3))])
+    told = judge(growth(0.0, 0.01, 4000), section)
+    assert told.motion == "undecided"
+    assert "the motion grows" in told.evidence
+
+
+def test_settling_is_seen_until_nothing_is_left():
+    turn = np.exp(0.7j)
+    assert settling(spiral(1000, 0.998 * turn))
+    assert not settling(spiral(1000, 0.998 * turn, 1e-9))  # what is left is rounding
+    assert not settling(spiral(1000, turn))  # a torus
+    assert not settling(noise(1000, 5, seed=8))  # chaos
+    assert not settling(spiral(50, 0.9 * turn))  # too short to tell

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.stability.family import RATES, system_vector
+from vibroimpact.response.start import system_vector
+from vibroimpact.stability.family import RATES
 from vibroimpact.stability.plane import plane
 
 CASE = vi.laboratory.case("B2-G1-A3")

@@ -45,7 +45,8 @@ def test_a_branch_ends_where_orbits_are_not_isolated():
         [0.32482235353280076, 4.930546887254801, 0.546722119591505, 3.8428435448530753],
     )
     f = shaken.frequency
-    start = vi.steady(rig, shaken)["final_state"]
+    with pytest.warns(RuntimeWarning, match="not isolated"):
+        start = vi.steady(rig, shaken)["final_state"]
     data = vi.branch(rig, shaken, start, low=0.9 * f, high=1.1 * f)
     assert data.sizes["point"] < 100
     assert data.sizes["bifurcation"] == 0

@@ -239,9 +239,11 @@ def test_without_dissipation_an_orbit_is_neither_stable_nor_unstable():
     for frequency in (0.1, 0.2, 0.3, 0.37):
         omega = 2 * np.pi * frequency
         start = vi.State(0.0, -omega / (1.0 - omega**2))
-        data = vi.steady(rig(0.0), vi.Harmonic(1.0, frequency), start)
+        with pytest.warns(RuntimeWarning, match="more slowly than exponentially"):
+            data = vi.steady(rig(0.0), vi.Harmonic(1.0, frequency), start)
         assert int(data["period"]) == 1
         assert int(data["stable"]) == -1
+        assert "not isolated" in data.attrs["evidence"]
 
 
 def test_records_that_would_not_fit_are_refused():

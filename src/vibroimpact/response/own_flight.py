@@ -12,19 +12,29 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine import hold
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.equilibrium import equilibrium
-from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.free_branch import (
+    SOON,
+    Flight,
+    Held,
+    backward,
+    beside,
+    flight,
+    from_rest,
+    swept,
+)
+from vibroimpact.response.start import engine_state
 
 _Array = NDArray[np.float64]
 
-_STEP = 0.02  # of the natural frequency of small motions, first
-_FINER = 20  # times, twice about the largest
-_LEAST, _MOST = 0.02, 4.0  # of that frequency, where resonance is looked for at first
+_LEAST, _MOST = 0.02, 4.0  # of the natural frequency, where resonance is looked for at first
 _WIDEST = 64.0
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+_SAME = 1e-8
+"""Width, over the frequency, down to which the place of the largest motion is narrowed."""
 
 
 def swept_flight(
@@ -42,26 +52,25 @@ def swept_flight(
     ndarray, shape (2, frequency)
         Of a backward sweep; NaN where the motion does not settle.
     """
-    free = oscillator.without_bumpers()
-    results = np.empty((len(frequencies), hold.RESULTS))
-    states = np.zeros((len(frequencies), layout.STATE))
-    state = engine_state(free, equilibrium(free))
-    batch.sweep(
-        engine_rig(free, shaken),
-        np.ascontiguousarray(levels[::-1]),
-        np.ascontiguousarray(frequencies[::-1]),
-        0.0,
-        state,
-        1e-9,
-        2000,
-        64,
-        10_000,
-        hold.PATIENT,
-        results,
-        states,
-        np.zeros(2, dtype=np.int64),
-    )
-    results = results[::-1]
+
+    def level(frequency: float) -> float:
+        return float(np.interp(frequency, frequencies, levels))
+
+    one = flight(oscillator.without_bumpers(), shaken, level)
+    falling = [float(frequency) for frequency in frequencies[::-1]]
+    begin = engine_state(one.oscillator, equilibrium(one.oscillator))
+    found = swept(one, begin, falling, SOON)
+    if not all(held.results[hold.OUTCOME] == Status.DONE for held in found):
+        # What settles slowly is not waited for.
+        found = [from_rest(one, falling[0])]
+        for frequency in falling[1:]:
+            *_, last = backward(one, found[-1], frequency)
+            found.append(last)
+    return _excursions(found[::-1])
+
+
+def _excursions(found: list[Held]) -> _Array:
+    results = np.array([one.results for one in found])
     excursions = np.array(
         [
             results[:, hold.U_MOST] - results[:, hold.U_LEAST],
@@ -94,35 +103,56 @@ def _peaks(oscillator: Oscillator, shaken: Repeated) -> tuple[float, float, floa
 @lru_cache(maxsize=256)
 def _largest(free: Oscillator, shaken: Repeated) -> tuple[float, float, float]:
     unit = free.natural_frequency
-
-    def swept(low: float, high: float, count: int) -> tuple[_Array, _Array]:
-        grid = np.linspace(low, high, count)
-        return grid, swept_flight(free, shaken, grid, np.full(count, shaken.amplitude))
-
+    one = flight(free, shaken, lambda _: shaken.amplitude)
     high = _MOST
     while True:
-        grid, curves = swept(_LEAST * unit, high * unit, round((high - _LEAST) / _STEP) + 1)
+        found = [from_rest(one, high * unit)]
+        found.extend(backward(one, found[0], _LEAST * unit))
+        curves = _excursions(found)
         if np.all(np.isnan(curves)):
             return math.nan, math.nan, math.nan
-        rising = int(np.nanargmax(curves[0])) > len(grid) - 4
-        if not rising or high >= _WIDEST:
+        top = found[int(np.nanargmax(curves[0]))].frequency
+        if top < 0.98 * high * unit or high >= _WIDEST:
             break
         high *= 2.0
-    largest = []
-    places = []
-    for which in range(2):
-        curve, about = curves[which], grid
-        for _ in range(2):
-            k = int(np.nanargmax(curve))
-            low, top = about[max(k - 1, 0)], about[min(k + 1, len(about) - 1)]
-            # From above, so that the sweep comes to where it was on the same side of a fold.
-            finer, found = swept(low, top + 10.0 * (top - low) / _FINER, 2 * _FINER + 11)
-            if np.all(np.isnan(found[which])):
-                break
-            about, curve = finer, found[which]
-        places.append(float(about[np.nanargmax(curve)]))
-        largest.append(float(max(np.nanmax(curve), np.nanmax(curves[which]))))
-    swing, acceleration = largest
+    (swing, place), (acceleration, _) = (_top(one, found, curves, which) for which in range(2))
     if not swing > 0.0:
         return math.nan, math.nan, math.nan
-    return swing, acceleration, places[0]
+    return swing, acceleration, place
+
+
+def _top(one: Flight, found: list[Held], curves: _Array, which: int) -> tuple[float, float]:
+    """The largest excursion between the motions beside the largest that was found, and its place.
+
+    The frequencies fall. Narrowed by golden sections; where the largest stands at a fold there is
+    no orbit on its far side, and the near one is closed in on.
+    """
+    k = int(np.nanargmax(curves[which]))
+    best, most = found[k], float(curves[which, k])
+    if not best.single:
+        return most, best.frequency
+    low = found[min(k + 1, len(found) - 1)].frequency
+    high = found[max(k - 1, 0)].frequency
+
+    def at(frequency: float) -> float:
+        nonlocal best, most
+        reached = beside(one, [best], frequency)
+        if reached is None:
+            return -math.inf
+        value = float(_excursions([reached[0]])[which, 0])
+        if value > most:
+            best, most = reached[0], value
+        return value
+
+    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    values = at(left), at(right)
+    while high - low > _SAME * best.frequency:
+        if values[0] > values[1]:
+            high, right = right, left
+            left = high - _GOLDEN * (high - low)
+            values = at(left), values[0]
+        else:
+            low, left = left, right
+            right = low + _GOLDEN * (high - low)
+            values = values[1], at(right)
+    return most, best.frequency

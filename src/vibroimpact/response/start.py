@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import motion as layout
+from vibroimpact.engine import section_map
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
@@ -50,6 +51,15 @@ def engine_rig(oscillator: Oscillator, shaken: Repeated | Record) -> NDArray[np.
         _drive(oscillator, shaken),
         law,
     )
+
+
+def system_vector(oscillator: Oscillator, excitation: Repeated) -> NDArray[np.float64]:
+    """The same with the size and the frequency of what shakes it: a system of the section's map."""
+    rig = engine_rig(oscillator, excitation)
+    vector = np.resize(rig, max(section_map.SYSTEM, len(rig)))
+    vector[section_map.AMPLITUDE] = excitation.amplitude
+    vector[section_map.FREQUENCY] = excitation.frequency
+    return vector
 
 
 def _drive(oscillator: Oscillator, shaken: Repeated | Record) -> Drive:

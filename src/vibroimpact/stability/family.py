@@ -13,12 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine import section_map
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.access import Setting
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.response.start import engine_rig
+from vibroimpact.response.start import system_vector
 
 _Array = NDArray[np.float64]
 
@@ -129,13 +128,4 @@ def _vector(made: Family, value: float) -> _Array:
     """The engine's vector; rates follow from stiffness and damping, and move along no line."""
     vector = system_vector(*made.at(value))
     vector[RATES] = made.base[RATES]
-    return vector
-
-
-def system_vector(oscillator: Oscillator, excitation: Repeated) -> _Array:
-    """The engine's system vector."""
-    rig = engine_rig(oscillator, excitation)
-    vector = np.resize(rig, max(section_map.SYSTEM, len(rig)))
-    vector[section_map.AMPLITUDE] = excitation.amplitude
-    vector[section_map.FREQUENCY] = excitation.frequency
     return vector

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.stability.family import RATES, Family, family, system_vector
+from vibroimpact.response.start import system_vector
+from vibroimpact.stability.family import RATES, Family, family
 
 _Array = NDArray[np.float64]
 

@@ -44,8 +44,13 @@ ANTISYMMETRIC = 1e-8
 """Distance from the own mirror image, over the motion's size, below which they are one."""
 APPROACHED = 0.05
 """Distance, over the motion's size, from the orbit that it settles on slowly."""
-NEUTRAL = 1e-9
-"""Logarithm of the largest multiplier below which an orbit is neither stable nor unstable."""
+NEUTRAL = 1e-6
+"""Logarithm of the largest multiplier below which an orbit counts as neither stable nor unstable:
+from what is left of a transient nothing smaller can be told."""
+_UNDECIDED = (
+    "its largest multiplier is 1 as far as can be told: it is not isolated, or is approached more "
+    "slowly than exponentially, so that it may not have settled"
+)
 MOST_CYCLES = 5_000_000
 """Cycles over which exponents are averaged: about 0.3 GB."""
 
@@ -132,6 +137,10 @@ def describe_motion(
             return _given_up(found._replace(status=status), samples, max_events)
         kind = kind._replace(evidence=kind.evidence + slowly)
     stable = {"chaotic": 0, "periodic": _stable(kind)}.get(kind.motion, -1)
+    if kind.period and stable == -1:
+        kind = kind._replace(evidence=f"{kind.evidence}; {_UNDECIDED}")
+        if used:
+            warnings.warn(f"steady: {_UNDECIDED}", RuntimeWarning, stacklevel=4)
     data = _record(found, found.state, samples, kind.period or window, max_events)
     if data.attrs["status"] not in (Status.DONE.advice, Status.REVERSED.advice):
         return _given_up(found._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)
@@ -168,9 +177,9 @@ def approached(found: Settled, period: int) -> Settled | None:
 
 
 def _stable(kind: Judgement) -> int:
-    """1 or 0; -1 where the largest exponent is zero to rounding, as without dissipation."""
-    largest = float(kind.exponents[0]) * kind.period
-    return -1 if abs(largest) < NEUTRAL else int(largest < 0.0)
+    """1 or 0; -1 where the largest exponent is zero as far as can be told."""
+    largest, spread = (float(one[0]) * kind.period for one in (kind.exponents, kind.uncertainty))
+    return -1 if abs(largest) <= max(NEUTRAL, spread) else int(largest < 0.0)
 
 
 def _record(
