@@ -156,7 +156,7 @@ def border_saddles(search: Search, window: Window, progress: Progress | None = N
     return sorted(found, key=lambda one: one.section.count)[:_MOST]
 
 
-def _pairs(labels: NDArray[np.int64]) -> list[tuple[int, int]]:
+def _pairs(labels: NDArray[np.int8]) -> list[tuple[int, int]]:
     """Neighbours that lead to different motions, some of each two motions."""
     kinds: dict[tuple[int, int], list[tuple[int, int]]] = {}
     index = np.arange(labels.size).reshape(labels.shape)
