@@ -11,6 +11,7 @@ the tolerance (docs/decisions/0004-sweep-convergence.md).
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,10 +75,12 @@ def measure(
     cycles: int,
     max_events: int,
     result: Vector,
+    progress: Any,
 ) -> tuple[int, Motion]:
     """Follow `cycles` forcing cycles and write their exact extremes and contact counts.
 
-    Forces and impulses are those per unit mass.
+    Forces and impulses are those per unit mass. It stops when [1] of `progress` becomes nonzero;
+    None if it cannot take long.
     """
     notes = NOTHING
     outcome = DONE
@@ -91,6 +94,9 @@ def measure(
         elif not finite(motion):
             outcome = NOT_FINITE
         done += 1
+        if progress is not None:  # noqa: SIM102 - the compiler leaves out what None makes needless
+            if progress[1] != 0:
+                outcome = STOPPED
     result[U_LEAST], result[U_MOST] = notes.u_least, notes.u_most
     result[A_LEAST], result[A_MOST] = notes.a_least, notes.a_most
     result[HITS_RIGHT], result[HITS_LEFT] = notes.hits_right / done, notes.hits_left / done
@@ -301,7 +307,9 @@ def hold(
         plan, motion, clock, period, tolerance, max_cycles, max_events, transient, progress
     )
     if outcome in (DONE, NOT_SETTLED):
-        over, motion = measure(plan, motion, clock, period, n if n else window, max_events, result)
+        over, motion = measure(
+            plan, motion, clock, period, n if n else window, max_events, result, progress
+        )
         k += n if n else window
         if over != DONE:
             outcome = over
