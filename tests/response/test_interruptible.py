@@ -92,6 +92,22 @@ def test_what_a_task_waits_for_counts_no_step_of_it_and_ends_with_it():
         each(unwanted, [0], threads=1)
 
 
+def test_tasks_of_a_task_end_with_it():
+    ended = []
+
+    def inner(item, tally):
+        while not tally[1]:
+            time.sleep(0.01)
+        ended.append(item)
+
+    def stop(done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        each(lambda _, __: each(inner, [1, 2], threads=2), [0], progress=stop)
+    assert sorted(ended) == [1, 2]
+
+
 @pytest.mark.parametrize(
     "call",
     [

@@ -143,6 +143,7 @@ def each(
             left = len(futures)
             due = time.monotonic() + _POLL
             while left:
+                stop_if_unwanted()  # where these tasks are a part of another
                 with contextlib.suppress(Empty):
                     ended.get(timeout=_POLL).result()  # raises what went wrong
                     left -= 1
