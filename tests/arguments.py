@@ -422,6 +422,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "spacing": 0.1,
             "longest": 1.0,
             "threads": 1,
+            "progress": None,
         },
         "next_test": {
             "result": fit(),
@@ -497,6 +498,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "record": record(),
             "tail": None,
             "max_events": 200,
+            "progress": None,
         },
         "sensitivity": {
             "rig": vi.Rig(rig(), 2.0),
@@ -527,6 +529,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "window": 5,
             "tolerance": 1e-6,
             "exponent_cycles": 10,
+            "progress": None,
         },
         "stroboscopic_section": {"motion": motion(), "phase": 0.0, "cycles": None},
         "sweep": {

@@ -23,9 +23,22 @@ WINDOW = (-0.011, 0.011), (-0.104, 0.104)
 SIDES = np.ptp(np.array(WINDOW), axis=1)
 
 
+TOLD: list[tuple[int, int | None]] = []
+"""The progress of `found`."""
+
+
 @cache
 def found() -> xr.Dataset:
-    return vi.manifolds(CASE.oscillator, EXCITATION, None, *WINDOW)
+    def tell(done: int, total: int | None) -> None:
+        TOLD.append((done, total))
+
+    return vi.manifolds(CASE.oscillator, EXCITATION, None, *WINDOW, progress=tell)
+
+
+def test_progress_counts_states_and_then_curves():
+    curves = found().sizes["curve"]
+    assert TOLD[-curves - 1 :] == [(number, curves) for number in range(curves + 1)]
+    assert TOLD[-curves - 2] == (1600, 1600)
 
 
 def curve(data: xr.Dataset, number: int, scale: object = SIDES) -> np.ndarray:

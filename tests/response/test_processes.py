@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import os
 import signal
 import subprocess
 import sys
+import textwrap
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -107,6 +110,70 @@ def test_ctrl_c_leaves_no_process():
     with pytest.raises(KeyboardInterrupt):
         each(lambda item, _: time.sleep(5.0 * (item > 0)), range(4), threads=TWO, progress=stop)
     assert all(_ended(pid) for pid in pids)
+
+
+def _children(pid):
+    """Processes that this one has started, and those which they have."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            number, rest = path.read_text().split(" (", 1)
+            state, parent = rest.rsplit(") ", 1)[1].split()[:2]
+            if int(parent) == pid and state != "Z":
+                found += [int(number), *_children(int(number))]
+    return found
+
+
+def _runs(pid):
+    """Whether a process lives; one that has ended may wait for who started it to take note."""
+    with contextlib.suppress(OSError):
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(") ", 1)[1][0] != "Z"
+    return False
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
+@pytest.mark.parametrize(
+    ("sent", "code", "how"),
+    [
+        ("SIGTERM", -signal.SIGTERM, "script"),  # a shell says 128 + 15 = 143
+        ("SIGKILL", -signal.SIGKILL, "script"),
+        ("SIGTERM", 143, "command"),
+    ],
+)
+def test_no_process_outlives_what_started_it(tmp_path, sent, code, how):
+    script = tmp_path / "script.py"
+    end = "vi.basins(rig, shaken, (-3, 3), (-3, 3), nodes=3000, threads=2, where='processes')"
+    if how == "command":
+        end = (
+            "main(['basins', 'B3-10mm-A3', '--frequency', '1.06Hz', '--nodes', '3000',"
+            f" '--where', 'processes', '--threads', '2', '--output', {str(tmp_path)!r}])"
+        )
+        end = f"raise SystemExit({end})"
+    script.write_text(
+        textwrap.dedent(f"""
+            import vibroimpact as vi
+            from vibroimpact.cli import main
+            from vibroimpact.response.threads import each
+            from vibroimpact.response.processes import Processes
+            case = vi.laboratory.case("B3-10mm-A3")
+            rig, shaken = case.oscillator, vi.Harmonic(case.amplitude, 1.06)
+            each(lambda item, _: item, range(4), threads=Processes(2))
+            print("begun", flush=True)
+            {end}
+        """)
+    )
+    with subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "begun\n"
+        time.sleep(3.0)
+        assert process.poll() is None
+        children = _children(process.pid)
+        assert len(children) >= 2
+        process.send_signal(getattr(signal, sent))
+        assert process.wait(10.0) == code
+    end = time.monotonic() + 5.0
+    while any(map(_runs, children)) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not any(map(_runs, children))
 
 
 def test_sweeps():

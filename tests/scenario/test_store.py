@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import json
 import shutil
+import signal
+import subprocess
+import sys
+import textwrap
 import warnings
 
 import numpy as np
@@ -75,6 +79,26 @@ def test_a_store_in_use_is_refused(tmp_path):
 
     vi.scenario_map(X, Y, **OPTIONS, store=store, progress=second)
     assert refused
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="kills a process")
+def test_what_a_killed_process_leaves_does_no_harm(tmp_path):
+    """Its lock is not held any more, though the file of it stays."""
+    store, lock = tmp_path / "map", tmp_path / ".map.lock"
+    code = f"""
+        import os, signal
+        import vibroimpact as vi
+        def kill(done, total):
+            if done:
+                os.kill(os.getpid(), signal.SIGKILL)
+        vi.scenario_map({X!r}, {Y!r}, **{OPTIONS!r}, store={str(store)!r}, progress=kill)
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=False)
+    assert done.returncode == -signal.SIGKILL
+    assert lock.exists()
+    again = vi.scenario_map(X, Y, **OPTIONS, store=store).load()
+    xr.testing.assert_identical(again, vi.scenario_map(X, Y, **OPTIONS).load())
+    assert not lock.exists()
 
 
 @pytest.fixture(scope="module")

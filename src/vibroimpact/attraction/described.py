@@ -60,7 +60,7 @@ def variables(known: Sequence[Attractor]) -> dict[str, Any]:
     }
 
 
-def shares(labels: NDArray[np.int64], motions: int, drawn: int) -> dict[str, Any]:
+def shares(labels: NDArray[np.integer[Any]], motions: int, drawn: int) -> dict[str, Any]:
     """Shares of states, with the intervals of as many that are drawn at random."""
     known = labels[labels >= -1]
     counts = np.array([(known == one).sum() for one in range(motions)], dtype=np.int64)

@@ -22,6 +22,7 @@ from vibroimpact.response.threads import Progress, Tally, Workers, each
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.int64]
 _Short = NDArray[np.int32]
+_Tiny = NDArray[np.int8]
 
 Points: TypeAlias = _Array | Lattice
 """States as arrays, or the nodes of a grid."""
@@ -30,7 +31,6 @@ _REGION = 2000
 """States that a thread follows at a time."""
 _WORTH_IT = 16
 """Regions; fewer are followed here sooner than they travel to a cluster."""
-_TOLD = [capture.CAUGHT, capture.CYCLES, capture.OUTCOME]
 
 
 class Stage(NamedTuple):
@@ -71,10 +71,10 @@ class Followed(NamedTuple):
 
     states: _Array
     """Of the engine, of those that may go on: not settled, one after the other."""
-    owner: _Short
+    owner: _Tiny
     """Whose trap it was; -1 if none."""
     cycles: _Short
-    outcome: _Short
+    outcome: _Tiny
     """`Status`: done where it was caught, not settled where it may yet be."""
 
 
@@ -99,8 +99,13 @@ def follow_region(region: Region, tally: Tally) -> Followed:
         results,
         tally,
     )
-    owner, taken, outcome = results[:, _TOLD].T.astype(np.int32)
-    return Followed(states[outcome == Status.NOT_SETTLED], owner, taken, outcome)
+    outcome = results[:, capture.OUTCOME].astype(np.int8)
+    return Followed(
+        states[outcome == Status.NOT_SETTLED],
+        results[:, capture.CAUGHT].astype(np.int8),
+        results[:, capture.CYCLES].astype(np.int32),
+        outcome,
+    )
 
 
 def follow(
@@ -123,8 +128,8 @@ def follow(
     held = np.empty((0, layout.STATE)) if states is None else states
     number = max(len(begun), len(held))
     if not number:
-        none = np.empty(0, dtype=np.int32)
-        return Followed(np.empty((0, layout.STATE)), none, none, none)
+        none = np.empty(0, dtype=np.int8)
+        return Followed(np.empty((0, layout.STATE)), none, none.astype(np.int32), none)
     where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
     capture.caught.prepare(engine_rig(stage.oscillator, stage.excitation))

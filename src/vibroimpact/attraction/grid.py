@@ -27,7 +27,7 @@ from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.scenario.nodes import UNKNOWN, Nodes
 
-_Labels = NDArray[np.int64]
+_Labels = NDArray[np.int16]
 
 UNDECIDED, NOWHERE = -1, -2
 """Of a state that was given up, and of one behind a rigid stop."""
@@ -185,27 +185,28 @@ def _others(
 
 def _labelled(
     search: Search, points: Lattice, plan: Nodes, progress: Progress | None
-) -> tuple[_Labels, _Labels, NDArray[np.int8]]:
+) -> tuple[_Labels, NDArray[np.int32], NDArray[np.int8]]:
     """Motion, cycles and level of each node; -1 where it was given up."""
     low, high = walls(search.stage)
     outside = (points.displacement < low) | (points.displacement > high)
     # One more than the number of the motion; 0 is given up.
     known = np.full(plan.shape, UNKNOWN, dtype=np.int8)
-    cycles = np.full(plan.shape, -1, dtype=np.int64)
+    cycles = np.full(plan.shape, -1, dtype=np.int32)
     levels = np.full(plan.shape, -1, dtype=np.int8)
     wall = np.int8(127)
     known[:, outside] = wall
     for level in range(plan.refine + 1):
         chosen = plan.wanted(level, known)
         chosen &= known == UNKNOWN
-        at = np.flatnonzero(chosen)
+        at = slice(None) if chosen.all() else np.flatnonzero(chosen)
+        del chosen
         found = search.label(points[at], progress)
-        known.ravel()[at] = found.owner + 1
+        known.ravel()[at] = found.owner + np.int8(1)
         cycles.ravel()[at] = found.cycles
         levels.ravel()[at] = level
         if level:
             plan.fill(level, known)
-    labels = known.astype(np.int64) - 1
+    labels = known.astype(np.int16) - np.int16(1)
     labels[known == wall] = NOWHERE
     return labels, cycles, levels
 
@@ -215,7 +216,7 @@ def _dataset(
     ranges: tuple[tuple[float, float], tuple[float, float]],
     plan: Nodes,
     labels: _Labels,
-    cycles: _Labels,
+    cycles: NDArray[np.int32],
     levels: NDArray[np.int8],
 ) -> xr.Dataset:
     order = ranked(search.known)
@@ -233,8 +234,8 @@ def _dataset(
     drawn = max(int((renamed[::step, ::step] >= UNDECIDED).sum()), 1)
     points = [one.points[:, :2] / [1.0, omega] for one in known]
     values: dict[str, Any] = {
-        "basin": (("velocity", "displacement"), renamed.astype(np.int16)),
-        "capture_cycles": (("velocity", "displacement"), cycles.astype(np.int32)),
+        "basin": (("velocity", "displacement"), renamed),
+        "capture_cycles": (("velocity", "displacement"), cycles),
         "level": (("velocity", "displacement"), levels),
         **variables(known),
         **shares(renamed, len(known), drawn),

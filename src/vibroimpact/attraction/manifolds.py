@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.attraction.crossings import crossings
 from vibroimpact.attraction.curve import Curve, Measure
 from vibroimpact.attraction.followed import Stage
@@ -26,7 +28,7 @@ from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import to_si
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.places import placed
-from vibroimpact.response.threads import Workers
+from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 
 _IMAGES = 400
@@ -47,6 +49,7 @@ def manifolds(
     max_cycles: int = 2000,
     max_events: int = 1000,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Find the stable and unstable curves of saddles, and where they cross.
 
@@ -72,6 +75,9 @@ def manifolds(
         Length of a curve at which it is cut, in the same measure.
     max_cycles, max_events, threads
         As in `basins`.
+    progress
+        Called from the calling thread: with the states done and all where saddles are sought, then
+        with the curves done and all.
 
     Returns
     -------
@@ -90,6 +96,7 @@ def manifolds(
         restitution that the saddle presses at the phase of the excitation.
     """
     check_bounded(oscillator, excitation)
+    check_progress(progress)
     period = whole(period, "period", most=MOST_CYCLES)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads)
@@ -110,13 +117,13 @@ def manifolds(
     corners = np.array([wide, fast])
     measure = Measure(corners[:, 0], corners[:, 1], spacing, longest, _IMAGES)
     if saddles is None:
-        orbits = border_saddles(search, (wide, fast))
+        orbits = border_saddles(search, (wide, fast), progress)
     else:
         alone = isinstance(saddles, xr.Dataset | State)
         given: list[Any] = [saddles] if alone else list(saddles)
         orbits = [given_saddle(stage, one, period, f"saddles[{i}]") for i, one in enumerate(given)]
     points = [p for i, one in enumerate(orbits) for p in saddle_points(one, f"saddles[{i}]")]
-    data = _dataset(points, [_curves(stage, one, measure, workers) for one in points], measure)
+    data = _dataset(points, _curves(stage, points, measure, workers, progress), measure)
     return describe(
         data,
         "vibroimpact.manifolds",
@@ -132,12 +139,29 @@ def manifolds(
 
 
 def _curves(
-    stage: Stage, saddle: Saddle, measure: Measure, workers: Workers
-) -> list[tuple[str, Curve]]:
-    """The two sides of the stable curve, then those of the unstable one."""
-    return [("stable", stable_curve(saddle, side, measure)) for side in (1, -1)] + [
-        ("unstable", unstable_curve(stage, saddle, side, measure, workers)) for side in (1, -1)
-    ]
+    stage: Stage,
+    saddles: list[Saddle],
+    measure: Measure,
+    workers: Workers,
+    progress: Progress | None,
+) -> list[list[tuple[str, Curve]]]:
+    """Of each saddle the two sides of the stable curve, then those of the unstable one."""
+    found: list[list[tuple[str, Curve]]] = []
+    done, total = 0, 4 * len(saddles)
+    for saddle in saddles:
+        found.append([])
+        for kind, side in itertools.product(("stable", "unstable"), (1, -1)):
+            if progress:
+                progress(done, total)
+            if kind == "stable":
+                curve = stable_curve(saddle, side, measure)
+            else:
+                curve = unstable_curve(stage, saddle, side, measure, workers)
+            found[-1].append((kind, curve))
+            done += 1
+    if progress:
+        progress(done, total)
+    return found
 
 
 def _dataset(

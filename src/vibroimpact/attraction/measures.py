@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 _Array = NDArray[np.float64]
-_Labels = NDArray[np.int64]
+_Labels = NDArray[np.integer[Any]]
 
 BOX = 5
 """Nodes along each side of a box of the basin entropy."""

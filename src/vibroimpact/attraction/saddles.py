@@ -22,6 +22,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.response.start import state_from
+from vibroimpact.response.threads import Progress
 from vibroimpact.stability.family import family
 from vibroimpact.stability.first import first_orbit
 from vibroimpact.stability.fixed_points import Orbit, Section, evaluated
@@ -130,11 +131,11 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
     return found
 
 
-def border_saddles(search: Search, window: Window) -> list[Orbit]:
+def border_saddles(search: Search, window: Window, progress: Progress | None = None) -> list[Orbit]:
     """The saddles that the borders between basins lead to, each once."""
     shape = (_LATTICE, _LATTICE)
     points = np.array(lattice(*window, shape))
-    labels = search.label(points).owner.reshape(shape)
+    labels = search.label(points, progress).owner.reshape(shape)
     span = np.ptp(np.array(window), axis=1)
     found: list[Orbit] = []
     known: list[_Array] = []
@@ -155,7 +156,7 @@ def border_saddles(search: Search, window: Window) -> list[Orbit]:
     return sorted(found, key=lambda one: one.section.count)[:_MOST]
 
 
-def _pairs(labels: NDArray[np.int64]) -> list[tuple[int, int]]:
+def _pairs(labels: NDArray[np.int8]) -> list[tuple[int, int]]:
     """Neighbours that lead to different motions, some of each two motions."""
     kinds: dict[tuple[int, int], list[tuple[int, int]]] = {}
     index = np.arange(labels.size).reshape(labels.shape)

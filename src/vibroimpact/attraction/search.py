@@ -12,7 +12,7 @@ told by the distribution of its displacements, state by state, as `coexisting` d
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,8 @@ from vibroimpact.stability.same import ALIKE, distance, same
 from vibroimpact.stability.settled import Settled, approach
 
 _Array = NDArray[np.float64]
-_Whole = NDArray[np.int64]
+_Whole = NDArray[np.integer[Any]]
+_Tiny = NDArray[np.int8]
 
 MOST = 64
 """Motions that are told apart."""
@@ -49,11 +50,11 @@ _LOOKS = 20
 class Labelled(NamedTuple):
     """Where states lead."""
 
-    owner: _Whole
+    owner: _Tiny
     """Number of the motion; -1 where none is known."""
-    cycles: _Whole
+    cycles: NDArray[np.int32]
     """Until they were caught, or in all."""
-    outcome: _Whole
+    outcome: _Tiny
     """`Status`."""
 
 
@@ -86,17 +87,25 @@ class Search:
         if not self.known and total > 2 * _PILOT:
             # Few states find nearly all motions, and the many then meet their traps.
             self.label(points[np.random.default_rng(0).choice(total, _PILOT, replace=False)])
-        owner = np.full(total, -1, dtype=np.int64)
-        cycles = np.zeros(total, dtype=np.int64)
-        outcome = np.full(total, int(Status.NOT_SETTLED), dtype=np.int64)
-        states: _Array | None = None
-        left, ahead = np.arange(total), _FIRST
+        # Most are caught at once: what is found of all is kept, and the others are counted.
+        states, owner, cycles, outcome = follow(
+            self.stage, points, None, self.traps, _FIRST, self.threads, progress
+        )
+        left = np.flatnonzero(outcome == Status.NOT_SETTLED)
+        ahead = _FIRST
         while len(left):
+            if cycles[left[0]] >= self.max_cycles:
+                self._rest(left, states, owner, outcome)
+                break
+            new = len(self.known)
+            owner[left[0]], outcome[left[0]] = self._end_of(states[0])
+            left, states = left[1:], states[1:]
+            ahead = _FIRST if len(self.known) > new else 2 * ahead
             done = total - len(left)
             told = None if progress is None else lambda n, _, done=done: progress(done + n, total)
             followed = follow(
                 self.stage,
-                points if states is None else None,
+                None,
                 states,
                 self.traps,
                 ahead,
@@ -107,15 +116,6 @@ class Search:
             owner[left], outcome[left] = followed.owner, followed.outcome
             cycles[left] += followed.cycles
             left = left[followed.outcome == Status.NOT_SETTLED]
-            if not len(left):
-                break
-            if cycles[left[0]] >= self.max_cycles:
-                self._rest(left, states, owner, outcome)
-                break
-            new = len(self.known)
-            owner[left[0]], outcome[left[0]] = self._end_of(states[0])
-            left, states = left[1:], states[1:]
-            ahead = _FIRST if len(self.known) > new else 2 * ahead
         if progress is not None:
             progress(total, total)
         return Labelled(owner, cycles, outcome)
@@ -155,7 +155,7 @@ class Search:
                 return number
         return -1
 
-    def _rest(self, left: _Whole, states: _Array, owner: _Whole, outcome: _Whole) -> None:
+    def _rest(self, left: _Whole, states: _Array, owner: _Tiny, outcome: _Tiny) -> None:
         """Tell what no trap has caught by what it visits, or by following it to its end."""
         if any(not one.found.period for one in self.known):
             seen = np.full((_WATCHED, len(left)), np.nan)
@@ -185,7 +185,7 @@ class Search:
         if not wandering or not forgets(self.stage):
             return
         cells = cells_around(np.vstack([self.known[i].points[:, :2] for i in wandering]))
-        whose: _Whole | None = None
+        whose: NDArray[np.int64] | None = None
         for i in wandering:
             mask = closed(self.stage, cells, self.known[i].points[:, :2], self.threads)
             if mask is None or not self._one_motion(cells, mask, i):

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import Oscillator, Record
+    from vibroimpact.response.threads import Progress
 
 _MOTION = Group("Motion", sort_key=1)
 _TEXT = Parameter(allow_leading_hyphen=True)
@@ -85,7 +86,7 @@ def earthquake(
         vibroimpact earthquake wall.toml quake.AT2 other.V2 --component 1 --peak 0.3g --gap 40mm
         vibroimpact earthquake quake.toml --tail 20s
     """
-    from vibroimpact.cli.output import output_folder, tell
+    from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
     from vibroimpact.model import to_si
     from vibroimpact.model.names import file_stem, literal
@@ -113,7 +114,9 @@ def earthquake(
         responses: list[xr.Dataset] = []
         facts: list[dict[str, Any]] = []
         for name, record in shaking.items():
-            groups = _computed(what.oscillator, record, behind, samples)
+            with progress_bar("following") as progress:
+                groups = _computed(what.oscillator, record, behind, samples, progress)
+                free = _free(what.oscillator, record, behind, progress)
             stem = folder / f"{what.slug}-{file_stem(name)}-earthquake"
             spectra = {"ground": groups["ground"], "mass": groups["floor"]}
             title = f"{what.title}\n{literal(name)}"
@@ -121,7 +124,6 @@ def earthquake(
             files[f"data of {name}"] = save(groups, f"{stem}.nc")
             files[f"figure of {name}"] = save_figure(page[0], f"{stem}.{out.figure}")
             responses.append(groups["response"])
-            free = _free(what.oscillator, record, behind)
             facts.append(demand.facts(name, record, groups["response"], what.oscillator, free))
             told += [Text(), demand.text(name, record, groups["response"], what.oscillator, free)]
         table = demand.together(list(shaking), responses)
@@ -186,7 +188,7 @@ def scaled_records(
 
 
 def _computed(
-    rig: Oscillator, record: Record, tail: float | None, samples: int
+    rig: Oscillator, record: Record, tail: float | None, samples: int, progress: Progress
 ) -> dict[str, xr.Dataset]:
     """The response, the motion, and the spectra of the ground and of the mass.
 
@@ -205,25 +207,27 @@ def _computed(
     from vibroimpact.seismic.response import seismic_response
 
     behind = free_tail(rig, record) if tail is None else tail
-    motion = simulate(rig, record, samples=samples, tail=behind)
+    motion = simulate(rig, record, samples=samples, tail=behind, progress=progress)
     if motion.attrs["status"] != Status.DONE.advice:
         raise InputError(f"the motion was given up ({motion.attrs['status']})")
     periods = np.geomspace(_SHORTEST, _LONGEST, _PERIODS)
     return {
-        "response": seismic_response(rig, record, tail=behind),
+        "response": seismic_response(rig, record, tail=behind, progress=progress),
         "motion": motion,
         "ground": response_spectrum(record, periods, _DAMPING),
         "floor": response_spectrum(floor_record(motion), periods, _DAMPING),
     }
 
 
-def _free(rig: Oscillator, record: Record, tail: float | None) -> xr.Dataset | None:
+def _free(
+    rig: Oscillator, record: Record, tail: float | None, progress: Progress
+) -> xr.Dataset | None:
     """The response without stops; None where there are none, or nothing else holds the mass."""
     from vibroimpact.seismic.response import seismic_response
 
     if not rig.stops:
         return None
     try:
-        return seismic_response(rig.without_bumpers(), record, tail=tail)
+        return seismic_response(rig.without_bumpers(), record, tail=tail, progress=progress)
     except InputError:
         return None

@@ -100,6 +100,7 @@ def manifolds(
                 spacing=spacing,
                 longest=longest,
                 threads=threads,
+                progress=progress,
             )
             window = [motion_parameters(data)[name] for name in ("displacement", "velocity")]
             below = basins(*asked, *window, nodes=nodes, threads=threads, progress=progress)

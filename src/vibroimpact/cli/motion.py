@@ -164,6 +164,7 @@ def _found(
     what: Subject, excitation: Repeated, branch: str, random: int, window: int, samples: int
 ) -> dict[str, xr.Dataset]:
     """The motions by name, with their spectra and sections."""
+    from vibroimpact.cli.output import progress_bar
     from vibroimpact.response.arrivals import arrivals
     from vibroimpact.stability.coexisting import coexisting
     from vibroimpact.stability.steady import steady
@@ -180,7 +181,8 @@ def _found(
             "'all' is accepted, or a frequency within 0.3 to 6 times the natural frequency"
         )
     start = starts[f"{branch} branch"]
-    data = steady(what.oscillator, excitation, start, samples, window=window)
+    with progress_bar("following") as progress:
+        data = steady(what.oscillator, excitation, start, samples, window=window, progress=progress)
     return {f"{branch} branch": _complete(data)}
 
 

@@ -67,7 +67,7 @@ def simulate(
         vibroimpact simulate B2-G1-A3 --frequency 2.5Hz --displacement 12mm
         vibroimpact simulate quake.toml --tail 10s
     """
-    from vibroimpact.cli.output import output_folder, tell, warn
+    from vibroimpact.cli.output import output_folder, progress_bar, tell, warn
     from vibroimpact.cli.rig import subject
 
     out = output or OutputOptions()
@@ -87,7 +87,7 @@ def simulate(
         from vibroimpact.response.files import save
         from vibroimpact.response.simulate import simulate as run
 
-        with warnings.catch_warnings(record=True) as caught:
+        with warnings.catch_warnings(record=True) as caught, progress_bar("following") as progress:
             warnings.simplefilter("always", RuntimeWarning)
             data = run(
                 what.oscillator,
@@ -96,6 +96,7 @@ def simulate(
                 given.start,
                 given.samples,
                 tail=given.tail,
+                progress=progress,
             )
         data.attrs["title"] = what.name
         for warning in caught:

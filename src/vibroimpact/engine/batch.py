@@ -58,8 +58,9 @@ def sweep(
         See `hold.settle`.
     results, states : ndarray, shape (frequency, hold.RESULTS), (frequency, motion.STATE)
         Written: the measurements, and the state at the end of each hold.
-    progress : ndarray, shape (2,)
-        [0] is raised by one a hold; the sweep stops when [1] becomes nonzero.
+    progress : ndarray, shape (2,) or (3,)
+        [0] is raised by one a hold; the sweep stops when [1] becomes nonzero; [2] is how many
+        cycles of the hold are done.
     """
     options = (tolerance, max_cycles, window, max_events, transient)
     plan = planned(given, rig)
@@ -70,7 +71,9 @@ def sweep(
             for j in range(i, len(frequencies)):
                 results[j, OUTCOME] = STOPPED
             break
-        motion = hold(plan, motion, amplitudes[i], frequencies[i], clock, options, results[i])
+        motion = hold(
+            plan, motion, amplitudes[i], frequencies[i], clock, options, results[i], progress
+        )
         pack(motion, states[i])
         progress[0] += 1
         outcome = results[i, OUTCOME]

@@ -29,6 +29,8 @@ FOUND = 16
 
 _SHORT = 1e-9
 """Share of a step that is none."""
+_TOLD = 64
+"""Lines of the record after which it is counted how many are done."""
 _SAME = 1e-9
 """Relative change of the swing from block to block below which it does not die out."""
 
@@ -49,10 +51,16 @@ def _shaken(
     scale: float,
     max_events: int,
     notes: Demand,
+    counter: NDArray[Any],
 ) -> tuple[int, Motion, Demand]:
     """Along the record's lines."""
     outcome = DONE
+    done = counter[0]
     for i in range(len(record) - 1):
+        if counter[1] != 0:
+            return STOPPED, motion, notes
+        if i % _TOLD == 0:
+            counter[0] = done + i
         begins = scale * record[i]
         clock = (begins, (scale * record[i + 1] - begins) / step)
         # The slope changes here: what had died out is a transient again.
@@ -65,7 +73,13 @@ def _shaken(
 
 @kernel
 def _freely(
-    plan: Vector, motion: Motion, step: float, length: float, max_events: int, notes: Demand
+    plan: Vector,
+    motion: Motion,
+    step: float,
+    length: float,
+    max_events: int,
+    notes: Demand,
+    counter: NDArray[Any],
 ) -> tuple[int, Motion, Demand]:
     """While the base stands still."""
     outcome = DONE
@@ -73,6 +87,8 @@ def _freely(
     rest = length - whole * step
     count = whole + (1 if rest > _SHORT * step else 0)
     for i in range(count):
+        if counter[1] != 0:
+            return STOPPED, motion, notes
         lasts = step if i < whole else rest
         events, motion, notes = cycle(plan, aged(motion, 0.0), (0.0, 0.0), lasts, max_events, notes)
         outcome = _outcome(events, max_events, motion)
@@ -90,6 +106,7 @@ def _settled(
     blocks: int,
     small: float,
     max_events: int,
+    counter: NDArray[Any],
 ) -> tuple[int, float, float]:
     """Where the free motion comes to rest, and half the width of its last swing about it.
 
@@ -100,7 +117,7 @@ def _settled(
     middle, swing = motion.u, math.inf
     for _ in range(blocks):
         notes = unseen(0)
-        outcome, motion, notes = _freely(plan, motion, step, block, max_events, notes)
+        outcome, motion, notes = _freely(plan, motion, step, block, max_events, notes, counter)
         if outcome != DONE:
             break
         last = swing
@@ -151,10 +168,11 @@ def respond(
         swings by less than the share `small` of its extremes; with no blocks it is not asked where
         it rests.
     counter : ndarray
-        [0] counts the scales that are done; not 0 in [1] stops.
+        [0] counts the lines of the record that are done, once for each scale; not 0 in [1] stops.
     out : ndarray, shape (scale, FOUND)
         Written. What is known of a run that was given up is not kept.
     """
+    before, lines = counter[0], len(record) - 1
     for k in range(len(scales)):
         found = out[k]
         for i in range(FOUND):
@@ -172,17 +190,21 @@ def respond(
         build(plan, most, steepest / most if most > 0.0 else 0.0)
         if too_much_work(plan, step):
             found[OUTCOME] = TOO_MUCH_WORK
-            counter[0] += 1
+            counter[0] = before + (k + 1) * lines
             continue
         motion = unpacked(state, (0.0, 0.0))
         notes = unseen(everything)
-        outcome, motion, notes = _shaken(plan, motion, record, step, scale, max_events, notes)
+        outcome, motion, notes = _shaken(
+            plan, motion, record, step, scale, max_events, notes, counter
+        )
         if outcome == DONE:
-            outcome, motion, notes = _freely(plan, motion, step, tail, max_events, notes)
+            outcome, motion, notes = _freely(plan, motion, step, tail, max_events, notes, counter)
         middle, swing = math.nan, math.nan
         if outcome == DONE and blocks > 0:
             size = small * max(notes.u_most, -notes.u_least)
-            outcome, middle, swing = _settled(plan, motion, step, block, blocks, size, max_events)
+            outcome, middle, swing = _settled(
+                plan, motion, step, block, blocks, size, max_events, counter
+            )
         if outcome == DONE:
             found[U_LEAST], found[U_MOST] = notes.u_least, notes.u_most
             found[A_LEAST], found[A_MOST] = notes.a_least, notes.a_most
@@ -194,4 +216,4 @@ def respond(
                 found[LOST_STOPS] = notes.lost_stops
             found[REST], found[SWING] = middle, swing
         found[OUTCOME] = outcome
-        counter[0] += 1
+        counter[0] = before + (k + 1) * lines

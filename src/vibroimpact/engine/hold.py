@@ -11,6 +11,10 @@ the tolerance (docs/decisions/0004-sweep-convergence.md).
 from __future__ import annotations
 
 import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import build, stiff_rate, too_much_work, undisturbed
@@ -27,6 +31,7 @@ from vibroimpact.engine.status import (
     DONE,
     NOT_FINITE,
     NOT_SETTLED,
+    STOPPED,
     TOO_MANY_EVENTS,
     TOO_MUCH_WORK,
 )
@@ -43,6 +48,8 @@ _SAME = 1e-8  # states closer than this are one point of the section when counti
 _SOON = 24.0
 """Cycles in which most motions have settled: none is asked sooner whether it is chaotic."""
 _SAFETY = 4.0  # on the estimated distance
+_TOLD = 256
+"""Cycles after which it is counted how many are done."""
 _PATIENCE = 50  # times max_cycles, for a motion that keeps closing in
 _CLOSING = 1e-3  # closer than this share of its size, a motion may be closing in
 _RECENT = 0.2  # share of the cycles so far in which it must have come twice as close
@@ -68,10 +75,12 @@ def measure(
     cycles: int,
     max_events: int,
     result: Vector,
+    progress: Any,
 ) -> tuple[int, Motion]:
     """Follow `cycles` forcing cycles and write their exact extremes and contact counts.
 
-    Forces and impulses are those per unit mass.
+    Forces and impulses are those per unit mass. It stops when [1] of `progress` becomes nonzero;
+    None if it cannot take long.
     """
     notes = NOTHING
     outcome = DONE
@@ -85,6 +94,9 @@ def measure(
         elif not finite(motion):
             outcome = NOT_FINITE
         done += 1
+        if progress is not None:  # noqa: SIM102 - the compiler leaves out what None makes needless
+            if progress[1] != 0:
+                outcome = STOPPED
     result[U_LEAST], result[U_MOST] = notes.u_least, notes.u_most
     result[A_LEAST], result[A_MOST] = notes.a_least, notes.a_most
     result[HITS_RIGHT], result[HITS_LEFT] = notes.hits_right / done, notes.hits_left / done
@@ -103,8 +115,11 @@ def settle(
     max_cycles: int,
     max_events: int,
     transient: float,
+    progress: NDArray[np.int64],
 ) -> tuple[int, int, int, Motion]:
     """Follow the motion until it repeats itself, or is plainly chaotic behind its transient (s).
+
+    It stops when [1] of `progress` becomes nonzero; [2], if there is one, counts the cycles.
 
     Returns
     -------
@@ -140,6 +155,11 @@ def settle(
         and stalled * _BLOCK < _RECENT * k
         and best <= _CLOSING * scale
     ):
+        if k % _BLOCK == 0 and progress[1] != 0:
+            outcome = STOPPED
+            break
+        if k % _TOLD == 0 and len(progress) > 2:
+            progress[2] = gone + k
         if k % _BLOCK == 0 and gone + k >= asked:
             asked = PATIENT
             plain, beside, motion = runs_away(plan, motion, clock, period, weight, max_events)
@@ -242,6 +262,7 @@ def hold(
     clock: Clock,
     options: tuple[float, int, int, int, float],
     result: Vector,
+    progress: NDArray[np.int64],
 ) -> Motion:
     """Hold one frequency: settle, then measure; return the motion at the end.
 
@@ -259,6 +280,8 @@ def hold(
         tolerance, max_cycles, window, max_events, transient.
     result : ndarray, shape (RESULTS,)
         Written.
+    progress : ndarray
+        See `settle`.
     """
     tolerance, max_cycles, window, max_events, transient = options
     period = 1.0 / frequency
@@ -281,10 +304,12 @@ def hold(
         return motion
     motion = aged(motion, 0.0)  # the forcing has changed: what had died out is a transient again
     outcome, n, k, motion = settle(
-        plan, motion, clock, period, tolerance, max_cycles, max_events, transient
+        plan, motion, clock, period, tolerance, max_cycles, max_events, transient, progress
     )
     if outcome in (DONE, NOT_SETTLED):
-        over, motion = measure(plan, motion, clock, period, n if n else window, max_events, result)
+        over, motion = measure(
+            plan, motion, clock, period, n if n else window, max_events, result, progress
+        )
         k += n if n else window
         if over != DONE:
             outcome = over

@@ -10,7 +10,7 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flows import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.loop import cycle
-from vibroimpact.engine.memory import pointer, workspace
+from vibroimpact.engine.memory import TERMS, pointer, workspace
 from vibroimpact.engine.motion import finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.growth import Growth
@@ -23,7 +23,9 @@ FIRST, SECOND, DISSIPATION, SECTION = range(4)
 GROWTH = SECTION + 5
 
 
-@entry("UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[::1], i8, i8, i8, f8[:, ::1])")
+@entry(
+    "UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[::1], f8[:, ::1], boolean, i8, i8, i8, i8, f8[:, ::1])"
+)
 def growth(
     given: Any,
     rig: Vector,
@@ -31,43 +33,57 @@ def growth(
     frequency: float,
     phase: float,
     state: Vector,
-    transient: int,
+    disturbances: Vector,
+    anew: bool,
+    first: int,
+    last: int,
     discard: int,
     max_events: int,
     out: Vector,
 ) -> tuple[int, int]:
     """Follow a motion and the growth of its two fastest disturbances, cycle by cycle.
 
+    Many short calls give the same rows as a long one, to the last bit.
+
     Parameters
     ----------
     rig, amplitude, frequency, phase, state, max_events
         As in `batch.trajectory`; the state is carried on.
-    transient : int
-        Forcing cycles before anything is watched.
+    disturbances : ndarray, shape (2, memory.TERMS)
+        Carried on in place.
+    anew : bool
+        Whether the disturbances begin here, so that what they hold is not used.
+    first, last : int
+        Cycle to begin with, and that before which the call ends. Of cycles below 0 no row is
+        written.
     discard : int
-        Cycles in which the disturbances turn into their directions.
-    out : ndarray, shape (cycles, GROWTH)
-        Written, a row a cycle.
+        Cycles before cycle 0 in which the disturbances turn into their directions. Before those
+        nothing is watched.
+    out : ndarray, shape (row, GROWTH)
+        Written, a row a cycle from cycle `first`, or from cycle 0.
 
     Returns
     -------
-    outcome, done
-        A `Status`, and the number of rows written.
+    outcome, next
+        A `Status`, and the cycle to go on with.
     """
     plan = planned(given, rig)
     period = 1.0 / frequency
     build(plan, amplitude, 2.0 * math.pi * frequency)
     if too_much_work(plan, period):
-        return TOO_MUCH_WORK, 0
+        return TOO_MUCH_WORK, first
     clock = (math.sin(phase), math.cos(phase))
     motion = unpacked(state, clock)
     weight = stiff_rate(plan)
     q = workspace()
     w = workspace()
-    start_growth(plan, q, w, weight, motion.mode)
+    for i in range(TERMS):
+        q[i], w[i] = disturbances[0, i], disturbances[1, i]
+    if anew:
+        start_growth(plan, q, w, weight, motion.mode)
     outcome = DONE
-    number = -transient - discard
-    while outcome == DONE and number < len(out):
+    number = first
+    while outcome == DONE and number < last:
         # A cycle that is given up leaves the state of its section.
         section = motion
         if number < -discard:
@@ -76,7 +92,7 @@ def growth(
             notes = Growth(q, w, weight, period, 0.0, 0.0, 0.0, 0.0)
             events, motion, notes = cycle(plan, section, clock, period, max_events, notes)
             if number >= 0 and events <= max_events:
-                row = out[number]
+                row = out[number - max(first, 0)]
                 row[FIRST] = notes.first
                 # A rest on a wall leaves nothing of either: the difference would be no number.
                 lost = notes.both == -math.inf
@@ -94,7 +110,9 @@ def growth(
             break
         number += 1
     pack(motion, state)
-    return outcome, max(number, 0)
+    for i in range(TERMS):
+        disturbances[0, i], disturbances[1, i] = q[i], w[i]
+    return outcome, number
 
 
 @entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, i8, f8[:, ::1], f8[::1])")

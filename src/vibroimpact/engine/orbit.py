@@ -304,7 +304,7 @@ def measure_orbit(
         plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], point[4], clock
     )
     period = 1.0 / system[FREQUENCY]
-    outcome, _ = measure(plan, motion, clock, period, cycles, max_events, pointer(result))
+    outcome, _ = measure(plan, motion, clock, period, cycles, max_events, pointer(result), None)
     return outcome
 
 

@@ -16,6 +16,8 @@ from vibroimpact.engine.line import largest, moved, responses
 DISPLACEMENT, VELOCITY, ACCELERATION = range(3)
 FOUND = 3
 
+_LOOK = 4096
+"""Lines between two checks whether to stop."""
 _SHORT = 1.4
 """Up to how many 1/ω a line is bounded by its ends, and by the bend between them."""
 
@@ -91,8 +93,8 @@ def _freely(u: float, v: float, zeta: float, most: Three) -> Three:
 
 
 @kernel
-def _peaks(record: Vector, step: float, omega: float, zeta: float) -> Three:
-    """The largest responses of one oscillator from rest.
+def _peaks(record: Vector, step: float, omega: float, zeta: float, counter: Any) -> Three:
+    """The largest responses of one oscillator from rest; of no use if it is to stop.
 
     First those at the samples; then the lines are searched on which more is possible.
     """
@@ -103,6 +105,8 @@ def _peaks(record: Vector, step: float, omega: float, zeta: float) -> Three:
     u, v = 0.0, 0.0
     most_u, most_v, most_q = 0.0, 0.0, 0.0
     for i in range(len(record) - 1):
+        if i % _LOOK == 0 and counter[1] != 0:
+            break
         a, b = scale * record[i], rise * (record[i + 1] - record[i])
         u, v = moved(u, v, a, b, zeta, reach)
         most_u, most_v = max(most_u, abs(u)), max(most_v, abs(v))
@@ -110,6 +114,8 @@ def _peaks(record: Vector, step: float, omega: float, zeta: float) -> Three:
     most = _freely(u, v, zeta, (most_u, most_v, most_q))
     u, v = 0.0, 0.0
     for i in range(len(record) - 1):
+        if i % _LOOK == 0 and counter[1] != 0:
+            break
         a, b = scale * record[i], rise * (record[i + 1] - record[i])
         after_u, after_v = moved(u, v, a, b, zeta, reach)
         bounds = _bounds(u, v, after_u, after_v, a, b, x, zeta)
@@ -147,6 +153,6 @@ def respond(
     for i in range(len(omega)):
         if counter[1] != 0:
             return
-        most = _peaks(record, step, omega[i], zeta[i])
+        most = _peaks(record, step, omega[i], zeta[i], counter)
         out[i, DISPLACEMENT], out[i, VELOCITY], out[i, ACCELERATION] = most
         counter[0] += 1

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, lyapunov
+from vibroimpact.engine.memory import TERMS
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Repeated
+from vibroimpact.response.interruptible import Calls
+from vibroimpact.response.threads import Progress
 
 _Array = NDArray[np.float64]
+
+_ROWS = 16_384
+"""Cycles of one call of the engine, at most: their rows take 1 MB."""
 
 
 def moved_on(
@@ -43,6 +51,7 @@ def grown(
     *,
     transient: int = 0,
     discard: int = 0,
+    progress: Progress | None = None,
 ) -> tuple[Status, _Array]:
     """Sections of a motion, and the growth of disturbances, cycle by cycle.
 
@@ -58,6 +67,8 @@ def grown(
         Contacts and detachments in one forcing cycle at which it is given up.
     transient, discard
         Cycles before that, without and with disturbances.
+    progress
+        Called now and then with the cycles done and all there are.
 
     Returns
     -------
@@ -65,15 +76,69 @@ def grown(
         Rows of `engine.lyapunov.growth`: fewer than asked for unless `Status.DONE`.
     """
     rows = np.empty((cycles, lyapunov.GROWTH))
-    outcome, done = lyapunov.growth(
+    done = 0
+
+    def keep(some: _Array) -> None:
+        nonlocal done
+        rows[done : done + len(some)] = some
+        done += len(some)
+
+    status = grow(
         rig,
-        excitation.amplitude,
-        excitation.frequency,
-        excitation.phase,
+        excitation,
         state,
-        transient,
-        discard,
+        cycles,
+        keep,
         max_events,
-        rows,
+        transient=transient,
+        discard=discard,
+        progress=progress,
     )
-    return Status(outcome), rows[:done]
+    return status, rows[:done]
+
+
+def grow(
+    rig: _Array,
+    excitation: Repeated,
+    state: _Array,
+    cycles: int,
+    keep: Callable[[_Array], None],
+    max_events: int = 10_000,
+    *,
+    transient: int = 0,
+    discard: int = 0,
+    progress: Progress | None = None,
+) -> Status:
+    """As `grown`, some cycles at a time, so that no more rows are in memory than are kept.
+
+    Parameters
+    ----------
+    keep
+        Called with the rows that follow, which are overwritten afterwards.
+    """
+    rows = np.empty((min(cycles, _ROWS), lyapunov.GROWTH))
+    disturbances = np.zeros((2, TERMS))
+    first = -transient - discard
+    calls = Calls(cycles - first, progress, _ROWS)
+    at, outcome = first, int(Status.DONE)
+    while at < cycles and outcome == Status.DONE:
+        outcome, after = lyapunov.growth(
+            rig,
+            excitation.amplitude,
+            excitation.frequency,
+            excitation.phase,
+            state,
+            disturbances,
+            at == first,
+            at,
+            first + int(calls.end(at - first)),
+            discard,
+            max_events,
+            rows,
+        )
+        if after > 0:
+            keep(rows[: after - max(at, 0)])
+        at = after
+    if progress and at == cycles:
+        progress(cycles - first, cycles - first)
+    return Status(outcome)

@@ -40,7 +40,8 @@ def held(
     """
     dims = ("rig", "direction", "frequency")
     found = [sizes(one, rows) for one, rows in zip(oscillators, results, strict=True)]
-    told = {name: np.stack([one[name] for one in found]) for name in found[0]}
+    # What is stacked is not kept a second time.
+    told = {name: np.stack([one.pop(name) for one in found]) for name in list(found[0])}
     reference = largest[..., np.newaxis, np.newaxis]
     period = results[..., hold.PERIOD].astype(np.int64)
     values = {

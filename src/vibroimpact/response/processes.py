@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import importlib
 import multiprocessing
+import os
+import threading
+import time
 from collections.abc import Callable, Collection, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any, NamedTuple, TypeVar
@@ -16,11 +19,27 @@ _Found = TypeVar("_Found")
 
 _IDLE = 10.0
 """Seconds after which processes that have nothing to do end."""
+_ORPHANED = 0.5
+"""Seconds between two checks of a process whether that which started it still lives."""
 
 
 def may_start() -> bool:
     """Whether this process may start others; a daemon may not."""
     return not multiprocessing.current_process().daemon
+
+
+def end_with(parent: int) -> None:
+    """End this process soon after its parent has ended, even if a signal killed that.
+
+    A process in the middle of a task would go on for as long as the task takes.
+    """
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(_ORPHANED)
+        os._exit(1)
+
+    threading.Thread(target=watch, name="end with the parent", daemon=True).start()
 
 
 class _Hands(NamedTuple):
@@ -65,6 +84,8 @@ class Processes(NamedTuple):
         pool = loky.get_reusable_executor(
             max_workers=min(self.width(), len(items)),
             timeout=_IDLE,
+            initializer=end_with,
+            initargs=(os.getpid(),),
             env={"LOKY_MAX_MEMORY_LEAK_SIZE": "1e15"},  # what a task needs is no leak
         )
         try:

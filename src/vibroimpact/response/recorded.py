@@ -64,6 +64,7 @@ def through(
             buffer,
         )
         found.append(buffer[:events].copy())
+    del lines  # a third of the result
     status = Status(outcome)
     told = ended(oscillator, status, out[observed.DISPLACEMENT], vector[U])
     time = np.minimum(np.arange(count) * (record.step / max(samples, 1)), ends)
@@ -80,7 +81,7 @@ def through(
         variables["initial_state"] = ("component", first)
         variables |= sampled(out, oscillator.isolator)
         variables["base_acceleration"] = ("time", record.at(time))
-        events = listed(np.concatenate(found), record.step, oscillator.isolator)
+        events = listed(found, record.step, oscillator.isolator)
         # A record has steps, not cycles.
         variables |= {name: one for name, one in events.items() if "cycle" not in name}
     data = xr.Dataset(variables, coordinates)
@@ -98,10 +99,13 @@ def through(
 def straight(record: Record, tail: float) -> _Array:
     """The record's straight lines, and those of no acceleration behind it."""
     values, step = record.acceleration, record.step
-    moving = np.column_stack([values[:-1], np.diff(values) / step, np.full(len(values) - 1, step)])
     whole = int(tail / step)
     rest = tail - whole * step
     lengths = [step] * whole + ([rest] if rest > 1e-9 * step else [])
-    still = np.zeros((len(lengths), recorded.LINE))
-    still[:, recorded.LASTS] = lengths
-    return np.ascontiguousarray(np.vstack([moving, still]))
+    moving = len(values) - 1
+    lines = np.zeros((moving + len(lengths), recorded.LINE))
+    lines[:moving, recorded.BEGINS] = values[:-1]
+    lines[:moving, recorded.SLOPE] = np.diff(values) / step
+    lines[:moving, recorded.LASTS] = step
+    lines[moving:, recorded.LASTS] = lengths
+    return lines

@@ -155,7 +155,7 @@ def simulate(
         variables |= sampled(out, oscillator.isolator)
         name, values = _shaking(excitation, phase, cycle, samples)
         variables[name] = ("time", values)
-        variables |= listed(np.concatenate(found), 1.0 / excitation.frequency, oscillator.isolator)
+        variables |= listed(found, 1.0 / excitation.frequency, oscillator.isolator)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
         warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=3)

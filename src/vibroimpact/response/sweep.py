@@ -204,6 +204,7 @@ def sweeps(
     shape = (len(pairs), len(directions), len(grid))
     results = np.array([found for found, _ in done]).reshape(*shape, hold.RESULTS)
     states = np.array([reached for _, reached in done]).reshape(*shape, layout.STATE)
+    del done  # as large as both
     doubts: list[str] = []
     for r, (oscillator, shaken, _) in enumerate(pairs):
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import contextlib
 import itertools
 import os
+import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from queue import Empty, SimpleQueue
 from typing import Any, Protocol, TypeAlias, TypeVar
@@ -24,7 +25,14 @@ _POLL = 0.05
 """Seconds between two reports of progress, and at most until Ctrl-C is noticed."""
 
 Tally: TypeAlias = NDArray[np.int64]
-"""Of a task: [0] is what it has done so far, [1] becomes nonzero where it is to stop."""
+"""Of a task: [0] is what it has done so far, [1] becomes nonzero where it is to stop, [2] counts
+the cycles of a hold that goes on."""
+
+DONE, CYCLES = 0, 2
+"""What progress is counted by."""
+
+_current = threading.local()
+"""Its `tally` is that of the task that a thread does."""
 
 Progress = Callable[[int, int | None], None]
 """Called now and then with how much is done and how much there is to do, None if nobody knows."""
@@ -77,6 +85,7 @@ def each(
     steps: int | None = None,
     threads: Workers = None,
     progress: Progress | None = None,
+    counted_by: int = DONE,
 ) -> list[_Found]:
     """Do a task for each item, many at once; all stop when one fails, or on Ctrl-C.
 
@@ -98,6 +107,8 @@ def each(
         but its own. No result depends on it.
     progress
         Called from the calling thread.
+    counted_by
+        What of the tallies progress adds up.
 
     Returns
     -------
@@ -110,13 +121,14 @@ def each(
     total = len(items) if steps is None else steps
     if threads is not None and not isinstance(threads, int):
         return threads.each(task, items, total, progress)
-    tallies = np.zeros((len(items), 2), dtype=np.int64)
+    tallies = np.zeros((len(items), 3), dtype=np.int64)
 
     def one(number: int) -> _Found:
         tally = tallies[number]
         if tally[1]:
             raise Stopped
-        found = task(items[number], tally)
+        with _doing(tally):
+            found = task(items[number], tally)
         if steps is None:
             tally[0] = 1
         return found
@@ -131,11 +143,12 @@ def each(
             left = len(futures)
             due = time.monotonic() + _POLL
             while left:
+                stop_if_unwanted()  # where these tasks are a part of another
                 with contextlib.suppress(Empty):
                     ended.get(timeout=_POLL).result()  # raises what went wrong
                     left -= 1
                 if progress and (not left or time.monotonic() >= due):
-                    progress(int(tallies[:, 0].sum()), total)
+                    progress(int(tallies[:, counted_by].sum()), total)
                     due = time.monotonic() + _POLL
         except BaseException:
             tallies[:, 1] = 1
@@ -155,4 +168,56 @@ class LostError(InputError):
 
 def alone(task: Callable[[_Item, Tally], _Found], item: _Item) -> _Found:
     """A task where nobody stops it; its tally stays there."""
-    return task(item, np.zeros(2, dtype=np.int64))
+    tally = np.zeros(3, dtype=np.int64)
+    with _doing(tally):
+        return task(item, tally)
+
+
+def watched(
+    task: Callable[[Tally], _Found],
+    steps: int,
+    progress: Progress | None = None,
+    counted_by: int = DONE,
+) -> _Found:
+    """Do one long task so that Ctrl-C ends it: on a thread of its own, unless this is one.
+
+    Parameters
+    ----------
+    task
+        Called with a tally; it ends soon after [1] becomes nonzero.
+    steps, progress, counted_by
+        As in `each`.
+    """
+    tally: Tally | None = getattr(_current, "tally", None)
+    if tally is None:
+        return each(
+            lambda _, mine: task(mine),
+            [None],
+            steps=steps,
+            threads=1,
+            progress=progress,
+            counted_by=counted_by,
+        )[0]
+    before = tally[DONE]
+    found = task(tally)
+    tally[DONE] = before  # the task that this is a part of counts its own steps
+    stop_if_unwanted()
+    return found
+
+
+def stop_if_unwanted() -> None:
+    """Raise `Stopped` if this thread does a task whose result is not wanted any more."""
+    tally: Tally | None = getattr(_current, "tally", None)
+    if tally is not None and tally[1]:
+        raise Stopped
+
+
+@contextlib.contextmanager
+def _doing(tally: Tally) -> Iterator[None]:
+    """Make a tally that of this thread's task."""
+    before = getattr(_current, "tally", None)
+    _current.tally = tally
+    try:
+        yield
+    finally:
+        _current.tally = before

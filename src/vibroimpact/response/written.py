@@ -30,8 +30,13 @@ def sampled(out: NDArray[np.float64], isolator: AnyIsolator) -> dict[str, Any]:
     return {**samples, "contact": ("time", out[record.CONTACT].astype(np.int64))}
 
 
-def listed(events: NDArray[np.float64], period: float, isolator: AnyIsolator) -> dict[str, Any]:
-    """The contacts and detachments, in cycles or steps of this length (s)."""
+def listed(
+    parts: list[NDArray[np.float64]], period: float, isolator: AnyIsolator
+) -> dict[str, Any]:
+    """The contacts and detachments, in cycles or steps of this length (s).
+
+    Columns are joined one by one, so that the parts are not kept a third time.
+    """
     integers = {
         "event_cycle": record.E_CYCLE,
         "event_contact": record.E_KIND,
@@ -47,9 +52,13 @@ def listed(events: NDArray[np.float64], period: float, isolator: AnyIsolator) ->
         "event_acceleration_behind": record.E_BEHIND,
         **({"event_isolator_memory": record.E_MEMORY} if isolator.remembers else {}),
     }
-    time = events[:, record.E_CYCLE] * period + events[:, record.E_TIME]
+
+    def column(at: int) -> NDArray[np.float64]:
+        return np.concatenate([part[:, at] for part in parts])
+
+    time = column(record.E_CYCLE) * period + column(record.E_TIME)
     return {
         "event_time": ("event", time),
-        **{name: ("event", events[:, at].astype(np.int64)) for name, at in integers.items()},
-        **{name: ("event", events[:, at] + 0.0) for name, at in columns.items()},  # no -0.0
+        **{name: ("event", column(at).astype(np.int64)) for name, at in integers.items()},
+        **{name: ("event", column(at) + 0.0) for name, at in columns.items()},  # no -0.0
     }

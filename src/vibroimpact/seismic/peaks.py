@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.engine import earthquakes as found
 from vibroimpact.model import Oscillator, Record, equilibrium
 from vibroimpact.response.reversal import judged
@@ -64,6 +65,7 @@ def peaks(
     max_events: int = MAX_EVENTS,
     threads: Workers = None,
     progress: Progress | None = None,
+    by_line: bool = False,
 ) -> dict[str, NDArray[np.generic]]:
     """Return the peaks of rigs through records, at several scales each, from their rest.
 
@@ -83,6 +85,8 @@ def peaks(
         How many run at once, None for one a processor; or a cluster. No result depends on it.
     progress
         Called from the calling thread with the runs done and all there are.
+    by_line
+        Whether progress counts the steps of the records, in the place of runs.
 
     Returns
     -------
@@ -125,10 +129,18 @@ def peaks(
         )
         return mine
 
-    done = each(task, items, steps=len(shaken) * count, threads=threads, progress=progress)
+    steps = count * sum(len(one.record.acceleration) - 1 for one in shaken)
+    told = progress if by_line else _by_run(progress, len(shaken) * count)
+    done = each(task, items, steps=steps, threads=threads, progress=told)
     for (n, some), mine in zip(parts, done, strict=True):
         rows[n, some] = mine
     return _named(shaken, rows, energies, residuals)
+
+
+def _by_run(progress: Progress | None, runs: int) -> Progress | None:
+    """Progress that counts runs, from that which counts the steps of all their records."""
+    check_progress(progress)
+    return progress and (lambda done, total: progress(done * runs // (total or 1), runs))
 
 
 def _named(

@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, to_si
@@ -15,6 +16,7 @@ from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rigs import takes_rig_or_record
 from vibroimpact.response.accelerogram import record_parameters
 from vibroimpact.response.doubts import doubt_gaps
+from vibroimpact.response.threads import Progress
 from vibroimpact.response.variables import describe, oscillator_parameters
 from vibroimpact.seismic.free import free_tail
 from vibroimpact.seismic.peaks import MAX_EVENTS, Shaken, peaks
@@ -38,6 +40,7 @@ def seismic_response(
     *,
     tail: float | str | None = None,
     max_events: int = MAX_EVENTS,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Return what a record asks of a rig that was at rest: its peaks, and where the energy went.
 
@@ -55,6 +58,8 @@ def seismic_response(
         text such as ``"10 s"``. None for two natural periods of its softest spring.
     max_events
         Contacts and detachments in one step of the record at which the motion is given up.
+    progress
+        Called from the calling thread with the steps of the record done and all there are.
 
     Returns
     -------
@@ -81,6 +86,7 @@ def seismic_response(
     """
     if not isinstance(record, Record):
         raise InputError(f"record: {shown(record)}; a Record is accepted")
+    check_progress(progress)
     behind = (
         free_tail(oscillator, record) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
     )
@@ -91,6 +97,8 @@ def seismic_response(
         residuals=True,
         max_events=check_max_events(max_events),
         threads=1,
+        progress=progress,
+        by_line=True,
     )
     data = with_both_sides(xr.Dataset({name: values[0, 0] for name, values in found.items()}))
     status = Status(int(data["status"]))

@@ -20,14 +20,14 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.model.varied import Varied, varied, written
-from vibroimpact.response.follow import grown
+from vibroimpact.response.follow import grow
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.start import as_state, engine_rig, engine_state
 from vibroimpact.response.sweep import check_frequencies, named_rigs
-from vibroimpact.response.threads import Progress, Tally, each
+from vibroimpact.response.threads import DONE, Progress, Tally, each
 from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
-from vibroimpact.stability.kind import averages, settling
+from vibroimpact.stability.averaged import Averaged
 
 DISCARD = 100
 """Cycles in which the disturbances turn into their directions."""
@@ -90,7 +90,8 @@ def lyapunov_exponents(
         ``"threads"``, ``"processes"``, or a dask cluster, as of `scenario_map`. No result depends
         on it.
     progress
-        Called from the calling thread with the motions done and all.
+        Called from the calling thread with the forcing cycles done and all, those of ``transient``
+        and of the directions included.
 
     Returns
     -------
@@ -127,30 +128,51 @@ def lyapunov_exponents(
     ]
     vectors = [engine_rig(*item) for item in items]
 
-    def grow(item: tuple[Setting, NDArray[np.float64]], _: Tally) -> _Grown:
+    steps = transient + DISCARD + cycles
+
+    def follow(item: tuple[Setting, NDArray[np.float64]], tally: Tally) -> _Grown:
         (rig, here), vector = item
         frequency = here.frequency
         begin = engine_state(rig, state or equilibrium(rig))
-        status, rows = grown(
-            vector, here, begin, cycles, max_events, transient=transient, discard=DISCARD
+        kept = Averaged(cycles)
+
+        def count(done: int, _: int | None) -> None:
+            tally[DONE] = done
+
+        status = grow(
+            vector,
+            here,
+            begin,
+            cycles,
+            kept.add,
+            max_events,
+            transient=transient,
+            discard=DISCARD,
+            progress=count,
         )
-        if not len(rows):
+        tally[DONE] = steps
+        if not kept.done:
             nothing = np.full(2, np.nan)
             return _Grown(nothing, nothing, math.nan, 0, status, False)
-        mean, spread = averages(rows[:, : lyapunov.DISSIPATION])
-        lost = float(rows[:, lyapunov.DISSIPATION].mean())
+        mean, spread = kept.exponents()
         size = np.array([1.0, here.angular_frequency, 1.0, 1.0, 1.0])
         return _Grown(
             mean * frequency,
             spread * frequency,
-            lost * frequency,
-            len(rows),
+            kept.damping() * frequency,
+            kept.done,
             status,
-            settling(rows[:, lyapunov.SECTION :] / size),
+            kept.is_settling(size),
         )
 
     lyapunov.growth.prepare(*vectors)  # once, before threads would queue
-    found = each(grow, list(zip(items, vectors, strict=True)), threads=workers, progress=progress)
+    found = each(
+        follow,
+        list(zip(items, vectors, strict=True)),
+        steps=steps * len(items),
+        threads=workers,
+        progress=progress,
+    )
     dims = ("rig", "frequency", *(one.name for one in every))
     rates = {
         "exponents": [f.exponents for f in found],

@@ -12,6 +12,7 @@ from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.response.follow import grown
 from vibroimpact.response.start import engine_rig
+from vibroimpact.response.threads import Progress
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.kind import Judgement, judge, repeats
 from vibroimpact.stability.settled import Settled
@@ -96,9 +97,13 @@ def _second(found: Settled, state: _Array, max_events: int) -> float:
 
 
 def judge_wandering(
-    found: Settled, state: _Array, cycles: int, max_events: int
+    found: Settled,
+    state: _Array,
+    cycles: int,
+    max_events: int,
+    progress: Progress | None = None,
 ) -> tuple[Judgement, float, int, Status]:
-    """Judge a motion that did not settle; the state is carried on.
+    """Judge a motion that did not settle; the state is carried on, and progress counts cycles.
 
     Returns
     -------
@@ -112,6 +117,7 @@ def judge_wandering(
         cycles,
         max_events,
         discard=DISCARD,
+        progress=progress,
     )
     size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0, 1.0])
     kind = judge(

@@ -60,7 +60,9 @@ class Judgement(NamedTuple):
 
 # A wall that is grazed stretches disturbances without bound.
 @np.errstate(invalid="ignore")
-def averages(logarithms: _Array) -> tuple[_Array, _Array]:
+def averages(
+    logarithms: _Array, group: int = 1, cycles: int | None = None
+) -> tuple[_Array, _Array]:
     """Mean growth per cycle and its standard uncertainty.
 
     The quadratic mean of two estimates: from the means of blocks of cycles, and from how far the
@@ -69,21 +71,32 @@ def averages(logarithms: _Array) -> tuple[_Array, _Array]:
 
     Parameters
     ----------
-    logarithms : ndarray, shape (cycles, 2)
+    logarithms : ndarray, shape (group, 2)
+        Of each cycle, or their sums over groups of cycles that follow each other.
+    group
+        Cycles of a group.
+    cycles
+        In all, where the last group is not complete.
 
     Returns
     -------
     mean, uncertainty : ndarray, shape (2,)
-        The uncertainty is infinite with fewer cycles than `BLOCKS`.
+        The uncertainty is infinite with fewer groups than `BLOCKS`.
     """
-    cycles = len(logarithms)
-    size = cycles // BLOCKS
+    count = len(logarithms)
+    cycles = count * group if cycles is None else cycles
+    mean = logarithms.sum(axis=0) / cycles if count else np.full(2, np.nan)
+    size = count // BLOCKS
     if not size:
-        mean = logarithms.mean(axis=0) if cycles else np.full(2, np.nan)
         return mean, np.full(2, np.inf)
-    blocks = logarithms[cycles - size * BLOCKS :].reshape(BLOCKS, size, 2).mean(axis=1)
-    mean = logarithms.mean(axis=0)
-    away = np.cumsum(logarithms - mean, axis=0)
+    lengths = np.full((count, 1), float(group))
+    lengths[-1] -= count * group - cycles
+    sums, long = (
+        values[count - size * BLOCKS :].reshape(BLOCKS, size, -1).sum(axis=1)
+        for values in (logarithms, lengths)
+    )
+    blocks = sums / long
+    away = np.cumsum(logarithms - mean * lengths, axis=0)
     ends = (away.max(axis=0) - away.min(axis=0)) / (_BRIDGE * cycles)
     spread = blocks.std(axis=0, ddof=1) / math.sqrt(BLOCKS)
     return mean, np.sqrt(0.5 * (spread**2 + ends**2))
@@ -160,18 +173,25 @@ def growing(section: _Array) -> str:
     return f"to {sizes[-1] / sizes[0]:.3g} times its size from the first to the last quarter"
 
 
-def settling(section: _Array) -> bool:
+def settling(*stretches: _Array) -> bool:
     """Whether a motion still comes closer to a periodic one at the end of what was followed.
 
     Its distance from where it was a period ago then falls from quarter to quarter.
+
+    Parameters
+    ----------
+    *stretches : ndarray, shape (cycles, component)
+        Points of the section: all, or stretches that lie evenly over the cycles, and the end.
     """
-    if len(section) < 2 * LONGEST:
+    if sum(map(len, stretches)) < 2 * LONGEST:
         return False
-    period = returns(section)
-    away = np.abs(section[period:] - section[:-period]).max(axis=1)
+    period = returns(stretches[-1])
+    away = np.concatenate(
+        [np.abs(one[period:] - one[:-period]).max(axis=1) for one in stretches if len(one) > period]
+    )
     medians = [float(np.median(part)) for part in np.array_split(away, 4)]
     falls = all(after <= FALLING * before for before, after in pairwise(medians))
-    return falls and medians[-1] > SAME * float(np.abs(section).max())
+    return falls and medians[-1] > SAME * max(float(np.abs(one).max()) for one in stretches)
 
 
 def returns(section: _Array) -> int:

@@ -16,6 +16,7 @@ from vibroimpact.response.follow import moved_on
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.threads import CYCLES, Progress, Tally, watched
 from vibroimpact.stability.fixed_points import Orbit, vector_of
 
 _Array = NDArray[np.float64]
@@ -48,10 +49,11 @@ def approach(
     tolerance: float = 1e-12,
     max_cycles: int = 2000,
     max_events: int = 10_000,
+    progress: Progress | None = None,
 ) -> Settled:
     """Follow a motion until its stroboscopic state repeats, or for `max_cycles`.
 
-    The start may be the engine's vector at the excitation's phase.
+    The start may be the engine's vector at the excitation's phase. Progress counts the cycles.
 
     Raises
     ------
@@ -64,22 +66,28 @@ def approach(
         if start.phase is not None:
             excitation = excitation.replace(phase=start.phase)
         start = engine_state(oscillator, start)
+    begin = start
     result = np.empty((1, hold.RESULTS))
-    batch.sweep(
-        engine_rig(oscillator, excitation),
-        np.array([excitation.amplitude]),
-        np.array([excitation.frequency]),
-        excitation.phase,
-        start.copy(),
-        tolerance,
-        max_cycles,
-        1,
-        max_events,
-        hold.PATIENT,
-        result,
-        reached := np.zeros((1, layout.STATE)),
-        np.zeros(2, dtype=np.int64),
-    )
+    reached = np.zeros((1, layout.STATE))
+
+    def hold_it(tally: Tally) -> None:
+        batch.sweep(
+            engine_rig(oscillator, excitation),
+            np.array([excitation.amplitude]),
+            np.array([excitation.frequency]),
+            excitation.phase,
+            begin.copy(),
+            tolerance,
+            max_cycles,
+            1,
+            max_events,
+            hold.PATIENT,
+            result,
+            reached,
+            tally,
+        )
+
+    watched(hold_it, max_cycles, progress, CYCLES)
     outcome = Status(int(judged(oscillator, result[0, hold.OUTCOME], np.nan)))
     return Settled(
         oscillator,

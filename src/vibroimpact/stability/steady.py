@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -22,6 +23,7 @@ from vibroimpact.response.measuring import measured
 from vibroimpact.response.phases import Recorded, cut
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, state_from
+from vibroimpact.response.threads import Progress
 from vibroimpact.response.totals import energies, extremes
 from vibroimpact.response.variables import describe
 from vibroimpact.stability.exponents import DISCARD
@@ -67,6 +69,7 @@ def steady(
     max_cycles: int = 2000,
     exponent_cycles: int = 20_000,
     max_events: int = 10_000,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Follow a motion until it is steady; record, measure and name what it has become.
 
@@ -85,6 +88,9 @@ def steady(
     exponent_cycles
         Forcing cycles over which the growth of disturbances is averaged where it decides what
         kind of motion it is; of a periodic motion the exponents follow from one period.
+    progress
+        Called from the calling thread with the cycles done and the most there are: first of those
+        until the motion settles, then of those over which exponents are averaged.
 
     Returns
     -------
@@ -109,21 +115,32 @@ def steady(
         raise InputError(
             f"exponent_cycles: {exponent_cycles} cycles; at most {MOST_CYCLES} are accepted"
         )
+    check_progress(progress)
     state = equilibrium(oscillator) if start is None else as_state(start)
-    found = approach(oscillator, excitation, state, tolerance, max_cycles, max_events)
+    found = approach(oscillator, excitation, state, tolerance, max_cycles, max_events, progress)
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
         return _given_up(found, samples, max_events)
-    return describe_motion(found, samples, window, exponent_cycles, max_events)
+    data = describe_motion(found, samples, window, exponent_cycles, max_events, progress)
+    if progress:
+        progress(max_cycles, max_cycles)  # it may have settled long before
+    return data
 
 
 def describe_motion(
-    found: Settled, samples: int, window: int, exponent_cycles: int, max_events: int
+    found: Settled,
+    samples: int,
+    window: int,
+    exponent_cycles: int,
+    max_events: int,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Name a motion, record it and measure it."""
     used, slowly = found.cycles, ""
     if not found.period:
         state = found.state.copy()
-        kind, damping, cycles, status = judge_wandering(found, state, exponent_cycles, max_events)
+        kind, damping, cycles, status = judge_wandering(
+            found, state, exponent_cycles, max_events, progress
+        )
         used += cycles + DISCARD
         found = found._replace(state=state, period=kind.period, cycles=used)
         if status is not Status.DONE:

@@ -23,7 +23,7 @@ from vibroimpact.model.parameters import Parameter
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import Stopped, Tally
+from vibroimpact.response.threads import Stopped, Tally, watched
 from vibroimpact.stability.settled import Settled, reach_at_rest
 
 _Array = NDArray[np.float64]
@@ -116,18 +116,22 @@ def stepped(
 def _held(rig: Oscillator, shaken: Repeated, state: _Array, patience: Patience) -> Held:
     results = np.empty((1, hold.RESULTS))
     reached = np.zeros((1, layout.STATE))
-    batch.sweep(
-        engine_rig(rig, shaken),
-        np.array([shaken.amplitude]),
-        np.array([shaken.frequency]),
-        shaken.phase,
-        state.copy(),
-        *patience,
-        hold.PATIENT,
-        results,
-        reached,
-        np.zeros(2, dtype=np.int64),
-    )
+
+    def hold_it(tally: Tally) -> None:
+        batch.sweep(
+            engine_rig(rig, shaken),
+            np.array([shaken.amplitude]),
+            np.array([shaken.frequency]),
+            shaken.phase,
+            state.copy(),
+            *patience,
+            hold.PATIENT,
+            results,
+            reached,
+            tally,
+        )
+
+    watched(hold_it, 1)
     row = results[0]
     swing = np.abs(row[[hold.U_LEAST, hold.U_MOST]]).max()
     status = Status(int(judged(rig, row[hold.OUTCOME], swing)))

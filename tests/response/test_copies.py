@@ -1,0 +1,45 @@
+"""What a long computation keeps besides its result."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+RIG = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), right=vi.Bumper(10.0, 0.1, 0.5))
+SHAKEN = vi.Harmonic(1.0, 0.2)
+
+
+def history(length):
+    return vi.simulate(RIG, SHAKEN, 20 * length, samples=1)
+
+
+def through_record(length):
+    return vi.simulate(RIG, vi.Record(np.resize([1.0, -1.0], 100 * length), 0.1))
+
+
+def sweeps(length):
+    grid = np.linspace(0.1, 0.4, length)
+    return vi.sweeps({"one": (RIG, SHAKEN), "two": (RIG, SHAKEN)}, grid, max_cycles=30)
+
+
+def basins(length):
+    return vi.basins(RIG, SHAKEN, (-3.0, 3.0), (-3.0, 3.0), nodes=length)
+
+
+@pytest.mark.parametrize(
+    ("compute", "length", "most"),
+    [(history, 4000, 2.0), (through_record, 3000, 1.75), (sweeps, 10_000, 2.0), (basins, 800, 4.0)],
+)
+def test_results_are_not_kept_several_times(compute, length, most):
+    compute(20)
+    tracemalloc.start()
+    data = compute(length)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    held = sum(one.values.nbytes for one in data.variables.values())
+    # What does not grow with the result, such as the room for events, is left out.
+    assert peak - 3e6 < most * held
