@@ -148,3 +148,18 @@ def test_no_motion() -> None:
     for wrong in (None, vi.simulate(BUMPERS, ROUGH, samples=0)):
         with pytest.raises(vi.InputError, match=r"motion: .* simulate with samples, is accepted"):
             vi.totals(wrong)
+
+
+def test_a_start_into_a_rigid_stop_is_noted():
+    """The impact counts: with it the energies balance from the initial state on."""
+    rig = vi.Oscillator(2.0, vi.Isolator(5.0, 0.3), vi.RigidStop(0.6, 0.1))
+    start = vi.State(0.1, 0.5)
+    motion = vi.simulate(rig, vi.Harmonic(0.2, 0.3), cycles=3, start=start)
+    found = vi.totals(motion)
+    assert "starts with an impact, from 0.5 to -0.3 m/s" in found.attrs["notes"]
+    kinetic = 0.5 * 2.0 * (float(motion["velocity"][-1]) ** 2 - 0.5**2)
+    spring = 0.5 * 5.0 * (float(motion["displacement"][-1]) ** 2 - 0.1**2)
+    lost = float(found["total_isolator"] + found["total_bumpers"])
+    assert float(found["total_supplied"]) == pytest.approx(kinetic + spring + lost, abs=1e-12)
+    behind = vi.simulate(rig, vi.Harmonic(0.2, 0.3), cycles=3, start=vi.State(0.1, -0.3))
+    assert "notes" not in vi.totals(behind).attrs

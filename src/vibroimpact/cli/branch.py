@@ -175,8 +175,12 @@ def branch(
         for message in dict.fromkeys(str(warning.message) for warning in caught):
             warn(message)
         data.attrs["title"] = what.name
-        # An isolator without stiffness has no free resonance to divide by.
-        undefined = not bool(data[quantity].notnull().any())
+        from vibroimpact.model.unbounded import has_no_bound
+
+        # Without stiffness or damping there is no free resonance to divide by.
+        undefined = not bool(data[quantity].notnull().any()) or (
+            what.repeated is not None and has_no_bound(what.oscillator, what.repeated)
+        )
         drawn = _PHYSICAL.get(quantity, quantity) if physical or undefined else quantity
         axes = branch_diagram(data, quantity=drawn, sweep=swept, title=what.title)
         stem = folder / f"{what.slug}-{along.replace('_', '-')}-branches"

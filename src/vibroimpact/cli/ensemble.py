@@ -142,8 +142,11 @@ def ensemble(
             warnings.simplefilter("always", RuntimeWarning)
             data = draw(pair, given, response, method=way, progress=progress, **options)
             data.attrs["title"] = what.name
-            # An isolator without stiffness has no free resonance to divide by.
-            physical = physical or not bool(data["eta_d"].notnull().any())
+            from vibroimpact.model.unbounded import has_no_bound
+
+            # Without stiffness or damping there is no free resonance to divide by.
+            undefined = not bool(data["eta_d"].notnull().any()) or has_no_bound(*pair)
+            physical = physical or undefined
             shown = ("peak_acceleration", "peak_displacement") if physical else ("eta_a", "eta_d")
             axes = resonance_bands(
                 data, quantities=shown, nominal=sweep(*pair, held), title=what.title

@@ -53,7 +53,7 @@ def sweep(
             show_default=False,
             help=(
                 "Draw the largest acceleration (g), displacement (mm) and contact force instead "
-                "of η_a and η_d."
+                "of η_a and η_d; always where free flight has no bound."
             ),
         ),
     ] = False,
@@ -132,9 +132,7 @@ def sweep(
         # Imported late: whoever waits for numbers need not wait for matplotlib.
         from vibroimpact.figures import resonance_curves, save_figure
 
-        # An isolator without stiffness has no free resonance to divide by.
-        drawn_physical = physical or not bool(data["eta_d"].notnull().any())
-        axes = resonance_curves(data, found=found, title=what.title, physical=drawn_physical)
+        axes = resonance_curves(data, found=found, title=what.title, physical=physical or None)
         stem = folder / f"{what.slug}-sweep"
         files = {
             "data": save(data, f"{stem}.nc"),

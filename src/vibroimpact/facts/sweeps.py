@@ -11,6 +11,7 @@ from rich.text import Text
 from vibroimpact.facts import largest
 from vibroimpact.facts.tables import titled_table
 from vibroimpact.model.units import plain
+from vibroimpact.response.doubts import UNBOUNDED
 from vibroimpact.response.resonance import Features, Range
 
 _CURVES = {"eta_a": "η_a", "eta_d": "η_d"}
@@ -61,6 +62,8 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
         _ranges("Contact with a bumper", found.contact, "nowhere"),
         _ranges("Not settled", found.unsettled, "nowhere"),
     ]
+    notes = str(data.attrs.get("notes", "")).splitlines()
+    parts += [Text(f"Note: {line}") for line in notes if line.startswith(UNBOUNDED)]
     parts += [Text(f"Advice: {line}", style="yellow") for line in advice]
     return Group(*parts)
 

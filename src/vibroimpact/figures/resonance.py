@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.measured import halves_of, measured_curves, measured_points
-from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
+from vibroimpact.figures.resonance_panels import Drawn, divides, normalised, physical_curves
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
 from vibroimpact.measurement.read import as_measured, is_measured
 from vibroimpact.response.resonance import Features, Hysteresis, Jump, features
@@ -41,7 +41,7 @@ def resonance_curves(
     *,
     found: Features | None = None,
     title: str | None = None,
-    physical: bool = False,
+    physical: bool | None = None,
     measured: xr.Dataset | None = None,
 ) -> Panels:
     """Draw η_a and η_d against the excitation frequency, or what an engineer asks for.
@@ -65,7 +65,7 @@ def resonance_curves(
     physical
         Whether the largest absolute acceleration (g), the largest displacement (mm) and, where a
         stop is touched, the largest contact force are drawn instead of η_a and η_d; of rigid
-        stops the largest impulse.
+        stops the largest impulse. None: where free flight has no bound that η could be taken over.
     measured
         Curves of `vibroimpact.read_measurement`, drawn as open points over the computed ones.
         Excursions are taken over the free flight of the computed rig; in physical units, where
@@ -87,6 +87,8 @@ def resonance_curves(
     found = features(data) if found is None else found
     if measured is not None:
         measured = as_measured(measured, "measured")
+    if physical is None:
+        physical = not divides(data)
     halves = halves_of(measured) if measured is not None else set()
     drawn = physical_curves(data, halves) if physical else normalised(data)
     what = " and ".join(one.name for one in drawn)

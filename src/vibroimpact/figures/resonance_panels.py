@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, equilibrium
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
+from vibroimpact.model.unbounded import has_no_bound
 from vibroimpact.model.units import plain
+from vibroimpact.response.variables import excitation_from
 
 _Array = NDArray[np.float64]
 
@@ -47,11 +49,14 @@ class Drawn(NamedTuple):
     free: _Array | None
     """The same in free flight."""
     levels: tuple[Level, ...] = ()
+    spike: bool = False
+    """Whether free flight has no bound: its curve leaves the panel."""
 
     @property
     def top(self) -> float:
         """The largest of all."""
-        curves = [*self.curves.values(), *([] if self.free is None else [self.free])]
+        free = [] if self.free is None or self.spike else [self.free]
+        curves = [*self.curves.values(), *free]
         highest = [float(np.nanmax(curve, initial=0.0)) for curve in curves]
         return max([*highest, *(level.value for level in self.levels)])
 
@@ -75,6 +80,25 @@ def normalised(data: xr.Dataset) -> list[Drawn]:
     return found
 
 
+def divides(data: xr.Dataset) -> bool:
+    """Whether η tells anything: it has values, and the free flight that it is taken over a bound.
+
+    Curves over what an undamped isolator does beside its resonance are as good as flat.
+    """
+    return bool(data["eta_d"].notnull().any()) and not _spikes(data)
+
+
+def _spikes(data: xr.Dataset) -> bool:
+    """Whether the rig's free flight has no bound."""
+    about = json.loads(data.attrs["parameters"])["rigs"]
+    rig = _rig(data)
+    if rig is None:
+        return False
+    sizes = about[0].get("amplitude")
+    most = {"amplitude": max(sizes)} if isinstance(sizes, list) else {}
+    return has_no_bound(rig, excitation_from(about[0], frequency=1.0, **most))
+
+
 def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Drawn]:
     """The largest absolute acceleration, displacement and, where there is one, contact force.
 
@@ -89,6 +113,7 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
     if "peak_acceleration" not in data:
         raise InputError("physical: this sweep has no peak_acceleration; a new one is accepted")
     rig = _rig(data)
+    spike = _spikes(data)
     rest = _rest(rig)
     swing = 0.5e3 * data["free_displacement_excursion"].values
     swings = _curves(data, "peak_displacement", 1e3)
@@ -99,6 +124,7 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
             "largest absolute\nacceleration (g)",
             _curves(data, "peak_acceleration", 1.0 / GRAVITY),
             0.5 / GRAVITY * data["free_acceleration_excursion"].values,
+            spike=spike,
         ),
         Drawn(
             "displacement",
@@ -106,6 +132,7 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
             swings,
             None if rest is None else swing + 1e3 * abs(rest),
             gaps,
+            spike,
         ),
     ]
     if "acceleration" in halves:

@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.errors import warn_of_input
 from vibroimpact.model import Harmonic, Oscillator, Record, Repeated
-from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model.quantities import FREQUENCY, LENGTH
+from vibroimpact.model.unbounded import has_no_bound, undamped_frequency
 from vibroimpact.model.units import pretty
 from vibroimpact.response.free_flight import reference_excursions
 
@@ -22,6 +23,10 @@ _FAR, _FARTHEST = 100.0, 10_000.0
 
 In millimetres they are then from a tenth to ten times as large as it.
 """
+
+
+UNBOUNDED = "free flight has no bound"
+"""How a note begins that says what η is taken over instead."""
 
 
 def doubt_gaps(
@@ -61,6 +66,23 @@ def doubt_gaps(
     ]
     warn_of_input("gap", notes, stacklevel=5)
     return notes
+
+
+def note_unbounded(oscillator: Oscillator, shaken: Repeated) -> list[str]:
+    """What η is taken over where the largest free flight has no bound, for the notes of a dataset.
+
+    Without a spring there is no η at all.
+    """
+    if not has_no_bound(oscillator, shaken):
+        return []
+    natural = undamped_frequency(oscillator)
+    size = 0.5 * reference_excursions(oscillator, shaken)[0]
+    return [
+        f"{UNBOUNDED}: it grows without end at {pretty(natural, FREQUENCY)}, for "
+        "nothing damps the isolator enough; η is taken over "
+        f"{pretty(float(f'{size:.4g}'), LENGTH)}, which a slowly changing excitation of this size "
+        "gives"
+    ]
 
 
 def _free(oscillator: Oscillator, shaking: Repeated | Record | None) -> float:

@@ -31,7 +31,7 @@ from vibroimpact.model.rigs import (
     rig_name,
     takes_rig,
 )
-from vibroimpact.response.doubts import doubt_gaps
+from vibroimpact.response.doubts import doubt_gaps, note_unbounded
 from vibroimpact.response.held import held
 from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.reversal import judged
@@ -210,7 +210,7 @@ def sweeps(
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
         ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
         results[r][..., hold.OUTCOME] = ended
-        doubts += doubt_gaps(oscillator, shaken, swing)
+        doubts += [*doubt_gaps(oscillator, shaken, swing), *note_unbounded(oscillator, shaken)]
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)
     data = held([oscillator for oscillator, _, _ in pairs], results, states, free, largest, angle)

@@ -36,7 +36,8 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
         The extremes and excursions of the displacement and of the absolute acceleration, as
         those of a sweep, and the energies over the whole motion: ``total_supplied`` by what
         shakes the mass, ``total_isolator`` and ``total_bumpers`` lost in the isolator and in the
-        stops.
+        stops. They begin at ``initial_state``: of a mass that starts on a rigid stop and moves
+        into it, the impact counts, and the first sample is already behind it (a note says so).
 
     Raises
     ------
@@ -53,9 +54,22 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
         "total_isolator": isolator,
         "total_bumpers": bumpers,
     }
-    return describe(
-        xr.Dataset(values), "vibroimpact.totals", motion_parameters(motion), noted(motion)
-    )
+    notes = [*noted(motion), *_begins_with_an_impact(motion)]
+    return describe(xr.Dataset(values), "vibroimpact.totals", motion_parameters(motion), notes)
+
+
+def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
+    """Whether the mass starts on a rigid stop and moves into it, in words."""
+    if "initial_state" not in motion or not motion.sizes.get("time"):
+        return []
+    before = float(motion["initial_state"].sel(component="velocity"))
+    behind = float(motion["velocity"][0])
+    if before == behind:
+        return []
+    return [
+        f"the motion starts with an impact, from {before:.6g} to {behind:.6g} m/s: the energies "
+        "count it, and the first sample is behind it"
+    ]
 
 
 def extremes(origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]) -> dict[str, float]:

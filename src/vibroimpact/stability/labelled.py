@@ -14,6 +14,7 @@ from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator
 from vibroimpact.response import held
+from vibroimpact.response.doubts import note_unbounded
 from vibroimpact.response.free_flight import reference_excursions
 from vibroimpact.response.variables import (
     COMPONENTS,
@@ -100,6 +101,7 @@ def as_dataset(
             "low": span[0],
             "high": span[1],
         },
+        note_unbounded(fam.oscillator, fam.excitation),
     )
 
 
