@@ -288,20 +288,18 @@ def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: li
     elif moving:
         missing, wanted, listed = "a time, or a sampling rate fs,", ["time"], list(AXES)
     else:
-        missing = (
-            "a frequency with excursions, maxima and minima or η, or a time (or a sampling rate "
-            "fs) with displacements or accelerations,"
-        )
-        wanted, listed = ["frequency", "displacement_excursion"], [*AXES, *CURVES, *HISTORIES]
+        missing = "a frequency with excursions or η, or a time with displacements or accelerations,"
+        wanted, listed = ["frequency", "displacement_excursion"], []
     spare = [*left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
     told = [f"{name!r} is read as {found}" for name, found in read.items()]
     told += [f"{name!r} is not understood" for name in left]
     pairs = list(zip(wanted, spare, strict=False))
     said = ", ".join(f"{key!r}: {name!r}" for key, name in pairs)
     typed = " ".join(f"--columns {key.replace('_', '-')} {name!r}" for key, name in pairs)
+    accepted = f"; the names are {', '.join(listed)}" if listed else ""
     return (
         f": {', '.join(told)}; {missing} is needed, such as columns={{{said}}} (command line: "
-        f"{typed}), by the name {' or '.join(listed)}"
+        f"{typed}){accepted}"
     )
 
 
