@@ -12,6 +12,8 @@ from benchmarks.clusters import clusters
 from benchmarks.designs import designs
 from benchmarks.diagrams import diagrams
 from benchmarks.earthquakes import earthquakes
+from benchmarks.fixed import fixed
+from benchmarks.growth import growth
 from benchmarks.identification import identification
 from benchmarks.laws import laws, sampling, yielding
 from benchmarks.machine import load, machine
@@ -46,6 +48,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "designs": lambda: (designs(),),
         "diagrams": lambda: (diagrams(),),
         "identification": lambda: (identification(),),
+        "fixed": lambda: (fixed(), growth()),
         "startup": lambda: (startup(compiling()), memory(), size()),
     }
 

@@ -3,28 +3,31 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 import re
 import warnings
 from collections.abc import Iterable
 
-_LONGEST = 1200
-"""Letters of a message; lists of names that are accepted have some hundreds."""
+LONGEST = 320
+"""Letters of a message, full paths of files aside."""
+_END = LONGEST // 3
+"""Letters kept of its end, which says what is accepted."""
 _LONG_WORD = re.compile(r"(\S{60})\S{140,}")
 """A value that was given whole; a path may have 200 letters."""
+_PATH = re.compile(r"'(?:/|[A-Za-z]:\\)[^']*'")
+_LIST = re.compile(r"(?:[^\s,;:]+(?: [^\s,;:]+){0,3}, ){4,}")
+"""Items of a list, of up to four words each, but for its last one."""
 
 
 class InputError(ValueError):
     """A value that the caller gave cannot be used.
 
-    The message is one line that names the field, the value and what is accepted; of a line that is
-    very long, because a name or a value is, the middle is left out.
+    The message is one line of some 300 letters at most that names the field, the value and what is
+    accepted.
     """
 
     def __init__(self, message: object = "") -> None:
-        text = _LONG_WORD.sub(r"\1...", " ".join(printable(str(message)).split()))
-        if len(text) > _LONGEST:
-            text = f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 4 :]}"
-        super().__init__(text)
+        super().__init__(short_line(_LONG_WORD.sub(r"\1...", printable(str(message)))))
 
 
 class InputWarning(UserWarning):
@@ -48,6 +51,27 @@ def warn_of_input(what: str, notes: Iterable[str], stacklevel: int = 3) -> None:
     """
     if told := "; ".join(notes):
         warnings.warn(f"{what}: {told}", InputWarning, stacklevel=stacklevel)
+
+
+def short_line(message: str) -> str:
+    """Write a message on one line of at most `LONGEST` letters, full paths of files aside.
+
+    The longest list in it loses items before its last one; if that is not enough, the message loses
+    its middle.
+    """
+    text = " ".join(message.split())
+    most = LONGEST + sum(len(path) for path in _PATH.findall(text))
+    while len(text) > most and (lists := list(_LIST.finditer(text))):
+        longest = max(lists, key=lambda one: len(one[0]))
+        items = longest[0].split(", ")[:-1]
+        room = len(longest[0]) - (len(text) - most) - len(f"... {len(items)} more ..., ")
+        ends = itertools.accumulate(len(item) + 2 for item in items)
+        kept = max(1, sum(end <= room for end in ends))
+        items[kept:] = [f"... {len(items) - kept} more ..."]
+        text = f"{text[: longest.start()]}{', '.join(items)}, {text[longest.end() :]}"
+    if len(text) > most:
+        text = f"{text[: most - _END - 5]} ... {text[-_END:]}"
+    return text
 
 
 def shown(value: object) -> str:

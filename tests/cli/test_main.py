@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import shutil
 import signal
 import subprocess
@@ -12,6 +13,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.cli import main
+from vibroimpact.cli.output import progress_bar
 
 
 def test_version(capsys):
@@ -63,6 +65,39 @@ def test_help_loads_nothing_that_computes():
     subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL)
 
 
+def test_a_command_imports_no_other_command():
+    code = (
+        "import sys; from vibroimpact.cli import main\n"
+        "main(['record', '--help'])\n"
+        "assert 'vibroimpact.cli.record' in sys.modules\n"
+        "assert not {'vibroimpact.cli.sweep', 'vibroimpact.cli.map'} & set(sys.modules)\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL)
+
+
+def test_garbage_is_searched_as_usual_only_while_a_command_computes():
+    code = (
+        "import gc, sys; usual = gc.get_threshold()\n"
+        "import vibroimpact.cli as cli\n"
+        "from vibroimpact.cli.output import progress_bar\n"
+        "def run(words):\n"
+        "    assert gc.get_threshold()[0] > 100 * usual[0]\n"
+        "    with progress_bar('computing'):\n"
+        "        assert gc.get_threshold() == usual\n"
+        "        assert gc.get_freeze_count()\n"
+        "    assert gc.get_threshold()[0] > 100 * usual[0]\n"
+        "    return 0\n"
+        "cli._run = run\n"
+        "assert cli.main() == 0\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+    before = gc.get_threshold(), gc.get_freeze_count()
+    with progress_bar("computing"):
+        assert (gc.get_threshold(), gc.get_freeze_count()) == before
+    assert main(["cache"]) == 0
+    assert (gc.get_threshold(), gc.get_freeze_count()) == before
+
+
 def test_installed_program(tmp_path):
     program = shutil.which("vibroimpact", path=str(Path(sys.executable).parent))
     assert program is not None
@@ -95,6 +130,7 @@ ENDED = """
 import os, signal, sys, time
 import vibroimpact.response.sweep as module
 from vibroimpact.cli import main
+from vibroimpact.cli.output import progress_bar
 def computing(*_, **__):
     print("computing", flush=True)
     time.sleep(30)
@@ -124,6 +160,7 @@ def test_a_signal_ends_a_command_and_leaves_nothing(tmp_path, name, word, code):
 LATE = """
 import atexit, os, signal, sys
 from vibroimpact.cli import main
+from vibroimpact.cli.output import progress_bar
 signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.argv[1:] = ["--version"]
 code = main()

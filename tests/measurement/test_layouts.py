@@ -9,6 +9,9 @@ import scipy.io
 
 import vibroimpact as vi
 
+pytestmark = pytest.mark.filterwarnings("ignore::vibroimpact.InputWarning")
+"""What is noted is tested in the attribute, and that it is a warning in test_notes.py."""
+
 RATE = 200.0
 TIME = np.arange(60) / RATE
 U, ACCELERATION, BASE = 0.01 * np.sin(TIME), 3.0 * np.cos(TIME), 0.4 * np.sin(7.0 * TIME)

@@ -11,6 +11,9 @@ import vibroimpact as vi
 from measured import measured
 from vibroimpact.measurement.names import meaning
 
+pytestmark = pytest.mark.filterwarnings("ignore::vibroimpact.InputWarning")
+"""What is noted is tested in the attribute, and that it is a warning in test_notes.py."""
+
 
 def written(folder, text, name="test.csv"):
     path = folder / name

@@ -16,6 +16,9 @@ import scipy.sparse
 import vibroimpact as vi
 from samples import sample
 
+pytestmark = pytest.mark.filterwarnings("ignore::vibroimpact.InputWarning")
+"""What is noted is tested in the attribute, and that it is a warning in test_notes.py."""
+
 TIME = 0.004 * np.arange(250)
 U = np.sin(20.0 * TIME)
 CUTS = sample(60, 12)

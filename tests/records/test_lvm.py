@@ -38,6 +38,7 @@ def test_a_measurement(tmp_path, name):
     np.testing.assert_allclose(data["acceleration"], 0.02 * np.array(VALUES), rtol=1e-14)
 
 
+@pytest.mark.filterwarnings("ignore::vibroimpact.InputWarning")
 def test_segments_are_tests(tmp_path):
     lines = [line.replace("North", "Acceleration") for line in lvm()]
     again = lines[7:]

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import csv
 import itertools
+import math
 
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 
 import vibroimpact as vi
 
@@ -88,6 +90,18 @@ def test_csv(sweep, motion, tmp_path):
     back = pd.read_csv(path)
     np.testing.assert_array_equal(back["eta_a"], vi.to_table(sweep.isel(rig=0, drop=True))["eta_a"])
     assert len(pd.read_csv(vi.save(motion, tmp_path / "Y.CSV"))) == motion.sizes["time"]
+
+
+def test_csv_holds_every_number_to_its_last_bit(tmp_path):
+    rng = np.random.default_rng(5)
+    numbers = rng.standard_normal(20_000) * 10.0 ** rng.uniform(-300, 300, 20_000)
+    odd = [5e-324, 1.7976931348623157e308, 0.1 + 0.2, 1 / 3, -0.0, math.inf, -math.inf, math.nan]
+    numbers[: len(odd)] = odd
+    data = xr.Dataset({"a": ("time", numbers)}, {"time": np.arange(len(numbers)) / 3.0})
+    with vi.save(data, tmp_path / "x.csv").open(newline="") as file:
+        _, *rows = csv.reader(file)
+    back = np.array([float(text or "nan") for _, text in rows])
+    assert numbers.tobytes() == back.tobytes()
 
 
 @pytest.mark.parametrize("name", ["x.xlsx", "x", "x.mat", "x.csv.gz"])

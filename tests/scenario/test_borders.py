@@ -22,7 +22,13 @@ def test_the_border_of_jumps_is_the_cusp_of_the_folds():
         rig_of(case),
         step=0.02,
     )
-    border = jump_border(data)
+    told = []
+    border = jump_border(data, threads=1, progress=lambda *done: told.append(done))
+    assert told[-1] == (2, 2)
+    for others in ({"threads": 2}, {"where": "processes", "threads": 2}):
+        xr.testing.assert_identical(jump_border(data, **others), border)
+    with pytest.raises(vi.InputError, match=r"^where: 'nowhere'"):
+        jump_border(data, where="nowhere")
     assert border.sizes["border_point"] == 2
     assert float(border["gap_ratio"][0]) == delta
     assert float(border["stiffness_ratio"][0]) == pytest.approx(1.6276962, abs=1e-6)

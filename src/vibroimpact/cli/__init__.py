@@ -10,34 +10,16 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
-from vibroimpact.cli.basin_stability import basin_stability
-from vibroimpact.cli.basins import basins
-from vibroimpact.cli.bifurcation import bifurcation
-from vibroimpact.cli.branch import branch
-from vibroimpact.cli.cache import cache
-from vibroimpact.cli.classify import classify
-from vibroimpact.cli.curve import curve
-from vibroimpact.cli.design import design
-from vibroimpact.cli.earthquake import earthquake
-from vibroimpact.cli.ensemble import ensemble
-from vibroimpact.cli.explore import explore
-from vibroimpact.cli.identify import identify
-from vibroimpact.cli.manifolds import manifolds
-from vibroimpact.cli.map import scenario_map
-from vibroimpact.cli.motion import motion
+from vibroimpact.cli.garbage import search_no_more, search_seldom
 from vibroimpact.cli.output import input_warnings_in_lines
-from vibroimpact.cli.paper import paper
-from vibroimpact.cli.record import record
 from vibroimpact.cli.refusal import in_words
-from vibroimpact.cli.simulate import simulate
-from vibroimpact.cli.sweep import sweep
 from vibroimpact.cli.terminal import (
     flush,
     give_up_stdout,
@@ -83,23 +65,28 @@ Exit codes: 0 done, 1 what was found cannot be written, 2 wrong input, 130 inter
 terminated.
 """
 
-_COMMANDS: tuple[Callable[..., int], ...] = (
-    sweep,
-    motion,
-    branch,
-    bifurcation,
-    curve,
-    basins,
-    manifolds,
-    basin_stability,
-    simulate,
-    record,
-    earthquake,
-    design,
-    ensemble,
-    classify,
-    explore,
+_COMMANDS = (
+    "sweep",
+    "motion",
+    "branch",
+    "bifurcation",
+    "curve",
+    "basins",
+    "manifolds",
+    "basin-stability",
+    "simulate",
+    "record",
+    "earthquake",
+    "design",
+    "ensemble",
+    "classify",
+    "explore",
+    "identify",
+    "map",
+    "paper",
+    "cache",
 )
+"""Each is a module of this folder and, with the exception of `map`, a function in it."""
 
 
 def main(arguments: Iterable[str] | None = None) -> int:
@@ -119,7 +106,9 @@ def main(arguments: Iterable[str] | None = None) -> int:
     if arguments is not None:
         return _run(list(arguments))
     hold_closed_streams()
+    search_seldom()
     code = _run(sys.argv[1:])
+    search_no_more()
     # What remains is the end of the interpreter, which an interrupt would make a failure.
     signal.signal(signal.SIGINT, lambda *_: os._exit(130))
     return code
@@ -151,7 +140,7 @@ def _run(words: list[str]) -> int:
     take_any_encoding()
     try:
         with _terminable(), input_warnings_in_lines():
-            result = _app()(words)
+            result = _app(words)(words)
         flush()
     except (InputError, CycloptsError) as error:
         return _told(in_words(error, words), 2)
@@ -180,7 +169,8 @@ def _told(message: str, code: int) -> int:
     return code
 
 
-def _app() -> App:
+def _app(words: Sequence[str] = ()) -> App:
+    """The commands; all are imported unless the first word names one of them."""
     app = App(
         name="vibroimpact",
         help=_HELP,
@@ -191,12 +181,14 @@ def _app() -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
+    # By path, which cyclopts imports when the command runs.
     for command in _COMMANDS:
-        app.command(command)
-    app.command(identify)
-    app.command(scenario_map, name="map")
-    app.command(paper)
-    app.command(cache)
+        module = command.replace("-", "_")
+        function = "scenario_map" if command == "map" else module
+        app.command(f"vibroimpact.cli.{module}:{function}", name=command)
+    if not words or words[0] not in _COMMANDS:
+        for command in _COMMANDS:
+            app[command]  # imports it: help lists what each command does
     app.register_install_completion_command(
         help="Teach the shell (bash, zsh, fish or PowerShell) to complete commands and options."
     )

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from cyclopts import Group, Parameter
 
+from vibroimpact.cli.garbage import search_as_usual
 from vibroimpact.cli.options import RigName, RigOptions
 
 _SERVER = Group("Server", sort_key=1)
@@ -78,7 +79,8 @@ def explore(
             webbrowser.open(where)
 
     try:
-        serve(first, told, host, port)
+        with search_as_usual():
+            serve(first, told, host, port)
     except KeyboardInterrupt:
         print("The explorer has ended.")
     return 0

@@ -146,7 +146,10 @@ def scenario_map(
                 )
             except InputError as error:
                 raise InputError(_as_option(str(error))) from None
-        edge = jump_border(data) if border else None
+        edge = None
+        if border:
+            with progress_bar("following the border") as progress:
+                edge = jump_border(data, threads=threads, where=where, progress=progress)
         held = _held(what, axes)
         ax = draw(data, border=edge, title=f"{what.title}: {held}")
         files = {"data": store, "figure": save_figure(ax, f"{stem}.{out.figure}")}

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from vibroimpact.cli.garbage import search_as_usual
 from vibroimpact.cli.terminal import in_columns, without_commands
 from vibroimpact.errors import InputError, InputWarning
 from vibroimpact.stderr import print_line
@@ -90,6 +91,12 @@ def _remove_empty(folders: list[Path]) -> None:
 @contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int | None], None]]:
     """Yield a function that shows progress on stderr: a bar, or lines now and then in a log."""
+    with search_as_usual(), _bar_or_lines(what) as progress:
+        yield progress
+
+
+@contextmanager
+def _bar_or_lines(what: str) -> Iterator[Callable[[int, int | None], None]]:
     if not (sys.stderr and sys.stderr.isatty()):
         from vibroimpact.response.progress import progress_lines
 

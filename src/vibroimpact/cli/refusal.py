@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from cyclopts import CycloptsError
 from cyclopts.exceptions import UnknownCommandError, UnusedCliTokensError
 
+from vibroimpact.errors import short_line
+
 _FIELD = re.compile(r"([a-z_.]+)(?=(\[\d+\])?: )")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _UNIT = re.compile(r"[A-Za-zµ°]+(\^?-?[²³]|\^-?\d|[23])?([*/·][A-Za-z]+(\^?-?\d|[²³])?)*")
@@ -28,7 +30,7 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
         told = str(error).rstrip(".")
     if isinstance(error, CycloptsError):
         told += "; --help lists what is accepted"
-    return " ".join((_as_option(told, words) + _quoting(words)).split())
+    return short_line(_as_option(told, words) + _quoting(words))
 
 
 def _as_option(message: str, words: Sequence[str]) -> str:

@@ -19,7 +19,9 @@ Known = dict[int, tuple[Meaning, Array]]
 """What columns hold, by their number, in SI units."""
 
 
-def curves(table: Columns, known: Known, direction: str | None, notes: list[str]) -> xr.Dataset:
+def curves(
+    table: Columns, known: Known, direction: str | None, notes: list[str], facts: list[str]
+) -> xr.Dataset:
     """Arrange measured values by direction and frequency.
 
     Parameters
@@ -30,6 +32,8 @@ def curves(table: Columns, known: Known, direction: str | None, notes: list[str]
         Of all rows, if nothing in the file says it.
     notes
         What was guessed or left out, in words; added to.
+    facts
+        What the file does not hold, or holds more than once, in words; added to.
 
     Returns
     -------
@@ -64,13 +68,13 @@ def curves(table: Columns, known: Known, direction: str | None, notes: list[str]
             f"measurement: {table.path!r} has no value at any frequency; at least one is accepted"
         )
     if empty:
-        notes.append(f"{empty} values are missing")
+        facts.append(f"{empty} values are missing")
     frequency = np.array(sorted({key[2] for key in points}))
     present: list[str] = [way for way in DIRECTIONS if any(key[1] == way for key in points)]
     most = max(len(values) for values in points.values())
     if most > 1:
         held = len({key[1:] for key, values in points.items() if len(values) > 1})
-        notes.append(f"{held} frequencies were held up to {most} times; all values are kept")
+        facts.append(f"{held} frequencies were held up to {most} times; all values are kept")
     data = xr.Dataset(coords={"direction": present, "frequency": frequency})
     for name in dict.fromkeys(key[0] for key in points):
         grid = np.full((len(present), len(frequency), most), np.nan)
@@ -81,7 +85,7 @@ def curves(table: Columns, known: Known, direction: str | None, notes: list[str]
         dims = ("direction", "frequency", "repeat")
         data[name] = (dims, grid) if most > 1 else (dims[:2], grid[..., 0])
     file = Path(table.path).name
-    notes += [f"{file}: no {way} sweep was measured" for way in DIRECTIONS if way not in present]
+    facts += [f"{file}: no {way} sweep was measured" for way in DIRECTIONS if way not in present]
     if len(frequency) == 1:
         notes.append("one frequency alone: there is no curve, and no jump can be told")
     return data

@@ -14,8 +14,17 @@ _EVEN = 0.01
 """By how much of a step a time may be off before a record is told to be uneven."""
 
 
-def history(table: Columns, known: Known, notes: list[str]) -> xr.Dataset:
+def history(table: Columns, known: Known, notes: list[str], facts: list[str]) -> xr.Dataset:
     """Channels over time, in SI units.
+
+    Parameters
+    ----------
+    table, known
+        What was read.
+    notes
+        What was guessed or left out, in words; added to.
+    facts
+        What the file does not hold, and what was computed instead, in words; added to.
 
     Returns
     -------
@@ -56,10 +65,10 @@ def history(table: Columns, known: Known, notes: list[str]) -> xr.Dataset:
     for name, values in channels.items():
         data[name] = ("time", values[order])
         if (gaps := int(np.isnan(values[order]).sum())) > 0:
-            notes.append(f"{name} is missing at {gaps} of {len(order)} times")
+            facts.append(f"{name} is missing at {gaps} of {len(order)} times")
     if "displacement" not in data and {"mass_displacement", "base_displacement"} <= set(data):
         data["displacement"] = data["mass_displacement"] - data["base_displacement"]
-        notes.append("displacement is that of the mass less that of the base")
+        facts.append("displacement is that of the mass less that of the base")
     elif "mass_displacement" in data and "displacement" not in data:
         notes.append("the mass's displacement is absolute, and without that of the base no use")
     step = np.diff(data["time"].values)

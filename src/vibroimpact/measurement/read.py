@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_path, check_texts
-from vibroimpact.errors import InputError, shown, unknown
+from vibroimpact.errors import InputError, shown, unknown, warn_of_input
 from vibroimpact.measurement import hdf5, lvm, mat, tdms, text, uff
 from vibroimpact.measurement.beside import shaking
 from vibroimpact.measurement.columns import Array, Column, Columns
@@ -86,6 +86,11 @@ def read_measurement(
     ------
     InputError
         If the file cannot be read, or a column or unit cannot be told.
+
+    Warns
+    -----
+    InputWarning
+        With what was assumed and what was left out, if anything was.
     """
     file = check_path(path, "measurement")
     for field, given in (("columns", columns), ("units", units)):
@@ -100,14 +105,15 @@ def read_measurement(
     tables = [table for table in _tables(file, checked(decimal)) if table.columns]
     tables = [part for table in tables for part in _runs(table)]
     notes: list[str] = []
+    facts: list[str] = []
     tables = [part for table in tables for part in timed(table, notes)]
     table = _chosen(str(path), tables, group, set((columns or {}).values()), notes)
     known, left = _known(table, columns or {}, units or {}, notes)
     variables = {found.variable for found, _ in known.values()}
     if "frequency" in variables and variables & set(CURVES):
-        data, kind = curves(table, known, direction, notes), "curves"
+        data, kind = curves(table, known, direction, notes, facts), "curves"
     elif "time" in variables and variables & set(HISTORIES):
-        data, kind = history(table, known, notes), "history"
+        data, kind = history(table, known, notes, facts), "history"
     else:
         raise InputError(f"measurement: {str(path)!r}{_untold(table, known, left)}")
     if left:
@@ -118,9 +124,10 @@ def read_measurement(
     data.attrs |= {
         "source": file.name,
         "kind": kind,
-        "notes": "\n".join(notes),
+        "notes": "\n".join([*facts, *notes]),
         "left_out": "\n".join(left),
     }
+    warn_of_input(f"measurement {str(path)!r}", notes)
     return describe(data, CREATED_BY)
 
 
@@ -288,20 +295,18 @@ def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: li
     elif moving:
         missing, wanted, listed = "a time, or a sampling rate fs,", ["time"], list(AXES)
     else:
-        missing = (
-            "a frequency with excursions, maxima and minima or η, or a time (or a sampling rate "
-            "fs) with displacements or accelerations,"
-        )
-        wanted, listed = ["frequency", "displacement_excursion"], [*AXES, *CURVES, *HISTORIES]
+        missing = "a frequency with excursions or η, or a time with displacements or accelerations,"
+        wanted, listed = ["frequency", "displacement_excursion"], []
     spare = [*left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
     told = [f"{name!r} is read as {found}" for name, found in read.items()]
     told += [f"{name!r} is not understood" for name in left]
     pairs = list(zip(wanted, spare, strict=False))
     said = ", ".join(f"{key!r}: {name!r}" for key, name in pairs)
     typed = " ".join(f"--columns {key.replace('_', '-')} {name!r}" for key, name in pairs)
+    accepted = f"; the names are {', '.join(listed)}" if listed else ""
     return (
         f": {', '.join(told)}; {missing} is needed, such as columns={{{said}}} (command line: "
-        f"{typed}), by the name {' or '.join(listed)}"
+        f"{typed}){accepted}"
     )
 
 

@@ -7,7 +7,9 @@ the fold is followed in the frequency and one of the map's parameters until it t
 
 from __future__ import annotations
 
+import functools
 import json
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -15,6 +17,7 @@ import xarray as xr
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator
 from vibroimpact.response.sweep import sweep
+from vibroimpact.response.threads import Progress, Tally, each
 from vibroimpact.response.variables import describe, excitation_from
 from vibroimpact.scenario.axes import Base, Shaken, one_sine
 from vibroimpact.scenario.behind import primary_branch
@@ -22,6 +25,7 @@ from vibroimpact.scenario.curves import holds
 from vibroimpact.scenario.evidence import evidence
 from vibroimpact.scenario.frequencies import frequencies
 from vibroimpact.scenario.kinds import Scenario
+from vibroimpact.scenario.map import map_workers
 from vibroimpact.scenario.store import CREATED_BY
 from vibroimpact.stability.bifurcations import FOLD
 from vibroimpact.stability.curves import bifurcation_curve
@@ -32,7 +36,14 @@ _REACH = 4.0
 """How far beyond the node the fold is followed, as a factor."""
 
 
-def jump_border(data: xr.Dataset, lines: int = 12) -> xr.Dataset:
+def jump_border(
+    data: xr.Dataset,
+    lines: int = 12,
+    *,
+    threads: int | None = None,
+    where: Any = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
     """Follow folds to the cusps in which they end: the exact border between S2 and S6.
 
     Parameters
@@ -41,6 +52,12 @@ def jump_border(data: xr.Dataset, lines: int = 12) -> xr.Dataset:
         Dataset of `scenario_map`.
     lines
         At how many values of the other parameter, at most, the border is sought.
+    threads
+        How many folds are followed at once; None for one a processor. No result depends on it.
+    where
+        As for `scenario_map`; None for what that takes by itself for such a map.
+    progress
+        Called from the calling thread with the folds followed and their number.
 
     Returns
     -------
@@ -51,14 +68,14 @@ def jump_border(data: xr.Dataset, lines: int = 12) -> xr.Dataset:
     Raises
     ------
     InputError
-        If it is no map.
+        If it is no map, or there is no such place for the work.
     """
     if data.attrs.get("created_by") != CREATED_BY:
         raise InputError("data: this is no map; a dataset of scenario_map is accepted")
     settings = json.loads(data.attrs["parameters"])
     x, y = settings["x"]["name"], settings["y"]["name"]
     along = next((name for name in FOLLOWED if name in (x, y)), None)
-    points = []
+    points: list[tuple[float, float]] = []
     if along is not None:
         other = y if along == x else x
         base = dict(settings["base"])
@@ -66,10 +83,16 @@ def jump_border(data: xr.Dataset, lines: int = 12) -> xr.Dataset:
         start = Base(*one_sine(oscillator, excitation_from(base, frequency=1.0), "data"))
         candidates = _beside(data, along, other)
         chosen = np.unique(np.linspace(0, len(candidates) - 1, lines).round().astype(int))
-        for value, at in [candidates[i] for i in chosen] if candidates else []:
-            cusp = _cusp(start.rig({other: at, along: value}), along, value)
-            if cusp is not None:
-                points.append((cusp, at))
+        nodes = [candidates[i] for i in chosen] if candidates else []
+        cusps = each(
+            functools.partial(_cusp_beside, start, along, other),
+            nodes,
+            threads=map_workers(_first_nodes(settings), threads, where),
+            progress=progress,
+        )
+        points = [
+            (cusp, at) for cusp, (_, at) in zip(cusps, nodes, strict=True) if cusp is not None
+        ]
     found = xr.Dataset(
         {
             name: ("border_point", [p[k] for p in points])
@@ -77,6 +100,11 @@ def jump_border(data: xr.Dataset, lines: int = 12) -> xr.Dataset:
         }
     )
     return describe(found, "vibroimpact.scenario.borders.jump_border", settings)
+
+
+def _first_nodes(settings: dict[str, Any]) -> int:
+    """Nodes of the map's first grid."""
+    return len(settings["x"]["values"]) * len(settings["y"]["values"])
 
 
 def _beside(data: xr.Dataset, along: str, other: str) -> list[tuple[float, float]]:
@@ -93,6 +121,14 @@ def _beside(data: xr.Dataset, along: str, other: str) -> list[tuple[float, float
                 found.append((float(values[i]), float(at)))
                 break
     return found
+
+
+def _cusp_beside(
+    start: Base, along: str, other: str, node: tuple[float, float], _: Tally
+) -> float | None:
+    """Value of one parameter at the cusp beside a node of the map."""
+    value, at = node
+    return _cusp(start.rig({other: at, along: value}), along, value)
 
 
 def _cusp(rig: Shaken, along: str, value: float) -> float | None:

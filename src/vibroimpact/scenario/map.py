@@ -127,11 +127,7 @@ def scenario_map(
         "max_cycles": None if max_cycles is None else whole(max_cycles, "max_cycles"),
         "block": (block := whole(block, "block")),
     }
-    if where is None:
-        many = len(first.values) * len(second.values) >= _MANY
-        several = breadth(placed(threads)) > 1 and may_start()
-        where = PROCESSES if many and several else THREADS
-    workers = placed(threads, where)
+    workers = map_workers(len(first.values) * len(second.values), threads, where)
     fine = first.refined(refine), second.refined(refine)
     for end in (0, -1):  # refused before anything is computed
         start.rig({one.name: float(one.values[end]) for one in fine})
@@ -153,6 +149,14 @@ def scenario_map(
             held.finish()
         data = held.dataset()
     return data.load() if store is None else data
+
+
+def map_workers(nodes: int, threads: int | None, where: Any) -> Workers:
+    """Where the work for a map with so many nodes in its first grid is done."""
+    if where is None:
+        several = breadth(placed(threads)) > 1 and may_start()
+        where = PROCESSES if nodes >= _MANY and several else THREADS
+    return placed(threads, where)
 
 
 Values: TypeAlias = dict[str, float]

@@ -1,0 +1,106 @@
+"""Errors are short lines, however long the lists of names in them are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+from vibroimpact.cli import main
+from vibroimpact.errors import LONGEST, InputError, short_line
+from vibroimpact.figures import resonance_family
+
+NAMES = [f"channel {i}" for i in range(500)]
+
+
+def test_a_long_list_loses_items_before_its_last():
+    assert short_line(f"name: 'x'; one of {', '.join(NAMES[:9])} is accepted").count(",") == 8
+    told = short_line(f"name: 'x'; one of {', '.join(NAMES)} is accepted")
+    assert told.startswith("name: 'x'; one of channel 0, channel 1, channel 2, ")
+    kept = told.count("channel") - 1
+    assert told.endswith(f"channel {kept - 1}, ... {499 - kept} more ..., channel 499 is accepted")
+    assert LONGEST - 20 < len(told) <= LONGEST
+
+
+def test_the_longer_of_two_lists_is_cut_first():
+    keys = "a, b, c, d, e and f are accepted"
+    told = short_line(f"one: {', '.join(NAMES)} are accepted; two: {keys}")
+    assert told.endswith(f"channel 499 are accepted; two: {keys}")
+    assert len(told) <= LONGEST
+
+
+@pytest.mark.parametrize("part", ["word ", "abcdefghi; ", "a b c d e f g h i j, "])
+def test_what_is_no_list_loses_its_middle(part):
+    told = str(InputError(f"field: {part * 100} the end"))
+    assert told.startswith(f"field: {part.strip()}")
+    assert told.endswith(" the end")
+    assert " ... " in told
+    assert LONGEST - 20 < len(told) <= LONGEST
+
+
+def test_the_path_of_a_file_is_kept():
+    path = f"/{'folder/' * 20}file.csv"
+    told = str(InputError(f"file: {path!r}; {', '.join(NAMES)} are accepted"))
+    assert repr(path) in told
+    assert len(told) <= LONGEST + len(repr(path))
+
+
+def _many_columns(path):
+    path.write_text(",".join(NAMES) + "\n" + ",".join("1" * len(NAMES)) + "\n")
+    return path
+
+
+def _many_groups(path):
+    one = vi.simulate("B2-G1-A3", "2 Hz", 1, samples=0)
+    return vi.save(dict.fromkeys(NAMES[:40], one), path)
+
+
+READERS = {
+    "measurement": lambda folder: vi.read_measurement(_many_columns(folder / "a.csv")),
+    "columns": lambda folder: vi.read_measurement(
+        _many_columns(folder / "a.csv"), columns={"frequency": "f"}
+    ),
+    "units": lambda folder: vi.read_measurement(_many_columns(folder / "a.csv"), units={"f": "m"}),
+    "record": lambda folder: vi.Record.read(_many_columns(folder / "a.csv"), step=0.01),
+    "component": lambda folder: vi.Record.read(
+        _many_columns(folder / "a.csv"), component="x", step=0.01
+    ),
+    "group": lambda folder: vi.load(_many_groups(folder / "a.nc"), "x"),
+    "rows": lambda _: vi.to_table(xr.Dataset({name: (name, [1.0]) for name in NAMES}), "x"),
+    "names": lambda _: vi.save(
+        dict.fromkeys([*NAMES, "channel_0"], xr.Dataset({"a": 1})), "never.nc"
+    ),
+    "parameter": lambda _: vi.branch("B2-G1-A3", "2 Hz", parameter="x", low=1, high=2),
+    "oscillator": lambda _: vi.Oscillator.model_validate(dict.fromkeys(NAMES, 1)),
+    "rigs": lambda _: resonance_family(
+        vi.sweeps(["B2-G1-A3"] * 99, np.array([2.0, 2.1])), labels={"x": "y"}
+    ),
+}
+
+
+@pytest.mark.parametrize("reader", READERS.values(), ids=READERS)
+def test_errors_of_readers_are_short(tmp_path, monkeypatch, reader):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(vi.InputError) as error:
+        reader(tmp_path)
+    told = str(error.value)
+    assert len(told) <= LONGEST + len(str(tmp_path / "'a.csv'"))
+    assert told.count("channel") < 40
+
+
+def test_errors_of_commands_are_short(tmp_path, capsys):
+    study = tmp_path / "study.toml"
+    study.write_text('case = "B2-G1-A3"\n' + "".join(f"key{i} = 1\n" for i in range(99)))
+    for words in (
+        ["sweep", str(study)],
+        ["map", "--x", "x" * 999, "1:2"],
+        ["bifurcation", "B2-G1-A3", "--parameter", "x", "--from", "1", "--to", "2"],
+        ["sweep", "B2-G1-A3", *NAMES],
+        ["x" * 999],
+        ["paper", "--only", "x"],
+    ):
+        assert main([*words]) == 2
+        told = capsys.readouterr().err.replace(repr(str(study)), "").strip()
+        assert "\n" not in told
+        assert len(told) <= LONGEST + len("vibroimpact: error: ")
