@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.integrate import simpson
 
 import vibroimpact as vi
 
@@ -163,3 +164,23 @@ def test_a_start_into_a_rigid_stop_is_noted():
     assert float(found["total_supplied"]) == pytest.approx(kinetic + spring + lost, abs=1e-12)
     behind = vi.simulate(rig, vi.Harmonic(0.2, 0.3), cycles=3, start=vi.State(0.1, -0.3))
     assert "notes" not in vi.totals(behind).attrs
+
+
+def test_the_totals_of_a_chaotic_flight_are_those_of_the_motion_recorded():
+    """Twenty cycles without an event: followed again in one piece, it goes another way."""
+    law = vi.PolynomialIsolator(1.0, 0.0658715, 0.4051877, 7.0153961)
+    shaken = vi.Periodic(
+        0.05027304756588626,
+        [9.0839, 9.7366, 0.2548, 3.1057, 3.925],
+        phases=[2.1422, 4.8818, 5.99, 3.7407, 3.9813],
+        phase=5.6024,
+        of="displacement",
+    )
+    motion = vi.simulate(vi.Oscillator(1.0, law), shaken, cycles=20.3, samples=4096)
+    found = vi.totals(motion)
+    time, v = motion["time"].values, motion["velocity"].values
+    pull = motion["base_acceleration"].values
+    assert float(found["total_supplied"]) == pytest.approx(simpson(-pull * v, x=time), abs=1e-6)
+    assert float(found["total_isolator"]) == pytest.approx(
+        simpson(law.damping * v**2, x=time), abs=1e-6
+    )

@@ -210,7 +210,10 @@ def cut(motion: xr.Dataset, origin: Recorded[Repeated | Record]) -> Phases:
     )
     if isinstance(shaken, Record):
         return _along_lines(motion, shaken, events)
-    return _along_cycles(motion, shaken, origin.cycles, events)
+    found = _along_cycles(motion, shaken, origin.cycles, events)
+    if origin.oscillator.isolator.linear:
+        return found
+    return _flights_by_cycles(found, motion, shaken)
 
 
 class _Events(NamedTuple):
@@ -279,6 +282,38 @@ def _along_cycles(motion: xr.Dataset, shaken: Repeated, cycles: float, events: _
         events.fresh,
         events.met,
     )
+
+
+def _flights_by_cycles(found: Phases, motion: xr.Dataset, shaken: Repeated) -> Phases:
+    """The same, long flights cut at whole cycles, where the motion was recorded.
+
+    A flight that is not in closed form is followed again to be measured, and a chaotic one would
+    go another way.
+    """
+    cycle = motion["cycle"].values
+    whole = np.flatnonzero(cycle == np.floor(cycle))
+    period = shaken.period
+    end = found.begin + found.length
+    first = np.floor(found.begin / period).astype(np.int64)
+    count = np.ceil(end / period - 1e-9).astype(np.int64) - first
+    count = np.where((found.contact == 0) & (found.length > period), count, 1)
+    if count.max() == 1:
+        return found
+    owner = np.repeat(np.arange(len(count)), count)
+    part = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
+    parts = found.take(owner)
+    later = part > 0
+    states = _states(motion, "")[whole]
+    at = (first[owner] + part)[later]
+    parts.first[later], parts.last[:-1][later[1:]] = states[at], states[at]
+    parts.begin[later] = at * period
+    parts.angle[later] = shaken.phase
+    parts.clock[later] = [np.sin(shaken.phase), np.cos(shaken.phase)]
+    parts.struck[later], parts.event[later], parts.fresh[later] = 0, -1, 0
+    ends = np.where(np.append(later[1:], False), np.append(parts.begin[1:], 0.0), end[owner])
+    # A piece of several; a flight that is whole keeps the digits of its length.
+    parts.length[:] = np.where(count[owner] > 1, ends - parts.begin, parts.length)
+    return parts
 
 
 def _along_lines(motion: xr.Dataset, record: Record, events: _Events) -> Phases:
