@@ -235,5 +235,6 @@ def test_a_column_that_was_not_understood_is_named(tmp_path):
     ]
     path = tmp_path / "own.csv"
     path.write_text("\n".join(["f (Hz),Ed (mm),Kanal 7", *rows]), encoding="utf-8")
-    fit = vi.identify(path, rig, "stiffness", tried=0, starts=1, profiles=False)
+    with pytest.warns(vi.InputWarning, match="not understood, and left out: Kanal 7"):
+        fit = vi.identify(path, rig, "stiffness", tried=0, starts=1, profiles=False)
     assert "own: 'Kanal 7' of the file not understood, and not used" in fit.attrs["findings"]

@@ -381,3 +381,11 @@ def test_texts_that_say_nothing_sure_are_refused_at_once(text, told):
     assert told in str(refused.value)
     assert len(str(refused.value)) < 300
     assert to_si("0e-999999999 m", LENGTH, "gap") == 0.0
+
+
+@pytest.mark.parametrize("value", [1e-320, 1e-101, "1e-200 Hz", 1e101, 1e308, "1e305 kHz"])
+def test_frequencies_whose_period_is_no_number_are_refused(value):
+    with pytest.raises(vi.InputError, match="^frequency: .* is not between 1e-100 and 1e"):
+        vi.Harmonic(1.0, value)
+    with pytest.raises(vi.InputError, match="is not between"):
+        vi.sweep(vi.Oscillator(1.0, vi.Isolator(1.0, 0.1)), 1.0, [value])

@@ -76,7 +76,7 @@ def test_near_the_static_limit():
 @pytest.mark.parametrize(
     ("wrong", "told"),
     [
-        ({"quantity": "colour"}, "quantity: 'colour'; one of .*eta_d"),
+        ({"quantity": "colour"}, "quantity: 'colour'; one of displacement_excursion, "),
         ({"samples": 100}, "samples: 100"),
         ({"resamples": -1}, "resamples"),
         ({"seed": 0.5}, "seed"),

@@ -32,11 +32,9 @@ _ADVICE = {
         f"from there; if you expect a slow transient, raise {MORE_CYCLES}"
     ),
     Status.TOO_MANY_EVENTS: (
-        "more contacts and detachments in one forcing cycle than are followed, or more steps to "
-        "the next of them than any rig should need: the mass chatters on a bumper (give the bumper "
-        "more damping, or no restitution, if it is met all but without speed, where that asks for "
-        "endless damping, or raise max_events in Python), or a drag with a damping_exponent below "
-        "1 is too stiff where the mass all but stands (raise the exponent, or lower the damping)"
+        "more contacts and detachments in one forcing cycle, or steps between them, than are "
+        "followed: the mass chatters (give the stop more damping or less restitution, or raise "
+        "max_events in Python), or a damping_exponent below 1 is too stiff near rest (raise it)"
     ),
     Status.TOO_MUCH_WORK: (
         "the fastest rate of the rig is too many times the forcing frequency to follow one "

@@ -20,7 +20,7 @@ def undamped_frequency(oscillator: Oscillator) -> float:
     """√(K/M)/2π in Hz, if the isolator is K u and a bounded force without a dashpot; or 0."""
     isolator = oscillator.isolator
     parts = isolator.linear_and_bounded
-    if isolator.damping > 0.0 or parts is None:
+    if isolator.damping > 0.0 or parts is None or parts[0] == 0.0:
         return 0.0
     if isolator.linear:
         return oscillator.natural_frequency
