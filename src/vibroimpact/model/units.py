@@ -53,7 +53,7 @@ _LONGEST = 200
 """Letters of a number with its unit; patterns of longer texts take long to search."""
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _SLOWEST, _FASTEST = 1e-100, 1e100
-"""Frequencies (Hz) beyond have periods, or accelerations, beyond the range of numbers."""
+"""Frequencies (Hz) of a motion beyond have no period, or accelerations, in the range of numbers."""
 _NOT_FINITE = re.compile(r"[+-]?(?:inf|infinity|∞|nan)\b|[+-]?∞", re.IGNORECASE)
 
 # Only products of powers with small exponents: pint evaluates what it is given, and an exponent
@@ -174,10 +174,10 @@ def read(
         number = _number(value, quantity)
         if not math.isfinite(number):
             raise _RefusalError("is not finite")
-        if quantity is FREQUENCY and number and not _SLOWEST <= abs(number) <= _FASTEST:
-            raise _RefusalError(f"is not between {_SLOWEST:g} and {_FASTEST:g} Hz")
         if above is not None and not number > above:
             raise _RefusalError(f"is not greater than {above:g}")
+        if above == 0.0 and quantity is FREQUENCY and not _SLOWEST <= number <= _FASTEST:
+            raise _RefusalError(f"is not between {_SLOWEST:g} and {_FASTEST:g} Hz")
         if minimum is not None and not number >= minimum:
             raise _RefusalError(f"is less than {minimum:g}")
         if maximum is not None and not number <= maximum:
