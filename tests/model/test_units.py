@@ -386,7 +386,7 @@ def test_texts_that_say_nothing_sure_are_refused_at_once(text, told):
 
 @pytest.mark.parametrize("value", [1e-320, 1e-101, "1e-200 Hz", 1e101, 1e308, "1e305 kHz"])
 def test_frequencies_whose_period_is_no_number_are_refused(value):
-    with pytest.raises(InputError, match="^frequency: .* is not between 1e-100 and 1e"):
+    with pytest.raises(InputError, match=r"^frequency: .* is not between 1e-100 and 1e"):
         Harmonic(1.0, value)
     with pytest.raises(InputError, match="is not between"):
         to_si(value, FREQUENCY, "frequencies[0]", above=0.0)
