@@ -213,6 +213,6 @@ def test_given_up_motion_ends_at_its_last_section() -> None:
 def test_a_drag_that_is_too_stiff_is_told_as_one() -> None:
     """Nothing touches here: it is not chatter, and no number of events would do."""
     rig = vi.Oscillator(550.0, vi.Isolator(26e3, 500.0, damping_exponent=0.1), None, None)
-    with pytest.warns(RuntimeWarning, match="a drag with a damping_exponent below 1"):
+    with pytest.warns(RuntimeWarning, match="a damping_exponent below 1 is too stiff"):
         data = vi.simulate(rig, vi.Harmonic(0.5, 1.0), 1)
     assert "raise the exponent, or lower the damping" in data.attrs["status"]
