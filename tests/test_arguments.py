@@ -6,6 +6,7 @@ import random
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import arguments
@@ -103,3 +104,38 @@ def test_nonsense_is_one_line(name: str, folder: Path, monkeypatch: pytest.Monke
                 assert "x" * 200 not in message, (field, label)
             except Exception as error:
                 pytest.fail(f"{name}({field}={label}): {type(error).__name__}: {error}")
+
+
+OSCILLATOR = vi.Oscillator(1.0, vi.Isolator(100.0, 1.0), right=vi.Bumper(1e4, 5.0, 0.01))
+SHAKING = vi.Harmonic(1.0, 1.0)
+
+
+@pytest.mark.parametrize("wrong", [5, "x", np.ones((3, 3)), [1.0]])
+@pytest.mark.parametrize(
+    ("field", "call"),
+    [
+        ("vary", lambda v: vi.lyapunov_exponents(vi.Rig(OSCILLATOR, 1.0), [1.0], vary=v)),
+        ("vary", lambda v: vi.demands(OSCILLATOR, [vi.Record([0.0, 1.0], 0.01)], vary=v)),
+        (
+            "limits",
+            lambda v: vi.least_acceleration(OSCILLATOR, SHAKING, {"gap": (0.01, 0.05)}, limits=v),
+        ),
+        ("starts", lambda v: vi.coexisting(OSCILLATOR, SHAKING, starts=v)),
+        (
+            "starts",
+            lambda v: vi.bifurcation_diagram(
+                OSCILLATOR, SHAKING, parameter="frequency", low=1.0, high=1.1, steps=2, starts=v
+            ),
+        ),
+    ],
+)
+def test_what_is_no_mapping_is_one_line(field, call, wrong):
+    with pytest.raises(vi.InputError, match=rf"^{field}: .* is accepted$"):
+        call(wrong)
+
+
+def test_what_is_no_list_of_saddles_and_no_fit_is_one_line(tmp_path):
+    with pytest.raises(vi.InputError, match=r"^saddles: 5 is not a list"):
+        vi.manifolds(OSCILLATOR, SHAKING, saddles=5, displacement=(-1, 1), velocity=(-1, 1))
+    with pytest.raises(vi.InputError, match=r"^result: this is no fit"):
+        vi.fit_report(5, tmp_path)

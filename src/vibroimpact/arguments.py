@@ -12,6 +12,10 @@ from vibroimpact.errors import InputError, shown, unknown
 
 LONGEST_PATH = 4096
 """Letters of a path, as operating systems take them."""
+VALUES = "a mapping of values by the names of parameters"
+"""What varies, in words."""
+STARTS = 'a mapping of states by name, such as {"mine": State(0.01, 0.0)},'
+"""Where motions start, in words."""
 MOST_LISTED = 1_000_000
 """Items of a list that is not a record."""
 

@@ -184,3 +184,23 @@ def test_a_step_beside_even_times(tmp_path):
     record = vi.Record.read(path, step=0.05)
     assert record.step == 0.05
     assert "step 50 ms, not the file's 0.1 s" in record.about.notes
+
+
+@pytest.mark.parametrize(
+    "head", ["time_s acc_g", "time (s) acceleration (g)", "time[s]  acc[g]", "Time Acc(g)"]
+)
+def test_units_of_a_header_between_spaces(tmp_path, head):
+    path = tmp_path / "spaced.txt"
+    rows = [f"{0.01 * i:.4f} {math.sin(i):.6f}" for i in range(60)]
+    path.write_text("\n".join([head, *rows]), encoding="utf-8")
+    record = vi.Record.read(path)
+    assert abs(record.acceleration).max() == pytest.approx(9.80665, rel=1e-3)
+    assert not any("none" in note for note in record.about.notes)
+
+
+def test_a_sentence_above_the_numbers_names_no_columns(tmp_path):
+    path = tmp_path / "sentence.txt"
+    rows = [f"{0.01 * i:.4f} {math.sin(i):.6f}" for i in range(60)]
+    path.write_text("\n".join(["Kobe station", *rows]), encoding="utf-8")
+    with pytest.warns(vi.InputWarning, match="the file says none"):
+        vi.Record.read(path)

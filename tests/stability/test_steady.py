@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 
 import numpy as np
@@ -261,3 +262,11 @@ def test_what_settles_slowly_is_not_quasi_periodic_where_bumpers_forget():
     assert int(data["stable"]) == 1
     assert "0.99963" in data.attrs["evidence"]
     assert "settles slowly" in data.attrs["evidence"]
+
+
+def test_a_motion_that_grows_between_a_wall_and_nothing_has_no_kind():
+    """A wall doubles the natural frequency: at this resonance nothing holds the motion."""
+    oscillator = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), left=vi.Bumper(3.0, 0.0, 0.3))
+    data = vi.steady(oscillator, vi.Harmonic(1.0, 4.0 / 3.0 / math.tau), exponent_cycles=4000)
+    assert data["motion"].item() == "undecided"
+    assert "the motion grows" in data.attrs["evidence"]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_progress
+from vibroimpact.arguments import check_list, check_progress
 from vibroimpact.attraction.crossings import crossings
 from vibroimpact.attraction.curve import Curve, Measure
 from vibroimpact.attraction.followed import Stage
@@ -120,7 +120,7 @@ def manifolds(
         orbits = border_saddles(search, (wide, fast), progress)
     else:
         alone = isinstance(saddles, xr.Dataset | State)
-        given: list[Any] = [saddles] if alone else list(saddles)
+        given: list[Any] = [saddles] if alone else list(check_list(saddles, "saddles"))
         orbits = [given_saddle(stage, one, period, f"saddles[{i}]") for i, one in enumerate(given)]
     points = [p for i, one in enumerate(orbits) for p in saddle_points(one, f"saddles[{i}]")]
     data = _dataset(points, _curves(stage, points, measure, workers, progress), measure)

@@ -40,6 +40,8 @@ _STEP = re.compile(
     re.IGNORECASE,
 )
 _END = re.compile(r"\W*end\W+(?:of\W+)?(?:the\W+)?(?:data|file|record)\W*", re.IGNORECASE)
+_WORD = re.compile(r"[^\s(\[]+(?:\s*(?:\([^)]*\)|\[[^\]]*\]))?")
+"""A name between spaces, with the unit in brackets behind it."""
 _IN_A_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "-": 1.0, "": 1.0}
 _Array = NDArray[np.float64]
 
@@ -137,6 +139,10 @@ def _names(words: list[str], columns: int) -> tuple[list[str], list[str | None]]
     under: list[str] | None = None
     for line in reversed(words):
         names = [name.strip().strip("\"'").strip() for name in re.split(r"[,;\t]", line)]
+        if len(names) != columns:
+            names = _WORD.findall(line)
+            if len(names) == columns and not any(unit_of(name) for name in names):
+                continue  # a sentence
         if len(names) != columns or not any(names):
             continue
         if under is None and columns > 1 and are_units(names):

@@ -80,7 +80,7 @@ def fit_report(
     InputError
         If the dataset is no fit, or a file cannot be written.
     """
-    if "fitted_value" not in result:
+    if not isinstance(result, xr.Dataset) or "fitted_value" not in result:
         raise InputError("result: this is no fit; a dataset of identify is accepted")
     where = Path(folder)
     files: dict[str, Path] = {}

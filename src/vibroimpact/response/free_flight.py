@@ -162,7 +162,8 @@ def _check(
     """Refuse resonance of an undamped isolator; the field may have a place for the position."""
     if undamped_frequency(oscillator) == 0.0:
         return
-    held = "" if oscillator.isolator.linear else ", whose bounded force is too small to hold it,"
+    bounded = oscillator.isolator.linear_and_bounded
+    held = ", whose bounded force is too small to hold it," if bounded and bounded[1] else ""
     for i, frequency in enumerate(frequencies):
         if n := grows(oscillator, shaken, float(frequency), _RESONANT):
             which = "" if n == 1 else f" over {n}"

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.arguments import VALUES, check_mapping
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Harmonic, Oscillator, Record
 from vibroimpact.model.parameters import PARAMETERS
@@ -81,7 +82,7 @@ def runs(oscillator: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] 
         rigs = {"rig": _rig(oscillator, "oscillator")}
     if not rigs:
         raise InputError("oscillator: none given; one or several are accepted")
-    given = dict(vary or {})
+    given = dict(check_mapping({} if vary is None else vary, "vary", VALUES))
     if gaps is not None:
         if "gap" in given:
             raise InputError("gaps: given beside vary['gap']; one of the two is accepted")

@@ -7,6 +7,7 @@ from typing import Any
 
 import xarray as xr
 
+from vibroimpact.arguments import check_mapping
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import to_si
 from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
@@ -27,8 +28,9 @@ def limits_of(limits: Any) -> dict[str, float]:
     """
     accepted = [name for name in PEAKS if name != "peak_acceleration"]
     found = {}
-    for name, value in dict(limits or {}).items():
-        key = str(name).replace("-", "_")
+    given = check_mapping({} if limits is None else limits, "limits", "a mapping of limits by name")
+    for name, value in given.items():
+        key = name.replace("-", "_")
         if key not in accepted:
             raise InputError(f"limits: {unknown(name, accepted)}")
         quantity = QUANTITIES[VARIABLES[key].units]

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import STARTS, check_mapping
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -219,7 +220,7 @@ def _ways(
     for direction in given:
         if direction not in DIRECTIONS:
             raise InputError(f"directions: {direction!r}; 'up' and 'down' are accepted")
-    named = dict(starts or {})
+    named = check_mapping({} if starts is None else starts, "starts", STARTS)
     for name in named:
         if name in DIRECTIONS:
             raise InputError(f"starts: {name!r} is a direction; another name is accepted")

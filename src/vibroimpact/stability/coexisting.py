@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import STARTS, check_mapping
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, RigidStop, State, Stop
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
@@ -93,11 +93,7 @@ def coexisting(
         If a value cannot be used.
     """
     random = whole(random, "random", 0)
-    if not isinstance(starts or {}, Mapping):
-        raise InputError(
-            f"starts: {type(starts).__name__} is no mapping; states by name are accepted, such as "
-            '{"mine": State(0.01, 0.0)}'
-        )
+    named = check_mapping({} if starts is None else starts, "starts", STARTS)
     kept: list[_Kept] = []
     given_up: dict[Status, tuple[State | NDArray[np.float64], list[str]]] = {}
     options = (samples, window, exponent_cycles, max_events)
@@ -118,7 +114,7 @@ def coexisting(
         oscillator, excitation, frequencies, max_cycles, max_events
     ).items():
         go(name, start)
-    for name, state in (starts or {}).items():
+    for name, state in named.items():
         go(name, as_state(state))
     size = max((reach(one.found, one.found.state) for one in kept), default=0.0)
     size = size or reach_at_rest(oscillator, excitation)

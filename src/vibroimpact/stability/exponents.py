@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.arguments import VALUES, check_mapping
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
@@ -119,7 +120,7 @@ def lyapunov_exponents(
     first = pairs[0][0]
     every = tuple(
         varied(name, values, first, f"vary[{name!r}]", ("frequency",), "has an argument of its own")
-        for name, values in (vary or {}).items()
+        for name, values in check_mapping({} if vary is None else vary, "vary", VALUES).items()
     )
     shape = (len(pairs), len(grid), *(len(one.values) for one in every))
     items = [

@@ -99,7 +99,8 @@ def averages(
     away = np.cumsum(logarithms - mean * lengths, axis=0)
     ends = (away.max(axis=0) - away.min(axis=0)) / (_BRIDGE * cycles)
     spread = blocks.std(axis=0, ddof=1) / math.sqrt(BLOCKS)
-    return mean, np.sqrt(0.5 * (spread**2 + ends**2))
+    # Of what is forgotten in each cycle nothing is left to be uncertain of.
+    return mean, np.where(np.isneginf(mean), 0.0, np.sqrt(0.5 * (spread**2 + ends**2)))
 
 
 @np.errstate(invalid="ignore")
@@ -138,6 +139,8 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
     quarters = np.diff(np.concatenate([[0.0], total[np.arange(1, 5) * cycles // 4 - 1]]))
     if whole > CLEAR + margin and whole - half > CLEAR and quarters.min() > 0.0 and apart:
         return Judgement("chaotic", 0, mean, uncertainty, grown)
+    if rise := growing(section):
+        return Judgement("undecided", 0, mean, uncertainty, f"{grown}: the motion grows, {rise}")
     bounded = max(abs(whole), abs(half)) <= margin
     if bounded and apart and whole < 0.0:
         told = f"{grown}: it still decays, slowly"
@@ -145,8 +148,6 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
     if bounded and damping is not None and forgets(logarithms, damping):
         told = f"{grown}: as on a torus, but where bumpers forget there is none; it settles slowly"
         return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
-    if rise := growing(section):
-        return Judgement("undecided", 0, mean, uncertainty, f"{grown}: the motion grows, {rise}")
     if bounded and cycles >= ENOUGH:
         return Judgement(
             "quasi-periodic", 0, mean, uncertainty, f"{grown}: no more than on a torus"
