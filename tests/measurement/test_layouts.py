@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+
 import h5py
 import numpy as np
 import pytest
@@ -142,6 +144,31 @@ def test_channels_of_one_name_are_told_by_their_node(tmp_path):
     assert "acceleration of node 2" in vi.read_measurement(path).attrs["left_out"]
     named = vi.read_measurement(path, columns={"base_acceleration": "acceleration of node 2"})
     np.testing.assert_allclose(named["base_acceleration"], BASE, rtol=1e-5, atol=1e-7)
+
+
+@pytest.mark.filterwarnings("ignore::ResourceWarning")
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+@pytest.mark.parametrize("count", [1, 2])
+def test_binary_universal_files_are_read_whole_and_refused_cut(tmp_path, count):
+    """Their last mark stands behind the numbers, with no line of its own."""
+    pyuff = pytest.importorskip("pyuff")
+    path = tmp_path / "test.uff"
+    for node, values in ((1, ACCELERATION), (2, BASE))[:count]:
+        one = pyuff.prepare_58(
+            binary=1, func_type=1, rsp_node=node, rsp_dir=1, ref_dir=1, ref_node=0, data=values,
+            x=TIME, id1="NONE", rsp_ent_name="NONE", ref_ent_name="NONE", abscissa_spacing=1,
+            abscissa_spec_data_type=17, ordinate_spec_data_type=12, orddenom_spec_data_type=0,
+            ordinate_axis_units_lab="m/s^2",
+        )  # fmt: skip
+        pyuff.UFF(str(path)).write_sets(one, "add")
+    gc.collect()  # pyuff leaves the file open
+    data = vi.read_measurement(path)
+    np.testing.assert_allclose(data["acceleration"], ACCELERATION, rtol=1e-5, atol=1e-7)
+    whole, cut = path.read_bytes(), tmp_path / "cut.uff"
+    for share in (0.4, 0.9, 0.99):
+        cut.write_bytes(whole[: int(share * len(whole))])
+        with pytest.raises(vi.InputError, match="it was cut"):
+            vi.read_measurement(cut)
 
 
 def test_several_tests_go_by_their_names(tmp_path):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import re
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -14,6 +13,7 @@ import xarray as xr
 from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer import share
 from vibroimpact.explorer.state import State
+from vibroimpact.model.names import file_stem
 from vibroimpact.response.files import save
 from vibroimpact.response.table import to_table
 
@@ -44,9 +44,8 @@ def made(kind: str, state: State, swept: Callable[[], xr.Dataset]) -> dict[str, 
     if kind not in ways:
         raise InputError(f"file: {shown(kind)}; one of {', '.join(ways)} is accepted")
     ending, mime, write = ways[kind]
-    stem = re.sub(r"[^A-Za-z0-9.+-]+", "-", state.name).strip("-") or "rig"
     return {
-        "file": stem + ending,
+        "file": file_stem(state.name) + ending,
         "mime": mime,
         "bytes": base64.b64encode(write()).decode(),
     }

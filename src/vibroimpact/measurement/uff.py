@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -73,6 +74,10 @@ def _axis(one: Mapping[str, Any], x: Any) -> Column:
     return Column("frequency" if spectral or unit == "rpm" else "time", unit, x)
 
 
+_BINARY = re.compile(rb"^\s*58b\s", re.MULTILINE)
+"""The header of a set of binary numbers."""
+
+
 def _whole(path: Path) -> None:
     """See to it that every set has its end.
 
@@ -81,7 +86,13 @@ def _whole(path: Path) -> None:
     InputError
         If the last one has none.
     """
-    lines = [line for one in path.read_bytes().splitlines() if (line := one.strip())]
+    given = path.read_bytes()
+    lines = [line for one in given.splitlines() if (line := one.strip())]
+    if _BINARY.search(given):
+        # The mark stands behind the last number, with no line of its own; pyuff counts the numbers.
+        if not given.rstrip().endswith(b"    -1"):
+            raise _cut(path)
+        return
     marks = lines.count(b"-1")
     if marks and (marks % 2 or lines[-1] != b"-1"):
         raise _cut(path)

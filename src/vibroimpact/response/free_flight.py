@@ -125,7 +125,8 @@ def peak_ratio(damping_ratio: float, shaken: Harmonic) -> float:
     At √(1 − 2ξ²), or at 1/√(1 − 2ξ²) where the displacement of the base is given. With ξ of 1/√2
     or more there is no peak, and it is 0 or infinite: the end towards which the curve rises.
     """
-    below = math.sqrt(max(0.0, 1.0 - 2.0 * damping_ratio**2))
+    # As a product: the square of a huge ratio is beyond the range of numbers.
+    below = math.sqrt(max(0.0, 1.0 - 2.0 * damping_ratio * damping_ratio))
     if shaken.of != "displacement":
         return below
     return 1.0 / below if below else math.inf

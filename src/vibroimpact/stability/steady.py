@@ -254,8 +254,11 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
         data = _record(found, found.state, samples, 1, max_events)
+        if not data.sizes["time"]:
+            data = _until_the_last_event(data, found, samples)
     if not data.sizes["time"]:
-        data = _until_the_last_event(data, found, samples)
+        told = found.status.advice
+        raise InputError(f"excitation: nothing of the motion could be followed: {told}")
     warnings.warn(
         f"steady stopped in cycle {found.cycles}: {found.status.advice}",
         RuntimeWarning,
