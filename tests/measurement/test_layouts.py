@@ -130,17 +130,22 @@ def test_the_same_channels(write, ending, tmp_path):
         assert "the time is made of" in data.attrs["notes"]
 
 
-def test_channels_of_one_name_are_told_by_their_node(tmp_path):
+def nodes(path, channels, binary):
+    """Functions that only their node distinguishes."""
     pyuff = pytest.importorskip("pyuff")
-    path = tmp_path / "test.uff"
-    for node, values in ((1, ACCELERATION), (2, BASE)):
+    for node, values in enumerate(channels, start=1):
         one = pyuff.prepare_58(
-            binary=0, func_type=1, rsp_node=node, rsp_dir=1, ref_dir=1, ref_node=0, data=values,
-            x=TIME, id1="NONE", rsp_ent_name="NONE", ref_ent_name="NONE", abscissa_spacing=1,
-            abscissa_spec_data_type=17, ordinate_spec_data_type=12, orddenom_spec_data_type=0,
-            ordinate_axis_units_lab="m/s^2",
+            binary=binary, func_type=1, rsp_node=node, rsp_dir=1, ref_dir=1, ref_node=0,
+            data=values, x=TIME, id1="NONE", rsp_ent_name="NONE", ref_ent_name="NONE",
+            abscissa_spacing=1, abscissa_spec_data_type=17, ordinate_spec_data_type=12,
+            orddenom_spec_data_type=0, ordinate_axis_units_lab="m/s^2",
         )  # fmt: skip
         pyuff.UFF(str(path)).write_sets(one, "add")
+
+
+def test_channels_of_one_name_are_told_by_their_node(tmp_path):
+    path = tmp_path / "test.uff"
+    nodes(path, [ACCELERATION, BASE], binary=0)
     assert "acceleration of node 2" in vi.read_measurement(path).attrs["left_out"]
     named = vi.read_measurement(path, columns={"base_acceleration": "acceleration of node 2"})
     np.testing.assert_allclose(named["base_acceleration"], BASE, rtol=1e-5, atol=1e-7)
@@ -151,16 +156,8 @@ def test_channels_of_one_name_are_told_by_their_node(tmp_path):
 @pytest.mark.parametrize("count", [1, 2])
 def test_binary_universal_files_are_read_whole_and_refused_cut(tmp_path, count):
     """Their last mark stands behind the numbers, with no line of its own."""
-    pyuff = pytest.importorskip("pyuff")
     path = tmp_path / "test.uff"
-    for node, values in ((1, ACCELERATION), (2, BASE))[:count]:
-        one = pyuff.prepare_58(
-            binary=1, func_type=1, rsp_node=node, rsp_dir=1, ref_dir=1, ref_node=0, data=values,
-            x=TIME, id1="NONE", rsp_ent_name="NONE", ref_ent_name="NONE", abscissa_spacing=1,
-            abscissa_spec_data_type=17, ordinate_spec_data_type=12, orddenom_spec_data_type=0,
-            ordinate_axis_units_lab="m/s^2",
-        )  # fmt: skip
-        pyuff.UFF(str(path)).write_sets(one, "add")
+    nodes(path, [ACCELERATION, BASE][:count], binary=1)
     gc.collect()  # pyuff leaves the file open
     data = vi.read_measurement(path)
     np.testing.assert_allclose(data["acceleration"], ACCELERATION, rtol=1e-5, atol=1e-7)

@@ -38,9 +38,10 @@ def grows(oscillator: Oscillator, shaken: Repeated, frequency: float, within: fl
     natural = undamped_frequency(oscillator)
     if natural == 0.0:
         return 0
-    for n, size in enumerate(_sizes(oscillator, shaken, frequency), start=1):
+    for n in range(1, _count(shaken) + 1):
         ratio = n * frequency / natural
-        if abs((1.0 - ratio) * (1.0 + ratio)) <= within and _exceeds(oscillator, size):
+        near = abs((1.0 - ratio) * (1.0 + ratio)) <= within
+        if near and _exceeds(oscillator, _sizes(oscillator, shaken, frequency)[n - 1]):
             return n
     return 0
 
@@ -50,8 +51,13 @@ def has_no_bound(oscillator: Oscillator, shaken: Repeated) -> bool:
     natural = undamped_frequency(oscillator)
     if natural == 0.0:
         return False
-    count = len(shaken.amplitudes) if isinstance(shaken, Periodic) else 1
-    return any(grows(oscillator, shaken, natural / n, 1e-12) for n in range(1, count + 1))
+    harmonics = range(1, _count(shaken) + 1)
+    return any(grows(oscillator, shaken, natural / n, 1e-12) for n in harmonics)
+
+
+def _count(shaken: Repeated) -> int:
+    """Number of harmonics."""
+    return len(shaken.amplitudes) if isinstance(shaken, Periodic) else 1
 
 
 def _sizes(oscillator: Oscillator, shaken: Repeated, frequency: float) -> list[float]:

@@ -7,13 +7,14 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, lyapunov
+from vibroimpact.engine import batch, hold, lyapunov
+from vibroimpact.engine import motion as layout
 from vibroimpact.engine.memory import TERMS
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Repeated
 from vibroimpact.response.interruptible import Calls
-from vibroimpact.response.threads import Progress
+from vibroimpact.response.threads import CYCLES, Progress, Tally, watched
 
 _Array = NDArray[np.float64]
 
@@ -40,6 +41,57 @@ def moved_on(
         np.empty((max_events + 1, record.EVENT)),
     )
     return Status(outcome), later
+
+
+def hold_once(
+    rig: _Array,
+    excitation: Repeated,
+    state: _Array,
+    tolerance: float,
+    max_cycles: int,
+    window: int,
+    max_events: int,
+    progress: Progress | None = None,
+) -> tuple[_Array, _Array]:
+    """Hold one frequency until the motion has settled; Ctrl-C ends it.
+
+    Parameters
+    ----------
+    rig, excitation
+        What vibrates, and what shakes it.
+    state
+        Of the engine, at the section.
+    tolerance, max_cycles, window, max_events
+        As in `engine.batch.sweep`.
+    progress
+        Called with the cycles done and `max_cycles`.
+
+    Returns
+    -------
+    result, reached
+        As `engine.batch.sweep` writes them for one frequency.
+    """
+    result, reached = np.empty((1, hold.RESULTS)), np.zeros((1, layout.STATE))
+
+    def hold_it(tally: Tally) -> None:
+        batch.sweep(
+            rig,
+            np.array([excitation.amplitude]),
+            np.array([excitation.frequency]),
+            excitation.phase,
+            state.copy(),
+            tolerance,
+            max_cycles,
+            window,
+            max_events,
+            hold.PATIENT,
+            result,
+            reached,
+            tally,
+        )
+
+    watched(hold_it, max_cycles, progress, CYCLES)
+    return result[0], reached[0]
 
 
 def grown(

@@ -19,6 +19,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.equilibrium import equilibrium
+from vibroimpact.response.follow import hold_once
 from vibroimpact.response.start import engine_state, system_vector
 
 _Array = NDArray[np.float64]
@@ -45,6 +46,7 @@ _PATIENTLY, SOON = 2000, 32
 """Cycles in which a motion should settle by itself, and beside where it is expected."""
 _WINDOW = 64
 """Cycles over which one that does not settle is measured."""
+_TOLERANCE = 1e-9
 _MAX_EVENTS = 10_000
 
 
@@ -118,10 +120,11 @@ def beside(one: Flight, past: Sequence[Held], frequency: float) -> tuple[Held, f
     held, missed
         And how far it was from where it was expected, over its size.
     """
-    expected = np.zeros(layout.STATE)
-    for this in past:  # the line through the last two
-        others = [other.frequency for other in past if other is not this]
-        expected += this.state * math.prod((frequency - f) / (this.frequency - f) for f in others)
+    *before, last = past
+    expected = last.state.copy()
+    for one_before in before:  # the line through both
+        share = (frequency - last.frequency) / (last.frequency - one_before.frequency)
+        expected += share * (last.state - one_before.state)
     if not _size(expected, frequency) > 0.0:
         return None
     for found in (_settled(one, expected, frequency, SOON), _corrected(one, expected, frequency)):
@@ -205,11 +208,15 @@ def _corrected(one: Flight, near: _Array, frequency: float) -> Held | None:
 
 def _settled(one: Flight, begin: _Array, frequency: float, cycles: int) -> Held:
     """What the motion from a state does after so many cycles at most."""
-    return swept(one, begin, [frequency], cycles)[0]
+    if cycles == SOON:
+        return swept(one, begin, [frequency])[0]
+    here = one.shaken.replace(amplitude=one.level(frequency), frequency=frequency, phase=0.0)
+    row, reached = hold_once(one.system, here, begin, _TOLERANCE, cycles, _WINDOW, _MAX_EVENTS)
+    return Held(frequency, row, reached)
 
 
-def swept(one: Flight, begin: _Array, frequencies: Sequence[float], cycles: int) -> list[Held]:
-    """One motion after the other, each waited for so many cycles at most, from a state."""
+def swept(one: Flight, begin: _Array, frequencies: Sequence[float]) -> list[Held]:
+    """One motion after the other, each waited for a few cycles, from a state."""
     results = np.empty((len(frequencies), hold.RESULTS))
     states = np.zeros((len(frequencies), layout.STATE))
     batch.sweep(
@@ -218,9 +225,9 @@ def swept(one: Flight, begin: _Array, frequencies: Sequence[float], cycles: int)
         np.array(frequencies),
         0.0,
         begin.copy(),
-        1e-9,
-        cycles,
-        min(cycles, _WINDOW),
+        _TOLERANCE,
+        SOON,
+        SOON,
         _MAX_EVENTS,
         hold.PATIENT,
         results,

@@ -17,7 +17,6 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.response.free_branch import (
-    SOON,
     Flight,
     Held,
     backward,
@@ -59,7 +58,7 @@ def swept_flight(
     one = flight(oscillator.without_bumpers(), shaken, level)
     falling = [float(frequency) for frequency in frequencies[::-1]]
     begin = engine_state(one.oscillator, equilibrium(one.oscillator))
-    found = swept(one, begin, falling, SOON)
+    found = swept(one, begin, falling)
     if not all(held.results[hold.OUTCOME] == Status.DONE for held in found):
         # What settles slowly is not waited for.
         found = [from_rest(one, falling[0])]

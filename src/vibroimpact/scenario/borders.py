@@ -53,7 +53,8 @@ def jump_border(
     lines
         At how many values of the other parameter, at most, the border is sought.
     threads
-        How many folds are followed at once; None for one a processor. No result depends on it.
+        Number of folds that are followed in parallel; None: one per processor. The result is the
+        same for any number.
     where
         As for `scenario_map`; None for what that takes by itself for such a map.
     progress

@@ -7,16 +7,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold
+from vibroimpact.engine import hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.counts import share
-from vibroimpact.response.follow import moved_on
+from vibroimpact.response.follow import hold_once, moved_on
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import CYCLES, Progress, Tally, watched
+from vibroimpact.response.threads import Progress
 from vibroimpact.stability.fixed_points import Orbit, vector_of
 
 _Array = NDArray[np.float64]
@@ -66,35 +66,17 @@ def approach(
         if start.phase is not None:
             excitation = excitation.replace(phase=start.phase)
         start = engine_state(oscillator, start)
-    begin = start
-    result = np.empty((1, hold.RESULTS))
-    reached = np.zeros((1, layout.STATE))
-
-    def hold_it(tally: Tally) -> None:
-        batch.sweep(
-            engine_rig(oscillator, excitation),
-            np.array([excitation.amplitude]),
-            np.array([excitation.frequency]),
-            excitation.phase,
-            begin.copy(),
-            tolerance,
-            max_cycles,
-            1,
-            max_events,
-            hold.PATIENT,
-            result,
-            reached,
-            tally,
-        )
-
-    watched(hold_it, max_cycles, progress, CYCLES)
-    outcome = Status(int(judged(oscillator, result[0, hold.OUTCOME], np.nan)))
+    rig = engine_rig(oscillator, excitation)
+    result, reached = hold_once(
+        rig, excitation, start, tolerance, max_cycles, 1, max_events, progress
+    )
+    outcome = Status(int(judged(oscillator, result[hold.OUTCOME], np.nan)))
     return Settled(
         oscillator,
         excitation,
-        reached[0] if np.isfinite(reached[0]).all() else start,
-        int(result[0, hold.PERIOD]),
-        int(result[0, hold.CYCLES]),
+        reached if np.isfinite(reached).all() else start,
+        int(result[hold.PERIOD]),
+        int(result[hold.CYCLES]),
         outcome,
     )
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold
+from vibroimpact.engine import hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.status import Status
@@ -20,10 +20,11 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator, Repeated, RigidStop, State, equilibrium
 from vibroimpact.model.access import Setting
 from vibroimpact.model.parameters import Parameter
+from vibroimpact.response.follow import hold_once
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import Stopped, Tally, watched
+from vibroimpact.response.threads import Stopped, Tally
 from vibroimpact.stability.settled import Settled, reach_at_rest
 
 _Array = NDArray[np.float64]
@@ -114,28 +115,10 @@ def stepped(
 
 
 def _held(rig: Oscillator, shaken: Repeated, state: _Array, patience: Patience) -> Held:
-    results = np.empty((1, hold.RESULTS))
-    reached = np.zeros((1, layout.STATE))
-
-    def hold_it(tally: Tally) -> None:
-        batch.sweep(
-            engine_rig(rig, shaken),
-            np.array([shaken.amplitude]),
-            np.array([shaken.frequency]),
-            shaken.phase,
-            state.copy(),
-            *patience,
-            hold.PATIENT,
-            results,
-            reached,
-            tally,
-        )
-
-    watched(hold_it, 1)
-    row = results[0]
+    row, reached = hold_once(engine_rig(rig, shaken), shaken, state, *patience)
     swing = np.abs(row[[hold.U_LEAST, hold.U_MOST]]).max()
     status = Status(int(judged(rig, row[hold.OUTCOME], swing)))
-    found = Settled(rig, shaken, reached[0], int(row[hold.PERIOD]), int(row[hold.CYCLES]), status)
+    found = Settled(rig, shaken, reached, int(row[hold.PERIOD]), int(row[hold.CYCLES]), status)
     return Held(found, row)
 
 
