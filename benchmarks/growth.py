@@ -8,7 +8,7 @@ import vibroimpact as vi
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import interleave
 from vibroimpact.response.sweep import named_rigs
-from vibroimpact.response.threads import each
+from vibroimpact.tasks.threads import each
 
 _MOST = 1.2
 """Above it a time is not in proportion."""

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 import vibroimpact as vi
 from benchmarks.report import Table, met, targets
 from vibroimpact.identification.curves import CurveTest
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 _FIT = 10.0
 _BOOTSTRAP = 120.0

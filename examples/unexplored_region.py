@@ -17,8 +17,8 @@ from matplotlib.figure import Figure
 
 import vibroimpact as vi
 from vibroimpact.figures import feature_map, save_figure, scenario_map
-from vibroimpact.scenario.borders import jump_border
-from vibroimpact.scenario.kinds import Scenario
+from vibroimpact.scenarios.borders import jump_border
+from vibroimpact.scenarios.kinds import Scenario
 
 COUNTS = ("left_hysteresis_count", "irregular_count", "chaotic_count", "subharmonic_count")
 

@@ -11,7 +11,7 @@ import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact.figures import resonance_curves
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 case = vi.laboratory.case("B2-G1-A3", parameters="identified")
 model = vi.sweep(case, [k / 50 for k in range(25, 201)])

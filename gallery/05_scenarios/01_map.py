@@ -11,7 +11,7 @@ import numpy as np
 
 import vibroimpact as vi
 from vibroimpact.figures import Mark, scenario_map
-from vibroimpact.scenario.borders import jump_border
+from vibroimpact.scenarios.borders import jump_border
 
 data = vi.scenario_map(
     ("stiffness_ratio", np.geomspace(0.5, 100.0, 17)),

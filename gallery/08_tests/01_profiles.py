@@ -12,7 +12,7 @@ import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact.figures import fit_profiles
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 # A test with 2 % of noise, and a guess that is far off.
 case = vi.laboratory.case("B2-G2-A2", "identified")

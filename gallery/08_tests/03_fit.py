@@ -10,7 +10,7 @@ import numpy as np
 
 import vibroimpact as vi
 from vibroimpact.figures import fit_history
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 case = vi.laboratory.case("B2-G1-A3")
 motion = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, "2 Hz"), 12, samples=48)

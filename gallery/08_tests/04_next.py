@@ -13,7 +13,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 import vibroimpact as vi
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 case = vi.laboratory.case("B2-G2-A2", "identified")
 swept = vi.sweep(case, [k / 10 for k in range(8, 35)])

@@ -8,7 +8,7 @@ import pytest
 import vibroimpact as vi
 from samples import sample
 from vibroimpact.attraction.matching import apart, matched
-from vibroimpact.response.vocabulary import VARIABLES
+from vibroimpact.datasets.vocabulary import VARIABLES
 
 WINDOW = (-0.012, 0.012), (-0.1, 0.1)
 CODE = "B3-10mm-A3"

@@ -11,7 +11,7 @@ import xarray as xr
 import vibroimpact as vi
 from samples import sample
 from vibroimpact.attraction.followed import NO_TRAPS, Stage, follow
-from vibroimpact.response.vocabulary import VARIABLES
+from vibroimpact.datasets.vocabulary import VARIABLES
 
 CODE, HERTZ = "B3-10mm-A3", 0.7
 WINDOW = (-0.012, 0.012), (-0.1, 0.1)

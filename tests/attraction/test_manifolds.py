@@ -14,7 +14,7 @@ import vibroimpact as vi
 from samples import sample
 from vibroimpact.attraction.crossings import crossings
 from vibroimpact.attraction.followed import NO_TRAPS, Stage, follow, images
-from vibroimpact.response.vocabulary import VARIABLES
+from vibroimpact.datasets.vocabulary import VARIABLES
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 EXCITATION = vi.Harmonic(CASE.amplitude, 0.7)

@@ -17,7 +17,7 @@ from vibroimpact.cli import main
 def no_lines_of_progress():
     """Where the engine has to be compiled a command may take long enough for one."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("vibroimpact.response.progress.LINES", math.inf)
+        patch.setattr("vibroimpact.tasks.progress.LINES", math.inf)
         yield
 
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from earthquakes.rigs import noise
 from measured import measured
-from seismic.rigs import noise
 from vibroimpact.cli import sized
 
 COMMAND = "design"
@@ -60,7 +60,7 @@ def test_a_study_with_records(run, study):
     }
     records = {name: vi.Record.read(study / name) for name in RECORDS}
     vary = {"gap": np.linspace(0.02, 0.2, 3), "bumper_stiffness": np.geomspace(5e7, 1e9, 4)}
-    direct = vi.design(_rig(), records, vary, fractile=0.5, limits={"penetration": 0.04})
+    direct = vi.design_chart(_rig(), records, vary, fractile=0.5, limits={"penetration": 0.04})
     held = vi.load(out / "building-design.nc")
     for name in SIZES:
         np.testing.assert_allclose(held[name], direct[name], rtol=1e-12)
@@ -131,7 +131,7 @@ def test_where_no_gap_is_enough_for_all_it_is_told():
     """As of a spring that lets go of the mass under the stronger of two records."""
     gap = vi.required_gap(_rig(), RECORDS, fractile=0.0)
     gap["peak_displacement_left"][1] = np.inf
-    data = vi.design(_rig(), RECORDS, {"gap": [0.02, 0.06]}, fractile=0.0)
+    data = vi.design_chart(_rig(), RECORDS, {"gap": [0.02, 0.06]}, fractile=0.0)
     told = " ".join(str(line) for line in sized.text(_rig(), gap, data, None, list(RECORDS)))
     assert "; no gap is enough for all of them. " in told
     assert "the mass hits a stop under 1 of the 2 records." in told

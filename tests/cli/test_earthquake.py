@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from seismic.rigs import noise
+from earthquakes.rigs import noise
 
 COMMAND = "earthquake"
 

@@ -20,7 +20,7 @@ from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.measure import measure_phases
 from vibroimpact.engine.parameters import Drive, Law, free_rig, rig_vector
 from vibroimpact.engine.recorded import follow
-from vibroimpact.response.threads import available
+from vibroimpact.tasks.threads import available
 
 ONE_SINE = {
     "Curved": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0)),

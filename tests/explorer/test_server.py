@@ -22,7 +22,7 @@ from explorer.conftest import Served
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.server import MOST_MESSAGE, MOST_SESSIONS
 from vibroimpact.explorer.session import Session
-from vibroimpact.response.threads import Stopped
+from vibroimpact.tasks.threads import Stopped
 
 
 def live(served, **options):

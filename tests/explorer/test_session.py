@@ -14,7 +14,7 @@ from vibroimpact.explorer import share
 from vibroimpact.explorer.presets import preset
 from vibroimpact.explorer.server import _text
 from vibroimpact.explorer.session import Session
-from vibroimpact.response.threads import Stopped
+from vibroimpact.tasks.threads import Stopped
 
 
 @pytest.fixture

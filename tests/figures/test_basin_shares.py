@@ -8,8 +8,8 @@ import xarray as xr
 from matplotlib.collections import PolyCollection
 
 import vibroimpact as vi
+from vibroimpact.datasets.description import describe
 from vibroimpact.figures import basin_shares
-from vibroimpact.response.variables import describe
 
 
 def made() -> xr.Dataset:

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
-from seismic.made import lognormal, suite
+from earthquakes.made import lognormal, suite
 from vibroimpact.figures import fragility_curves, incremental_curves
 
 SCALES = np.linspace(0.2, 3.0, 10)

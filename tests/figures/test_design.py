@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from seismic.rigs import RIGS, noise
+from earthquakes.rigs import RIGS, noise
 from vibroimpact.figures import design_chart, pareto_front
 from vibroimpact.model import GRAVITY
 
@@ -19,7 +19,7 @@ GAPS, STIFFNESSES = np.linspace(0.01, 0.3, 5), np.geomspace(100.0, 2000.0, 4)
 @pytest.fixture(scope="module")
 def data():
     vary = {"gap": GAPS, "bumper_stiffness": STIFFNESSES}
-    return vi.design(RIGS["bumpers"], noise(8, count=120), vary)
+    return vi.design_chart(RIGS["bumpers"], noise(8, count=120), vary)
 
 
 def test_contours_over_two_parameters(data) -> None:
@@ -86,7 +86,9 @@ def test_the_front(data) -> None:
 
 
 def test_of_a_long_front_some_are_numbered() -> None:
-    long = vi.design(RIGS["bumpers"], noise(8, count=120), {"gap": np.linspace(0.01, 0.3, 25)})
+    long = vi.design_chart(
+        RIGS["bumpers"], noise(8, count=120), {"gap": np.linspace(0.01, 0.3, 25)}
+    )
     count = int(long["pareto"].sum())
     assert count > 5
     told = " ".join(pareto_front(long).texts[-1].get_text().split("\n"))
@@ -94,7 +96,7 @@ def test_of_a_long_front_some_are_numbered() -> None:
 
 
 def test_what_exceeds_a_limit_is_marked(data) -> None:
-    limited = vi.design(
+    limited = vi.design_chart(
         RIGS["bumpers"],
         noise(8, count=120),
         {"gap": GAPS, "bumper_stiffness": STIFFNESSES},
@@ -256,20 +258,20 @@ def test_a_front_within_limits_is_named_so(data) -> None:
 def test_a_fractile_over_the_records_is_named() -> None:
     vary = {"gap": GAPS}
     records = [noise(8, count=120), noise(9, count=120)]
-    some = vi.design(RIGS["bumpers"], records, vary, fractile=0.84)
+    some = vi.design_chart(RIGS["bumpers"], records, vary, fractile=0.84)
     words = "\n84 % fractile over the records"
     (ax,) = design_chart(some, quantities=("peak_force",))
     assert ax.get_ylabel() == "largest contact force (kN)" + words
     front = pareto_front(some)
     assert front.get_xlabel().endswith(words)
     assert front.get_ylabel().endswith(words)
-    both = vi.design(
+    both = vi.design_chart(
         RIGS["bumpers"], records, {**vary, "bumper_stiffness": STIFFNESSES}, fractile=0
     )
     assert design_chart(both)[0].get_title().endswith("\n0 % fractile over the records")
     for one in (
-        vi.design(RIGS["bumpers"], records, vary),
-        vi.design(RIGS["bumpers"], records[0], vary, fractile=0.5),
+        vi.design_chart(RIGS["bumpers"], records, vary),
+        vi.design_chart(RIGS["bumpers"], records[0], vary, fractile=0.5),
     ):
         assert "fractile" not in pareto_front(one).get_xlabel()
 

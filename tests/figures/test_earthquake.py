@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from seismic.rigs import RIGS, noise
+from earthquakes.rigs import RIGS, noise
 from vibroimpact.figures import earthquake_page
 
 RECORD = noise(8)

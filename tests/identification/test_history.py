@@ -6,7 +6,7 @@ import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact.identification import given
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 RIGHT = vi.Bumper("510 kN/m", "0.9 kN s/m", "9 mm")
 LEFT = vi.Bumper("350 kN/m", "0.6 kN s/m", "6 mm")

@@ -8,7 +8,7 @@ import vibroimpact as vi
 from identification.twins import EXCURSIONS, FREE, curves
 from samples import sample
 from vibroimpact.identification.comparison import hertzian
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 CASE = vi.laboratory.case("B2-G1-A3", "identified")
 

@@ -10,7 +10,7 @@ from identification.twins import PEAKS, curves
 from samples import sample
 from vibroimpact.identification import given
 from vibroimpact.identification.channel import corrected, sensed
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 FREE = sample("right_gap,left_gap,stiffness", "right_gap,left_gap")
 QUICK = {"tried": 0, "starts": 1, "profiles": False}

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 import vibroimpact as vi
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 FREQUENCIES = np.round(np.arange(0.5, 5.01, 0.1), 10)
 FREE = ("stiffness", "damping", "bumper_stiffness", "bumper_damping", "gap")

@@ -7,7 +7,7 @@ import xarray as xr
 import vibroimpact as vi
 from measured import measured
 from vibroimpact.figures import fit_history
-from vibroimpact.measurement.read import as_measured
+from vibroimpact.measurements.read import as_measured
 
 
 def impact(name: str, run: str) -> tuple[xr.Dataset, float]:

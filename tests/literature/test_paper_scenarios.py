@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.scenario.axes import one_sine
-from vibroimpact.scenario.evidence import each_evidence
-from vibroimpact.scenario.thresholds import Thresholds
-from vibroimpact.scenario.verdict import scenario
+from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.scenarios.evidence import each_evidence
+from vibroimpact.scenarios.thresholds import Thresholds
+from vibroimpact.scenarios.verdict import scenario
 
 BUMPERS, GAPS, ACCELERATIONS = (
     ("B1", "B2", "B3", "B4"),

@@ -9,7 +9,7 @@ import vibroimpact as vi
 from vibroimpact.cli import main
 from vibroimpact.model.parameters import PARAMETERS, bounds, parameter
 from vibroimpact.model.varied import written
-from vibroimpact.scenario.axes import NAMES
+from vibroimpact.scenarios.axes import NAMES
 
 CASE = vi.laboratory.case("B2-G1-A3")
 RIG, SHAKEN = CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)

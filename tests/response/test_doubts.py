@@ -39,6 +39,8 @@ def test_a_damping_ratio_of_percent_is_doubted():
         made = vi.Isolator.from_period("5000 t", "2.5 s", 15)
     assert vi.Oscillator("5000 t", made).damping_ratio == pytest.approx(15.0)
     with pytest.warns(vi.InputWarning, match=r"^vary\['damping_ratio'\]: 10 is 10 times"):
-        vi.design(RIG.replace(right=WALL.replace(gap=0.05)), RECORD, {"damping_ratio": [0.1, 10.0]})
+        vi.design_chart(
+            RIG.replace(right=WALL.replace(gap=0.05)), RECORD, {"damping_ratio": [0.1, 10.0]}
+        )
     vi.Isolator.from_period("5000 t", "2.5 s", 1.5)
     vi.Isolator.from_period("5000 t", "2.5 s", "15 %")

@@ -7,8 +7,8 @@ import math
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.scenario.axes import one_sine
-from vibroimpact.scenario.frequencies import highest
+from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.scenarios.frequencies import highest
 from vibroimpact.stability import branch as followed
 
 

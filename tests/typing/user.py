@@ -69,7 +69,7 @@ def named() -> None:
 
 
 def designed() -> None:
-    chart = vi.design(rig, "0.05 g", {"gap": ["5 mm", "8 mm"]})
+    chart = vi.design_chart(rig, "0.05 g", {"gap": ["5 mm", "8 mm"]})
     assert_type(chart, xr.Dataset)
     assert_type(vi.required_gap(rig, [record]), xr.Dataset)
     drawn = vi.ensemble("B2-G1-A3", {"gap": "normal:5%"}, lambda rigs: vi.sweeps(rigs, grid))

@@ -18,6 +18,7 @@ from vibroimpact.attraction.matching import matched
 from vibroimpact.attraction.search import Search
 from vibroimpact.attraction.shares import interval
 from vibroimpact.attraction.window import Window, walls, window
+from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, to_si
 from vibroimpact.model.counts import check_max_events, whole
@@ -25,9 +26,8 @@ from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.free_flight import check_bounded
-from vibroimpact.response.places import THREADS, placed
-from vibroimpact.response.threads import Progress
-from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
 

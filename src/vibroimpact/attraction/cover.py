@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 
 from vibroimpact.attraction.followed import Stage, images
-from vibroimpact.response.threads import Workers
+from vibroimpact.tasks.threads import Workers
 
 _Array = NDArray[np.float64]
 _Mask = NDArray[np.bool_]

@@ -17,7 +17,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.response.start import engine_rig
-from vibroimpact.response.threads import Progress, Tally, Workers, each
+from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.int64]

@@ -16,16 +16,16 @@ from vibroimpact.attraction.lattice import Lattice, lattice
 from vibroimpact.attraction.measures import border_distances, entropies, uncertainty_exponent
 from vibroimpact.attraction.search import Search
 from vibroimpact.attraction.window import walls, window
+from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.errors import InputError, shown
+from vibroimpact.grids.refinement import UNKNOWN, Nodes
 from vibroimpact.model import Oscillator, Repeated, to_si
 from vibroimpact.model.counts import check_max_events, whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.free_flight import check_bounded
-from vibroimpact.response.places import THREADS, placed
-from vibroimpact.response.threads import Progress
-from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
-from vibroimpact.scenario.nodes import UNKNOWN, Nodes
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress
 
 _Labels = NDArray[np.int16]
 

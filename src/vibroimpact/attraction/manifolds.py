@@ -20,6 +20,7 @@ from vibroimpact.attraction.search import Search
 from vibroimpact.attraction.stable import stable_curve
 from vibroimpact.attraction.unstable import unstable_curve
 from vibroimpact.attraction.window import window
+from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.counts import MOST_CYCLES, check_max_events, share, whole
@@ -27,9 +28,8 @@ from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import to_si
 from vibroimpact.response.free_flight import check_bounded
-from vibroimpact.response.places import placed
-from vibroimpact.response.threads import Progress, Workers
-from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
+from vibroimpact.tasks.executors import placed
+from vibroimpact.tasks.threads import Progress, Workers
 
 _IMAGES = 400
 """Images of the piece with which a curve begins, at most."""

@@ -22,10 +22,10 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.response.start import state_from
-from vibroimpact.response.threads import Progress
 from vibroimpact.stability.family import family
 from vibroimpact.stability.first import first_orbit
 from vibroimpact.stability.fixed_points import Orbit, Section, evaluated
+from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
 

@@ -25,9 +25,9 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine.capture import GRID, LOW_U, LOW_V, STEP_U, STEP_V
 from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError
-from vibroimpact.response.threads import Progress, Workers
 from vibroimpact.stability.same import ALIKE, distance, same
 from vibroimpact.stability.settled import Settled, approach
+from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]
 _Whole = NDArray[np.integer[Any]]

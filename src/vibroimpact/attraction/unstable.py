@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vibroimpact.attraction.curve import Curve, Measure, broken, refined
 from vibroimpact.attraction.followed import Stage, images
 from vibroimpact.attraction.saddles import Saddle
-from vibroimpact.response.threads import Workers
+from vibroimpact.tasks.threads import Workers
 
 _Array = NDArray[np.float64]
 

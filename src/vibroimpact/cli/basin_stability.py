@@ -82,8 +82,8 @@ def basin_stability(
 
         from vibroimpact.attraction.along import basin_stability as run
         from vibroimpact.cli import summary
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import basin_shares, save_figure
-        from vibroimpact.response.files import save
 
         with progress_bar("following") as progress:
             data = run(

@@ -58,8 +58,8 @@ def basins(
 
         from vibroimpact.attraction.grid import basins as run
         from vibroimpact.cli import summary
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import basin_portrait, save_figure
-        from vibroimpact.response.files import save
 
         with progress_bar("following") as progress:
             data = run(

@@ -144,8 +144,8 @@ def bifurcation(
 
         from vibroimpact.cli import summary
         from vibroimpact.cli.sections import facts, text
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import save_figure, section_diagram
-        from vibroimpact.response.files import save
         from vibroimpact.stability.bifurcation_diagram import DIRECTIONS, bifurcation_diagram
 
         ways = {"both": DIRECTIONS, "none": ()}

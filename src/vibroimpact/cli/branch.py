@@ -160,8 +160,8 @@ def branch(
 
         from vibroimpact.cli import summary
         from vibroimpact.cli.bifurcations import facts, text
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import branch_diagram, save_figure
-        from vibroimpact.response.files import save
 
         with warnings.catch_warnings(record=True) as caught, progress_bar("following") as progress:
             warnings.simplefilter("always", RuntimeWarning)

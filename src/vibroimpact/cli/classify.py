@@ -77,10 +77,10 @@ def classify(
         from rich.text import Text
 
         from vibroimpact.cli import summary
+        from vibroimpact.datasets.files import save
         from vibroimpact.facts import scenario as told
         from vibroimpact.figures import resonance_curves, save_figure
-        from vibroimpact.response.files import save
-        from vibroimpact.scenario.classify import classify as run
+        from vibroimpact.scenarios.classify import classify as run
 
         with progress_bar("sweeping") as progress:
             found = run(
@@ -114,7 +114,7 @@ def _frequencies(
     step: str | None,
 ) -> tuple[float, ...] | None:
     """The frequencies that were asked for; None for the default."""
-    from vibroimpact.scenario.axes import one_sine
+    from vibroimpact.scenarios.axes import one_sine
 
     oscillator, shaken = one_sine(what.oscillator, what.repeated, "excitation")
     if start is None and stop is None and step is None:
@@ -125,8 +125,8 @@ def _frequencies(
     from vibroimpact.model import to_si
     from vibroimpact.model.quantities import FREQUENCY
     from vibroimpact.response.free_flight import beside_resonance
-    from vibroimpact.scenario.classify import LEAST
-    from vibroimpact.scenario.frequencies import LOW, STEP, highest
+    from vibroimpact.scenarios.classify import LEAST
+    from vibroimpact.scenarios.frequencies import LOW, STEP, highest
 
     natural = oscillator.natural_frequency
     defaults = (LOW * natural, highest(oscillator, shaken) * natural, STEP * natural)

@@ -95,8 +95,8 @@ def curve(
         from rich.text import Text
 
         from vibroimpact.cli import summary
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import bifurcation_curves, save_figure
-        from vibroimpact.response.files import save
 
         kind = _KINDS[bifurcation]
         with progress_bar("following") as progress:

@@ -10,11 +10,11 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.cli.numbers import ENERGIES, FORCES, IMPULSES, LENGTHS, Scale, fitting, plain
+from vibroimpact.earthquakes.free import settles
 from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import GRAVITY, Oscillator, Record
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
-from vibroimpact.seismic.free import settles
 
 _SIDES = ("right", "left")
 

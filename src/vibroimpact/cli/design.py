@@ -130,16 +130,16 @@ def design(
     ranges = _ranges(what, vary or tuple(((table and table.vary) or {}).items()))
     limits: dict[str, Any] = {**((table and table.limits) or {}), **dict(limit)}
 
-    from vibroimpact.sizing.best import least_acceleration
-    from vibroimpact.sizing.chart import design as chart
-    from vibroimpact.sizing.gap import required_gap
+    from vibroimpact.design.best import least_acceleration
+    from vibroimpact.design.chart import design_chart as chart
+    from vibroimpact.design.gap import required_gap
 
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
 
         from vibroimpact.cli import sized, summary
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import design_chart, pareto_front, save_figure
-        from vibroimpact.response.files import save
 
         stem = f"{what.slug}-design"
         files: dict[str, Path] = {}

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import Oscillator, Record
-    from vibroimpact.response.threads import Progress
+    from vibroimpact.tasks.threads import Progress
 
 _MOTION = Group("Motion", sort_key=1)
 _TEXT = Parameter(allow_leading_hyphen=True)
@@ -106,8 +106,8 @@ def earthquake(
         from rich.text import Text
 
         from vibroimpact.cli import demand, summary
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import earthquake_page, save_figure
-        from vibroimpact.response.files import save
 
         files: dict[str, Path] = {}
         told: list[Any] = []
@@ -199,12 +199,12 @@ def _computed(
     """
     import numpy as np
 
+    from vibroimpact.earthquakes.floor import floor_record
+    from vibroimpact.earthquakes.free import free_tail
+    from vibroimpact.earthquakes.response import seismic_response
     from vibroimpact.engine.status import Status
     from vibroimpact.response.response_spectrum import response_spectrum
     from vibroimpact.response.simulate import simulate
-    from vibroimpact.seismic.floor import floor_record
-    from vibroimpact.seismic.free import free_tail
-    from vibroimpact.seismic.response import seismic_response
 
     behind = free_tail(rig, record) if tail is None else tail
     motion = simulate(rig, record, samples=samples, tail=behind, progress=progress)
@@ -223,7 +223,7 @@ def _free(
     rig: Oscillator, record: Record, tail: float | None, progress: Progress
 ) -> xr.Dataset | None:
     """The response without stops; None where there are none, or nothing else holds the mass."""
-    from vibroimpact.seismic.response import seismic_response
+    from vibroimpact.earthquakes.response import seismic_response
 
     if not rig.stops:
         return None

@@ -131,8 +131,8 @@ def ensemble(
         from rich.console import Group as Together
 
         from vibroimpact.cli import drawn, summary
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import resonance_bands, save_figure, sensitivity_bars
-        from vibroimpact.response.files import save
         from vibroimpact.response.sweep import sweep, sweeps
         from vibroimpact.uncertainty.ensemble import ensemble as draw
 

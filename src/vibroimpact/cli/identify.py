@@ -113,7 +113,7 @@ def identify(
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
     from vibroimpact.identification.comparison import MODELS, remodelled
-    from vibroimpact.measurement.read import read_measurement
+    from vibroimpact.measurements.read import read_measurement
 
     out = output or OutputOptions()
     if not data:
@@ -151,10 +151,10 @@ def identify(
         asked["amplitude"] = changes.amplitude
 
     with output_folder(out.output) as folder:
+        from vibroimpact.datasets.files import save
         from vibroimpact.identification.comparison import compare_fits
         from vibroimpact.identification.identify import identify as run
-        from vibroimpact.reporting.identification import fit_report
-        from vibroimpact.response.files import save
+        from vibroimpact.reports.identification import fit_report
 
         with progress_bar("fitting") as progress:
             found = run(tests, _rig(what), draws=bootstrap, progress=progress, **asked)
@@ -252,7 +252,7 @@ def _summary(
     from rich.text import Text
 
     from vibroimpact.identification.advice import next_test
-    from vibroimpact.reporting.identification import amplitude_of
+    from vibroimpact.reports.identification import amplitude_of
 
     notes = [line for test in tests for line in _notes(test, many=len(tests) > 1)]
     names = [str(test) for test in found["test"].values]
@@ -291,7 +291,7 @@ def _table(found: xr.Dataset) -> Any:
     """The parameters of a fit, a row each."""
     from rich.table import Table
 
-    from vibroimpact.reporting.identification import parameter_rows
+    from vibroimpact.reports.identification import parameter_rows
 
     table = Table(box=None, pad_edge=False, padding=(0, 2))
     share = f"{100.0 * float(found.attrs['confidence']):g} % interval"

@@ -86,9 +86,9 @@ def manifolds(
         from vibroimpact.attraction.grid import basins
         from vibroimpact.attraction.manifolds import manifolds as run
         from vibroimpact.cli import summary
+        from vibroimpact.datasets.description import motion_parameters
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import basin_portrait, save_figure
-        from vibroimpact.response.files import save
-        from vibroimpact.response.variables import motion_parameters
 
         asked = (what.oscillator, excitation)
         with progress_bar("following") as progress:

@@ -124,9 +124,9 @@ def scenario_map(
         from vibroimpact.cli import summary
         from vibroimpact.figures import save_figure
         from vibroimpact.figures import scenario_map as draw
-        from vibroimpact.scenario.borders import jump_border
-        from vibroimpact.scenario.kinds import Scenario
-        from vibroimpact.scenario.map import scenario_map as run
+        from vibroimpact.scenarios.borders import jump_border
+        from vibroimpact.scenarios.kinds import Scenario
+        from vibroimpact.scenarios.map import scenario_map as run
 
         names = "-".join(name.replace("_", "-") for name, *_ in axes)
         stem = folder / f"{what.slug}-{names}-map"
@@ -195,7 +195,7 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     from vibroimpact.model.parameters import PARAMETERS
     from vibroimpact.model.quantities import LENGTH, STIFFNESS
     from vibroimpact.model.units import pretty
-    from vibroimpact.scenario.axes import ONE_QUANTITY
+    from vibroimpact.scenarios.axes import ONE_QUANTITY
 
     varied = {name for name, *_ in axes}
     stops, shaken = what.oscillator.stops, what.repeated
@@ -247,7 +247,7 @@ def _axis(option: str, name: str, text: str, of: Of) -> _Axis:
     """Read ``LOW:HIGH[:log][:NODES]``."""
     from vibroimpact.cli.ranges import spread
     from vibroimpact.model.parameters import parameter
-    from vibroimpact.scenario.axes import NAMES
+    from vibroimpact.scenarios.axes import NAMES
 
     key = name.strip().replace("-", "_")
     if key not in NAMES:
@@ -260,7 +260,7 @@ def _axis(option: str, name: str, text: str, of: Of) -> _Axis:
 def _check(what: Subject, axes: tuple[_Axis, ...], refine: int) -> None:
     """Refuse what cannot be mapped before anything is written."""
     from vibroimpact.cli.ranges import MOST
-    from vibroimpact.scenario.axes import Base, axis, check_pair, one_sine
+    from vibroimpact.scenarios.axes import Base, axis, check_pair, one_sine
 
     try:
         base = Base(*one_sine(what.oscillator, what.repeated, "excitation"))
@@ -289,7 +289,7 @@ def _as_option(message: str) -> str:
 
 def _shares(data: xr.Dataset) -> dict[str, float]:
     """Share of the nodes by scenario, those that occur."""
-    from vibroimpact.scenario.kinds import Scenario
+    from vibroimpact.scenarios.kinds import Scenario
 
     kinds = data["scenario"].values
     return {s.label: float((kinds == s).mean()) for s in Scenario if (kinds == s).any()}

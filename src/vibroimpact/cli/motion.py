@@ -84,9 +84,9 @@ def motion(
         from rich.console import Group as Together
 
         from vibroimpact.cli import summary
+        from vibroimpact.datasets.files import save
         from vibroimpact.facts import motions as verdict
         from vibroimpact.figures import motion_page, save_figure
-        from vibroimpact.response.files import save
 
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", RuntimeWarning)
@@ -190,9 +190,9 @@ def _complete(data: xr.Dataset) -> xr.Dataset:
     """Add spectrum and section to a motion."""
     import xarray as xr
 
+    from vibroimpact.datasets.description import motion_parameters
     from vibroimpact.response.section import stroboscopic_section
     from vibroimpact.response.spectrum import spectrum
-    from vibroimpact.response.variables import motion_parameters
 
     if not data.sizes["time"]:
         return data

@@ -13,7 +13,7 @@ from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     from vibroimpact.model import Record
-    from vibroimpact.scenario.thresholds import Thresholds
+    from vibroimpact.scenarios.thresholds import Thresholds
 
 RIG = Group("Rig (replacing values of the case or study)", sort_key=2)
 READING = Group("Reading of records (instead of what the files say)", sort_key=1)
@@ -188,7 +188,7 @@ class ThresholdOptions:
 
     def thresholds(self) -> Thresholds:
         """Return the thresholds, those that are not given at their defaults."""
-        from vibroimpact.scenario.thresholds import Thresholds
+        from vibroimpact.scenarios.thresholds import Thresholds
 
         given = {name: getattr(self, name) for name in Thresholds.names()}
         try:

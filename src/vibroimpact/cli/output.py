@@ -98,7 +98,7 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int | None], None]]:
 @contextmanager
 def _bar_or_lines(what: str) -> Iterator[Callable[[int, int | None], None]]:
     if not (sys.stderr and sys.stderr.isatty()):
-        from vibroimpact.response.progress import progress_lines
+        from vibroimpact.tasks.progress import progress_lines
 
         yield progress_lines(what)
         return

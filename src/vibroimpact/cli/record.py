@@ -101,9 +101,9 @@ def record(
     with output_folder(out.output) as folder:
         import numpy as np
 
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import accelerogram, save_figure
         from vibroimpact.response.accelerogram import accelerogram as as_dataset
-        from vibroimpact.response.files import save
         from vibroimpact.response.response_spectrum import response_spectrum
 
         spectrum = response_spectrum(found, np.geomspace(first, last, periods), ratios)

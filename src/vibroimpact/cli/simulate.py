@@ -82,9 +82,9 @@ def simulate(
         from rich.console import Group as Together
 
         from vibroimpact.cli import summary
+        from vibroimpact.datasets.files import save
         from vibroimpact.figures import record_history, save_figure, time_history
         from vibroimpact.model import Record
-        from vibroimpact.response.files import save
         from vibroimpact.response.simulate import simulate as run
 
         with warnings.catch_warnings(record=True) as caught, progress_bar("following") as progress:

@@ -14,14 +14,14 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.cli.numbers import plain
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.design.limits import QUANTITIES
+from vibroimpact.design.shaking import fractile_of
+from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
-from vibroimpact.response.vocabulary import VARIABLES
-from vibroimpact.seismic.suites import quantiles
-from vibroimpact.sizing.limits import QUANTITIES
-from vibroimpact.sizing.shaking import fractile_of
 
 _HEADS = {"stiffness_at_restitution": "bumper stiffness"}
 _SIDES = ("right", "left")

@@ -13,6 +13,7 @@ from rich.text import Text
 from vibroimpact._version import __version__
 from vibroimpact.cli.numbers import plain
 from vibroimpact.cli.rig import Subject
+from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import (
@@ -38,7 +39,6 @@ from vibroimpact.model.quantities import (
     VELOCITY,
 )
 from vibroimpact.model.units import pretty
-from vibroimpact.response.variables import excitation_parameters
 
 _LATELY = 10.0
 """Cycles at the end over which contacts are counted."""

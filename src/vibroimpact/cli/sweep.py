@@ -109,9 +109,9 @@ def sweep(
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
 
+        from vibroimpact.datasets.files import save, write_whole
         from vibroimpact.engine.status import MORE_CYCLES
         from vibroimpact.response import resonance
-        from vibroimpact.response.files import save, write_whole
         from vibroimpact.response.sweep import DIRECTIONS, advice
         from vibroimpact.response.sweep import sweep as run
 

@@ -10,12 +10,12 @@ from typing import Any
 
 import xarray as xr
 
+from vibroimpact.datasets.files import save
+from vibroimpact.datasets.tables import to_table
 from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer import share
 from vibroimpact.explorer.state import State
 from vibroimpact.model.names import file_stem
-from vibroimpact.response.files import save
-from vibroimpact.response.table import to_table
 
 
 def made(kind: str, state: State, swept: Callable[[], xr.Dataset]) -> dict[str, Any]:

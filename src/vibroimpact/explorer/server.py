@@ -33,7 +33,7 @@ from websockets.http11 import Request, Response
 from vibroimpact.errors import InputError
 from vibroimpact.explorer.session import Message, Session, Stage
 from vibroimpact.explorer.state import State
-from vibroimpact.response.threads import Stopped
+from vibroimpact.tasks.threads import Stopped
 
 MOST_SESSIONS = 16
 """Pages that are served at once."""

@@ -22,8 +22,8 @@ from vibroimpact.explorer.state import ON_DEMAND, History, State
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.units import pretty
-from vibroimpact.response.threads import Progress, Stopped
-from vibroimpact.scenario.axes import one_sine
+from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.tasks.threads import Progress, Stopped
 
 Message = dict[str, Any]
 MOST_SECONDS = 60.0

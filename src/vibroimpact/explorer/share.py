@@ -16,7 +16,7 @@ from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.units import pretty
-from vibroimpact.scenario.axes import one_sine
+from vibroimpact.scenarios.axes import one_sine
 
 MOST = 8000
 """Letters of an address."""

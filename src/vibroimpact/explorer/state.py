@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.rigs import AnyRig, as_rig, rig_name
-from vibroimpact.scenario.axes import one_sine
+from vibroimpact.scenarios.axes import one_sine
 
 Direction = Literal["forward", "backward"]
 

@@ -8,8 +8,8 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.scenario.classify import Classification
-from vibroimpact.scenario.kinds import Scenario
+from vibroimpact.scenarios.classify import Classification
+from vibroimpact.scenarios.kinds import Scenario
 
 
 def meaning(label: str) -> str:

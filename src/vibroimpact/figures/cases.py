@@ -11,7 +11,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels, new_axes
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model import laboratory
-from vibroimpact.scenario.kinds import Scenario
+from vibroimpact.scenarios.kinds import Scenario
 
 _PER_GRAVITY = 1e2 / 9.80665
 

@@ -9,13 +9,13 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from vibroimpact.earthquakes.fragility import lacking
+from vibroimpact.earthquakes.suites import fractiles, known
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.style import LEGEND
 from vibroimpact.model import GRAVITY, to_si
 from vibroimpact.model.quantities import LENGTH
-from vibroimpact.seismic.fragility import lacking
-from vibroimpact.seismic.suites import fractiles, known
 
 _LABELS = {
     "peak_displacement": (1e3, "largest displacement $|u|$ (mm)"),

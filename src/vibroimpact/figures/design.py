@@ -14,6 +14,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
+from vibroimpact.design.limits import excesses
+from vibroimpact.design.shaking import fractile_of
 from vibroimpact.errors import InputError
 from vibroimpact.figures.between import finer, finer_axis, nearest
 from vibroimpact.figures.inline import Panels
@@ -24,9 +26,7 @@ from vibroimpact.model import GRAVITY
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.units import pretty
-from vibroimpact.scenario.axes import logarithmic
-from vibroimpact.sizing.limits import excesses
-from vibroimpact.sizing.shaking import fractile_of
+from vibroimpact.scenarios.axes import logarithmic
 
 _Array = NDArray[np.float64]
 

@@ -10,13 +10,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
+from vibroimpact.earthquakes.suites import fractiles
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.quantities import axis_label
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, panels
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.seismic.suites import fractiles
 
 _HATCHES = {"forward": "", "backward": "////"}
 _LIGHT = {"forward": 0.25, "backward": 0.0}

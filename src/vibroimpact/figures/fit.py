@@ -9,12 +9,12 @@ import xarray as xr
 from matplotlib.ticker import MaxNLocator
 from scipy.special import chdtri
 
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels, new_axes
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
 from vibroimpact.model.names import literal
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.response.vocabulary import VARIABLES
 
 _LOOKS = {"forward": ("o", "#c8102e"), "backward": ("s", "#1f4fbf"), "": (".", "black")}
 _COLUMNS = 3

@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motions import axes_or_new, looks
-from vibroimpact.response.variables import motion_parameters
 
 _LABELS = {
     "displacement": (1e3, "amplitude of $u$ (mm)"),

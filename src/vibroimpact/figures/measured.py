@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, SWEEPS, panels
-from vibroimpact.measurement.features import measured_features
+from vibroimpact.measurements.features import measured_features
 from vibroimpact.model.quantities import GRAVITY
 from vibroimpact.response.swept import judged
 

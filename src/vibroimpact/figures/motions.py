@@ -15,7 +15,7 @@ from vibroimpact import errors
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import new_axes
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
-from vibroimpact.measurement.read import is_measured
+from vibroimpact.measurements.read import is_measured
 from vibroimpact.model import Record
 from vibroimpact.model.names import literal
 from vibroimpact.response.contacts import contacts

@@ -9,7 +9,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from vibroimpact.figures.branches import axis_unit
-from vibroimpact.scenario.axes import logarithmic
+from vibroimpact.scenarios.axes import logarithmic
 
 _SYMBOLS = {
     "stiffness_ratio": "$\\lambda$",

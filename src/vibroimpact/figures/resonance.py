@@ -18,7 +18,7 @@ from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.measured import halves_of, measured_curves, measured_points
 from vibroimpact.figures.resonance_panels import Drawn, divides, normalised, physical_curves
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
-from vibroimpact.measurement.read import as_measured, is_measured
+from vibroimpact.measurements.read import as_measured, is_measured
 from vibroimpact.response.resonance import Features, Hysteresis, Jump, features
 
 _HATCHES = {"right": "", "left": "/////"}

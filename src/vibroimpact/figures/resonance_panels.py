@@ -11,12 +11,12 @@ import xarray as xr
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import excitation_from
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, equilibrium
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
 from vibroimpact.model.unbounded import has_no_bound
 from vibroimpact.model.units import plain
-from vibroimpact.response.variables import excitation_from
 
 _Array = NDArray[np.float64]
 

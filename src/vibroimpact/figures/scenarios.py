@@ -19,7 +19,7 @@ from vibroimpact.figures.branches import axis_unit
 from vibroimpact.figures.motions import axes_or_new
 from vibroimpact.figures.plane import node_edges, plane_axes
 from vibroimpact.figures.style import SCENARIOS
-from vibroimpact.scenario.kinds import Scenario
+from vibroimpact.scenarios.kinds import Scenario
 
 
 class Mark(NamedTuple):

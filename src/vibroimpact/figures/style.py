@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError
 from vibroimpact.figures.inline import Panels, new_axes
 from vibroimpact.model import GRAVITY
-from vibroimpact.response.files import write_whole
 
 FORMATS = ("png", "pdf", "svg")
 

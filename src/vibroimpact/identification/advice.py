@@ -17,6 +17,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list, check_name, check_variables
+from vibroimpact.datasets.description import describe
 from vibroimpact.engine import hold
 from vibroimpact.identification.free import NEAR_ZERO, SENSORS, size_of
 from vibroimpact.identification.held import Rig, sizes
@@ -28,7 +29,6 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.response.sweep import check_frequencies
-from vibroimpact.response.variables import describe
 
 Array = NDArray[np.float64]
 

@@ -10,10 +10,10 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_mapping, check_variables
+from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.identification.structure import CERTAIN
 from vibroimpact.model import Bumper, Isolator, Oscillator, PolynomialIsolator, PowerBumper
-from vibroimpact.response.variables import describe
 
 _CLEAR = 10.0
 """Difference of Akaike's criterion from which on a model has no support (Burnham and Anderson)."""

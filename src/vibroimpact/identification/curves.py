@@ -13,8 +13,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.identification.channel import sensed
 from vibroimpact.identification.held import Followed, Rig, Way, follow
 from vibroimpact.identification.shown import Shown
-from vibroimpact.measurement.features import measured_features, noise_of
-from vibroimpact.measurement.names import CURVES
+from vibroimpact.measurements.features import measured_features, noise_of
+from vibroimpact.measurements.names import CURVES
 from vibroimpact.model.access import Setting
 from vibroimpact.response.free_flight import reference_excursions
 from vibroimpact.response.resonance import APART, Jump

@@ -12,7 +12,7 @@ from vibroimpact.errors import InputError, printable, shown, unknown
 from vibroimpact.identification.curves import CurveTest
 from vibroimpact.identification.history import HistoryTest
 from vibroimpact.identification.problem import Test
-from vibroimpact.measurement.read import CALL, as_measured
+from vibroimpact.measurements.read import CALL, as_measured
 from vibroimpact.model import Oscillator
 from vibroimpact.model.access import Setting
 from vibroimpact.model.excitation import Harmonic, Periodic

@@ -26,7 +26,7 @@ from vibroimpact.identification.untouched import untouched
 from vibroimpact.model import Rig
 from vibroimpact.model.counts import share, whole
 from vibroimpact.model.excitation import Harmonic
-from vibroimpact.response.threads import Progress
+from vibroimpact.tasks.threads import Progress
 
 _TAIL = 3.0
 """Standard deviations from which on a point counts less than its square."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from vibroimpact.measurement.features import strays
+from vibroimpact.measurements.features import strays
 
 _FEW = 3
 """Values of a hold from which on most of them tell which are the others."""

@@ -9,6 +9,12 @@ import numpy as np
 import xarray as xr
 from scipy.stats import t as student
 
+from vibroimpact.datasets.description import (
+    describe,
+    excitation_from,
+    excitation_parameters,
+    oscillator_parameters,
+)
 from vibroimpact.identification import words
 from vibroimpact.identification.problem import Array, Problem
 from vibroimpact.identification.profiles import Profile
@@ -20,12 +26,6 @@ from vibroimpact.identification.uncertainty import Spread
 from vibroimpact.identification.untouched import Untouched
 from vibroimpact.model import Oscillator
 from vibroimpact.model.access import Setting
-from vibroimpact.response.variables import (
-    describe,
-    excitation_from,
-    excitation_parameters,
-    oscillator_parameters,
-)
 
 _SILENT = 1e-6
 """Residuals that are smaller are those of made-up data without noise."""

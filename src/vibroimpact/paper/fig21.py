@@ -9,7 +9,7 @@ from vibroimpact.figures.style import BUMPERS, SCENARIOS
 from vibroimpact.model import laboratory
 from vibroimpact.paper.item import Item
 from vibroimpact.paper.study import PublishedStudy
-from vibroimpact.scenario.borders import jump_border
+from vibroimpact.scenarios.borders import jump_border
 
 
 def draw(study: PublishedStudy) -> Figure:

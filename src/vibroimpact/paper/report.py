@@ -9,14 +9,14 @@ from typing import Any, Literal, NamedTuple
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from vibroimpact._version import __version__
+from vibroimpact.datasets.files import write_whole
 from vibroimpact.figures import save_figure
 from vibroimpact.model import GRAVITY, laboratory
 from vibroimpact.paper.claim import Claim, Finding, Kind, Verdict
 from vibroimpact.paper.claims.reasons import REASONS
 from vibroimpact.paper.item import Item, Table
 from vibroimpact.paper.study import PublishedStudy
-from vibroimpact.response.files import write_whole
-from vibroimpact.scenario.kinds import Scenario
+from vibroimpact.scenarios.kinds import Scenario
 
 Format = Literal["png", "svg"]
 Progress = Callable[[int, int | None], None]

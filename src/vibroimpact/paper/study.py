@@ -22,8 +22,8 @@ from vibroimpact.response.resonance import Features, features
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state
 from vibroimpact.response.sweep import sweeps
-from vibroimpact.scenario.classify import Classification, classify
-from vibroimpact.scenario.map import scenario_map
+from vibroimpact.scenarios.classify import Classification, classify
+from vibroimpact.scenarios.map import scenario_map
 from vibroimpact.stability.branch import branch
 from vibroimpact.stability.coexisting import coexisting
 from vibroimpact.stability.orbit import orbit

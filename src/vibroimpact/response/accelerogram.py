@@ -7,8 +7,8 @@ from typing import Any
 
 import xarray as xr
 
+from vibroimpact.datasets.description import describe
 from vibroimpact.model import Record
-from vibroimpact.response.variables import describe
 
 
 def accelerogram(record: Record) -> xr.Dataset:

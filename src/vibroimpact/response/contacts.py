@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine import measure
 from vibroimpact.model import Record, Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
@@ -22,7 +23,6 @@ from vibroimpact.response.phases import (
     relaxation_loss,
     touches,
 )
-from vibroimpact.response.variables import describe, motion_parameters, noted
 
 _Array = NDArray[np.float64]
 _Numbers = NDArray[np.int64]

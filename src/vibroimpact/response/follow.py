@@ -13,8 +13,8 @@ from vibroimpact.engine.memory import TERMS
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Repeated
-from vibroimpact.response.interruptible import Calls
-from vibroimpact.response.threads import CYCLES, Progress, Tally, watched
+from vibroimpact.tasks.interruptible import Calls
+from vibroimpact.tasks.threads import CYCLES, Progress, Tally, watched
 
 _Array = NDArray[np.float64]
 

@@ -10,12 +10,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import excitation_from
 from vibroimpact.engine.motion import LEFT, RELEASED, RIGHT
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator, Record, Repeated, RigidStop, State, validate
 from vibroimpact.response.start import as_state
-from vibroimpact.response.variables import excitation_from
 
 _Shaking = TypeVar("_Shaking", bound=Repeated | Record, covariant=True)
 

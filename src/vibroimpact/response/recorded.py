@@ -9,18 +9,18 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.engine import recorded
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Record, State, equilibrium
 from vibroimpact.model.counts import check_samples
-from vibroimpact.response.interruptible import Calls
 from vibroimpact.response.reversal import ended
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
-from vibroimpact.response.threads import Progress
-from vibroimpact.response.variables import COMPONENTS, describe, oscillator_parameters
 from vibroimpact.response.written import EVENTS_AT_ONCE, listed, sampled
+from vibroimpact.tasks.interruptible import Calls
+from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
 

@@ -138,7 +138,7 @@ def features(
     """Find all features of a sweep; the thresholds are those of the functions below.
 
     Of measured curves they are no smaller than the measurement's noise: see
-    `vibroimpact.measurement.features`.
+    `vibroimpact.measurements.features`.
 
     Raises
     ------

@@ -11,12 +11,12 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import check_list, is_list
+from vibroimpact.datasets.description import describe
 from vibroimpact.engine import spectra
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Record
 from vibroimpact.response.accelerogram import record_parameters
-from vibroimpact.response.threads import Progress, Tally, available, each
-from vibroimpact.response.variables import describe
+from vibroimpact.tasks.threads import Progress, Tally, available, each
 
 DIRECTIONS = 180
 """Of a pair of components: every degree of half a turn."""

@@ -18,7 +18,7 @@ from vibroimpact.response.free_flight import (
 )
 from vibroimpact.response.own_flight import swept_flight
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import Tally
+from vibroimpact.tasks.threads import Tally
 
 _Array = NDArray[np.float64]
 

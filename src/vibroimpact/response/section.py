@@ -8,6 +8,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
+from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import to_si
@@ -17,7 +18,6 @@ from vibroimpact.response.contacts import contacts
 from vibroimpact.response.follow import grown, moved_on
 from vibroimpact.response.phases import beginning, recorded
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.variables import describe, motion_parameters, noted
 
 _MAX_EVENTS = 10_000
 _NAMES = ("displacement", "velocity", "right_bumper", "left_bumper")

@@ -10,6 +10,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
 from vibroimpact.engine import batch
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record
@@ -20,18 +26,12 @@ from vibroimpact.model.counts import check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.rigs import takes_rig_or_record
 from vibroimpact.response.free_flight import check_bounded
-from vibroimpact.response.interruptible import Calls
 from vibroimpact.response.recorded import through
 from vibroimpact.response.reversal import ended
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
-from vibroimpact.response.threads import Progress
-from vibroimpact.response.variables import (
-    COMPONENTS,
-    describe,
-    excitation_parameters,
-    oscillator_parameters,
-)
 from vibroimpact.response.written import EVENTS_AT_ONCE, listed, sampled
+from vibroimpact.tasks.interruptible import Calls
+from vibroimpact.tasks.threads import Progress
 
 
 @takes_rig_or_record

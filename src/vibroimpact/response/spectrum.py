@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from vibroimpact.arguments import check_variables
+from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine import fourier
 from vibroimpact.errors import InputError
 from vibroimpact.model import Repeated, to_si
@@ -15,7 +16,6 @@ from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.response.measuring import asked, table
 from vibroimpact.response.phases import Phases, Recorded, phases, recorded
 from vibroimpact.response.sine import forcing_sine
-from vibroimpact.response.variables import describe, motion_parameters, noted
 
 _Complex = NDArray[np.complex128]
 

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import COMPONENTS
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import section_map
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
@@ -17,7 +18,6 @@ from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator, Periodic, Record, Repeated, RigidStop, State
 from vibroimpact.response.laws import isolator_numbers, stop_numbers
-from vibroimpact.response.variables import COMPONENTS
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""

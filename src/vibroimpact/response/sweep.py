@@ -15,6 +15,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list
+from vibroimpact.datasets.description import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
@@ -33,17 +39,11 @@ from vibroimpact.model.rigs import (
 )
 from vibroimpact.response.doubts import doubt_gaps, note_unbounded
 from vibroimpact.response.held import held
-from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.rows import Patience, prepared, rows
 from vibroimpact.response.start import as_state
-from vibroimpact.response.threads import Progress, each
-from vibroimpact.response.variables import (
-    COMPONENTS,
-    describe,
-    excitation_parameters,
-    oscillator_parameters,
-)
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress, each
 
 DIRECTIONS = ("forward", "backward")
 

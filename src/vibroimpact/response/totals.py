@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine import measure
 from vibroimpact.response.measuring import measured, view
 from vibroimpact.response.phases import (
@@ -19,7 +20,6 @@ from vibroimpact.response.phases import (
     impact_loss,
     relaxation_loss,
 )
-from vibroimpact.response.variables import describe, motion_parameters, noted
 
 
 def totals(motion: xr.Dataset) -> xr.Dataset:

@@ -10,18 +10,18 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import excitation_from, motion_parameters
 from vibroimpact.engine import batch, hold
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.access import Setting
 from vibroimpact.response.free_flight import extremes, harmonics
 from vibroimpact.response.start import engine_rig, state_from, system_vector
-from vibroimpact.response.threads import Tally, each
-from vibroimpact.response.variables import excitation_from, motion_parameters
 from vibroimpact.stability.family import Family, family
 from vibroimpact.stability.first import first_orbit
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.stepped import Held, Patience, random_states, settings, stepped
+from vibroimpact.tasks.threads import Tally, each
 
 _Array = NDArray[np.float64]
 _Phasors = NDArray[np.complex128]

@@ -11,6 +11,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import STARTS, check_mapping
+from vibroimpact.datasets.description import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -21,17 +27,11 @@ from vibroimpact.model.parameters import bounds
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.held import sizes
-from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.start import as_state, components, engine_rig, engine_state
-from vibroimpact.response.threads import Progress, Tally, each
-from vibroimpact.response.variables import (
-    COMPONENTS,
-    describe,
-    excitation_parameters,
-    oscillator_parameters,
-)
 from vibroimpact.stability.sectioned import POINT, Kind, Look, Seen, look_at
 from vibroimpact.stability.stepped import Patience, random_states, settings, stepped
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress, Tally, each
 
 _Array = NDArray[np.float64]
 

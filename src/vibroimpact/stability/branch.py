@@ -11,7 +11,6 @@ from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.counts import MOST_CYCLES, whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.threads import Progress, counted
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.family import Family, family
 from vibroimpact.stability.first import first_orbit
@@ -19,6 +18,7 @@ from vibroimpact.stability.fixed_points import HELD, Orbit
 from vibroimpact.stability.labelled import Followed, as_dataset
 from vibroimpact.stability.trace import CLOSED, Branch, Station
 from vibroimpact.stability.turning import FREE, InContact, bounded_by_flight, turns_into_flight
+from vibroimpact.tasks.threads import Progress, counted
 
 _GROWN = 3.0
 """Size over that of the first orbit from which a motion that still grows is reported as such."""

@@ -11,13 +11,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import STARTS, check_mapping
+from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated, RigidStop, State, Stop
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.arrivals import arrivals
 from vibroimpact.response.start import as_state, state_from
-from vibroimpact.response.variables import describe
 from vibroimpact.stability.same import image_of, mirrors, same
 from vibroimpact.stability.settled import (
     Settled,

@@ -24,6 +24,12 @@ from numpy.typing import NDArray
 
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
+from vibroimpact.datasets.description import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.errors import InputError
@@ -31,13 +37,6 @@ from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.threads import Progress, counted
-from vibroimpact.response.variables import (
-    COMPONENTS,
-    describe,
-    excitation_parameters,
-    oscillator_parameters,
-)
 from vibroimpact.stability.bifurcations import BREAKING
 from vibroimpact.stability.defining import SEEN, Defining, Spot, solve
 from vibroimpact.stability.first import scales
@@ -45,6 +44,7 @@ from vibroimpact.stability.labelled import state_of
 from vibroimpact.stability.locus import Locus, Place
 from vibroimpact.stability.plane import Plane, plane
 from vibroimpact.stability.trace import CLOSED
+from vibroimpact.tasks.threads import Progress, counted
 
 _Array = NDArray[np.float64]
 

@@ -16,13 +16,13 @@ from vibroimpact.model import Harmonic, Oscillator, Periodic
 from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import AnyShaking, as_shaking, takes_rig
-from vibroimpact.response.threads import Progress
 from vibroimpact.stability.begun import free, in_basins, settled, values
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
 from vibroimpact.stability.branch import follow_both_ways
 from vibroimpact.stability.family import family
 from vibroimpact.stability.fixed_points import SEEN, Orbit, at_phase, corrected, images
 from vibroimpact.stability.labelled import Followed, as_dataset
+from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
 

@@ -12,6 +12,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import VALUES, check_mapping
+from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
@@ -23,12 +24,11 @@ from vibroimpact.model.rigs import AnyRig
 from vibroimpact.model.varied import Varied, varied, written
 from vibroimpact.response.follow import grow
 from vibroimpact.response.free_flight import check_bounded
-from vibroimpact.response.places import THREADS, placed
 from vibroimpact.response.start import as_state, engine_rig, engine_state
 from vibroimpact.response.sweep import check_frequencies, named_rigs
-from vibroimpact.response.threads import DONE, Progress, Tally, each
-from vibroimpact.response.variables import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.stability.averaged import Averaged
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import DONE, Progress, Tally, each
 
 DISCARD = 100
 """Cycles in which the disturbances turn into their directions."""

@@ -12,10 +12,10 @@ from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.response.follow import grown
 from vibroimpact.response.start import engine_rig
-from vibroimpact.response.threads import Progress
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.kind import Judgement, judge, repeats
 from vibroimpact.stability.settled import Settled
+from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
 

@@ -9,6 +9,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
@@ -16,12 +22,6 @@ from vibroimpact.model import Oscillator
 from vibroimpact.response import held
 from vibroimpact.response.doubts import note_unbounded
 from vibroimpact.response.free_flight import reference_excursions
-from vibroimpact.response.variables import (
-    COMPONENTS,
-    describe,
-    excitation_parameters,
-    oscillator_parameters,
-)
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.bifurcations import Bifurcation
 from vibroimpact.stability.family import Family

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import xarray as xr
 
+from vibroimpact.datasets.description import describe
 from vibroimpact.engine import section_map
 from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.counts import MOST_CYCLES, whole
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.variables import describe
 from vibroimpact.stability.family import family
 from vibroimpact.stability.first import first_orbit
 from vibroimpact.stability.fixed_points import MAX_EVENTS

@@ -16,8 +16,8 @@ from vibroimpact.response.follow import hold_once, moved_on
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import Progress
 from vibroimpact.stability.fixed_points import Orbit, vector_of
+from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
 

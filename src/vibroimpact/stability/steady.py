@@ -11,6 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_progress
+from vibroimpact.datasets.description import describe
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -23,9 +24,7 @@ from vibroimpact.response.measuring import measured
 from vibroimpact.response.phases import Recorded, cut
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.start import as_state, state_from
-from vibroimpact.response.threads import Progress
 from vibroimpact.response.totals import energies, extremes
-from vibroimpact.response.variables import describe
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.family import family
 from vibroimpact.stability.first import first_orbit
@@ -39,6 +38,7 @@ from vibroimpact.stability.settled import (
     reach,
     settled_on,
 )
+from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
 

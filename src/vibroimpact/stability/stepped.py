@@ -24,8 +24,8 @@ from vibroimpact.response.follow import hold_once
 from vibroimpact.response.free_flight import check_bounded
 from vibroimpact.response.reversal import judged
 from vibroimpact.response.start import engine_rig, engine_state
-from vibroimpact.response.threads import Stopped, Tally
 from vibroimpact.stability.settled import Settled, reach_at_rest
+from vibroimpact.tasks.threads import Stopped, Tally
 
 _Array = NDArray[np.float64]
 

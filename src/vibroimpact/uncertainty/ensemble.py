@@ -10,12 +10,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import origin
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.response.threads import Progress, each
-from vibroimpact.response.variables import origin
+from vibroimpact.tasks.threads import Progress, each
 from vibroimpact.uncertainty.distributions import Distribution
 from vibroimpact.uncertainty.rigs import Drawn, Method, Uncertain, shares, uncertain
 

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from vibroimpact.datasets.description import excitation_parameters, oscillator_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, Repeated
 from vibroimpact.model.counts import whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.rigs import AnyRig, as_rig, as_shaking
 from vibroimpact.model.varied import written
-from vibroimpact.response.variables import excitation_parameters, oscillator_parameters
 from vibroimpact.uncertainty.distributions import (
     Distribution,
     check_names,

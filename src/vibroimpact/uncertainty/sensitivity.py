@@ -10,12 +10,12 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator
 from vibroimpact.model.counts import whole
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.response.threads import Progress
-from vibroimpact.response.variables import describe
+from vibroimpact.tasks.threads import Progress
 from vibroimpact.uncertainty.distributions import Distribution
 from vibroimpact.uncertainty.ensemble import Response, responded
 from vibroimpact.uncertainty.rigs import check_power, uncertain

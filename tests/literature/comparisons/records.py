@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 
 import vibroimpact as vi
+from earthquakes.rigs import noise
 from literature.comparisons.comparison import AbsentError, Comparison, Number, data
-from seismic.rigs import noise
 
 INCH = 0.0254
 

@@ -7,7 +7,7 @@ from typing import Any
 from vibroimpact.attraction.grid import basins
 from vibroimpact.explorer.pictures.numbers import one, short
 from vibroimpact.explorer.state import State
-from vibroimpact.response.threads import Progress
+from vibroimpact.tasks.threads import Progress
 
 COARSE, FINE = 32, 128
 """Starts along each axis."""

@@ -13,8 +13,8 @@ from vibroimpact.explorer.pictures.motion import at
 from vibroimpact.explorer.pictures.numbers import short
 from vibroimpact.explorer.state import State
 from vibroimpact.model import GRAVITY
-from vibroimpact.response.threads import Progress
 from vibroimpact.stability.branch import branch
+from vibroimpact.tasks.threads import Progress
 
 _MOST = 2000
 """Orbits to either side, after which a branch is given up."""

@@ -15,7 +15,7 @@ from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_cur
 from vibroimpact.response import resonance
 from vibroimpact.response.free_flight import beside_resonance
 from vibroimpact.response.sweep import advice, sweep
-from vibroimpact.response.threads import Progress
+from vibroimpact.tasks.threads import Progress
 
 COARSE = 46
 """Frequencies while a knob is turned: as many as the published tests held."""

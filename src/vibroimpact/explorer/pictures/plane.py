@@ -12,9 +12,9 @@ from vibroimpact.explorer.state import State
 from vibroimpact.model import from_dimensionless, to_dimensionless
 from vibroimpact.model.access import scale_of
 from vibroimpact.model.dimensionless import DimensionlessBumper
-from vibroimpact.response.threads import Progress
-from vibroimpact.scenario.kinds import Scenario
-from vibroimpact.scenario.map import scenario_map
+from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.map import scenario_map
+from vibroimpact.tasks.threads import Progress
 
 _NODES, _STEP = 9, 0.03
 """Along each axis, and step of the sweeps over the natural frequency: some seconds."""

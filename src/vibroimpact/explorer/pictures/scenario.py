@@ -9,12 +9,12 @@ import xarray as xr
 from vibroimpact.explorer.pictures.numbers import one
 from vibroimpact.explorer.state import State
 from vibroimpact.facts import scenario as told
-from vibroimpact.response.threads import Progress
-from vibroimpact.scenario.classify import classify
-from vibroimpact.scenario.evidence import evidence
-from vibroimpact.scenario.thresholds import Thresholds
-from vibroimpact.scenario.verdict import scenario
-from vibroimpact.scenario.words import in_words
+from vibroimpact.scenarios.classify import classify
+from vibroimpact.scenarios.evidence import evidence
+from vibroimpact.scenarios.thresholds import Thresholds
+from vibroimpact.scenarios.verdict import scenario
+from vibroimpact.scenarios.words import in_words
+from vibroimpact.tasks.threads import Progress
 
 
 def quick(state: State, data: xr.Dataset) -> dict[str, Any]:

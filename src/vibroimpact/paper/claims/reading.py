@@ -15,7 +15,7 @@ from vibroimpact.paper.study import HIGH, LOW, STEP, PublishedStudy
 from vibroimpact.response.peaks import Curve, Peak
 from vibroimpact.response.spectrum import spectrum
 from vibroimpact.response.swept import Direction, in_contact
-from vibroimpact.scenario.evidence import SAME
+from vibroimpact.scenarios.evidence import SAME
 
 TEST_STEP = 0.1
 """Step of the tests' sweeps in Hz: a frequency that the paper gives as "about" may be off by it."""

@@ -1,0 +1,1 @@
+"""Describe, save, load and tabulate datasets: the vocabulary of all output variables."""

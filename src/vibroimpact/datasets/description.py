@@ -1,0 +1,95 @@
+"""What each dataset says of itself, and how a rig and its shaking are read back from it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import xarray as xr
+
+from vibroimpact._version import __version__
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.engine.status import Status
+from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, State
+from vibroimpact.model.parameters import parameter
+
+COMPONENTS = [*State.model_fields]
+"""Components of a state in a dataset, in the order of `State`'s fields."""
+
+
+def describe(
+    dataset: xr.Dataset,
+    created_by: str,
+    parameters: dict[str, Any] | None = None,
+    notes: Iterable[str] = (),
+) -> xr.Dataset:
+    """Give every variable its units and meaning, and the dataset its parameters and origin.
+
+    What the dataset already says of itself stays; None if that holds the parameters. What was
+    assumed for its input, or is doubted, is the attribute ``notes``, a line each.
+
+    Raises
+    ------
+    KeyError
+        If a variable is not in the registry.
+    """
+    for name in dataset.variables:
+        variable = VARIABLES[str(name)]
+        attributes = {"units": variable.units, "long_name": variable.long_name}
+        if variable.comment:
+            attributes["comment"] = variable.comment
+        dataset.variables[name].attrs.update(attributes)  # as of dataset[name], sooner
+    if "amplitude" in dataset.variables and parameters and "of" in parameters:
+        varied = parameter("amplitude", of=parameters["of"])
+        dataset["amplitude"].attrs.update(units=varied.units, long_name=varied.long_name)
+    if "status" in dataset.variables:
+        dataset["status"].attrs["flag_values"] = [int(status) for status in Status]
+        dataset["status"].attrs["flag_meanings"] = " ".join(s.name.lower() for s in Status)
+    if told := "\n".join(notes):
+        dataset.attrs["notes"] = told
+    dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
+    return dataset
+
+
+def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:
+    """What a dataset says of where it comes from."""
+    return {
+        "created_by": created_by,
+        "vibroimpact_version": __version__,
+        **({} if parameters is None else {"parameters": json.dumps(parameters)}),
+    }
+
+
+def noted(data: xr.Dataset) -> list[str]:
+    """The notes of the dataset that something was made from."""
+    return str(data.attrs.get("notes", "")).splitlines()
+
+
+def motion_parameters(motion: xr.Dataset) -> dict[str, Any]:
+    """The parameters of the motion that something was made from."""
+    parameters: dict[str, Any] = json.loads(motion.attrs["parameters"])
+    return parameters
+
+
+def excitation_parameters(shaken: Repeated, *left_out: str) -> dict[str, Any]:
+    """What shakes it as plain numbers (SI units), for a dataset's attributes.
+
+    What an amplitude is one of is named unless it is the base acceleration.
+    """
+    numbers = {k: v for k, v in shaken.model_dump().items() if k not in left_out}
+    if shaken.of == "acceleration":
+        del numbers["of"]
+    return numbers
+
+
+def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:
+    """What shakes it, from a dataset's attributes; `others` stand in for what they leave open."""
+    kind = Periodic if "amplitudes" in parameters else Harmonic
+    given = {k: parameters[k] for k in kind.model_fields if k in parameters}
+    return kind.model_validate({**given, **others})
+
+
+def oscillator_parameters(oscillator: Oscillator) -> dict[str, Any]:
+    """The oscillator as plain nested numbers (SI units), for a dataset's attributes."""
+    return oscillator.model_dump()

@@ -1,0 +1,180 @@
+"""Datasets to NetCDF files and back: never half-written, and checked when they are read."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+import xarray as xr
+
+from vibroimpact._version import __version__
+from vibroimpact.arguments import check_mapping, check_path, check_variables
+from vibroimpact.datasets.tables import as_text
+from vibroimpact.errors import InputError, shown, warn_of_input
+
+_SEAL = b"\nvibroimpact sha256 "
+"""Stands before the digest at the end of a file; HDF5 knows its own length and ignores both."""
+_SEAL_LENGTH = len(_SEAL) + 2 * hashlib.sha256().digest_size
+
+
+def write_whole(path: Path | str, content: bytes | str) -> Path:
+    """Write a file next to `path`, then rename it: there is the old file or the new one, whole.
+
+    The content is complete before anything is written, so that a full disk is an error of the
+    operating system here, and not one within the library of a format.
+
+    Raises
+    ------
+    InputError
+        If the folder is missing or cannot be written to.
+    """
+    target = Path(path)
+    try:
+        handle, name = tempfile.mkstemp(
+            dir=target.parent, prefix=f".{target.stem}-", suffix=target.suffix
+        )
+        os.close(handle)
+        beside = Path(name)
+        try:
+            beside.write_bytes(content.encode() if isinstance(content, str) else content)
+            mask = os.umask(0)
+            os.umask(mask)
+            beside.chmod(0o666 & ~mask)  # mkstemp's files are private
+            beside.replace(target)
+        finally:
+            beside.unlink(missing_ok=True)
+    except OSError as error:
+        raise InputError(
+            f"output: {str(target)!r} cannot be written ({error.strerror or error}); "
+            "a file in an existing folder that you may write to is accepted"
+        ) from None
+    return target
+
+
+def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Path:
+    """Write a dataset, or several by name, to a file.
+
+    Parameters
+    ----------
+    dataset
+        Several become the groups of the file. A blank or a slash in a name becomes an underscore.
+    path
+        ``.nc`` is NetCDF, which keeps everything; ``.csv`` is the table of `to_table`, for a
+        spreadsheet, and holds one dataset.
+
+    Raises
+    ------
+    InputError
+        If the ending is another, or the file cannot be written; a file that was there is then as
+        it was.
+    """
+    ending = check_path(path, "path").suffix.lower()
+    if ending not in (".nc", ".csv"):
+        raise InputError(
+            f"path: {str(path)!r} ends in {ending or 'nothing'!r}; .nc (NetCDF) or .csv (a table) "
+            "is accepted"
+        )
+    if ending == ".csv":
+        if not isinstance(dataset, xr.Dataset):
+            raise InputError(
+                f"path: {str(path)!r} would hold several datasets; a table for each, or .nc, is "
+                "accepted"
+            )
+        return write_whole(path, as_text(dataset))
+    if isinstance(dataset, xr.Dataset):
+        return write_whole(path, _sealed(dataset))
+    check_mapping(dataset, "dataset", "a dataset, or a mapping of names to datasets")
+    for name, one in dataset.items():
+        check_variables(one, (), f"dataset[{name!r}]", "a dataset")
+    names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
+    if len(set(names.values())) < len(names):
+        raise InputError(
+            f"dataset: the names {', '.join(map(repr, names))} are not different as groups of a "
+            "file; names that differ otherwise than by blanks and slashes are accepted"
+        )
+    tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
+    tree.attrs["vibroimpact_version"] = __version__
+    return write_whole(path, _sealed(tree))
+
+
+def _sealed(data: xr.Dataset | xr.DataTree) -> bytes:
+    """A NetCDF file with the digest of its bytes at its end."""
+    file = io.BytesIO()
+    data.to_netcdf(file, engine="h5netcdf")
+    content = file.getvalue()
+    return content + _SEAL + hashlib.sha256(content).hexdigest().encode()
+
+
+def _unsealed(content: bytes) -> tuple[bytes, bool]:
+    """The NetCDF file without its digest, and whether it had one.
+
+    Raises
+    ------
+    ValueError
+        If the digest does not fit.
+    """
+    seal = content[-_SEAL_LENGTH:]
+    if not seal.startswith(_SEAL):
+        if _SEAL in seal or any(seal.endswith(_SEAL[:n]) for n in range(2, len(_SEAL))):
+            raise ValueError("it is cut off within its checksum")
+        return content, False
+    content = content[:-_SEAL_LENGTH]
+    if hashlib.sha256(content).hexdigest().encode() != seal.removeprefix(_SEAL):
+        raise ValueError("its content does not fit its checksum")
+    return content, True
+
+
+def load(path: Path | str, group: str | None = None) -> xr.Dataset:
+    """Read a dataset that `save` wrote.
+
+    Parameters
+    ----------
+    path
+        The file.
+    group
+        Which of several datasets.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged, or not one of this package's; or if it holds several
+        datasets, and ``group`` names none of them.
+
+    Warns
+    -----
+    InputWarning
+        If the file has no checksum, because another program has written to it since.
+    """
+    if not check_path(path, "file").is_file():
+        raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")
+    try:
+        content, is_sealed = _unsealed(Path(path).read_bytes())
+        file = io.BytesIO(content)
+        groups = [part.strip("/") for part in xr.open_groups(file, engine="h5netcdf")]
+        groups = [part for part in groups if part]
+        if (isinstance(group, str) and group in groups) or (group is None and not groups):
+            data: xr.Dataset = xr.load_dataset(file, engine="h5netcdf", group=group)
+    except (OSError, ValueError, KeyError, RuntimeError, TypeError, AttributeError) as error:
+        reason = (str(error).splitlines() or [type(error).__name__])[0]
+        raise InputError(
+            f"file: {str(path)!r} is damaged or not a NetCDF file ({reason}); "
+            "a file written by vibroimpact is accepted"
+        ) from None
+    if not (isinstance(group, str) and group in groups) and (groups or group is not None):
+        given = "it holds several datasets" if group is None else f"it has no group {shown(group)}"
+        accepted = f"{', '.join(groups)} are accepted" if groups else "None is accepted"
+        raise InputError(f"group: {shown(group)} of {str(path)!r}: {given}; {accepted}")
+    if "vibroimpact_version" not in data.attrs:
+        raise InputError(
+            f"file: {str(path)!r} was not written by vibroimpact; a file that it wrote is accepted"
+        )
+    if not is_sealed:
+        warn_of_input(
+            f"file {str(path)!r}",
+            ["it has no checksum, so another program changed it; damage would not be noticed"],
+        )
+    return data

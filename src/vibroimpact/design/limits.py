@@ -1,0 +1,48 @@
+"""What a design must not exceed."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import xarray as xr
+
+from vibroimpact.arguments import check_mapping
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.design.shaking import PEAKS
+from vibroimpact.errors import InputError, unknown
+from vibroimpact.model import to_si
+from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
+
+QUANTITIES = {"m": LENGTH, "m s-2": ACCELERATION, "N": FORCE}
+"""Of a peak, by its unit."""
+
+
+def limits_of(limits: Any) -> dict[str, float]:
+    """Read limits by name, in SI units.
+
+    Raises
+    ------
+    InputError
+        If one is of nothing that is known of a design, or has a wrong unit.
+    """
+    accepted = [name for name in PEAKS if name != "peak_acceleration"]
+    found = {}
+    given = check_mapping({} if limits is None else limits, "limits", "a mapping of limits by name")
+    for name, value in given.items():
+        key = name.replace("-", "_")
+        if key not in accepted:
+            raise InputError(f"limits: {unknown(name, accepted)}")
+        quantity = QUANTITIES[VARIABLES[key].units]
+        found[key] = to_si(value, quantity, f"limits[{name!r}]", minimum=0.0)
+    return found
+
+
+def excesses(data: xr.Dataset) -> list[xr.DataArray]:
+    """By how much designs exceed each limit, as a share of it; above 0 where they do.
+
+    Of a limit of 0 it is the value itself. The list is empty where a dataset does not say what its
+    limits are.
+    """
+    limits = json.loads(data.attrs.get("parameters", "{}")).get("limits", {})
+    return [(data[name] - most) / (most or 1.0) for name, most in limits.items() if name in data]

@@ -1,0 +1,260 @@
+"""Many earthquakes at once: records, scales, gaps, stops and isolators as one dataset."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.earthquakes.intensity import Measure, measure
+from vibroimpact.earthquakes.peaks import MAX_EVENTS, PEAKS, RESIDUALS, Shaken, peaks
+from vibroimpact.earthquakes.plan import Block, Runs, blocks, chunks, digest, runs, suite
+from vibroimpact.earthquakes.response import with_both_sides
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, Record, to_si
+from vibroimpact.model.counts import check_max_events, whole
+from vibroimpact.model.quantities import TIME
+from vibroimpact.model.rigs import AnyRig
+from vibroimpact.response.accelerogram import record_notes
+from vibroimpact.stores.zarr_store import Block as Part
+from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress, Workers
+
+if TYPE_CHECKING:  # it takes long to load: only where a store is made
+    import zarr
+
+_Array = NDArray[np.float64]
+
+CREATED_BY = "vibroimpact.demands"
+_VALUES = (*PEAKS, *RESIDUALS)
+_KIND = Kind("set of demands", CREATED_BY, frozenset({*_VALUES, "status"}))
+_PENDING = -1
+
+
+def demands(
+    oscillator: Oscillator | AnyRig | Mapping[str, Oscillator | AnyRig] | list[Oscillator | AnyRig],
+    records: Record | Sequence[Record] | Mapping[str, Record],
+    scales: ArrayLike | Sequence[str] = (1.0,),
+    *,
+    intensity: Literal["factor", "PGA"] | tuple[float | str, float] = "factor",
+    gaps: ArrayLike | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
+    tail: float | str | None = None,
+    max_events: int = MAX_EVENTS,
+    store: Path | str | None = None,
+    block: int = 512,
+    threads: int | None = None,
+    where: Any = THREADS,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Return what records at several scales ask of rigs.
+
+    Every run starts at rest; its peaks are those of `seismic_response`.
+
+    Parameters
+    ----------
+    oscillator
+        What vibrates; or a case, its code or a study file; or several, by name or as a list.
+    records
+        One, or several: by name or as a list, whose names are those of their files.
+    scales
+        Rising levels of shaking, greater than 0, in what ``intensity`` says; text with units, too.
+    intensity
+        What a scale is: ``"factor"``, the number that a record is multiplied by; ``"PGA"``, its
+        peak (m/s²); or a natural period (s) and a damping ratio, by whose pseudo-acceleration
+        (m/s²) it is scaled.
+    gaps
+        Gaps of each side (m); the same as ``vary={"gap": …}``.
+    vary
+        Values of parameters by name, all combined, such as ``"bumper_stiffness"``,
+        ``"restitution"``, ``"right_gap"``, ``"damping_ratio"`` or ``"yield_force"``. Those of stops
+        are set on both sides, where the stop has them.
+    tail
+        As of `seismic_response`.
+    max_events
+        As of `seismic_response`.
+    store
+        Folder for the demands as a Zarr group, written block by block. If it holds the same,
+        unfinished, that is completed. None keeps them in memory.
+    block
+        How many rigs and records make a block, with every scale: what is lost at most when the
+        computation is stopped.
+    threads
+        How many runs are done at once; None for one a processor. No result depends on it.
+    where
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). No result depends on it.
+    progress
+        Called from the calling thread with the runs done and all there are.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims ``record``, ``scale``, ``rig`` if several were given, and one for each parameter that
+        is varied. Peaks, forces, impulses, counts and residual displacements as those of
+        `seismic_response`. ``status`` of each run: 0 done; values of others are NaN, and a
+        warning tells how many there are. ``factor`` is what a record was multiplied by,
+        ``intensity`` that of the record as it is.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or the store holds something else.
+    """
+    rigs = runs(oscillator, gaps, vary)
+    shaking = suite(records)
+    scaled = measure(intensity)
+    levels = _levels(scales, scaled)
+    known, factors = scaled.factors(list(shaking.values()), levels)
+    task = _Task(
+        rigs,
+        list(shaking.values()),
+        factors,
+        None if tail is None else to_si(tail, TIME, "tail", minimum=0.0),
+        check_max_events(max_events),
+        placed(threads, where),
+    )
+    settings = {
+        "oscillators": {name: oscillator_parameters(one) for name, one in rigs.rigs.items()},
+        "varied": {one.name: one.values.tolist() for one in rigs.varied},
+        "records": {name: digest(one) for name, one in shaking.items()},
+        "scales": levels.tolist(),
+        "intensity": [scaled.name, scaled.period, scaled.damping],
+        "tail": task.tail,
+        "max_events": task.max_events,
+        "block": (most := whole(block, "block")),
+    }
+    parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, most))
+    with folder(store, _KIND, settings, partial(_make, task=task, most=most), parts) as group:
+        if not finished(group):
+            _complete(group, task, most, progress)
+            group.attrs["finished"] = True
+        found = {name: read(group, _KIND.word, name) for name in (*_VALUES, "status")}
+    dims = ("record", "scale", *rigs.dims)
+    data = xr.Dataset(
+        {name: (dims, values) for name, values in found.items()},
+        {
+            "record": list(shaking),
+            "scale": levels,
+            **({"rig": list(rigs.rigs)} if rigs.several else {}),
+            **{one.name: one.values for one in rigs.varied},
+            "factor": (("record", "scale"), factors),
+            "intensity": ("record", known),
+        },
+    )
+    data = describe(with_both_sides(data), CREATED_BY, settings, record_notes(shaking))
+    for name in ("scale", "intensity"):
+        data[name].attrs.update(units=scaled.units, long_name=scaled.name)
+    for one in rigs.varied:
+        data[one.name].attrs.update(units=one.units, long_name=one.long_name)
+    _warn(found["status"])
+    return data
+
+
+class _Task(NamedTuple):
+    """What is computed, whatever it is kept in."""
+
+    rigs: Runs
+    records: list[Record]
+    factors: _Array
+    """Of each record at each level."""
+    tail: float | None
+    max_events: int
+    threads: Workers
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Records and rigs."""
+        return (len(self.records), *self.rigs.shape)
+
+    def block(self, one: Block, progress: Progress | None) -> dict[str, NDArray[Any]]:
+        """The demands of a block, shaped as its place."""
+        count = self.factors.shape[1]
+        places = list(itertools.product(*(range(s.start, s.stop) for s in one.rigs)))
+        rigs = [self.rigs.oscillator(at) for at in places]
+        chosen = range(one.records.start, one.records.stop)
+        found = peaks(
+            [Shaken(rig, self.records[n], self.factors[n]) for n in chosen for rig in rigs],
+            tail=self.tail,
+            residuals=True,
+            max_events=self.max_events,
+            threads=self.threads,
+            progress=progress,
+        )
+        shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
+        return {name: np.moveaxis(v.reshape(shape), -1, 1) for name, v in found.items()}
+
+
+def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | None) -> None:
+    """Compute the blocks that are not done."""
+    ready = read(group, _KIND.word, "done")
+    levels = task.factors.shape[1]
+    total = levels * math.prod(task.shape)
+    before = 0
+    for one in blocks(task.shape, most):
+        size = levels * math.prod(s.stop - s.start for s in (one.records, *one.rigs))
+        if not ready[one.number]:
+            told = _beyond(progress, before, total)
+            for name, values in task.block(one, told).items():
+                group[name][one.place] = values  # type: ignore[index]
+            group["done"][one.number] = 1  # type: ignore[index]
+        before += size
+        if progress:
+            progress(before, total)
+
+
+def _beyond(progress: Progress | None, before: int, total: int) -> Progress | None:
+    """Progress of a part that begins when so many runs are done."""
+    return progress and (lambda done, _: progress(before + done, total))
+
+
+def _make(group: zarr.Group, task: _Task, most: int) -> None:
+    levels = task.factors.shape[1]
+    first, *others = task.shape
+    shape = (first, levels, *others)
+    size, *sizes = chunks(task.shape, most)
+    chunk = (size, levels, *sizes)
+    dims = ("record", "scale", *task.rigs.dims)
+    for name in _VALUES:
+        create(group, name, shape, chunk, "f8", np.nan, dims)
+    create(group, "status", shape, chunk, "i1", _PENDING, dims)
+    count = sum(1 for _ in blocks(task.shape, most))
+    create(group, "done", (count,), (1,), "i1", 0, ("block",))
+
+
+def _levels(scales: Any, scaled: Measure) -> _Array:
+    """The levels of shaking, in SI units."""
+    if isinstance(scales, str) or not isinstance(scales, Iterable):
+        scales = [scales]
+    levels = np.array(
+        [to_si(value, scaled.quantity, f"scales[{i}]", above=0.0) for i, value in enumerate(scales)]
+    )
+    if not len(levels):
+        raise InputError("scales: none given; one or more are accepted")
+    for i in np.flatnonzero(np.diff(levels) <= 0.0):
+        raise InputError(
+            f"scales[{i + 1}]: {levels[i + 1]:g} follows {levels[i]:g}; rising ones are accepted"
+        )
+    return levels
+
+
+def _warn(status: NDArray[Any]) -> None:
+    """Tell of runs that were given up."""
+    for code in np.unique(status[status != Status.DONE]):
+        count = int((status == code).sum())
+        warnings.warn(
+            f"demands: {count} of {status.size} runs were given up: {Status(int(code)).advice}",
+            RuntimeWarning,
+            stacklevel=3,
+        )

@@ -1,0 +1,313 @@
+"""Fragility curves: the probability that a level of shaking makes a peak exceed its limit."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.earthquakes.credible_curves import begin_to_exceed, credible_curves
+from vibroimpact.earthquakes.suites import described, exceedance, known, limit_of
+from vibroimpact.errors import InputError
+from vibroimpact.model.counts import share
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS
+from vibroimpact.model.units import pretty
+
+_Array = NDArray[np.float64]
+
+_TOLD = 5
+"""Curves without an interval, or curves that there are none of, that are told by name, at most."""
+
+
+class Fit(NamedTuple):
+    """A lognormal curve Φ((ln s − ln θ)/β)."""
+
+    log_median: float
+    """ln θ."""
+    log_dispersion: float
+    """ln β."""
+
+    def reached(self, logarithms: _Array) -> _Array:
+        """(ln s − ln θ)/β."""
+        return (logarithms - self.log_median) / math.exp(self.log_dispersion)
+
+
+def fragility(
+    demands: xr.Dataset,
+    quantity: str,
+    limit: float | str | None = None,
+    *,
+    confidence: float = 0.9,
+) -> xr.Dataset:
+    """Fit a lognormal fragility curve to how many records exceed a limit at each scale.
+
+    P(scale) = Φ((ln scale − ln θ)/β), with θ and β of the largest binomial likelihood of the
+    numbers of records above the limit (Baker 2015, Earthquake Spectra 31(1)).
+
+    Since the same records are used at all scales, the numbers at two scales are not independent.
+    Intervals therefore count each record once, by the two scales between which it begins to exceed.
+    They belong to a set of lognormal curves, each of which rises with the scale, and so does the
+    band. They hold for few records, too; the fitted β is then small on average, and lies in the
+    lower part of its interval.
+
+    Parameters
+    ----------
+    demands
+        Dataset of `demands`.
+    quantity
+        One of its peaks, such as ``"peak_acceleration"``; ``"impact_count"`` for impact itself.
+    limit
+        In SI units or as text with units; what is greater exceeds it. None for 0, of counts.
+    confidence
+        Of the intervals, between 0 and 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``median_capacity`` θ (in the scale's units), ``dispersion`` β and ``fitted_probability``
+        over the scales, each with its ends ``…_bound`` (dim ``bound``: lower, upper);
+        ``exceeding`` and ``probability`` as those of `exceedance`. NaN where the records do not
+        determine a curve (no scale has both records above and below that begin or end to exceed at
+        others): a warning, and the attribute ``undetermined``, say of which rigs. Intervals are
+        unbounded if fewer than two records begin to exceed within the scales: a warning, and the
+        attribute ``unbounded``, say of which curves. Both say which levels would give one.
+
+    Raises
+    ------
+    InputError
+        As `exceedance`; if no rig has a curve, or there are fewer than 3 records.
+    """
+    values = known(demands, quantity)
+    least = limit_of(demands, quantity, limit)
+    level = share(confidence, "confidence")
+    if values.sizes["record"] < 3:
+        raise InputError(
+            f"demands: {values.sizes['record']} records; at least 3 are accepted for a curve with "
+            "its uncertainty"
+        )
+    order = ("record", "scale", *_others(values))
+    above = (values > least).transpose(*order).values
+    logarithms = np.log(values["scale"].values)
+    shape = above.shape[2:]
+    found = {
+        name: np.full((*extra, *shape), np.nan)
+        for name, extra in (
+            ("median_capacity", ()),
+            ("dispersion", ()),
+            ("fitted_probability", (len(logarithms),)),
+            ("median_capacity_bound", (2,)),
+            ("dispersion_bound", (2,)),
+            ("fitted_probability_bound", (2, len(logarithms))),
+        )
+    }
+    for at in np.ndindex(*shape):
+        one = _curve(above[(slice(None), slice(None), *at)], logarithms, level)
+        if one is not None:
+            for name, value in one.items():
+                found[name][(..., *at)] = value
+    none = np.isnan(found["median_capacity"])
+    what = "above the limit" if limit is not None else f"above 0 in {quantity}"
+    undetermined = _undetermined(none, values, above, what)
+    if none.all():
+        beginning = "demands:" if limit is None else f"limit: {limit!r};"
+        raise InputError(f"{beginning} {undetermined}")
+    if undetermined:
+        warnings.warn(f"fragility: {undetermined}", RuntimeWarning, stacklevel=2)
+    others = order[2:]
+    unbounded = _unbounded(found["median_capacity_bound"], values, above)
+    if unbounded:
+        warnings.warn(f"fragility: {unbounded}", RuntimeWarning, stacklevel=2)
+    dims = {
+        "fitted_probability": ("scale", *others),
+        "fitted_probability_bound": ("bound", "scale", *others),
+    }
+    data = exceedance(demands, quantity, least).assign(
+        {
+            name: (dims.get(name, (*(("bound",) if "bound" in name else ()), *others)), value)
+            for name, value in found.items()
+        }
+    )
+    data = data.assign_coords(bound=["lower", "upper"])
+    data.attrs.clear()
+    about = {"quantity": quantity, "limit": least, "confidence": level}
+    data = described(data, "vibroimpact.fragility", demands, about)
+    data.attrs.update(
+        {
+            name: told
+            for name, told in (("undetermined", undetermined), ("unbounded", unbounded))
+            if told
+        }
+    )
+    for name in ("median_capacity", "median_capacity_bound"):
+        data[name].attrs["units"] = demands["scale"].attrs["units"]
+    return data
+
+
+def _undetermined(
+    none: NDArray[np.bool_], values: xr.DataArray, above: NDArray[np.bool_], what: str
+) -> str:
+    """Which rigs have no curve, and which levels would give one; nothing if all have."""
+    told = []
+    for at in np.argwhere(none):
+        why = _why(above[(slice(None), slice(None), *at)], values["scale"], what)
+        whose = _whose(values, at)
+        told.append(f"no curve {whose}: {why}" if whose else why)
+    return _listed(told)
+
+
+def _why(above: NDArray[np.bool_], scale: xr.DataArray, what: str) -> str:
+    """Why a rig has no curve, and which levels would give one."""
+    match lacking(above.mean(axis=0)):
+        case "higher levels":
+            return f"at no level is a record {what}; higher levels are accepted"
+        case "lower levels":
+            return f"at every level all records are {what}; lower levels are accepted"
+        case "finer levels":
+            return (
+                f"there are no two levels at which some records are {what} and others are not; "
+                f"{_finer(above, scale)} are accepted"
+            )
+    return (
+        f"the share of the records that are {what} does not rise with the level; levels at which "
+        "it does are accepted"
+    )
+
+
+def lacking(shares: _Array) -> str:
+    """Which levels would give a curve where there is none, for the share that exceeds at each."""
+    if not shares.any():
+        return "higher levels"
+    if (shares == 1.0).all():
+        return "lower levels"
+    separate = np.flatnonzero(shares < 1.0)[-1] <= np.flatnonzero(shares > 0.0)[0]
+    return "finer levels" if separate else "other levels"
+
+
+def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
+    """The levels between which the records begin to exceed."""
+    none, every = ~above.any(axis=0), above.all(axis=0)
+    low = float(scale[np.flatnonzero(none)[-1] if none.any() else 0])
+    high = float(scale[np.flatnonzero(every)[0] if every.any() else -1])
+    quantity = DIMENSIONLESS if scale.attrs["units"] == "1" else ACCELERATION
+    beyond = " and ".join(
+        word for word, there in (("lower", none.any()), ("higher", every.any())) if not there
+    )
+    if low == high:
+        return f"{beyond} levels"
+    finer = f"finer levels between {pretty(low, quantity)} and {pretty(high, quantity)}"
+    return f"{finer}, and {beyond} ones" if beyond else finer
+
+
+def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -> str:
+    """Which curves have no interval, and which levels would give one; nothing if all have."""
+    told = []
+    for at in np.argwhere(np.isinf(bounds[1])):
+        one = above[(slice(None), slice(None), *at)]
+        begin = begin_to_exceed(one.sum(axis=0), len(one))
+        beyond = (word for word, n in (("lower", begin[0]), ("higher", begin[-1])) if n > 0.0)
+        told.append(f"{_whose(values, at)} {' and '.join(beyond)} levels".lstrip())
+    if not told:
+        return ""
+    return (
+        "no interval where fewer than two records begin to exceed within the levels; what would "
+        f"give one: {_listed(told)}"
+    )
+
+
+def _listed(told: list[str]) -> str:
+    more = [f"likewise {len(told) - _TOLD} more curves"] if len(told) > _TOLD else []
+    return "; ".join([*told[:_TOLD], *more])
+
+
+def _whose(values: xr.DataArray, at: NDArray[np.int64]) -> str:
+    """Of which rig a curve is, such as "for gap 200 mm"; nothing if there is one."""
+    names = [_named(values[dim], i) for dim, i in zip(_others(values), at, strict=True)]
+    return f"for {', '.join(names)}" if names else ""
+
+
+def _others(values: xr.DataArray) -> list[str]:
+    return [str(dim) for dim in values.dims if dim not in ("record", "scale")]
+
+
+def _named(coordinate: xr.DataArray, at: int) -> str:
+    """One value of what is varied, such as gap 200 mm."""
+    name, value = str(coordinate.name), coordinate.values[at]
+    words = name.replace("_", " ")
+    if name not in PARAMETERS or PARAMETERS[name].measured is not None:
+        return f"{words} {value}"
+    return f"{words} {pretty(float(value), PARAMETERS[name].quantity)}"
+
+
+def _curve(
+    above: NDArray[np.bool_], logarithms: _Array, confidence: float
+) -> dict[str, float | _Array] | None:
+    """The curve of one rig with its uncertainty; None if it is not determined."""
+    from scipy.special import ndtr
+
+    exceeding, count = above.sum(axis=0), len(above)
+    whole = fit(exceeding, count, logarithms)
+    if whole is None:
+        return None
+    found = {
+        "median_capacity": math.exp(whole.log_median),
+        "dispersion": math.exp(whole.log_dispersion),
+        "fitted_probability": ndtr(whole.reached(logarithms)),
+        "median_capacity_bound": np.array([0.0, np.inf]),
+        "dispersion_bound": np.array([0.0, np.inf]),
+        "fitted_probability_bound": np.array([[0.0], [1.0]]) + 0.0 * logarithms,
+    }
+    curves = credible_curves(exceeding, count, logarithms)
+    if curves is not None:
+        found["median_capacity_bound"] = curves.median_range(confidence)
+        found["dispersion_bound"] = curves.dispersion_range(confidence)
+        found["fitted_probability_bound"] = curves.probability_range(logarithms, confidence)
+    return found
+
+
+def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Fit | None:
+    """The curve of the largest binomial likelihood.
+
+    Parameters
+    ----------
+    exceeding
+        Records that exceed at each scale, of `count`.
+    logarithms
+        Of the scales.
+
+    Returns
+    -------
+    Fit or None
+        None where there is none: where all records that exceed do so at scales above all those at
+        which one does not, or the curve falls.
+    """
+    from scipy.optimize import minimize
+    from scipy.special import log_ndtr
+
+    some, others = np.flatnonzero(exceeding > 0), np.flatnonzero(exceeding < count)
+    if not len(some) or not len(others) or logarithms[others[-1]] <= logarithms[some[0]]:
+        return None
+    middle, size = logarithms.mean(), np.ptp(logarithms)
+    x = (logarithms - middle) / size
+
+    def unlikely(line: _Array) -> tuple[float, _Array]:
+        """Minus the logarithm of the likelihood of Φ(a + b x), which is convex, and its slope."""
+        z = line[0] + line[1] * x
+        up, down = log_ndtr(z), log_ndtr(-z)
+        density = -0.5 * z * z - 0.5 * math.log(math.tau)
+        slope = exceeding * np.exp(density - up) - (count - exceeding) * np.exp(density - down)
+        return (
+            -float((exceeding * up + (count - exceeding) * down).sum()),
+            -np.array([slope.sum(), (slope * x).sum()]),
+        )
+
+    first = np.array([0.0, 2.0])
+    found = minimize(unlikely, first, jac=True, method="BFGS", options={"gtol": 1e-9 * count})
+    a, b = found.x
+    if not b > 0.0:
+        return None
+    return Fit(middle - a / b * size, math.log(size / b))

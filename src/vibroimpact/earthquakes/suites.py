@@ -1,0 +1,211 @@
+"""What a suite of records shows at each level of shaking: fractiles, shares above a limit."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.arguments import check_list, check_name
+from vibroimpact.datasets.description import describe, motion_parameters, noted
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model import to_si
+from vibroimpact.model.quantities import (
+    ACCELERATION,
+    DIMENSIONLESS,
+    FORCE,
+    LENGTH,
+    Quantity,
+)
+
+_Array = NDArray[np.float64]
+
+_QUANTITIES = {"m": LENGTH, "m s-2": ACCELERATION, "N": FORCE, "1": DIMENSIONLESS}
+UNSTABLE = (int(Status.NOT_FINITE), int(Status.REVERSED))
+"""Runs that went beyond all limits; of others that were given up nothing is known."""
+_VAST = 1e300
+"""Stands for infinity where quantiles are interpolated."""
+
+
+def fractiles(
+    demands: xr.Dataset,
+    quantity: str = "peak_displacement",
+    shares: Sequence[float] = (0.16, 0.5, 0.84),
+) -> xr.Dataset:
+    """Return fractiles over the records at each scale, or over the rigs of an ensemble.
+
+    Those over records are the curves of incremental dynamic analysis. Quantiles of a sample are
+    interpolated between its sorted values (Hyndman and Fan's seventh definition). A run that went
+    beyond all limits counts as infinite (Vamvatsikos and Cornell, 2002).
+
+    Parameters
+    ----------
+    demands
+        Dataset of `demands`; or of `ensemble`, of whatever response.
+    quantity
+        One of its peaks, such as ``"peak_acceleration"``, or a variable of the response.
+    shares
+        Shares of the records or rigs below, from 0 to 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        The quantity, with dim ``fractile`` in the place of ``record``, or of ``sample``.
+
+    Raises
+    ------
+    InputError
+        If it is no such dataset, a value cannot be used, or runs were given up for their number of
+        events or of steps.
+    """
+    over = "sample" if "sample" in getattr(demands, "dims", ()) else "record"
+    values = (_drawn if over == "sample" else known)(demands, quantity)
+    chosen = [
+        to_si(share, DIMENSIONLESS, f"shares[{i}]", minimum=0.0, maximum=1.0)
+        for i, share in enumerate(check_list(shares, "shares", 1000, "a list of shares"))
+    ]
+    if not chosen:
+        raise InputError("shares: none given; one or more from 0 to 1 are accepted")
+    found = quantiles(values.values, chosen, values.dims.index(over))
+    dims = ("fractile", *(dim for dim in values.dims if dim != over))
+    data = xr.Dataset({quantity: (dims, found)}, {"fractile": chosen, **_coords(values)})
+    return described(data, "vibroimpact.fractiles", demands, {"quantity": quantity})
+
+
+def quantiles(values: _Array, shares: Sequence[float], axis: int) -> _Array:
+    """Quantiles along an axis, which comes first; values may be infinite, NaN is left out."""
+    known = np.minimum(values, _VAST)
+    # Where nothing is known the quantile is NaN as well, which is no surprise.
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "All-NaN slice", RuntimeWarning)
+        pick = np.nanquantile if np.isnan(known).any() else np.quantile
+        found: _Array = pick(known, shares, axis=axis)
+    found[found > 1e-3 * _VAST] = np.inf
+    return found
+
+
+def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
+    """A variable of an ensemble, infinite where a motion went beyond all limits."""
+    names = [str(name) for name, one in data.data_vars.items() if "sample" in one.dims]
+    if quantity not in names:
+        raise InputError(f"quantity: {shown(quantity)}; one of {', '.join(names)} is accepted")
+    values: xr.DataArray = data[quantity]
+    if "status" in data and data["status"].dims == values.dims:
+        values = values.where(~np.isin(data["status"].values, UNSTABLE), math.inf)
+    unknown = int(values.isnull().sum())
+    if unknown:
+        warnings.warn(
+            f"fractiles: {unknown} of {values.size} values of {quantity} are not known, and are "
+            "left out",
+            RuntimeWarning,
+            stacklevel=3,
+        )
+    return values
+
+
+def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = None) -> xr.Dataset:
+    """Return the share of the records that exceed a limit at each scale.
+
+    ``exceedance(demands, "impact_count")`` is the probability of impact.
+
+    Parameters
+    ----------
+    demands
+        Dataset of `demands`.
+    quantity
+        One of its peaks.
+    limit
+        In SI units or as text with units; what is greater exceeds it. None for 0, of counts.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``exceeding``, a number of records, and ``probability``, over scales and rigs.
+
+    Raises
+    ------
+    InputError
+        As `fractiles`.
+    """
+    values = known(demands, quantity)
+    least = limit_of(demands, quantity, limit)
+    above = values > least
+    data = xr.Dataset(
+        {"exceeding": above.sum("record"), "probability": above.mean("record")}, _coords(values)
+    )
+    about = {"quantity": quantity, "limit": least}
+    return described(data, "vibroimpact.exceedance", demands, about)
+
+
+def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> float:
+    """Read a limit of one of the peaks; None for 0, of what is counted.
+
+    Raises
+    ------
+    InputError
+        If it is another quantity, or is missing where nothing is counted.
+    """
+    expected: Quantity = _QUANTITIES.get(demands[quantity].attrs["units"]) or DIMENSIONLESS
+    if limit is None:
+        if expected is DIMENSIONLESS:
+            return 0.0
+        raise InputError(
+            f"limit: missing; a limit of {quantity} is accepted, such as {expected.example!r}"
+        )
+    return to_si(limit, expected, "limit")
+
+
+def known(demands: Any, quantity: str) -> xr.DataArray:
+    """One of the peaks, infinite where a run went beyond all limits.
+
+    Raises
+    ------
+    InputError
+        If it is no dataset of demands, has no such peak, or runs were given up otherwise.
+    """
+    held = isinstance(demands, xr.Dataset) and {"record", "scale"} <= set(demands.dims)
+    if not held or "status" not in demands:
+        raise InputError(f"demands: {shown(demands)}; a dataset of demands is accepted")
+    peaks = [
+        str(name)
+        for name, one in demands.data_vars.items()
+        if one.dims == demands["status"].dims and name != "status"
+    ]
+    check_name(quantity, peaks, "quantity")
+    status = demands["status"].values
+    for code in np.unique(status[(status != Status.DONE) & ~np.isin(status, UNSTABLE)]):
+        raise InputError(
+            f"demands: {int((status == code).sum())} runs were given up, and nothing is known of "
+            f"them: {Status(int(code)).advice}"
+        )
+    found: xr.DataArray = demands[quantity].where(~np.isin(status, UNSTABLE), math.inf)
+    return found
+
+
+def _coords(values: xr.DataArray) -> dict[str, Any]:
+    return {
+        str(dim): values[dim]
+        for dim in values.dims
+        if dim in values.coords and dim not in ("record", "sample")
+    }
+
+
+def described(
+    data: xr.Dataset, created_by: str, demands: xr.Dataset, about: dict[str, Any]
+) -> xr.Dataset:
+    """With units and meanings, those of the scale and of what is varied as they were."""
+    kept = {name: dict(demands[name].attrs) for name in data.coords if name in demands.coords}
+    # A response of an ensemble may have names of its own.
+    own = [name for name in data.data_vars if name not in VARIABLES]
+    parameters = {**about, "of": motion_parameters(demands)}
+    made = describe(data.drop_vars(own), created_by, parameters, noted(demands))
+    for name, attributes in kept.items():
+        made[name].attrs.update(attributes)
+    return made.assign({name: data[name].assign_attrs(demands[name].attrs) for name in own})

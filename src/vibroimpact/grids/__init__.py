@@ -1,0 +1,1 @@
+"""Refine grids of nodes on a plane."""

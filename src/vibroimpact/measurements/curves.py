@@ -1,0 +1,126 @@
+"""Stepped-sine curves from a table: a value a frequency and direction, none lost."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.measurements.columns import Array, Columns
+from vibroimpact.measurements.names import CURVES, Direction, Meaning, direction_of
+
+DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
+
+Known = dict[int, tuple[Meaning, Array]]
+"""What columns hold, by their number, in SI units."""
+
+
+def curves(
+    table: Columns, known: Known, direction: str | None, notes: list[str], facts: list[str]
+) -> xr.Dataset:
+    """Arrange measured values by direction and frequency.
+
+    Parameters
+    ----------
+    table, known
+        What was read.
+    direction
+        Of all rows, if nothing in the file says it.
+    notes
+        What was guessed or left out, in words; added to.
+    facts
+        What the file does not hold, or holds more than once, in words; added to.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims ``direction`` and ``frequency`` (Hz, rising), NaN where nothing was measured; where a
+        frequency was held more than once, a last dim ``repeat``.
+
+    Raises
+    ------
+    InputError
+        If the direction of a row cannot be told, or nothing is left.
+    """
+    at = next(values for found, values in known.values() if found.variable == "frequency")
+    ways = _directions(table, known, at, direction, notes)
+    usable = np.isfinite(at) & (at > 0.0)
+    if not usable.all():
+        rows = ", ".join(table.row(int(i)) for i in np.flatnonzero(~usable)[:5])
+        notes.append(f"{int((~usable).sum())} rows without a frequency are left out ({rows})")
+    points: dict[tuple[str, str, float], list[float]] = {}
+    empty = 0
+    for found, values in known.values():
+        if found.variable not in CURVES:
+            continue
+        for i in np.flatnonzero(usable):
+            if not np.isfinite(values[i]):
+                empty += 1
+                continue
+            key = (found.variable, found.direction or ways[int(i)], float(at[i]))
+            points.setdefault(key, []).append(float(values[i]))
+    if not points:
+        raise InputError(
+            f"measurement: {table.path!r} has no value at any frequency; at least one is accepted"
+        )
+    if empty:
+        facts.append(f"{empty} values are missing")
+    frequency = np.array(sorted({key[2] for key in points}))
+    present: list[str] = [way for way in DIRECTIONS if any(key[1] == way for key in points)]
+    most = max(len(values) for values in points.values())
+    if most > 1:
+        held = len({key[1:] for key, values in points.items() if len(values) > 1})
+        facts.append(f"{held} frequencies were held up to {most} times; all values are kept")
+    data = xr.Dataset(coords={"direction": present, "frequency": frequency})
+    for name in dict.fromkeys(key[0] for key in points):
+        grid = np.full((len(present), len(frequency), most), np.nan)
+        for (variable, way, f), held_there in points.items():
+            if variable == name:
+                place = present.index(way), int(np.searchsorted(frequency, f))
+                grid[place][: len(held_there)] = held_there
+        dims = ("direction", "frequency", "repeat")
+        data[name] = (dims, grid) if most > 1 else (dims[:2], grid[..., 0])
+    file = Path(table.path).name
+    facts += [f"{file}: no {way} sweep was measured" for way in DIRECTIONS if way not in present]
+    if len(frequency) == 1:
+        notes.append("one frequency alone: there is no curve, and no jump can be told")
+    return data
+
+
+def _directions(
+    table: Columns, known: Known, at: Array, direction: str | None, notes: list[str]
+) -> Sequence[Direction]:
+    """The direction of each row, where a column's name does not say it."""
+    column = next((i for i, (found, _) in known.items() if found.variable == "direction"), None)
+    if direction is not None:
+        return [direction_of(direction, table.path, "direction")] * len(at)
+    if column is not None:
+        words: NDArray[np.generic] = table.columns[column].values
+        return [direction_of(word, table.path, table.row(i)) for i, word in enumerate(words)]
+    if all(found.direction for found, _ in known.values() if found.variable in CURVES):
+        return ["forward"] * len(at)  # asked of none
+    f = at[np.isfinite(at)]
+    change = np.diff(f)
+    turns = np.flatnonzero(np.diff(np.sign(change[change != 0.0])))
+    if len(f) > 1 and f[-1] < f[0] and not len(turns):
+        notes.append("no column tells the direction: the frequencies fall, taken as backward")
+        return ["backward"] * len(at)
+    top = int(np.nanargmax(at)) if len(f) else 0
+    if len(turns) == 1 and 0 < top < len(at) - 1:
+        notes.append(
+            "no column tells the direction: taken as forward while the frequencies rise, and as "
+            f"backward from {table.row(top + 1)} on"
+        )
+        return ["forward" if i <= top else "backward" for i in range(len(at))]
+    if len(turns):
+        raise InputError(
+            f"measurement: {table.path!r}: no column tells the direction of the sweep, and its "
+            "frequencies neither rise, nor fall, nor first rise and then fall; a column "
+            "'direction' with forward and backward is accepted, or direction='forward'"
+        )
+    notes.append("no column tells the direction: taken as forward")
+    return ["forward"] * len(at)

@@ -1,0 +1,77 @@
+"""Time histories from a table: base and mass, as the names of `vibroimpact.simulate`."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.errors import InputError
+from vibroimpact.measurements.columns import Columns
+from vibroimpact.measurements.curves import Known
+from vibroimpact.measurements.names import HISTORIES
+
+_EVEN = 0.01
+"""By how much of a step a time may be off before a record is told to be uneven."""
+
+
+def history(table: Columns, known: Known, notes: list[str], facts: list[str]) -> xr.Dataset:
+    """Channels over time, in SI units.
+
+    Parameters
+    ----------
+    table, known
+        What was read.
+    notes
+        What was guessed or left out, in words; added to.
+    facts
+        What the file does not hold, and what was computed instead, in words; added to.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``time`` (s, rising). ``displacement`` is relative to the base: where mass and base were
+        measured, their difference.
+
+    Raises
+    ------
+    InputError
+        If nothing is left, or two samples have one time.
+    """
+    time = next(values for found, values in known.values() if found.variable == "time")
+    usable = np.isfinite(time)
+    channels = {
+        found.variable: values
+        for found, values in known.values()
+        if found.variable in HISTORIES and np.isfinite(values[usable]).any()
+    }
+    if not channels:
+        raise InputError(
+            f"measurement: {table.path!r} has no channel over time that is known; displacement, "
+            "acceleration or base acceleration is accepted, or columns={'displacement': NAME} with "
+            f"one of {', '.join(repr(column.name) for column in table.columns)}"
+        )
+    if (lost := int((~usable).sum())) > 0:
+        notes.append(f"{lost} rows without a time are left out")
+    order = np.flatnonzero(usable)[np.argsort(time[usable], kind="stable")]
+    if (np.diff(order) < 0).any():
+        notes.append("the times were not in order: sorted")
+    twice = np.flatnonzero(np.diff(time[order]) == 0.0)
+    if len(twice):
+        raise InputError(
+            f"measurement: {table.path!r}, {table.row(int(order[twice[0] + 1]))}: the time "
+            f"{time[order[twice[0]]]:g} s stands there twice; each time once is accepted"
+        )
+    data = xr.Dataset(coords={"time": time[order]})
+    for name, values in channels.items():
+        data[name] = ("time", values[order])
+        if (gaps := int(np.isnan(values[order]).sum())) > 0:
+            facts.append(f"{name} is missing at {gaps} of {len(order)} times")
+    if "displacement" not in data and {"mass_displacement", "base_displacement"} <= set(data):
+        data["displacement"] = data["mass_displacement"] - data["base_displacement"]
+        facts.append("displacement is that of the mass less that of the base")
+    elif "mass_displacement" in data and "displacement" not in data:
+        notes.append("the mass's displacement is absolute, and without that of the base no use")
+    step = np.diff(data["time"].values)
+    if len(step) > 1 and np.ptp(step) > _EVEN * np.median(step):
+        notes.append(f"times are unevenly spaced, by {step.min():.4g} to {step.max():.4g} s")
+    return data

@@ -1,0 +1,49 @@
+"""LabVIEW's measurement files: a table for all channels of a segment that share their times."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from vibroimpact.errors import InputError
+from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.records.file import File
+from vibroimpact.records.lvm import recognises, segments
+from vibroimpact.records.stated import parted
+
+
+def read(path: Path) -> list[Columns] | None:
+    """The tables of a file; None if it is of another format.
+
+    Raises
+    ------
+    InputError
+        If the file is damaged.
+    """
+    file = File(path)
+    if not recognises(file):
+        return None
+    try:
+        found = segments(file)
+    except InputError as error:
+        told = str(error).removeprefix("record: ")
+        raise InputError(f"measurement: {told}") from None
+    tables: list[tuple[str, list[Column]]] = []
+    for number, signals in enumerate(found, 1):
+        begun = len(tables)
+        for signal in signals:
+            column = Column(parted(signal.name)[0], signal.unit, signal.values)
+            for _, columns in tables[begun:]:
+                if np.array_equal(columns[0].values, signal.times):
+                    columns.append(column)
+                    break
+            else:
+                unit = {"time": "s", "frequency": "Hz"}.get(signal.axis)
+                axis = Column(signal.axis, unit, signal.times)
+                tables.append((str(number), [axis, column]))
+    said = [{"group": name} if len(tables) > 1 else {} for name, _ in tables]
+    return [
+        Columns(str(path), tuple(columns), one)
+        for (_, columns), one in zip(tables, said, strict=True)
+    ]

@@ -1,0 +1,191 @@
+"""What a column holds, by its name and its unit; what is guessed is told."""
+
+from __future__ import annotations
+
+import re
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from vibroimpact.errors import InputError
+from vibroimpact.measurements.columns import Array, Column
+from vibroimpact.model.quantities import (
+    ACCELERATION,
+    DIMENSIONLESS,
+    FORCE,
+    FREQUENCY,
+    LENGTH,
+    TIME,
+    VELOCITY,
+    Quantity,
+)
+from vibroimpact.model.units import to_si
+from vibroimpact.records.stated import ending, plain, spelled, words_of
+
+Direction = Literal["forward", "backward"]
+
+CURVES: dict[str, Quantity] = {
+    "displacement_excursion": LENGTH,
+    "acceleration_excursion": ACCELERATION,
+    "displacement_max": LENGTH,
+    "displacement_min": LENGTH,
+    "acceleration_max": ACCELERATION,
+    "acceleration_min": ACCELERATION,
+    "eta_d": DIMENSIONLESS,
+    "eta_a": DIMENSIONLESS,
+}
+"""What is measured at each frequency of a stepped sine."""
+
+HISTORIES: dict[str, Quantity] = {
+    "displacement": LENGTH,
+    "velocity": VELOCITY,
+    "acceleration": ACCELERATION,
+    "base_acceleration": ACCELERATION,
+    "mass_displacement": LENGTH,
+    "base_displacement": LENGTH,
+    "contact_force": FORCE,
+}
+"""What is measured over time. Displacement and velocity are relative to the base."""
+
+AXES: dict[str, Quantity] = {"frequency": FREQUENCY, "time": TIME}
+QUANTITIES: dict[str, Quantity] = {**AXES, **CURVES, **HISTORIES}
+
+_FORWARD = {"forward", "fwd", "fw", "up", "upward", "upwards", "rising", "increasing", "increase"}
+_BACKWARD = {
+    "backward", "bwd", "bw", "down", "downward", "downwards", "falling", "decreasing", "decrease",
+}  # fmt: skip
+_KINDS = {
+    "max": {"max", "maximum", "most", "maxima", "highest"},
+    "min": {"min", "minimum", "least", "minima", "lowest"},
+    "excursion": {"excursion", "exc", "pp", "p2p", "pkpk", "range", "e", "ed", "ea", "peaktopeak"},
+    "half": {"amplitude", "amp", "semiamplitude", "halfrange"},
+}
+_WHAT = {
+    "displacement": {
+        "displacement", "displacements", "disp", "displ", "d", "u", "x", "ed", "position", "pos",
+        "defl", "deflection",
+    },
+    "acceleration": {"acceleration", "acc", "accel", "a", "ea", "accn", "accelerations"},
+    "velocity": {"velocity", "vel", "v"},
+    "force": {"force", "f_contact"},
+}  # fmt: skip
+_BASE = {"base", "table", "ground", "input", "shaker", "shaketable", "g", "t"}
+_MASS = {"mass", "absolute", "abs"}
+
+
+class Meaning(NamedTuple):
+    """What a column holds."""
+
+    variable: str
+    """One of `QUANTITIES`, or ``direction``."""
+    direction: Direction | None = None
+    """Of the sweep, where the name says it."""
+    unit: str | None = None
+    """At the end of the name."""
+    factor: float = 1.0
+    """2 of an amplitude, which is half an excursion."""
+
+
+def meaning(name: str) -> Meaning | None:
+    """What the name of a column says; None if nothing."""
+    sure = re.search(r"/ *[A-Za-z0-9]+$", plain(name)) is not None
+    words = words_of(name)
+    key = "_".join(words)
+    if key in QUANTITIES or key == "direction":
+        return Meaning(key)
+    if words in (["dir"], ["sweep"], ["sense"], ["sweep", "direction"]):
+        return Meaning("direction")
+    unit = ending(words, sure=sure)
+    if unit is not None:
+        words = words[:-1]
+    elif len(words) > 2 and words[-2:] == ["m", "s2"]:
+        unit, words = "m/s^2", words[:-2]
+    said = set(words)
+    direction: Direction | None = None
+    for way, some in (("forward", _FORWARD), ("backward", _BACKWARD)):
+        if said & some:
+            direction = way  # type: ignore[assignment]
+            words = [word for word in words if word not in some]
+    if len(words) > 1 and words[-1] in ("f", "b") and direction is None:
+        direction = "forward" if words[-1] == "f" else "backward"
+        words = words[:-1]
+    said = set(words)
+    if said & {"frequency", "freq", "fexc", "frequenz"} or words in (["f"], ["hz"]):
+        return Meaning("frequency", None, "Hz" if words == ["hz"] else unit)
+    if said & {"time", "zeit"} or words in (["t"], ["s"], ["sec"]):
+        return Meaning("time", None, unit)
+    if "eta" in said or said & {"etad", "etaa"}:
+        end = words[-1][-1]
+        return Meaning(f"eta_{end}", direction, unit) if end in "ad" else None
+    glued = re.fullmatch(r"(u|x|d|a)(max|min|pp)", "".join(words))
+    if glued:
+        words = [glued[1], glued[2]]
+        said = set(words)
+    what = next((key for key, some in _WHAT.items() if said & some), None)
+    if words in (["ag"], ["at"], ["a", "t"], ["a", "g"]):
+        return Meaning("base_acceleration", None, unit)
+    if what is None:
+        if "accelerometer" not in said and not said & (_BASE - {"t", "g"}):
+            return None
+        what = "acceleration"
+    kind = next((key for key, some in _KINDS.items() if said & some), None)
+    if kind in ("max", "min") and what in ("displacement", "acceleration"):
+        return Meaning(f"{what}_{kind}", direction, unit)
+    if kind in ("excursion", "half") and what in ("displacement", "acceleration"):
+        return Meaning(f"{what}_excursion", direction, unit, 2.0 if kind == "half" else 1.0)
+    if what == "force":
+        return Meaning("contact_force", direction, unit)
+    if said & (_BASE - {"t", "g"}) and what in ("displacement", "acceleration"):
+        return Meaning(f"base_{what}", direction, unit)
+    if said & _MASS and what == "displacement":
+        return Meaning("mass_displacement", direction, unit)
+    return Meaning(what, direction, unit)
+
+
+def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[Array, str | None]:
+    """A column's values in SI units, and what was guessed, in words.
+
+    Raises
+    ------
+    InputError
+        If its unit cannot be read, or is one of another quantity.
+    """
+    quantity = QUANTITIES[found.variable]
+    unit = said or column.unit or found.unit
+    values = np.asarray(column.values, dtype=float) * found.factor
+    notes = []
+    if found.factor != 1.0:
+        notes.append(f"{column.name!r} is taken as an amplitude, half an excursion")
+    if unit is not None and unit.strip() not in ("-", "–", "1", ""):
+        where = f"measurement: {path!r}, column {column.name!r}"
+        if quantity is DIMENSIONLESS and unit.strip() == "%":
+            return values / 100.0, None
+        size = to_si(f"1 {spelled(unit)}", quantity, where)
+        return values * size, "; ".join(notes) or None
+    if quantity is not DIMENSIONLESS:
+        largest = float(np.nanmax(np.abs(values), initial=0.0))
+        if quantity is LENGTH and largest > 2.0:
+            notes.append(f"{column.name!r} has no unit: up to {largest:.4g}, taken as millimetres")
+            values = values * 1e-3
+        else:
+            notes.append(f"{column.name!r} has no unit: taken as {quantity.symbol}")
+    return values, "; ".join(notes) or None
+
+
+def direction_of(word: object, path: str, where: str) -> Direction:
+    """Read a sweep's direction: a word, or 1 and −1.
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+    """
+    text = str(word).strip().lower()
+    if text in _FORWARD | {"f", "1", "1.0", "+1"}:
+        return "forward"
+    if text in _BACKWARD | {"b", "-1", "-1.0", "0", "0.0", "2", "2.0"}:
+        return "backward"
+    raise InputError(
+        f"measurement: {path!r}, {where}: the direction {text!r}; forward and backward, up and "
+        "down, or 1 and -1 are accepted"
+    )

@@ -1,0 +1,318 @@
+"""Measured data from files of any usual program, as datasets with the names of this package."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.arguments import check_path, check_texts
+from vibroimpact.datasets.description import describe
+from vibroimpact.datasets.files import load
+from vibroimpact.errors import InputError, shown, unknown, warn_of_input
+from vibroimpact.measurements import hdf5, lvm, mat, tdms, text, uff
+from vibroimpact.measurements.beside import shaking
+from vibroimpact.measurements.columns import Array, Column, Columns
+from vibroimpact.measurements.curves import curves
+from vibroimpact.measurements.histories import history
+from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
+from vibroimpact.measurements.sampling import timed
+from vibroimpact.records.commas import Decimal, checked
+from vibroimpact.records.guard import regular
+
+_READERS = {
+    ".mat": mat.read,
+    ".h5": hdf5.read,
+    ".hdf5": hdf5.read,
+    ".hdf": hdf5.read,
+    ".uff": uff.read,
+    ".unv": uff.read,
+    ".tdms": tdms.read,
+}
+CALL = "the call"
+"""Where an amplitude is from that the file does not say."""
+CREATED_BY = "vibroimpact.read_measurement"
+
+
+def read_measurement(
+    path: Path | str,
+    *,
+    columns: Mapping[str, str] | None = None,
+    units: Mapping[str, str] | None = None,
+    direction: str | None = None,
+    group: str | None = None,
+    amplitude: float | str | None = None,
+    frequency: float | str | None = None,
+    decimal: str | None = None,
+) -> xr.Dataset:
+    """Read measured curves or time histories.
+
+    Parameters
+    ----------
+    path
+        A table of text (CSV and its relatives; LabVIEW's ``.lvm``), a MATLAB (``.mat``), HDF5
+        (``.h5``), universal (``.uff``, with ``vibroimpact[uff]``) or TDMS file (``.tdms``, with
+        ``vibroimpact[tdms]``), or a NetCDF file of this package.
+    columns
+        Names of the file's columns by variable, such as ``{"displacement_excursion": "Ed"}``,
+        where the names alone do not tell.
+    units
+        Units by variable or by column, such as ``{"displacement_excursion": "mm"}``, instead of
+        those of the file.
+    direction
+        ``"forward"`` or ``"backward"``, of curves that do not tell.
+    group
+        Which of several tests of the file.
+    amplitude
+        Peak base acceleration of the test (m/s², or text such as ``"0.05 g"``); comes before what
+        the file says (``amplitude = 0.05 g``, ``amplitude_g = 0.05``).
+    frequency
+        Of the base's sine (Hz) in a time history; comes before what the file says.
+    decimal
+        Decimal mark of a table of text, ``"."`` or ``","``, where the table alone does not tell.
+
+    Returns
+    -------
+    xarray.Dataset
+        Curves have the dims ``direction`` and ``frequency``, and ``repeat`` where a frequency was
+        held more than once; histories have ``time``. Variables are named as in `sweep` and
+        `simulate`, in SI units. The attribute ``notes`` lists, a line each, what was assumed and
+        what was left out of columns and of single numbers; ``left_out`` names the columns that
+        were not understood, ``amplitude_source`` says where the amplitude is from.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or a column or unit cannot be told.
+
+    Warns
+    -----
+    InputWarning
+        With what was assumed and what was left out, if anything was.
+    """
+    file = check_path(path, "measurement")
+    for field, given in (("columns", columns), ("units", units)):
+        check_texts(given, field)
+    if file.is_dir():
+        raise InputError(f"measurement: {str(path)!r} is a folder; a file of a test is accepted")
+    if not file.exists():
+        raise InputError(f"measurement: {str(path)!r} does not exist; a file of a test is accepted")
+    regular(file, "measurement")
+    if file.suffix.lower() == ".nc":
+        return _checked(load(file))
+    tables = [table for table in _tables(file, checked(decimal)) if table.columns]
+    tables = [part for table in tables for part in _runs(table)]
+    notes: list[str] = []
+    facts: list[str] = []
+    tables = [part for table in tables for part in timed(table, notes)]
+    table = _chosen(str(path), tables, group, set((columns or {}).values()), notes)
+    known, left = _known(table, columns or {}, units or {}, notes)
+    variables = {found.variable for found, _ in known.values()}
+    if "frequency" in variables and variables & set(CURVES):
+        data, kind = curves(table, known, direction, notes, facts), "curves"
+    elif "time" in variables and variables & set(HISTORIES):
+        data, kind = history(table, known, notes, facts), "history"
+    else:
+        raise InputError(f"measurement: {str(path)!r}{_untold(table, known, left)}")
+    if left:
+        notes.append(f"not understood, and left out: {', '.join(left)}")
+    data.attrs |= shaking(table, {"amplitude": amplitude, "frequency": frequency}, notes)
+    if "amplitude" in data.attrs:
+        data.attrs["amplitude_source"] = file.name if amplitude is None else CALL
+    data.attrs |= {
+        "source": file.name,
+        "kind": kind,
+        "notes": "\n".join([*facts, *notes]),
+        "left_out": "\n".join(left),
+    }
+    warn_of_input(f"measurement {str(path)!r}", notes)
+    return describe(data, CREATED_BY)
+
+
+def _tables(file: Path, decimal: Decimal | None) -> list[Columns]:
+    """What a file holds, by its ending; LabVIEW's are known by their first line."""
+    reader = _READERS.get(file.suffix.lower())
+    if reader is not None:
+        return reader(file)
+    found = lvm.read(file)
+    return text.read(file, decimal) if found is None else found
+
+
+def is_measured(data: object) -> bool:
+    """Whether a dataset holds measured data."""
+    return isinstance(data, xr.Dataset) and data.attrs.get("kind") in ("curves", "history")
+
+
+def _checked(data: xr.Dataset) -> xr.Dataset:
+    if is_measured(data):
+        return data
+    if {"direction", "frequency"} <= set(data.dims) and set(data) & set(CURVES):
+        kind = "curves"
+    elif "time" in data.dims and set(data) & set(HISTORIES):
+        kind = "history"
+    else:
+        raise InputError(
+            "measurement: the dataset holds neither curves (direction, frequency) nor a history "
+            "(time); one of sweep, simulate or read_measurement is accepted"
+        )
+    return data.assign_attrs(kind=kind, notes="")
+
+
+def as_measured(data: object, where: str = "data") -> xr.Dataset:
+    """Accept a dataset of `read_measurement`, `sweep` or `simulate`, or the path of a file.
+
+    Raises
+    ------
+    InputError
+        If it is none of these.
+    """
+    if isinstance(data, str | Path):
+        return read_measurement(data)
+    if isinstance(data, xr.Dataset):
+        return _checked(data)
+    raise InputError(
+        f"{where}: {type(data).__name__} is no measurement; a dataset of read_measurement, or the "
+        "path of a file, is accepted"
+    )
+
+
+def _runs(table: Columns) -> list[Columns]:
+    """The runs of a table whose columns are called ``Run 1: Time`` and so on, each by itself."""
+    groups: dict[str, list[Column]] = {}
+    for column in table.columns:
+        run, mark, name = column.name.partition(":")
+        groups.setdefault(run.strip() if mark else "", []).append(
+            column._replace(name=name.strip() if mark else column.name)
+        )
+    if len(groups) < 2:
+        return [table]
+    said = dict(table.said)
+    return [
+        table._replace(columns=tuple(group), said={**said, "group": run})
+        for run, group in groups.items()
+    ]
+
+
+def _chosen(
+    path: str, tables: list[Columns], group: str | None, wanted: set[str], notes: list[str]
+) -> Columns:
+    """The test that is asked for, or the only one that has a time or a frequency."""
+    if not tables:
+        raise InputError(f"measurement: {path!r} holds no columns of numbers; some are accepted")
+    names = [table.said.get("group") or str(i + 1) for i, table in enumerate(tables)]
+    if group is None and len(tables) == 1:
+        return tables[0]
+    usable = [i for i, table in enumerate(tables) if _has_axis(table, wanted)]
+    if group is None and len(usable) == 1:
+        others = [name for i, name in enumerate(names) if i != usable[0]]
+        notes.append(f"without a time or a frequency, and left out: {', '.join(others)}")
+        return tables[usable[0]]
+    if isinstance(group, str) and group in names:
+        return tables[names.index(group)]
+    given = f"{shown(group)} is none of them" if group is not None else "none is chosen"
+    raise InputError(
+        f"group: {path!r} holds {len(tables)} tests, and {given}; "
+        f"{', '.join(map(repr, names))} are accepted"
+    )
+
+
+def _has_axis(table: Columns, wanted: set[str]) -> bool:
+    """Whether a table has a time or a frequency, or columns that are asked for by name."""
+    said = [meaning(column.name) for column in table.columns]
+    known = any(one is not None and one.variable in AXES for one in said)
+    return known or bool(wanted & {column.name for column in table.columns})
+
+
+def _known(
+    table: Columns, columns: Mapping[str, str], units: Mapping[str, str], notes: list[str]
+) -> tuple[dict[int, tuple[Meaning, Array]], list[str]]:
+    """What each column holds, in SI units; and those that are not understood."""
+    names = [column.name for column in table.columns]
+    chosen = {}
+    accepted = [*AXES, "direction", *CURVES, *HISTORIES]
+    for variable, name in columns.items():
+        bare, way = variable, None
+        for end in ("forward", "backward"):
+            if variable.endswith(f"_{end}"):
+                bare, way = variable.removesuffix(f"_{end}"), end
+        if bare not in accepted:
+            raise InputError(f"columns: {unknown(variable, accepted)}")
+        if name not in names:
+            raise InputError(
+                f"columns[{variable!r}]: {shown(name)} is no column of {table.path!r}; one of "
+                f"{', '.join(names)} is accepted"
+            )
+        chosen[names.index(name)] = Meaning(bare, way)  # type: ignore[arg-type]
+    for key in units:
+        if key not in accepted and key not in names:
+            raise InputError(
+                f"units: {key!r} is neither a variable nor a column of {table.path!r}; "
+                f"{', '.join(names)} are accepted"
+            )
+    found: dict[int, tuple[Meaning, Array]] = {}
+    left = []
+    for i, column in enumerate(table.columns):
+        said = chosen.get(i) or meaning(column.name)
+        if said is None or (i not in chosen and _taken(said, chosen, found)):
+            left.append(column.name)
+            continue
+        if said.variable == "direction":
+            found[i] = (said, np.empty(0))
+            continue
+        if column.values.dtype.kind not in "fiub":
+            kind = " (complex numbers)" if column.values.dtype.kind == "c" else ""
+            left.append(f"{column.name}{kind}")
+            continue
+        unit = units.get(said.variable) or units.get(column.name)
+        values, told = in_si(column, said, unit, table.path)
+        for row in np.flatnonzero(np.isinf(values))[:1]:
+            raise InputError(
+                f"measurement: {table.path!r}, {table.row(int(row))}, column {column.name!r}: "
+                f"{values[row]} is not finite; numbers, or nothing where one is missing, are "
+                "accepted"
+            )
+        if told:
+            notes.append(told)
+        found[i] = (said, values)
+    return found, left
+
+
+def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: list[str]) -> str:
+    """What each column is read as, what is missing, and how to say it."""
+    names = [column.name for column in table.columns]
+    read = {names[i]: found.variable for i, (found, _) in known.items()}
+    variables = set(read.values())
+    moving = [name for name, found in read.items() if found in HISTORIES]
+    if variables & set(CURVES):
+        missing, wanted, listed = "a frequency", ["frequency"], ["frequency"]
+    elif "frequency" in variables:
+        missing, listed = "what was measured at each frequency", list(CURVES)
+        wanted = ["displacement_excursion"]
+    elif "time" in variables:
+        missing, wanted, listed = "what was measured over time", ["displacement"], list(HISTORIES)
+    elif moving:
+        missing, wanted, listed = "a time, or a sampling rate fs,", ["time"], list(AXES)
+    else:
+        missing = "a frequency with excursions or η, or a time with displacements or accelerations,"
+        wanted, listed = ["frequency", "displacement_excursion"], []
+    spare = [*left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
+    told = [f"{name!r} is read as {found}" for name, found in read.items()]
+    told += [f"{name!r} is not understood" for name in left]
+    pairs = list(zip(wanted, spare, strict=False))
+    said = ", ".join(f"{key!r}: {name!r}" for key, name in pairs)
+    typed = " ".join(f"--columns {key.replace('_', '-')} {name!r}" for key, name in pairs)
+    accepted = f"; the names are {', '.join(listed)}" if listed else ""
+    return (
+        f": {', '.join(told)}; {missing} is needed, such as columns={{{said}}} (command line: "
+        f"{typed}){accepted}"
+    )
+
+
+def _taken(
+    said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, tuple[Meaning, Array]]
+) -> bool:
+    """Whether another column holds the same."""
+    others = [*chosen.values(), *(one for one, _ in found.values())]
+    return any((one.variable, one.direction) == (said.variable, said.direction) for one in others)

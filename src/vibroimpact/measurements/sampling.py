@@ -1,0 +1,88 @@
+"""Time of channels that say only how fast they were sampled."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+import numpy as np
+
+from vibroimpact.measurements.columns import Column, Columns, of_one_length
+from vibroimpact.measurements.names import meaning
+from vibroimpact.model.quantities import FREQUENCY, TIME
+from vibroimpact.model.units import to_si
+
+_RATES = {"fs", "samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "fsample"}
+_STEPS = {"dt", "ts", "deltat", "timestep", "samplinginterval", "sampleinterval",
+          "samplingperiod", "timeincrement", "increment", "wfincrement"}  # fmt: skip
+
+
+def timed(table: Columns, notes: list[str]) -> list[Columns]:
+    """A table with a time, made of how its channels were sampled where it has none.
+
+    Channels that were sampled otherwise than others are tables of their own.
+
+    Raises
+    ------
+    InputError
+        If a rate cannot be read, or is not above 0.
+    """
+    axes = {said.variable for c in table.columns if (said := meaning(c.name))}
+    if not table.columns or axes & {"time", "frequency"}:
+        return [table._replace(columns=of_one_length(table.path, list(table.columns)))]
+    given = _stated(table.said)
+    common = given[1] if given else None
+    groups: dict[tuple[float | None, float], list[Column]] = {}
+    for column in table.columns:
+        words = column.values.dtype.kind == "U"
+        step = column.step if column.step is not None or words else common
+        groups.setdefault((step, column.start), []).append(column)
+    tables = []
+    for (step, start), columns in groups.items():
+        part = table._replace(columns=of_one_length(table.path, columns))
+        if step is not None:
+            count = max(len(column.values) for column in columns)
+            time = Column("time", "s", start + step * np.arange(count))
+            part = part._replace(columns=(time, *part.columns))
+            own = any(column.step is not None for column in columns)
+            if given and not own:
+                told = f"the time is made of {given[0]} = {table.said[given[0]]}, from 0 s on"
+            else:
+                told = f"the time is made of the step of {step:g} s, from {start:g} s on"
+            notes.append(told)
+        if len(groups) > 1:
+            name = table.said.get("group", "")
+            how = f"{step:g} s from {start:g} s on" if step is not None else "without times"
+            part = part._replace(said={**table.said, "group": f"{name} ({how})".strip()})
+        tables.append(part)
+    return tables
+
+
+def is_sampling(name: str) -> bool:
+    """Whether a name is that of a sampling rate, or of its step."""
+    return re.sub(r"[^a-z]", "", name.lower()) in _RATES | _STEPS
+
+
+def _stated(said: Mapping[str, str]) -> tuple[str, float] | None:
+    """What a file calls its sampling, and the seconds between two samples."""
+    return next(((name, step_of(name, said[name])) for name in said if is_sampling(name)), None)
+
+
+def step_of(name: str, value: str) -> float:
+    """The seconds between two samples, from a rate or a step.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or is not above 0.
+    """
+    if re.sub(r"[^a-z]", "", name.lower()) in _RATES:
+        return 1.0 / to_si(_number(value), FREQUENCY, name, above=0.0)
+    return to_si(_number(value), TIME, name, above=0.0)
+
+
+def _number(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text

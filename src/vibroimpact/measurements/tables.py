@@ -1,0 +1,221 @@
+"""What the readers of binary files share: vectors in groups as tables of columns."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.measurements.beside import with_unit
+from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.names import AXES, meaning
+from vibroimpact.measurements.stated import Stated
+from vibroimpact.records.guard import few_columns
+from vibroimpact.records.stated import parted
+
+_UNIT_WORDS = {"unit", "units", "einheit", "einheiten"}
+
+
+def tables(
+    path: Path,
+    groups: Mapping[str, dict[str, Any]],
+    about: Mapping[str, Stated] | None = None,
+    said: Mapping[str, Mapping[str, str]] | None = None,
+) -> list[Columns]:
+    """A table for each group; or one of all groups, where each is one channel."""
+    found: list[Columns] = []
+    about, said = about or {}, said or {}
+    common = {**said.get("", {}), **columns(path, groups.get("", {}), {}, {}).said}
+    for at, group in groups.items():
+        names = {key: f"{at}/{key}" if at else key for key in group}
+        own = {key: about[name] for key, name in names.items() if name in about}
+        beside = {**common, **said.get(at, {})}
+        found.append(columns(path, group, own, {**beside, "group": at} if at else beside))
+    found = [table for table in found if table.columns]
+    lengths = {len(column.values) for table in found for column in table.columns}
+    if len(found) > 1 and len(lengths) == 1 and all(len(table.columns) == 1 for table in found):
+        found = [_together(path, found)]
+    return found or [columns(path, {}, {}, {})]
+
+
+def _together(path: Path, tables: list[Columns]) -> Columns:
+    """One table of groups of one channel, whose name and unit are those of the group."""
+    found: list[Column] = []
+    beside: dict[str, str] = {}
+    for table in tables:
+        (column,) = table.columns
+        said = {key if key.lower() != "unit" else "unit": text for key, text in table.said.items()}
+        name, unit = said.pop("group", column.name), said.pop("unit", None)
+        found.append(column._replace(name=name, unit=column.unit or unit))
+        beside |= said
+    return Columns(str(path), tuple(found), beside)
+
+
+def columns(
+    path: Path,
+    group: Mapping[str, Any],
+    about: Mapping[str, Stated],
+    said: Mapping[str, str],
+) -> Columns:
+    """Vectors as columns; single numbers and texts are what stands beside them.
+
+    Parameters
+    ----------
+    path
+        The file.
+    group
+        Values by name.
+    about
+        What is stated of some of them.
+    said
+        What stands beside them.
+
+    Raises
+    ------
+    InputError
+        If a unit stands beside several channels that have none.
+    """
+    beside = dict(told(name, value) for name, value in said.items())
+    vectors: dict[str, NDArray[Any]] = {}
+    for name, value in group.items():
+        values = np.asarray(value)
+        if values.dtype.names and set(values.dtype.names) == {"real", "imag"}:
+            values = np.zeros(values.shape, dtype=complex)  # as MATLAB keeps complex numbers
+        if values.dtype.names:  # a compound type, a field a column
+            vectors |= {field: np.squeeze(values[field]) for field in values.dtype.names}
+            continue
+        if values.dtype.kind == "O":
+            values = np.array([as_text(one) for one in values.ravel()])
+        values = np.squeeze(values)
+        if values.dtype.kind == "S":
+            values = np.char.decode(values, "latin-1")
+        if values.ndim == 0 or values.dtype.kind not in "fiubUc":
+            unit = about.get(name, Stated()).unit
+            beside |= [told(name, with_unit(as_text(values[()]), unit))]
+        else:
+            where = f"measurement: {str(path)!r}, {name!r}"
+            vectors[name] = about.get(name, Stated()).applied(values, where)
+    found: list[Column] = []
+    used: set[str] = set()
+    for name, values in vectors.items():
+        if values.ndim == 1 or values.dtype.kind in "Uc":
+            continue
+        longest = int(np.argmax(values.shape))
+        table = np.moveaxis(values, longest, 0).reshape(values.shape[longest], -1).astype(float)
+        few_columns(table.shape[1], path, "measurement")
+        called, in_units = _words(vectors, table.shape[1])
+        used |= called.keys() | in_units.keys()
+        names = next(iter(called.values()), [f"{name} {i + 1}" for i in range(table.shape[1])])
+        each = next(iter(in_units.values()), [None] * table.shape[1])
+        own = about.get(name, Stated())
+        for one, unit, column in zip(names, each, table.T, strict=True):
+            bare, stated = parted(one)
+            unit = stated or known(unit) or own.unit
+            found.append(Column(bare, unit, column, own.step, own.start))
+    for name, values in vectors.items():
+        if (values.ndim == 1 or values.dtype.kind == "c") and name not in used:
+            bare, unit = parted(name)
+            own = about.get(name, Stated())
+            values = values.ravel() if values.dtype.kind in "Uc" else values.astype(float)
+            found.append(Column(bare, unit or own.unit, values, own.step, own.start))
+    found = _with_units(path, found, beside)
+    return Columns(str(path), tuple(found), beside)
+
+
+def _with_units(path: Path, found: list[Column], beside: dict[str, str]) -> list[Column]:
+    """Columns with the units that texts beside them state: ``t_unit`` of ``t``, or ``unit``."""
+    texts = {re.sub(r"[\W_]+", "", name.lower()): name for name in beside}
+    named = []
+    for column in found:
+        key = re.sub(r"[\W_]+", "", column.name.lower())
+        stated = next((texts[key + u] for u in ("unit", "units") if key + u in texts), None)
+        if stated is not None and column.unit is None:
+            column = column._replace(unit=beside.pop(stated))
+        named.append(column)
+    said = [name for name in beside if name.lower() in _UNIT_WORDS]
+    without = [
+        i
+        for i, column in enumerate(named)
+        if column.unit is None and column.values.dtype.kind not in "Uc" and not _is_axis(column)
+    ]
+    if not said or not without:
+        return named
+    if len(without) > 1:
+        raise InputError(
+            f"measurement: {str(path)!r} states {said[0]} = {beside[said[0]]!r:.40} beside "
+            f"{len(without)} channels; one unit for each is accepted, or units={{CHANNEL: UNIT}}"
+        )
+    named[without[0]] = named[without[0]]._replace(unit=beside.pop(said[0]))
+    return named
+
+
+def _is_axis(column: Column) -> bool:
+    found = meaning(column.name)
+    return found is not None and found.variable in AXES
+
+
+def told(name: str, text: str) -> tuple[str, str]:
+    """What stands beside the numbers, with the unit that its name ends in."""
+    bare, unit = parted(name)
+    return bare, with_unit(text, unit)
+
+
+def _words(
+    vectors: Mapping[str, NDArray[Any]], count: int
+) -> tuple[dict[str, list[str]], dict[str, list[str]]]:
+    """Lists of as many words as a table has columns: their names, and their units."""
+    lists = {
+        name: [str(word).strip() for word in values]
+        for name, values in vectors.items()
+        if values.ndim == 1 and values.dtype.kind == "U" and len(values) == count
+    }
+    told = {name: words for name, words in lists.items() if name.lower().startswith("unit")}
+    return {name: words for name, words in lists.items() if name not in told}, told
+
+
+def known(value: Any) -> str | None:
+    """A text that says something; None of others."""
+    text = "" if value is None else as_text(value).strip()
+    return None if text.upper() in ("", "NONE") else text
+
+
+def as_text(value: Any) -> str:
+    """A text; bytes as UTF-8, or as Latin-1 where they are none."""
+    if not isinstance(value, bytes):
+        return str(value)
+    try:
+        return value.decode()
+    except UnicodeDecodeError:
+        return value.decode("latin-1")
+
+
+def library(name: str, extra: str, path: Path) -> Any:
+    """A library that is installed on request.
+
+    Raises
+    ------
+    InputError
+        If it is not.
+    """
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        raise InputError(
+            f"measurement: {str(path)!r} is read by {name}, which is not installed; "
+            f"pip install 'vibroimpact[{extra}]' installs it"
+        ) from None
+
+
+def damaged(path: Path, kind: str, error: Exception) -> InputError:
+    """The error of a file that cannot be read, with what its library says, cut short."""
+    reason = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
+    return InputError(
+        f"measurement: {str(path)!r} is damaged or no {kind} file ({reason}); "
+        "a whole one is accepted"
+    )

@@ -1,0 +1,95 @@
+"""TDMS files: channels with their own units, steps and beginnings, a table for each group."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from vibroimpact.errors import InputError
+from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.stated import stated
+from vibroimpact.measurements.tables import damaged, known, library, told
+from vibroimpact.model.quantities import TIME
+from vibroimpact.model.units import to_si
+from vibroimpact.records.guard import within
+from vibroimpact.records.stated import parted, spelled
+
+_LEAD = 28
+"""Bytes before each segment: its mark, and how far off the next one is."""
+_STARTED = "wf_start_time"
+
+
+def read(path: Path) -> list[Columns]:
+    """The tables of a file.
+
+    Raises
+    ------
+    InputError
+        If it is damaged, was cut, or holds too much.
+    """
+    nptdms = library("nptdms", "tdms", path)
+    _whole(path)
+    try:
+        with nptdms.TdmsFile.open(str(path)) as file:
+            size = sum(8 * len(channel) for group in file.groups() for channel in group.channels())
+            within(size, path, "measurement")
+            said = dict(told(str(key), str(value)) for key, value in file.properties.items())
+            found = [_table(path, group, said) for group in file.groups()]
+    except InputError:
+        raise
+    except Exception as error:  # npTDMS raises whatever it meets in a damaged file
+        raise damaged(path, "TDMS", error) from None
+    return [table for table in found if table.columns]
+
+
+def _whole(path: Path) -> None:
+    """See to it that the file ends where its last segment does.
+
+    Raises
+    ------
+    InputError
+        If it ends before.
+    """
+    at, size = 0, path.stat().st_size
+    with path.open("rb") as file:
+        while at < size:
+            file.seek(at)
+            head = file.read(_LEAD)
+            if head[:4] != b"TDSm"[: len(head)]:
+                return  # damaged, or another format: npTDMS says so
+            if len(head) == _LEAD:
+                at += _LEAD + int(struct.unpack_from("<Q", head, 12)[0])
+            if len(head) < _LEAD or at > size:
+                raise InputError(
+                    f"measurement: {str(path)!r} ends within a segment: it was cut; a whole file "
+                    "is accepted"
+                )
+
+
+def _table(path: Path, group: Any, said: dict[str, str]) -> Columns:
+    """The channels of a group."""
+    channels = group.channels()
+    begun = [c.properties[_STARTED] for c in channels if _STARTED in c.properties]
+    first = min((np.datetime64(at) for at in begun), default=None)
+    columns: list[Column] = []
+    for channel in channels:
+        bare, unit = parted(channel.name)
+        properties = dict(channel.properties)
+        about = stated(properties, f"measurement: {str(path)!r}, channel {channel.name!r}")
+        values = np.asarray(channel[:])
+        if values.dtype.kind not in "fiubc":
+            values = values.astype(str)
+        elif values.dtype.kind != "c":
+            values = values.astype(float)
+        step, start = about.step, about.start
+        if about.time_unit and step is not None:
+            size = to_si(f"1 {spelled(about.time_unit)}", TIME, f"{channel.name!r}: wf_increment")
+            step, start = step * size, start * size
+        if step is not None and first is not None and _STARTED in properties:
+            start += (np.datetime64(properties[_STARTED]) - first) / np.timedelta64(1, "s")
+        columns.append(Column(bare, unit or known(about.unit), values, step, start))
+    own = {**said, "group": group.name}
+    return Columns(str(path), tuple(columns), own)

@@ -1,0 +1,277 @@
+"""The report of a fit: what is known, how well, what the model lacks, what to test next."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import xarray as xr
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from vibroimpact._version import __version__
+from vibroimpact.datasets.files import write_whole
+from vibroimpact.errors import InputError, printable
+from vibroimpact.figures import resonance_curves, save_figure
+from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
+from vibroimpact.identification.advice import next_test
+from vibroimpact.identification.free import SENSORS
+from vibroimpact.identification.identify import fitted
+from vibroimpact.identification.results import setting_of
+from vibroimpact.identification.words import amplitude_words
+from vibroimpact.measurements.read import as_measured
+from vibroimpact.model.names import file_stems
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.quantities import DIMENSIONLESS, Quantity
+from vibroimpact.model.units import pretty
+from vibroimpact.reports.study import study_text
+from vibroimpact.response.sweep import sweep
+
+_DENSE = 4
+"""Frequencies of a computed curve for each measured one, at least."""
+
+_MARKS = re.compile(r"[\\|<>`*]|\](?=[(\[:])")
+"""What begins a cell, a tag, code, emphasis or a link's address in Markdown."""
+
+Format = Literal["png", "pdf", "svg"]
+
+
+class Figure(NamedTuple):
+    """A figure of the report."""
+
+    file: str
+    caption: str
+
+
+def fit_report(
+    result: xr.Dataset,
+    folder: Path | str,
+    name: str = "fit",
+    *,
+    comparison: xr.Dataset | None = None,
+    figure: Format = "png",
+) -> dict[str, Path]:
+    """Write the report of a fit, with its figures and a study file of each fitted rig.
+
+    Parameters
+    ----------
+    result
+        Dataset of `identify`.
+    folder
+        An existing folder.
+    name
+        What the files' names begin with.
+    comparison
+        Dataset of `compare_fits`, if other models were fitted.
+    figure
+        Format of the figures.
+
+    Returns
+    -------
+    dict
+        The paths: ``report`` (HTML), ``markdown``, ``study`` (one for each different rig) and the
+        figures.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no fit, or a file cannot be written.
+    """
+    if not isinstance(result, xr.Dataset) or "fitted_value" not in result:
+        raise InputError("result: this is no fit; a dataset of identify is accepted")
+    where = Path(folder)
+    files: dict[str, Path] = {}
+    figures: list[Figure] = []
+
+    def drawn(key: str, axes: Any, caption: str) -> None:
+        path = save_figure(axes[0], where / f"{name}-{key}.{figure}")
+        files[f"figure {key}"] = path
+        figures.append(Figure(path.name, caption))
+
+    stems = file_stems(str(test) for test in result["test"].values)
+    for test, kind in zip(result["test"].values, result["test_kind"].values, strict=True):
+        key = "curves" if kind == "curves" else "history"
+        key = key if result.sizes["test"] == 1 else f"{key}-{stems[str(test)]}"
+        if kind == "curves":
+            measured = measured_of(result, str(test))
+            rig = fitted(result, str(test))
+            curves = sweep(rig.oscillator, rig.amplitude, _dense(measured["frequency"].values))
+            si = not any(str(name).startswith("eta_") for name in measured)
+            drawn(key, resonance_curves(curves, measured=measured, physical=si),
+                  f"{test}: measured points over the curves of the fitted rig")  # fmt: skip
+        else:
+            drawn(key, fit_history(result, str(test)), f"{test}: measured, and the fitted motion")
+    drawn("residuals", fit_residuals(result), "What the fit leaves; the band is 2 deviations")
+    if "profile_rise" in result:
+        drawn("profiles", fit_profiles(result), "How well each parameter is known: the fit worsens "
+              "by the dotted line at the ends of its interval")  # fmt: skip
+    for key, text, label in _studies(result, name):
+        path = where / f"{key}.toml"
+        files[label] = write_whole(path, text)
+    advice = next_test(result).attrs["findings"].splitlines()
+    told = {
+        "name": name,
+        "version": __version__,
+        "rows": parameter_rows(result),
+        "findings": result.attrs["findings"].splitlines(),
+        "advice": advice,
+        "tests": _tests(result),
+        "comparison": [] if comparison is None else comparison.attrs["findings"].splitlines(),
+        "models": [] if comparison is None else _models(comparison),
+        "figures": figures,
+        "studies": [path.name for label, path in files.items() if label.startswith("study")],
+        "confidence": f"{100.0 * float(result.attrs['confidence']):g} %",
+        "correlations": _correlations(result),
+    }
+    for label, template in (("markdown", "fit.md.jinja"), ("report", "fit.html.jinja")):
+        given = _inert(told) if label == "markdown" else told
+        text = _environment().get_template(template).render(**given)
+        files[label] = write_whole(where / f"{name}{Path(template).stem[3:]}", text)
+    return files
+
+
+def _inert(told: Any) -> Any:
+    """The same with what Markdown would take for its own: tables, links, tags."""
+    if isinstance(told, str):
+        return _MARKS.sub(r"\\\g<0>", " ".join(printable(told).split()))
+    if isinstance(told, dict):
+        return {key: _inert(one) for key, one in told.items()}
+    if isinstance(told, Figure):
+        return Figure(told.file, _inert(told.caption))
+    if isinstance(told, list | tuple):
+        return [_inert(one) for one in told]
+    return told
+
+
+def parameter_rows(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
+    """Name, value, standard error, interval and meaning of each parameter, as text."""
+    rows = []
+    for key in result["parameter"].values:
+        one = result.sel(parameter=key)
+        bare = str(key).partition("[")[0]
+        known = PARAMETERS.get(bare)
+        quantity = known.quantity if known else _sensor(bare)
+        low, high = one["interval"].values.tolist()
+        is_open = one["interval_open"].values
+        marks = ["" if not o else " (bound)" for o in is_open]
+        error = float(one["standard_error"])
+        unknown = bool(is_open.any()) and error > high - low
+        rows.append(
+            (
+                str(key),
+                pretty(float(one["fitted_value"]), quantity, 5),
+                "not known" if unknown else pretty(error, quantity, 2),
+                f"{pretty(low, quantity, 4)}{marks[0]} to {pretty(high, quantity, 4)}{marks[1]}",
+                known.long_name if known else bare.replace("_", " "),
+            )
+        )
+    return rows
+
+
+def amplitude_of(result: xr.Dataset, test: str) -> str:
+    """The peak base acceleration that a fit took for a test, and where it is from, as text."""
+    known = "amplitude_source" in result  # not in fits of older versions
+    source = str(result["amplitude_source"].sel(test=test).values) if known else ""
+    return amplitude_words(setting_of(json.loads(result.attrs["rigs"])[test])[1], source)
+
+
+def _sensor(name: str) -> Quantity:
+    return SENSORS[name][0] if name in SENSORS else DIMENSIONLESS
+
+
+def measured_of(result: xr.Dataset, test: str) -> xr.Dataset:
+    """The measured curves of a test, from the points of a fit."""
+    mine = result.isel(point=np.flatnonzero(result["point_test"].values == test))
+    place, way = mine["point_place"].values, mine["point_direction"].values
+    grid = np.unique(place)
+    ways = [d for d in ("forward", "backward") if d in way]
+    data = xr.Dataset(coords={"direction": ways, "frequency": grid})
+    for variable in dict.fromkeys(str(v) for v in mine["point_variable"].values):
+        here = np.flatnonzero(mine["point_variable"].values == variable)
+        table: dict[tuple[int, int], list[float]] = {}
+        for i in here:
+            at = ways.index(str(way[i])), int(np.searchsorted(grid, place[i]))
+            table.setdefault(at, []).append(float(mine["measured_value"].values[i]))
+        most = max(len(values) for values in table.values())
+        filled = np.full((len(ways), len(grid), most), np.nan)
+        for at, values in table.items():
+            filled[at][: len(values)] = values
+        dims = ("direction", "frequency", f"repeat_{variable}")
+        data[variable] = (dims, filled) if most > 1 else (dims[:2], filled[..., 0])
+        if most > 1:
+            data = data.rename({f"repeat_{variable}": "repeat"})
+    return as_measured(data)
+
+
+def _dense(frequency: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """The measured frequencies, and others between them."""
+    if len(frequency) < 2:
+        return np.array(frequency)
+    count = max(200, _DENSE * len(frequency))
+    found: np.ndarray[Any, Any] = np.union1d(
+        frequency, np.linspace(frequency[0], frequency[-1], count)
+    )
+    return found
+
+
+def _studies(result: xr.Dataset, name: str) -> Iterable[tuple[str, str, str]]:
+    """Key, text and label of the study files: one for each different rig."""
+    rigs = json.loads(result.attrs["rigs"])
+    stems = file_stems(rigs)
+    seen: set[str] = set()
+    for test in rigs:
+        text = json.dumps([rigs[test]["oscillator"], rigs[test]["excitation"]["amplitude"]])
+        if text in seen:
+            continue
+        seen.add(text)
+        rig = fitted(result, test)
+        key = name if len(rigs) == 1 else f"{name}-{stems[test]}"
+        about = f"Fitted by vibroimpact {__version__} to {test}.\n" + "\n".join(
+            f"{row[0]} = {row[1]}, standard error {row[2]}" for row in parameter_rows(result)
+        )
+        yield key, study_text(key, rig.oscillator, rig.amplitude, about), f"study {key}"
+
+
+def _tests(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
+    rows = []
+    for test in result["test"].values:
+        one = result.sel(test=test)
+        points = int((result["point_test"].values == test).sum())
+        curves = str(one["test_kind"].values) == "curves"
+        noise = float(one["noise"])
+        told = f"{100.0 * noise:.2g} % of a value" if curves else f"{noise:.3g} times its own noise"
+        shape = "a shape" if float(one["residual_chance"]) < 1e-3 else "noise"
+        rows.append((str(test), amplitude_of(result, str(test)), str(points), told, shape))
+    return rows
+
+
+def _models(comparison: xr.Dataset) -> list[tuple[str, str, str, str]]:
+    return [
+        (
+            str(one["model"].values),
+            str(int(one["parameter_count"])),
+            f"{float(one['akaike'] - comparison['akaike'].min()):.1f}",
+            f"{float(one['bayes'] - comparison['bayes'].min()):.1f}",
+        )
+        for one in (comparison.isel(model=i) for i in range(comparison.sizes["model"]))
+    ]
+
+
+def _correlations(result: xr.Dataset) -> list[tuple[str, ...]]:
+    table = result["correlation"].values
+    keys = [str(k) for k in result["parameter"].values]
+    return [(key, *(f"{v:.2f}" for v in row)) for key, row in zip(keys, table, strict=True)]
+
+
+def _environment() -> Environment:
+    return Environment(
+        loader=PackageLoader("vibroimpact.reports", "templates"),
+        autoescape=lambda name: name is not None and name.endswith(".html.jinja"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )

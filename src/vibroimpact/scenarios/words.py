@@ -1,0 +1,92 @@
+"""The evidence for a scenario in words."""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.response.resonance import Hysteresis
+from vibroimpact.scenarios.evidence import Evidence
+from vibroimpact.scenarios.thresholds import Thresholds
+
+
+def in_words(found: Evidence, thresholds: Thresholds) -> str:
+    """What the curves show, the features that tell the scenario first."""
+    if found.contact is None:
+        room = (
+            "there is no bumper"
+            if math.isinf(found.gap_ratio)
+            else f"the gap is {found.gap_ratio:.3g} times free flight's amplitude"
+        )
+        return f"no contact from {_span(*found.swept)}; {room}"
+    parts = []
+    if found.attached:
+        parts.append("bumpers attached to the mass at rest")
+    elif found.gap_ratio >= 1.0 - thresholds.touch:
+        parts.append(
+            f"the gap is {found.gap_ratio:.3g} times free flight's amplitude, and the mass "
+            f"presses in by {found.penetration:.2g} of it"
+        )
+    sides = [("right", item) for item in found.right] + [("left", item) for item in found.left]
+    narrow = found.extent(thresholds.prominence) < thresholds.extent
+    parts += [
+        f"{side} hysteresis {_span(*_ends(found, item))}"
+        + (" (too narrow to count)" if side == "left" and narrow else "")
+        for side, item in sides
+    ]
+    if not found.right and (hidden := _hidden(found)):
+        parts.append(f"right hysteresis {hidden}, between two frequencies")
+    parts += _irregular(found, thresholds)
+    parts += [
+        f"secondary resonance at {frequency:.3g} Hz ({share:.0%} prominent)"
+        for frequency, share in found.secondary_resonances(thresholds.prominence)
+    ]
+    parts += [f"not regular where contact begins, {_span(*span)}" for span in found.onset]
+    if not found.jumping:
+        parts.append("no jumps")
+    if math.isfinite(found.resonance):
+        parts.append(f"resonance at {found.resonance:.3g} times that of free flight")
+    if found.primary_beyond:
+        parts.append("the primary resonance lies beyond the frequencies swept")
+    elif not found.within:
+        parts.append("free flight's resonance lies beyond the frequencies swept")
+    if not found.known:
+        parts.append("most holds have not settled, or have no value")
+    parts.append(f"contact {_span(*found.contact)}")
+    return "; ".join(parts)
+
+
+def _irregular(found: Evidence, thresholds: Thresholds) -> list[str]:
+    """Ranges that are not regular, those of both directions that overlap told once."""
+    lines = []
+    for item in found.irregular_once:
+        kinds = " and ".join(item.kinds)
+        what = (
+            f"{kinds} resonance" if item.prominence >= thresholds.prominence else f"{kinds} motions"
+        )
+        lines.append(f"{what} {_span(item.low, item.high)}")
+    return lines
+
+
+def _ends(found: Evidence, item: Hysteresis) -> tuple[float, float]:
+    """Ends of a hysteresis: turning points of the branch between its last two frequencies."""
+    low, high = item.ends
+    below = item.low if item.below is None else item.below
+    above = item.high if item.above is None else item.above
+    folds = found.folds or ()
+    low = next((f for f in folds if below <= f <= item.low), low)
+    high = next((f for f in folds if item.high <= f <= above), high)
+    return low, high
+
+
+def _hidden(found: Evidence) -> str:
+    above = [fold for fold in found.folds or () if fold > found.top]
+    return _span(min(above), max(above)) if above else ""
+
+
+def _span(low: float, high: float) -> str:
+    """A range of frequencies, with as many digits as tell its ends apart."""
+    digits = 3
+    while digits < 8 and low != high and f"{low:.{digits}g}" == f"{high:.{digits}g}":
+        digits += 1
+    first, last = f"{low:.{digits}g}", f"{high:.{digits}g}"
+    return f"{first} Hz" if first == last else f"{first}–{last} Hz"

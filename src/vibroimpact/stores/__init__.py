@@ -1,0 +1,1 @@
+"""Store arrays block by block in files that survive interruptions."""

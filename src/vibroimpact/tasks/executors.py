@@ -1,0 +1,70 @@
+"""Where many tasks are done: on threads, on processes, or on a dask cluster."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+from typing import Any
+
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model.counts import whole
+from vibroimpact.tasks.cluster import Cluster
+from vibroimpact.tasks.processes import Processes, may_start
+from vibroimpact.tasks.threads import Workers
+
+THREADS = "threads"
+"""This process's own."""
+PROCESSES = "processes"
+"""Of this machine: each has an interpreter of its own."""
+_PATIENCE = "10s"
+"""For a scheduler to answer."""
+_MARKS = ("tcp://", "tls://", "ucx://", "ws://", "wss://", "inproc://")
+
+
+def placed(threads: int | None, where: Any = THREADS) -> Workers:
+    """Where tasks are done.
+
+    Parameters
+    ----------
+    threads
+        How many threads or processes; None for one a processor.
+    where
+        ``"threads"``, ``"processes"``, a `distributed.Client`, or a scheduler's address such as
+        ``"tcp://10.0.0.1:8786"``.
+
+    Raises
+    ------
+    InputError
+        If there is no such cluster, or dask is not installed.
+    """
+    if isinstance(where, str) and where in (THREADS, PROCESSES):
+        number = None if threads is None else whole(threads, "threads")
+        if where == THREADS:
+            return number
+        if not may_start():
+            raise InputError(
+                "where: 'processes', within a process that may not start others (a daemon, such "
+                "as a worker of a cluster); 'threads' is accepted there"
+            )
+        return Processes(number)
+    if threads is not None:
+        raise InputError(f"threads: {threads}; on a cluster its workers say how many there are")
+    if importlib.util.find_spec("distributed") is None:
+        raise InputError(
+            f"where: {shown(where)} needs dask, which is not installed: "
+            "pip install 'vibroimpact[cluster]'"
+        )
+    client = importlib.import_module("distributed").Client
+    if isinstance(where, client):
+        if where.status in ("closing", "closed"):
+            raise InputError("where: the client is closed; one that is connected is accepted")
+        return Cluster(where)
+    if not (isinstance(where, str) and where.startswith(_MARKS)):
+        raise InputError(
+            f"where: {shown(where)}; 'threads', 'processes', a dask Client, or the address of a "
+            "scheduler such as tcp://10.0.0.1:8786 is accepted"
+        )
+    try:
+        return Cluster(client(where, timeout=_PATIENCE, set_as_default=False))
+    except (OSError, ValueError) as error:
+        raise InputError(f"where: no scheduler answers at {where} ({error})") from error

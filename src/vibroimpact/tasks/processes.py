@@ -1,0 +1,100 @@
+"""The same tasks on processes of this machine, each with an interpreter of its own."""
+
+from __future__ import annotations
+
+import importlib
+import multiprocessing
+import os
+import threading
+import time
+from collections.abc import Callable, Collection, Iterable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from typing import Any, NamedTuple, TypeVar
+
+from vibroimpact.tasks.batching import dealt
+from vibroimpact.tasks.threads import LostError, Progress, Tally, available
+
+_Item = TypeVar("_Item")
+_Found = TypeVar("_Found")
+
+_IDLE = 10.0
+"""Seconds after which processes that have nothing to do end."""
+_ORPHANED = 0.5
+"""Seconds between two checks of a process whether that which started it still lives."""
+
+
+def may_start() -> bool:
+    """Whether this process may start others; a daemon may not."""
+    return not multiprocessing.current_process().daemon
+
+
+def end_with(parent: int) -> None:
+    """End this process soon after its parent has ended, even if a signal killed that.
+
+    A process in the middle of a task would go on for as long as the task takes.
+    """
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(_ORPHANED)
+        os._exit(1)
+
+    threading.Thread(target=watch, name="end with the parent", daemon=True).start()
+
+
+class _Hands(NamedTuple):
+    pool: Any
+    number: int
+
+    def width(self) -> int:
+        return self.number
+
+    def take(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        taken: Future[Any] = self.pool.submit(function, *arguments)
+        return taken
+
+    def ready(self, taken: Collection[Future[Any]]) -> Iterable[Future[Any]]:
+        return wait(taken, return_when=FIRST_COMPLETED).done
+
+    def result(self, taken: Future[Any]) -> Any:
+        return taken.result()
+
+
+class Processes(NamedTuple):
+    """Where tasks are done in the place of threads."""
+
+    number: int | None
+    """How many; None for one a processor."""
+
+    def width(self) -> int:
+        """How many tasks they do at once."""
+        return self.number or available()
+
+    def each(
+        self,
+        task: Callable[[_Item, Tally], _Found],
+        items: Sequence[_Item],
+        total: int,
+        progress: Progress | None,
+    ) -> list[_Found]:
+        """As `threads.each`; the tasks and what they find travel."""
+        loky: Any = importlib.import_module("loky")
+
+        # The same processes again, where they have not ended: starting takes a second.
+        pool = loky.get_reusable_executor(
+            max_workers=min(self.width(), len(items)),
+            timeout=_IDLE,
+            initializer=end_with,
+            initargs=(os.getpid(),),
+            env={"LOKY_MAX_MEMORY_LEAK_SIZE": "1e15"},  # what a task needs is no leak
+        )
+        try:
+            return dealt(_Hands(pool, self.width()), task, items, total, progress)
+        except loky.process_executor.TerminatedWorkerError as died:
+            raise LostError(
+                f"where: a process died, perhaps for want of memory ({died}); the same call "
+                "completes what it has in a store"
+            ) from died
+        except BaseException:
+            pool.shutdown(wait=True, kill_workers=True)
+            raise

@@ -1,0 +1,127 @@
+"""How far a long computation is: a line on the page of a notebook, or on a terminal."""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from collections.abc import Callable
+from html import escape
+from typing import Any
+
+from vibroimpact.stderr import print_line
+from vibroimpact.tasks.threads import Progress
+
+_WIDTH = 24
+"""Characters of a terminal's bar."""
+LINES = 30.0
+"""Seconds between two lines where standard error is no terminal."""
+_TOO_EARLY = 2.0
+"""Seconds before which no time left is estimated."""
+
+
+def _as_duration(seconds: float) -> str:
+    """Write a time as people say it: 40 s, 3 min, 2.5 h."""
+    if seconds < 99.5:
+        return f"{seconds:.0f} s"
+    if seconds < 99.5 * 60.0:
+        return f"{seconds / 60.0:.0f} min"
+    return f"{seconds / 3600.0:.1f} h"
+
+
+def in_words(what: str, done: int, total: int | None, passed: float) -> str:
+    """Say how much is done, in what time, and how long the rest will take about."""
+    text = f"{what} {done}{'' if total is None else f'/{total}'}, {_as_duration(passed)}"
+    if total is None or not 0 < done < total or passed < _TOO_EARLY:
+        return text
+    return f"{text}, about {_as_duration(passed * (total - done) / done)} left"
+
+
+class _Clock:
+    """The time since something began; several jobs one after the other begin anew each time."""
+
+    def __init__(self) -> None:
+        self._begin, self._done = time.monotonic(), 0
+
+    def passed(self, done: int) -> float:
+        """Seconds since it began, by how much is done."""
+        if done < self._done:
+            self._begin = time.monotonic()
+        self._done = done
+        return time.monotonic() - self._begin
+
+
+def progress_lines(what: str) -> Progress:
+    """Return a function that prints a line of progress each `LINES` s, for logs of long jobs."""
+    clock, printed = _Clock(), time.monotonic()
+
+    def show(done: int, total: int | None) -> None:
+        nonlocal printed
+        passed, now = clock.passed(done), time.monotonic()
+        if now - printed >= LINES:
+            printed = now
+            print_line(in_words(what, done, total, passed))
+
+    return show
+
+
+def progress_bar(what: str = "done", *, every: float = 0.2) -> Progress:
+    """Return a function that shows progress, for the argument ``progress`` of what takes long.
+
+    In a notebook it writes one line, anew as things go on, and leaves it there; on a terminal one
+    line on standard error, which it clears at the end. Elsewhere, such as in the log of a batch
+    job, it writes a line each half minute. It estimates the time that is left, and needs no further
+    package::
+
+        vi.scenario_map(x, y, rig, progress=vi.progress_bar("map"))
+
+    Parameters
+    ----------
+    what
+        What is going on, in a word.
+    every
+        Least time in s between two changes.
+    """
+    clock, shown = _Clock(), -math.inf
+    display = _notebook()
+    handle: Any = None
+    longest = 0
+    lines = progress_lines(what)
+
+    def show(done: int, total: int | None) -> None:
+        nonlocal shown, handle, longest
+        passed, now = clock.passed(done), time.monotonic()
+        ended = total is not None and done >= total
+        if not ended and now - shown < every:
+            return
+        shown = now
+        text = in_words(what, done, total, passed)
+        if display is not None:
+            range_ = "" if total is None else f' value="{done}" max="{total}"'
+            bar = "" if ended else f"<progress{range_}></progress> "
+            page = {"text/html": bar + escape(text), "text/plain": text}
+            if handle is None:
+                handle = display(page, raw=True, display_id=True)
+            else:
+                handle.update(page, raw=True)
+        elif not (sys.stderr and sys.stderr.isatty()):
+            lines(done, total)
+        else:
+            full = _WIDTH * done // max(total or 1, 1)
+            line = text if total is None else f"{text} [{'#' * full}{'.' * (_WIDTH - full)}]"
+            longest = max(longest, len(line))
+            end = f"\r{' ' * longest}\r" if ended else ""
+            print(f"\r{line:{longest}}{end}", end="", file=sys.stderr, flush=True)
+
+    return show
+
+
+def _notebook() -> Callable[..., Any] | None:
+    """What writes on a notebook's page, if this is one."""
+    if "IPython" not in sys.modules:
+        return None
+    from IPython import get_ipython
+    from IPython.display import display
+
+    # The shell of a terminal has no kernel.
+    return display if hasattr(get_ipython(), "kernel") else None

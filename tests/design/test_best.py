@@ -1,0 +1,120 @@
+"""The least acceleration for a gap, against grids of the same ranges."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from earthquakes.rigs import noise
+from samples import sample
+
+MASS = 550.0
+RIG = vi.Oscillator(
+    MASS,
+    vi.Isolator.from_period(MASS, 1.2, 0.1),
+    vi.Bumper("100 kN/m", "1 kN s/m", "20 mm"),
+    vi.Bumper("100 kN/m", "1 kN s/m", "20 mm"),
+)
+RANGES = {"bumper_stiffness": (5e3, 5e5), "bumper_damping": (100.0, 2e4)}
+RECORDS = [noise(seed, 1.5, 150) for seed in (1, 2)]
+NODES = sample(30, 14)
+
+
+def _grid(shaking):
+    return vi.design_chart(
+        RIG, shaking, {name: np.geomspace(*ends, NODES) for name, ends in RANGES.items()}
+    )
+
+
+@pytest.mark.parametrize("limits", [{}, {"peak_force": "900 N"}, {"penetration": "8 mm"}])
+def test_no_node_of_a_grid_is_better(limits: dict) -> None:
+    grid = _grid(RECORDS)
+    found = vi.least_acceleration(RIG, RECORDS, RANGES, limits=limits)
+    kept = grid["peak_acceleration"]
+    for name, limit in {"peak_force": 900.0, "penetration": 8e-3}.items():
+        if name in limits:
+            assert float(found[name]) <= limit
+            kept = kept.where(grid[name] <= limit)
+    best = float(kept.min())
+    assert float(found["peak_acceleration"]) <= best * (1.0 + 1e-3)
+    # What is said of the design is what it does.
+    there = vi.design_chart(
+        RIG,
+        RECORDS,
+        {name: [float(found[name])] for name in RANGES},
+    ).squeeze(drop=True)
+    for name in ("peak_acceleration", "peak_displacement", "peak_force", "penetration"):
+        assert float(there[name]) == pytest.approx(float(found[name]), rel=1e-12)
+
+
+def test_of_sines() -> None:
+    """One parameter, whose valley a grid shows."""
+    ranges = {"bumper_damping": RANGES["bumper_damping"]}
+    values = np.geomspace(*RANGES["bumper_damping"], 41)
+    grid = vi.design_chart(RIG, "0.05 g", {"bumper_damping": values})["peak_acceleration"]
+    found = vi.least_acceleration(RIG, "0.05 g", ranges)
+    least = int(grid.values.argmin())
+    assert 0 < least < 40
+    assert float(found["peak_acceleration"]) == pytest.approx(float(grid.min()), rel=2e-3)
+    assert values[least - 1] < float(found["bumper_damping"]) < values[least + 1]
+
+
+def test_a_wide_gap_leaves_nothing_to_choose() -> None:
+    need = float(vi.required_gap(RIG, RECORDS)["required_gap"])
+    untouched = (
+        "the best design touches no stop, so what the stops are like plays no part; the limit of "
+        "peak force does not bind: 0 N of 1 MN"
+    )
+    with pytest.warns(vi.InputWarning, match=f"^least_acceleration: {untouched}"):
+        found = vi.least_acceleration(RIG, RECORDS, gap=need + 1e-9, limits={"peak_force": "1 MN"})
+    assert found.attrs["notes"].splitlines()[:2] == untouched.split("; ")
+    free = max(
+        float(vi.seismic_response(RIG.without_bumpers(), one)["peak_acceleration"])
+        for one in RECORDS
+    )
+    assert float(found["hitting"]) == 0.0
+    assert float(found["peak_acceleration"]) == pytest.approx(free, rel=1e-10)
+
+
+def test_what_binds_and_what_does_not_is_noted() -> None:
+    """A limit that is reached is not noted, one that is not is, and so is the end of a range."""
+    limits = {"penetration": "2 mm", "peak_force": "1 MN"}
+    found = vi.least_acceleration(RIG, RECORDS, RANGES, limits=limits)
+    assert float(found["penetration"]) == pytest.approx(2e-3, rel=1e-2)
+    (note,) = found.attrs["notes"].splitlines()
+    assert note.startswith("the limit of peak force does not bind: ")
+    assert note.endswith(" N of 1 MN")
+    stiff = {"bumper_stiffness": (2e6, 3e6)}
+    ended = vi.least_acceleration(RIG, RECORDS, stiff, gap="10 mm")
+    assert ended.attrs["notes"] == "bumper_stiffness ended at the lower end of its range, 2000 kN/m"
+
+
+def test_it_is_repeatable() -> None:
+    first, again = (vi.least_acceleration(RIG, RECORDS, gap="10 mm") for _ in range(2))
+    assert first.identical(again)
+    assert first["bumper_damping"].attrs["units"] == "N s m-1"
+    assert float(first["evaluations"]) > 24
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        ({"ranges": {}}, "ranges: {}; the lowest"),
+        ({"ranges": {"gap": 3.0}}, r"ranges\['gap'\]: 3.0; a pair"),
+        ({"ranges": {"gap": (2.0, 1.0)}}, r"ranges\['gap'\]: 1 is not above 2"),
+        ({"ranges": {"length": (1.0, 2.0)}}, "vary: 'length'"),
+        ({"gap": "3 kg"}, r"gaps\[0\]: '3 kg'"),
+        ({"limits": {"speed": 1.0}}, "limits: 'speed'; one of peak_displacement, "),
+        ({"limits": {"peak_force": "3 m"}}, r"limits\['peak_force'\]: '3 m'"),
+        (
+            {"limits": {"peak_displacement": 1e-4}},
+            r"limits\['peak_displacement'\]: no design that was tried keeps 0.0001 m ",
+        ),
+        ({"oscillator": RIG.without_bumpers()}, "ranges: missing; .* has no stop"),
+    ],
+)
+def test_wrong_input(arguments: dict, line: str) -> None:
+    given = {"oscillator": RIG, "shaking": RECORDS[0], **arguments}
+    with pytest.raises(vi.InputError, match=f"^{line}"):
+        vi.least_acceleration(given.pop("oscillator"), given.pop("shaking"), **given)

@@ -1,0 +1,149 @@
+"""Axes of maps, and the rigs at their nodes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.scenarios.axes import NAMES, Base, axis, check_pair, logarithmic
+
+CASE = vi.laboratory.case("B2-G1-A3")
+SINE = vi.Harmonic(CASE.amplitude, 1.0)
+BASE = Base(CASE.oscillator, SINE)
+
+
+def test_physical_parameters():
+    """A proportional stiffness keeps C_j/K_j, as the paper assumes (Section 7)."""
+    rig = BASE.rig({"proportional_stiffness": 680e3, "gap": 9e-3})
+    assert rig.shaken == SINE
+    for side in (rig.oscillator.right, rig.oscillator.left):
+        assert side.stiffness == 680e3
+        assert side.gap == 9e-3
+        ratio = CASE.oscillator.right.damping / CASE.oscillator.right.stiffness
+        assert side.damping / side.stiffness == pytest.approx(ratio, rel=1e-14)
+    assert BASE.rig({"amplitude": 0.3}) == (CASE.oscillator, vi.Harmonic(0.3, 1.0))
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "damping_ratio"])
+def test_a_name_means_in_maps_what_it_means_along_branches(name):
+    varied = PARAMETERS[name]
+    oscillator = CASE.oscillator
+    if name == "restitution":
+        oscillator = oscillator.replace(left=vi.RigidStop(0.5, oscillator.left.gap))
+        assert Base(oscillator, SINE).rig({name: 0.7}).oscillator.left.restitution == 0.7
+        return
+    value = 1.3 * varied.read(oscillator, SINE)
+    assert Base(oscillator, SINE).rig({name: value}) == varied.write(oscillator, SINE, value)
+
+
+def test_a_stiffness_keeps_the_dashpot_and_a_proportional_one_the_relaxation_time():
+    stiffness = 2.0 * CASE.oscillator.right.stiffness
+    alone = BASE.rig({"bumper_stiffness": stiffness}).oscillator.right
+    scaled = BASE.rig({"proportional_stiffness": stiffness}).oscillator.right
+    assert alone.stiffness == scaled.stiffness == stiffness
+    assert alone.damping == CASE.oscillator.right.damping
+    assert scaled.damping == pytest.approx(2.0 * alone.damping, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("stiffness_ratio", 3.0),
+        ("gap_ratio", 0.7),
+        ("relaxation_time", 0.02),
+        ("damping_ratio", 0.05),
+    ],
+)
+def test_dimensionless_parameters_one_at_a_time(name, value):
+    before = vi.to_dimensionless(CASE.oscillator, CASE.amplitude)
+    rig = BASE.rig({name: value})
+    after = vi.to_dimensionless(rig.oscillator, CASE.amplitude)
+    assert rig.oscillator.mass == CASE.oscillator.mass
+    assert rig.oscillator.isolator.stiffness == CASE.oscillator.isolator.stiffness
+    own = {"gap_ratio": "gap"}.get(name, name)
+    for group in ("right", "left"):
+        for field in ("stiffness_ratio", "gap", "relaxation_time"):
+            expected = value if field == own else getattr(getattr(before, group), field)
+            assert getattr(getattr(after, group), field) == pytest.approx(expected, rel=1e-12)
+    expected = value if own == "damping_ratio" else before.damping_ratio
+    assert after.damping_ratio == pytest.approx(expected, rel=1e-12)
+
+
+def test_sides_keep_what_is_their_own():
+    oscillator = CASE.oscillator.replace(left=None)
+    rig = Base(oscillator, SINE).rig({"gap_ratio": 0.5, "stiffness_ratio": 2.0})
+    assert rig.oscillator.left is None
+    assert rig.oscillator.right.stiffness == pytest.approx(2.0 * oscillator.isolator.stiffness)
+
+
+def test_logarithmic_axes_are_refined_geometrically():
+    assert logarithmic(np.geomspace(0.5, 100, 9))
+    assert logarithmic(np.geomspace(0.5, 100, 9).round(2))
+    assert not logarithmic(np.linspace(0.5, 100, 9))
+    assert not logarithmic(np.linspace(1.0, 1.02, 9))
+    assert not logarithmic(np.linspace(0.0, 1.0, 9))
+    fine = axis(("stiffness_ratio", [1.0, 4.0, 16.0]), "x").refined(1)
+    np.testing.assert_allclose(fine.values, [1, 2, 4, 8, 16])
+    fine = axis(("gap_ratio", [0.0, 0.5, 1.0]), "x").refined(2)
+    np.testing.assert_allclose(fine.values, np.linspace(0, 1, 9))
+    # Of two values only the user knows.
+    for spacing, middle in (("log", 10.0), ("linear", 50.5)):
+        fine = axis(("stiffness_ratio", [1.0, 100.0], spacing), "x").refined(1)
+        assert fine.values[1] == pytest.approx(middle)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("gap", "is no axis"),
+        (("gap",), "is no axis"),
+        (("gip", [1, 2]), "'gip'; one of gap, amplitude"),
+        (("gap", "1:2"), "is no list of values"),
+        (("gap", [0.01, 0.02], "cubic"), "is no axis"),
+        (("gap_ratio", [0.0, 1.0], "log"), r"x\[0\]: 0 on a logarithmic axis"),
+        (("gap", [0.01]), "1 values given; at least two are accepted"),
+        (("gap", [0.01, 0.01]), r"x\[1\]: 0.01 follows 0.01; rising values are accepted"),
+        (("gap", [-0.01, 0.01]), r"x\[0\]"),
+        (("stiffness_ratio", [0.0, 1.0]), r"x\[0\]"),
+        (("gap", [0.01, "2 kg"]), r"x\[1\].*is a mass"),
+        (("damping_ratio", [0.1, 0.8]), r"x\[1\].*no resonance peak"),
+    ],
+)
+def test_what_cannot_be_an_axis_is_refused(given, message):
+    with pytest.raises(vi.InputError, match=message):
+        axis(given, "x")
+
+
+def test_text_with_units():
+    np.testing.assert_allclose(axis(("gap", ["5 mm", "0.01 m"]), "x").values, [5e-3, 10e-3])
+
+
+def test_axes_that_do_not_go_together():
+    gap, ratio = axis(("gap", [0, 1]), "x"), axis(("gap_ratio", [0, 1]), "y")
+    with pytest.raises(vi.InputError, match=r"^y: 'gap_ratio' is 'gap' in other units"):
+        check_pair(gap, ratio)
+    with pytest.raises(vi.InputError, match=r"^y: 'gap' is that of x"):
+        check_pair(gap, gap)
+
+
+def test_a_base_without_bumpers_is_refused():
+    with pytest.raises(vi.InputError, match="base: there is no bumper"):
+        Base(CASE.oscillator.without_bumpers(), SINE).rig({"gap": 1e-3})
+
+
+def test_a_physical_and_a_dimensionless_parameter():
+    """The physical ones hold as they are: a gap in mm is no other with another damping."""
+    rig = BASE.rig({"gap": 9e-3, "damping_ratio": 0.05})
+    assert rig.oscillator.right.gap == rig.oscillator.left.gap == 9e-3
+    assert rig.oscillator.damping_ratio == pytest.approx(0.05, rel=1e-12)
+    assert rig.oscillator.right.stiffness == pytest.approx(510e3, rel=1e-12)
+    rig = BASE.rig({"amplitude": 0.3, "stiffness_ratio": 5.0})
+    assert rig.shaken.amplitude == 0.3
+    assert rig.oscillator.right.gap == CASE.oscillator.right.gap
+    ratio = rig.oscillator.right.stiffness / rig.oscillator.isolator.stiffness
+    assert ratio == pytest.approx(5.0, rel=1e-12)
+    # Here the gap follows the amplitude.
+    rig = BASE.rig({"amplitude": 0.3, "gap_ratio": 0.5})
+    assert vi.to_dimensionless(rig.oscillator, 0.3).right.gap == pytest.approx(0.5, rel=1e-12)

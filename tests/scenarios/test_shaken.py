@@ -1,0 +1,133 @@
+"""Scenarios whatever is held: an acceleration or a displacement of the base, or a force."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.scenarios.borders import jump_border
+from vibroimpact.scenarios.frequencies import frequencies, highest
+from vibroimpact.scenarios.kinds import Scenario
+
+CASE = vi.laboratory.case("B2-G1-A3")
+MASS, OMEGA = CASE.oscillator.mass, CASE.oscillator.angular_frequency
+FORCE = vi.Harmonic(MASS * CASE.amplitude, 1.0, of="force")
+SWING = vi.Harmonic(CASE.amplitude / OMEGA**2, 1.0, of="displacement")
+"""Of the same largest free flight."""
+
+
+def test_a_force_on_the_mass_is_an_acceleration_of_the_base() -> None:
+    """Relative to the base, the motion is the same; only the absolute acceleration is not."""
+    held = np.arange(0.5, 3.5, 0.02)
+    base, force = (vi.classify(CASE.oscillator, one, held) for one in (CASE.amplitude, FORCE))
+    for name in ("contact", "gap_ratio", "penetration", "swept", "within"):
+        told = getattr(base.features, name), getattr(force.features, name)
+        assert told[1] == pytest.approx(told[0], rel=1e-9)
+    np.testing.assert_allclose(force.features.folds, base.features.folds, rtol=1e-8)
+    assert highest(*one_sine(CASE.oscillator, FORCE, "")) == highest(
+        *one_sine(CASE.oscillator, CASE.amplitude, "")
+    )
+
+
+@pytest.mark.parametrize(("ratio", "named"), [(1.2, "S0"), (0.97, "S2"), (0.7, "S2")])
+def test_gaps_are_scaled_by_free_flight_under_what_is_held(ratio: float, named: str) -> None:
+    """u_max = X/(2ξ√(1 − ξ²)) of a base that moves by X, at 1/√(1 − 2ξ²) times f0.
+
+    What only grazes at one acceleration is carried on by one displacement, which shakes the more
+    the higher the frequency.
+    """
+    rig, _ = vi.from_dimensionless(25.9, 1.0, 0.01, 0.15, stiffness=(2.0 * np.pi) ** 2)
+    peak = 2e-3 / (2.0 * 0.15 * np.sqrt(1.0 - 0.15**2))
+    bumper = rig.right.replace(gap=ratio * peak)
+    found = vi.classify(rig.replace(right=bumper, left=bumper), "2 mm")
+    assert found.features.gap_ratio == pytest.approx(ratio, rel=1e-12)
+    assert found.features.within
+    assert found.scenario == named
+
+
+def test_a_base_that_moves_far_resonates_above_the_natural_frequency() -> None:
+    """Where damping is heavy, the sweep goes on to that resonance."""
+    heavy = vi.Oscillator(1.0, vi.Isolator(1.0, 1.2))
+    at = 1.0 / np.sqrt(1.0 - 2.0 * 0.6**2)
+    held = frequencies(*one_sine(heavy, "1 mm", ""))
+    assert held[-1] / heavy.natural_frequency > 1.4 * at
+    assert highest(*one_sine(heavy, "1 N", "")) == 1.5
+
+
+def test_a_constant_force_is_a_pair_of_other_gaps() -> None:
+    """What presses the mass towards one stop by F/K, whatever shakes it."""
+    rig = CASE.oscillator
+    shift = 2e-3
+    gaps = {
+        "right": rig.right.replace(gap=rig.right.gap - shift),
+        "left": rig.left.replace(gap=rig.left.gap + shift),
+    }
+    held = np.arange(0.5, 3.5, 0.05)
+    pushed = rig.replace(force=shift * rig.isolator.stiffness)
+    one, other = vi.classify(pushed, SWING, held), vi.classify(rig.replace(**gaps), SWING, held)
+    assert one.scenario == other.scenario
+    for name in ("contact", "gap_ratio", "penetration", "onset"):
+        told = getattr(one.features, name), getattr(other.features, name)
+        assert told[1] == pytest.approx(told[0], rel=1e-6)
+
+
+@pytest.mark.parametrize("shaken", [FORCE, SWING])
+def test_a_map_is_made_of_such_rigs(shaken: vi.Harmonic) -> None:
+    sizes = [0.5 * shaken.amplitude, 2.0 * shaken.amplitude]
+    data = vi.scenario_map(
+        ("amplitude", sizes), ("stiffness_ratio", [1.0, 20.0]), (CASE.oscillator, shaken), step=0.02
+    )
+    units, name = {
+        "force": ("N", "peak force on the mass"),
+        "displacement": ("m", "peak base displacement"),
+    }[shaken.of]
+    assert data["amplitude"].attrs["units"] == units
+    assert data["amplitude"].attrs["long_name"] == name
+    ratio = CASE.oscillator.right.damping / CASE.oscillator.right.stiffness
+    stiffness = 20.0 * CASE.oscillator.isolator.stiffness
+    bumper = CASE.oscillator.right.replace(stiffness=stiffness, damping=ratio * stiffness)
+    rig = CASE.oscillator.replace(right=bumper, left=bumper)
+    for k, size in enumerate(sizes):
+        one = shaken.replace(amplitude=size)
+        alone = vi.classify(rig, one, frequencies(*one_sine(rig, one, ""), 0.02))
+        assert Scenario(int(data["scenario"][1, k])).label == alone.scenario
+        wanted = max(p.value for p in alone.features.peaks if p.curve == "eta_d")
+        known = data[["peak_eta_d_forward", "peak_eta_d_backward"]].isel(
+            stiffness_ratio=1, amplitude=k
+        )
+        assert max(float(one) for one in known.values()) == pytest.approx(wanted, rel=1e-6)
+
+
+def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
+    """There the orbits are the same: λ = 1.6276962 at this gap, as for the acceleration."""
+    delta = vi.to_dimensionless(CASE.oscillator, CASE.amplitude).right.gap
+    data = vi.scenario_map(
+        ("stiffness_ratio", np.geomspace(1.4, 2.0, 3)),
+        ("gap_ratio", [delta, delta + 0.2]),
+        (CASE.oscillator, FORCE),
+        step=0.02,
+    )
+    border = jump_border(data)
+    assert float(border["stiffness_ratio"][0]) == pytest.approx(1.6276962, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("oscillator", "amplitude", "message"),
+    [
+        (CASE.oscillator, vi.Periodic(1.0, [0.3, 0.1]), "amplitude: a Periodic, whose harmonics"),
+        (CASE.oscillator, [0.3, 0.4], "amplitude: 2 of them; a scenario is that of one"),
+        (CASE.oscillator, 0.0, "amplitude: 0"),
+        (
+            CASE.oscillator.replace(isolator=vi.Isolator(0.0, 1.0)),
+            0.3,
+            "isolator.stiffness: 0 leaves no natural frequency",
+        ),
+    ],
+)
+def test_what_has_no_scenario_is_refused(oscillator, amplitude, message) -> None:
+    with pytest.raises(vi.InputError, match=message):
+        vi.classify(oscillator, amplitude)
+    with pytest.raises(vi.InputError, match=message.replace("amplitude", r"base\[1\]")):
+        vi.scenario_map(("gap", [1e-3, 2e-3]), ("amplitude", [1, 2]), (oscillator, amplitude))

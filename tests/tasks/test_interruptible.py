@@ -1,0 +1,188 @@
+"""Long computations in short calls: the same to the last bit, and ended by Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+from engine.taylor.rigs import ISOLATORS, between
+from vibroimpact.response.follow import grown
+from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.tasks.interruptible import Calls
+from vibroimpact.tasks.threads import Stopped, each, watched
+
+CYCLES = 12
+
+RIG = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), right=vi.Bumper(10.0, 0.1, 0.5))
+SHAKEN = vi.Harmonic(1.0, 0.2)
+
+
+@pytest.mark.parametrize("isolator", ISOLATORS)
+@pytest.mark.parametrize("shaken", ["sine", "record"])
+def test_where_a_motion_is_cut_changes_no_bit(isolator, shaken, monkeypatch):
+    one = between(isolator, "bumper", "hunt-crossley")
+    noise = np.random.default_rng(0).normal(size=40)
+    how = (
+        (vi.Harmonic(0.8, 0.15), CYCLES, None, 8)
+        if shaken == "sine"
+        else (vi.Record(noise, 0.4), None, None, 2)
+    )
+    whole = vi.simulate(one, *how)
+    monkeypatch.setattr(Calls, "end", lambda self, at: min(self._total, at + 1))
+    xr.testing.assert_identical(vi.simulate(one, *how), whole)
+
+
+@pytest.mark.parametrize("isolator", ISOLATORS)
+def test_where_the_growth_of_disturbances_is_cut_changes_no_bit(isolator, monkeypatch):
+    one = between(isolator, "bumper", "rigid")
+    shaken = vi.Harmonic(0.8, 0.15)
+
+    def rows():
+        rig, state = engine_rig(one, shaken), engine_state(one, vi.State())
+        status, found = grown(rig, shaken, state, CYCLES, transient=3, discard=5)
+        return status, found, state
+
+    whole = rows()
+    assert len(whole[1]) == CYCLES
+    monkeypatch.setattr(Calls, "end", lambda self, at: min(self._total, at + 1))
+    for was, now in zip(whole, rows(), strict=True):
+        np.testing.assert_array_equal(now, was)
+
+
+def test_a_motion_in_a_task_that_is_not_wanted_ends():
+    def task(_, tally):
+        tally[1] = 1
+        vi.simulate(RIG, SHAKEN, 1e12, samples=0)
+
+    with pytest.raises(Stopped):
+        each(task, [0], threads=1)
+
+
+def test_what_a_task_waits_for_counts_no_step_of_it_and_ends_with_it():
+    told = []
+
+    def part(tally):
+        tally[0] += 5
+        return tally[0]
+
+    def task(item, tally):
+        found = watched(part, 5)
+        tally[0] += item
+        return found
+
+    assert each(task, [1, 2], steps=3, threads=1, progress=lambda *at: told.append(at)) == [5, 5]
+    assert told[-1] == (3, 3)
+    assert watched(part, 5, lambda *at: told.append(at)) == 5
+    assert told[-1] == (5, 5)
+
+    def unwanted(_, tally):
+        tally[1] = 1
+        watched(part, 5)
+
+    with pytest.raises(Stopped):
+        each(unwanted, [0], threads=1)
+
+
+def test_tasks_of_a_task_end_with_it():
+    ended = []
+
+    def inner(item, tally):
+        while not tally[1]:
+            time.sleep(0.01)
+        ended.append(item)
+
+    def stop(done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        each(lambda _, __: each(inner, [1, 2], threads=2), [0], progress=stop)
+    assert sorted(ended) == [1, 2]
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda **how: vi.steady(RIG, SHAKEN, max_cycles=2, exponent_cycles=400, **how),
+        lambda **how: vi.seismic_response(RIG, vi.Record(np.resize([1.0, -1.0], 400), 0.1), **how),
+    ],
+)
+def test_progress_changes_nothing_and_ends_with_all(call):
+    told = []
+    xr.testing.assert_identical(call(progress=lambda *at: told.append(at)), call())
+    assert told
+    assert all(0 <= done <= total for done, total in told)
+    assert told[-1][0] == told[-1][1]
+
+
+def test_calls_grow_until_they_take_long_and_tell_how_far_they_are(monkeypatch):
+    now, told = [0.0], []
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    calls = Calls(10_000_000.5, lambda done, total: told.append((done, total)))
+    at, lengths = 0, []
+    while at < 1_000_000:
+        end = int(calls.end(at))
+        lengths.append(end - at)
+        now[0] += 1e-5 * (end - at)
+        at = end
+    assert lengths[0] == 256
+    assert 0.05 <= 1e-5 * max(lengths) <= 0.8
+    assert told[0] == (256, 10_000_000)
+    assert calls.end(10_000_000) == 10_000_000.5
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends an interrupt to a process")
+@pytest.mark.parametrize(
+    "call",
+    [
+        "vi.simulate(rig, shaken, 3e8, samples=0)",
+        "vi.simulate(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1), samples=0)",
+        "vi.seismic_response(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1))",
+        "vi.response_spectrum(vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1), range(1, 20))",
+        "vi.sweep(chaotic, shaken, [1.06], window=300_000_000)",
+        "vi.lyapunov_exponents([(rig, shaken)], [0.2], 300_000_000)",
+        "vi.steady(chaotic, shaken, max_cycles=300_000_000)",
+        "vi.steady(chaotic, shaken, exponent_cycles=5_000_000)",
+    ],
+)
+def test_ctrl_c_ends_what_takes_long(call):
+    code = f"""
+        import time
+        import numpy as np
+        import vibroimpact as vi
+        rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), right=vi.Bumper(10.0, 0.1, 0.5))
+        case = vi.laboratory.case("B3-10mm-A3")
+        chaotic, shaken = case.oscillator, vi.Harmonic(case.amplitude, 1.06)
+        record = vi.Record([0.0, 1.0], 0.1)
+        vi.simulate(rig, shaken, 3)
+        vi.simulate(rig, record)
+        vi.seismic_response(rig, record)
+        vi.response_spectrum(record, [1.0])
+        vi.sweep(rig, shaken, [0.2])
+        vi.lyapunov_exponents([(rig, shaken)], [0.2], 10)
+        vi.steady(chaotic, shaken, exponent_cycles=10)
+        print("begun", flush=True)
+        try:
+            {call}
+        except KeyboardInterrupt:
+            print("ended")
+    """
+    process = subprocess.Popen(
+        [sys.executable, "-c", textwrap.dedent(code)], stdout=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "begun\n"
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    begin = time.monotonic()
+    output, _ = process.communicate(timeout=60.0)
+    assert output == "ended\n"
+    assert time.monotonic() - begin < 3.0
+    assert process.returncode == 0
