@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
 from benchmarks.report import Table, met, targets
-from vibroimpact.identification.curves import CurveTest
+from vibroimpact.identification.curve_residuals import CurveTest
 from vibroimpact.measurements.read import as_measured
 
 _FIT = 10.0

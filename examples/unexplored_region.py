@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 import vibroimpact as vi
 from vibroimpact.figures import feature_map, save_figure, scenario_map
 from vibroimpact.scenarios.borders import jump_border
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.scenario import Scenario
 
 COUNTS = ("left_hysteresis_count", "irregular_count", "chaotic_count", "subharmonic_count")
 

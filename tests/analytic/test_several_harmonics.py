@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.response import free_flight
+from vibroimpact.response import analytic_free_response
 
 ISOLATORS = {"spring": vi.Isolator(8.0, 0.8), "undamped": vi.Isolator(8.0, 0.0)}
 FREQUENCY, SIZES, ANGLES = 0.41, (1.0, 0.5, 0.0, 0.8), (0.3, 1.0, 0.0, -2.0)
@@ -159,16 +159,18 @@ def test_a_branch_of_orbits(kind: dict) -> None:
 def test_the_reference_is_found_once_along_a_branch(monkeypatch) -> None:
     """Frequency, amplitude and stops do not matter to the largest free flight's shape."""
     asked = []
-    found = free_flight.harmonics
+    found = analytic_free_response.harmonics
     monkeypatch.setattr(
-        free_flight, "harmonics", lambda *given: asked.append(len(given[2])) or found(*given)
+        analytic_free_response,
+        "harmonics",
+        lambda *given: asked.append(len(given[2])) or found(*given),
     )
     rig, shaken = between(DULL), vi.Periodic(0.45, (1.5, 0.61, 0.9))
-    free_flight.reference_excursions(rig, shaken)
+    analytic_free_response.reference_excursions(rig, shaken)
     once = len(asked)
     assert once > 10
-    one = free_flight.reference_excursions(rig, shaken)
-    twice = free_flight.reference_excursions(
+    one = analytic_free_response.reference_excursions(rig, shaken)
+    twice = analytic_free_response.reference_excursions(
         rig.replace(right=None, force=1.0), shaken.replace(amplitude=3.0, frequency=1.0, phase=0.3)
     )
     np.testing.assert_allclose(twice, 2.0 * np.array(one), rtol=1e-14)

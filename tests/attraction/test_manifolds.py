@@ -13,7 +13,7 @@ from scipy.spatial import KDTree
 import vibroimpact as vi
 from samples import sample
 from vibroimpact.attraction.crossings import crossings
-from vibroimpact.attraction.followed import NO_TRAPS, Stage, follow, images
+from vibroimpact.attraction.label_states import NO_TRAPS, Stage, follow, images
 from vibroimpact.datasets.vocabulary import VARIABLES
 
 CASE = vi.laboratory.case("B3-10mm-A3")

@@ -8,8 +8,8 @@ import numpy as np
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.attraction.followed import NO_TRAPS, Stage, Traps, follow, parts
-from vibroimpact.attraction.search import Search
+from vibroimpact.attraction.find_attractors import Search
+from vibroimpact.attraction.label_states import NO_TRAPS, Stage, Traps, follow, parts
 from vibroimpact.engine.capture import CENTRE, FORM, REACH, TRAP
 
 CASE = vi.laboratory.case("B3-10mm-A3")
@@ -151,5 +151,5 @@ def test_what_settles_on_a_known_motion_is_not_described_again(monkeypatch):
     search = restituting()
     states = np.array([one.found.state for one in search.known])
     went = follow(search.stage, None, states, NO_TRAPS, 3).states
-    monkeypatch.setattr("vibroimpact.attraction.search.attractor", never)
+    monkeypatch.setattr("vibroimpact.attraction.find_attractors.attractor", never)
     assert [search._end_of(state)[0] for state in went] == [0, 1]

@@ -10,7 +10,7 @@ import pytest
 import vibroimpact as vi
 from earthquakes.rigs import noise
 from measured import measured
-from vibroimpact.cli import sized
+from vibroimpact.facts import design
 
 COMMAND = "design"
 STUDY = """
@@ -132,10 +132,10 @@ def test_where_no_gap_is_enough_for_all_it_is_told():
     gap = vi.required_gap(_rig(), RECORDS, fractile=0.0)
     gap["peak_displacement_left"][1] = np.inf
     data = vi.design_chart(_rig(), RECORDS, {"gap": [0.02, 0.06]}, fractile=0.0)
-    told = " ".join(str(line) for line in sized.text(_rig(), gap, data, None, list(RECORDS)))
+    told = " ".join(str(line) for line in design.text(_rig(), gap, data, None, list(RECORDS)))
     assert "; no gap is enough for all of them. " in told
     assert "the mass hits a stop under 1 of the 2 records." in told
-    assert sized.facts(gap, data, None)["required_gap_of_all_records"] is None
+    assert design.facts(gap, data, None)["required_gap_of_all_records"] is None
 
 
 def test_what_keeps_the_gap_is_told_where_the_chart_varies_it(run, study):

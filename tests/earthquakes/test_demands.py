@@ -11,7 +11,7 @@ import xarray as xr
 
 import vibroimpact as vi
 from earthquakes.rigs import RIGS, noise
-from vibroimpact.earthquakes.plan import blocks
+from vibroimpact.earthquakes.run_plan import blocks
 
 RECORDS = {"a": noise(8, count=120), "b": noise(9, count=150, step=0.01), "c": noise(10, count=90)}
 SCALES = [0.2, 0.7, 1.3]

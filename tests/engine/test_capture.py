@@ -6,11 +6,18 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.attraction.followed import NO_TRAPS, Followed, Region, Stage, Traps, follow_region
+from vibroimpact.attraction.label_states import (
+    NO_TRAPS,
+    Followed,
+    Region,
+    Stage,
+    Traps,
+    follow_region,
+)
 from vibroimpact.engine.capture import CENTRE, FORM, OWNER, REACH, TRAP
 from vibroimpact.engine.status import Status
-from vibroimpact.response.follow import moved_on
-from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.propagate import moved_on
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 EXCITATION = vi.Harmonic(CASE.amplitude, 0.7, 0.4)

@@ -18,7 +18,7 @@ from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import DETACHED, LIMIT, STATE, unpacked
 from vibroimpact.engine.observe import observer
 from vibroimpact.engine.observers import record
-from vibroimpact.response.start import engine_rig
+from vibroimpact.response.engine_input import engine_rig
 
 AMPLITUDE, FREQUENCY, PHASE, CYCLES, MOST = 0.6, 1.2 / math.tau, 0.3, 20, 100
 

@@ -9,9 +9,9 @@ import vibroimpact as vi
 from samples import sample
 from vibroimpact.engine import hold
 from vibroimpact.engine.status import Status
-from vibroimpact.response.rows import Patience, prepared, rows
+from vibroimpact.response.sweep_arrays import Patience, prepared, rows
 from vibroimpact.scenarios.axes import one_sine
-from vibroimpact.scenarios.curves import swept_alone
+from vibroimpact.scenarios.resonance_curves import swept_alone
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 SOON = 20.0 / CASE.oscillator.natural_frequency

@@ -9,7 +9,7 @@ import vibroimpact as vi
 from vibroimpact.facts import largest, scenario, sweeps
 from vibroimpact.facts.tables import as_text, plain_table, titled_table
 from vibroimpact.response.resonance import features
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.scenario import Scenario
 
 
 @pytest.fixture(scope="module")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.cli.demand import sentence
 from vibroimpact.facts import motions, sweeps
+from vibroimpact.facts.earthquake import sentence
 from vibroimpact.facts.tables import as_text
 from vibroimpact.response.resonance import features
 

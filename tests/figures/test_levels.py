@@ -7,8 +7,8 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from vibroimpact.figures.inline import new_axes
 from vibroimpact.figures.levels import number_lines
+from vibroimpact.figures.notebook import new_axes
 
 
 @pytest.fixture

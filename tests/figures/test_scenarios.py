@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 import vibroimpact as vi
 from vibroimpact.figures import Mark, feature_map, save_figure, scenario_cases, scenario_map
 from vibroimpact.figures.style import BUMPERS, SCENARIOS
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.scenario import Scenario
 
 N = 25
 

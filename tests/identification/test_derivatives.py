@@ -7,13 +7,13 @@ import vibroimpact as vi
 from identification.twins import FREE, curves
 from vibroimpact.engine import hold, orbit
 from vibroimpact.engine.section_map import MODE
-from vibroimpact.identification.curves import CurveTest
-from vibroimpact.identification.free import frees
-from vibroimpact.identification.held import Rig
-from vibroimpact.identification.problem import Problem
-from vibroimpact.stability.family import family
-from vibroimpact.stability.first import first_orbit
+from vibroimpact.identification.branch_response import Rig
+from vibroimpact.identification.curve_residuals import CurveTest
+from vibroimpact.identification.free_parameters import frees
+from vibroimpact.identification.least_squares import Problem
 from vibroimpact.stability.fixed_points import MAX_EVENTS, evaluated
+from vibroimpact.stability.initial_orbit import first_orbit
+from vibroimpact.stability.parameter_family import family
 
 FOLDED = vi.laboratory.case("B2-G1-A3", "identified")
 GRAZED = vi.laboratory.case("B2-G2-A2", "identified")

@@ -6,7 +6,7 @@ import pytest
 import vibroimpact as vi
 from identification.twins import EXCURSIONS, PEAKS, curves
 from vibroimpact.identification.comparison import asked_of, hertzian
-from vibroimpact.identification.free import SENSORS, frees, size_of
+from vibroimpact.identification.free_parameters import SENSORS, frees, size_of
 from vibroimpact.model.parameters import PARAMETERS
 
 CASE = vi.laboratory.case("B2-G2-A2", "identified")

@@ -7,7 +7,7 @@ import xarray as xr
 import vibroimpact as vi
 from identification.twins import FREE, PEAKS, curves, off, truth
 from samples import sample
-from vibroimpact.identification.repeats import stray_values
+from vibroimpact.identification.repeated_dwells import stray_values
 
 CASES = ("B2-G1-A3", "B2-G2-A2")
 

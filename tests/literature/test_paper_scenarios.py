@@ -14,9 +14,9 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.scenarios.classification import scenario
 from vibroimpact.scenarios.evidence import each_evidence
 from vibroimpact.scenarios.thresholds import Thresholds
-from vibroimpact.scenarios.verdict import scenario
 
 BUMPERS, GAPS, ACCELERATIONS = (
     ("B1", "B2", "B3", "B4"),

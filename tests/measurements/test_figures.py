@@ -11,7 +11,7 @@ from samples import sample
 from vibroimpact import figures
 from vibroimpact.measurements.features import in_words, measured_features, noise_of, strays
 from vibroimpact.measurements.read import as_measured
-from vibroimpact.response.swept import judged
+from vibroimpact.response.curve_pair import judged
 
 FREQUENCIES = np.round(np.arange(0.5, 5.01, 0.1), 10)
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import vibroimpact as vi
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.parameters import parameter
-from vibroimpact.stability.plane import plane
+from vibroimpact.stability.two_parameters import plane
 
 MASS = 5e6
 SOME = st.floats(1e-3, 1e3)

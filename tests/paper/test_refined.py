@@ -14,8 +14,8 @@ from vibroimpact.model import laboratory
 from vibroimpact.paper import refined
 from vibroimpact.paper.claims import CLAIMS, LINEAR
 from vibroimpact.paper.study import PublishedStudy
-from vibroimpact.response.free_flight import reference_excursions
-from vibroimpact.response.own_flight import largest_flight, resonance
+from vibroimpact.response.analytic_free_response import reference_excursions
+from vibroimpact.response.numerical_free_response import largest_flight, resonance
 from vibroimpact.response.resonance import features
 
 FULL_ONLY = pytest.mark.skipif(not samples.full, reason="sweeps the campaign again; --full")

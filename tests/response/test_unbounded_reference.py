@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.figures import resonance_curves
-from vibroimpact.response.doubts import UNBOUNDED
+from vibroimpact.response.plausibility import UNBOUNDED
 
 STOP = vi.Bumper(30.0, 0.1, 3.0)
 WITHOUT = {

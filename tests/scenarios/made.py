@@ -9,9 +9,9 @@ import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.scenarios.classification import scenario
 from vibroimpact.scenarios.evidence import evidence
 from vibroimpact.scenarios.thresholds import Thresholds
-from vibroimpact.scenarios.verdict import scenario
 
 GRID = np.round(np.arange(0.40, 3.01, 0.01), 10)
 

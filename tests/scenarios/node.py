@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
-from vibroimpact.scenarios.cell import classified
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.map_node import classified
+from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.scenarios.thresholds import Thresholds
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 import vibroimpact as vi
 from scenarios.small_map import rig_of
 from vibroimpact.scenarios.borders import jump_border
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.scenario import Scenario
 
 
 def test_the_border_of_jumps_is_the_cusp_of_the_folds():

@@ -7,9 +7,9 @@ import pytest
 
 import vibroimpact as vi
 from scenarios.made import GAP, GRID, RIG, bump, inside, made, named, primary, slope
+from vibroimpact.scenarios.classification import confidence
 from vibroimpact.scenarios.evidence import evidence
 from vibroimpact.scenarios.thresholds import Thresholds
-from vibroimpact.scenarios.verdict import confidence
 
 
 def test_primary_resonance_alone():

@@ -19,9 +19,9 @@ from scenarios.small_map import OPTIONS, X, Y, rig_of, small
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.scenarios import map as mapping
 from vibroimpact.scenarios.axes import one_sine
-from vibroimpact.scenarios.cell import COUNTS, VALUES
-from vibroimpact.scenarios.frequencies import frequencies
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.map_node import COUNTS, VALUES
+from vibroimpact.scenarios.scenario import Scenario
+from vibroimpact.scenarios.sweep_frequencies import frequencies
 from vibroimpact.tasks import executors
 
 

@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.scenarios.axes import Base
-from vibroimpact.scenarios.frequencies import MOST_HIGH, highest
+from vibroimpact.scenarios.sweep_frequencies import MOST_HIGH, highest
 
 SINE = vi.Harmonic(1.0, 1.0)
 FREE = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3))

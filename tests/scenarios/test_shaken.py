@@ -8,8 +8,8 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.borders import jump_border
-from vibroimpact.scenarios.frequencies import frequencies, highest
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.scenario import Scenario
+from vibroimpact.scenarios.sweep_frequencies import frequencies, highest
 
 CASE = vi.laboratory.case("B2-G1-A3")
 MASS, OMEGA = CASE.oscillator.mass, CASE.oscillator.angular_frequency

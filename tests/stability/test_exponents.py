@@ -11,8 +11,8 @@ from hypothesis import assume, given
 import vibroimpact as vi
 from properties.strategies import Motion, examples, motions, simulated
 from vibroimpact.engine import lyapunov
-from vibroimpact.response.follow import grown
-from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.propagate import grown
 
 CASES = ["B2-G1-A3", "B3-10mm-A3", "B4-G2-A1", "B3-0mm-A3", "B1-G4-A2"]
 FREQUENCIES = [0.58, 0.9, 1.02, 1.06, 1.1, 1.2, 2.0, 3.1]

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from properties.strategies import Motion, examples, motions
-from vibroimpact.stability.family import family
 from vibroimpact.stability.fixed_points import Section, corrected, evaluated
+from vibroimpact.stability.parameter_family import family
 
 
 @examples(60)

@@ -15,8 +15,8 @@ import xarray as xr
 
 import vibroimpact as vi
 from engine.taylor.rigs import ISOLATORS, between
-from vibroimpact.response.follow import grown
-from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.propagate import grown
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Stopped, each, watched
 

@@ -9,14 +9,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.attraction.ellipsoids import ellipsoids
-from vibroimpact.attraction.followed import PLACES, Stage
+from vibroimpact.attraction.absorbing_ellipsoids import ellipsoids
+from vibroimpact.attraction.label_states import PLACES, Stage
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.response.follow import grown
-from vibroimpact.response.start import as_state, engine_rig, engine_state
-from vibroimpact.stability.settled import Settled, later, reach
+from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
+from vibroimpact.response.propagate import grown
+from vibroimpact.stability.settle import Settled, later, reach
 from vibroimpact.stability.steady import describe_motion
 
 _Array = NDArray[np.float64]

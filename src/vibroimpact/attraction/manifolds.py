@@ -10,24 +10,24 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_list, check_progress
+from vibroimpact.attraction.adaptive_curve import Curve, Measure
+from vibroimpact.attraction.basins import span_of
 from vibroimpact.attraction.crossings import crossings
-from vibroimpact.attraction.curve import Curve, Measure
-from vibroimpact.attraction.followed import Stage
-from vibroimpact.attraction.grid import span_of
-from vibroimpact.attraction.memory import forgets
+from vibroimpact.attraction.find_attractors import Search
+from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.saddles import Saddle, border_saddles, given_saddle, saddle_points
-from vibroimpact.attraction.search import Search
-from vibroimpact.attraction.stable import stable_curve
-from vibroimpact.attraction.unstable import unstable_curve
-from vibroimpact.attraction.window import window
+from vibroimpact.attraction.section_coordinates import forgets
+from vibroimpact.attraction.stable_manifold import stable_curve
+from vibroimpact.attraction.state_window import window
+from vibroimpact.attraction.unstable_manifold import unstable_curve
 from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
-from vibroimpact.model.counts import MOST_CYCLES, check_max_events, share, whole
+from vibroimpact.model.count_checks import MOST_CYCLES, check_max_events, share, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.units import to_si
-from vibroimpact.response.free_flight import check_bounded
+from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import placed
 from vibroimpact.tasks.threads import Progress, Workers
 

@@ -13,18 +13,18 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.attraction.followed import NO_TRAPS, Stage, follow
-from vibroimpact.attraction.lattice import lattice
-from vibroimpact.attraction.memory import met
-from vibroimpact.attraction.search import Search
-from vibroimpact.attraction.window import Window
+from vibroimpact.attraction.find_attractors import Search
+from vibroimpact.attraction.label_states import NO_TRAPS, Stage, follow
+from vibroimpact.attraction.section_coordinates import met
+from vibroimpact.attraction.state_grid import lattice
+from vibroimpact.attraction.state_window import Window
 from vibroimpact.engine import motion as layout
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
-from vibroimpact.response.start import state_from
-from vibroimpact.stability.family import family
-from vibroimpact.stability.first import first_orbit
+from vibroimpact.response.engine_input import state_from
 from vibroimpact.stability.fixed_points import Orbit, Section, evaluated
+from vibroimpact.stability.initial_orbit import first_orbit
+from vibroimpact.stability.parameter_family import family
 from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]

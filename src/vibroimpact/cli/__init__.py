@@ -17,9 +17,9 @@ from typing import Any
 from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
+from vibroimpact.cli.error_text import in_words
 from vibroimpact.cli.garbage import search_no_more, search_seldom
 from vibroimpact.cli.output import input_warnings_in_lines
-from vibroimpact.cli.refusal import in_words
 from vibroimpact.cli.terminal import (
     flush,
     give_up_stdout,

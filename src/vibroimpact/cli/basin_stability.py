@@ -54,7 +54,7 @@ def basin_stability(
         vibroimpact basin-stability B2-G1-A3 --from 1.5Hz --to 2.7Hz
         vibroimpact basin-stability B3-10mm-A3 --parameter gap --from 3mm --to 7mm --frequency 0.7Hz
     """
-    from vibroimpact.cli.grid import default_span
+    from vibroimpact.cli.frequency_grid import default_span
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
 
@@ -80,7 +80,7 @@ def basin_stability(
         import numpy as np
         from rich.console import Group as Together
 
-        from vibroimpact.attraction.along import basin_stability as run
+        from vibroimpact.attraction.basin_stability import basin_stability as run
         from vibroimpact.cli import summary
         from vibroimpact.datasets.files import save
         from vibroimpact.figures import basin_shares, save_figure
@@ -150,7 +150,7 @@ def _text(data: xr.Dataset, along: str) -> RenderableType:
     from rich.table import Table
     from rich.text import Text
 
-    from vibroimpact.cli.numbers import plain, shown_in
+    from vibroimpact.facts.number_format import plain, shown_in
 
     facts = _facts(data, along)
     unit = shown_in(data[along].attrs["units"], data[along].values)

@@ -56,7 +56,7 @@ def basins(
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
 
-        from vibroimpact.attraction.grid import basins as run
+        from vibroimpact.attraction.basins import basins as run
         from vibroimpact.cli import summary
         from vibroimpact.datasets.files import save
         from vibroimpact.figures import basin_portrait, save_figure
@@ -128,7 +128,7 @@ def _text(data: xr.Dataset) -> RenderableType:
     from rich.table import Table
     from rich.text import Text
 
-    from vibroimpact.cli.numbers import LENGTHS, fitting, plain
+    from vibroimpact.facts.number_format import LENGTHS, fitting, plain
 
     facts = _facts(data)
     motions = facts["motions"]

@@ -111,7 +111,7 @@ def bifurcation(
         vibroimpact bifurcation B3-10mm-A3 --parameter gap --from 3mm --to 7mm --frequency 1.12Hz
         vibroimpact bifurcation B2-G1-A3 --from 1Hz --to 3Hz --quantity impact-velocity
     """
-    from vibroimpact.cli.grid import default_span
+    from vibroimpact.cli.frequency_grid import default_span
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
 
@@ -143,8 +143,8 @@ def bifurcation(
         from rich.console import Group as Together
 
         from vibroimpact.cli import summary
-        from vibroimpact.cli.sections import facts, text
         from vibroimpact.datasets.files import save
+        from vibroimpact.facts.bifurcation_diagram import facts, text
         from vibroimpact.figures import save_figure, section_diagram
         from vibroimpact.stability.bifurcation_diagram import DIRECTIONS, bifurcation_diagram
 
@@ -180,6 +180,6 @@ def bifurcation(
 
 def _branches(what: Subject, shaken: Repeated, along: str, span: tuple[float, float]) -> xr.Dataset:
     """The branches whose bifurcations are marked."""
-    from vibroimpact.stability.diagram import resonance_diagram
+    from vibroimpact.stability.resonance_diagram import resonance_diagram
 
     return resonance_diagram(what.oscillator, shaken, *span, parameter=along, phase=shaken.phase)

@@ -10,7 +10,7 @@ from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.cli.parameters import Varied, option_range
 from vibroimpact.cli.states import state
 from vibroimpact.errors import InputError
-from vibroimpact.stability.labels import Quantity
+from vibroimpact.stability.branch_styles import Quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -123,7 +123,7 @@ def branch(
         vibroimpact branch B3-10mm-A3 --from 0.9Hz --to 1.3Hz --quantity eccentricity
         vibroimpact branch B2-G1-A3 --parameter gap --from 1mm --to 20mm --frequency 2Hz
     """
-    from vibroimpact.cli.grid import default_span
+    from vibroimpact.cli.frequency_grid import default_span
     from vibroimpact.cli.output import output_folder, progress_bar, tell, warn
     from vibroimpact.cli.rig import subject
 
@@ -159,8 +159,8 @@ def branch(
         from rich.console import Group as Together
 
         from vibroimpact.cli import summary
-        from vibroimpact.cli.bifurcations import facts, text
         from vibroimpact.datasets.files import save
+        from vibroimpact.facts.branch import facts, text
         from vibroimpact.figures import branch_diagram, save_figure
 
         with warnings.catch_warnings(record=True) as caught, progress_bar("following") as progress:
@@ -204,7 +204,7 @@ def _all_branches(
     progress: Any,
 ) -> xr.Dataset:
     """All branches along a parameter."""
-    from vibroimpact.stability.diagram import resonance_diagram
+    from vibroimpact.stability.resonance_diagram import resonance_diagram
 
     phase = what.study.excitation.phase if what.study else 0.0
     return resonance_diagram(
@@ -230,7 +230,7 @@ def _basins(
     progress: Any,
 ) -> list[xr.Dataset]:
     """Basins at so many values, each in the middle of its part of the range."""
-    from vibroimpact.attraction.grid import basins
+    from vibroimpact.attraction.basins import basins
     from vibroimpact.model.parameters import parameter as registered
 
     varied = registered(parameter, of=shaken.of).of(what.oscillator)

@@ -121,12 +121,12 @@ def _frequencies(
         return None
     import numpy as np
 
-    from vibroimpact.cli.grid import frequency_grid
+    from vibroimpact.cli.frequency_grid import frequency_grid
     from vibroimpact.model import to_si
     from vibroimpact.model.quantities import FREQUENCY
-    from vibroimpact.response.free_flight import beside_resonance
+    from vibroimpact.response.analytic_free_response import beside_resonance
     from vibroimpact.scenarios.classify import LEAST
-    from vibroimpact.scenarios.frequencies import LOW, STEP, highest
+    from vibroimpact.scenarios.sweep_frequencies import LOW, STEP, highest
 
     natural = oscillator.natural_frequency
     defaults = (LOW * natural, highest(oscillator, shaken) * natural, STEP * natural)

@@ -14,7 +14,7 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
-    from vibroimpact.cli.grid import Span
+    from vibroimpact.cli.frequency_grid import Span
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import Repeated
     from vibroimpact.model.excitation import Of
@@ -74,7 +74,7 @@ def curve(
         vibroimpact curve B2-G1-A3 --bifurcation fold --over frequency,gap --second 1mm:20mm
         vibroimpact curve B2-G1-A3 --over frequency,stiffness-ratio --second 0.5:100
     """
-    from vibroimpact.cli.grid import default_span
+    from vibroimpact.cli.frequency_grid import default_span
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
 
@@ -181,7 +181,7 @@ def _check(
 ) -> None:
     """Refuse what cannot be followed before anything is sought."""
     from vibroimpact.model.units import pretty
-    from vibroimpact.stability.plane import plane
+    from vibroimpact.stability.two_parameters import plane
 
     try:
         over = plane(what.oscillator, shaken, names)
@@ -208,9 +208,9 @@ def _curves(
     import numpy as np
 
     from vibroimpact.model.parameters import parameter
+    from vibroimpact.stability.bifurcation_curve import bifurcation_curve
     from vibroimpact.stability.branch import branch
-    from vibroimpact.stability.curves import bifurcation_curve
-    from vibroimpact.stability.diagram import resonance_diagram
+    from vibroimpact.stability.resonance_diagram import resonance_diagram
 
     if names[0] == "frequency":
         data = resonance_diagram(

@@ -130,15 +130,16 @@ def design(
     ranges = _ranges(what, vary or tuple(((table and table.vary) or {}).items()))
     limits: dict[str, Any] = {**((table and table.limits) or {}), **dict(limit)}
 
-    from vibroimpact.design.best import least_acceleration
-    from vibroimpact.design.chart import design_chart as chart
-    from vibroimpact.design.gap import required_gap
+    from vibroimpact.design.design_chart import design_chart as chart
+    from vibroimpact.design.least_acceleration import least_acceleration
+    from vibroimpact.design.required_gap import required_gap
 
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
 
-        from vibroimpact.cli import sized, summary
+        from vibroimpact.cli import summary
         from vibroimpact.datasets.files import save
+        from vibroimpact.facts import design
         from vibroimpact.figures import design_chart, pareto_front, save_figure
 
         stem = f"{what.slug}-design"
@@ -169,9 +170,9 @@ def design(
     tell(
         Together(
             summary.rig_text(what, shaking=not found),
-            *sized.text(what.oscillator, gap, data, least, list(found), chosen=chosen),
+            *design.text(what.oscillator, gap, data, least, list(found), chosen=chosen),
         ),
-        {**about, **sized.facts(gap, data, least)},
+        {**about, **design.facts(gap, data, least)},
         folder,
         files,
         out.json,

@@ -105,8 +105,9 @@ def earthquake(
         from rich.console import Group as Together
         from rich.text import Text
 
-        from vibroimpact.cli import demand, summary
+        from vibroimpact.cli import summary
         from vibroimpact.datasets.files import save
+        from vibroimpact.facts import earthquake
         from vibroimpact.figures import earthquake_page, save_figure
 
         files: dict[str, Path] = {}
@@ -124,9 +125,12 @@ def earthquake(
             files[f"data of {name}"] = save(groups, f"{stem}.nc")
             files[f"figure of {name}"] = save_figure(page[0], f"{stem}.{out.figure}")
             responses.append(groups["response"])
-            facts.append(demand.facts(name, record, groups["response"], what.oscillator, free))
-            told += [Text(), demand.text(name, record, groups["response"], what.oscillator, free)]
-        table = demand.together(list(shaking), responses)
+            facts.append(earthquake.facts(name, record, groups["response"], what.oscillator, free))
+            told += [
+                Text(),
+                earthquake.text(name, record, groups["response"], what.oscillator, free),
+            ]
+        table = earthquake.together(list(shaking), responses)
         files = {"table": save(table, folder / f"{what.slug}-earthquake.csv"), **files}
     about = summary.rig_facts(what)
     about.pop("record")
@@ -199,9 +203,9 @@ def _computed(
     """
     import numpy as np
 
-    from vibroimpact.earthquakes.floor import floor_record
-    from vibroimpact.earthquakes.free import free_tail
-    from vibroimpact.earthquakes.response import seismic_response
+    from vibroimpact.earthquakes.floor_record import floor_record
+    from vibroimpact.earthquakes.free_vibration import free_tail
+    from vibroimpact.earthquakes.seismic_response import seismic_response
     from vibroimpact.engine.status import Status
     from vibroimpact.response.response_spectrum import response_spectrum
     from vibroimpact.response.simulate import simulate
@@ -223,7 +227,7 @@ def _free(
     rig: Oscillator, record: Record, tail: float | None, progress: Progress
 ) -> xr.Dataset | None:
     """The response without stops; None where there are none, or nothing else holds the mass."""
-    from vibroimpact.earthquakes.response import seismic_response
+    from vibroimpact.earthquakes.seismic_response import seismic_response
 
     if not rig.stops:
         return None

@@ -108,7 +108,7 @@ def ensemble(
         vibroimpact ensemble B2-G1-A3 --uncertain gap normal:5% --uncertain damping lognormal:0.2
         vibroimpact ensemble building.toml --samples 1024 --sensitivity --physical
     """
-    from vibroimpact.cli import grid
+    from vibroimpact.cli import frequency_grid
     from vibroimpact.cli.output import output_folder, progress_bar, tell, warn
     from vibroimpact.cli.rig import subject
 
@@ -117,8 +117,8 @@ def ensemble(
     given = _distributions(what, uncertain)
     table = what.study.ensemble if what.study else None
     swept = what.study.sweep if what.study else None
-    default = grid.default_range(what, _COARSER)
-    held = grid.frequencies(start, stop, step, frequencies, swept, default)
+    default = frequency_grid.default_range(what, _COARSER)
+    held = frequency_grid.frequencies(start, stop, step, frequencies, swept, default)
     options: dict[str, Any] = {
         "samples": (table and table.samples) or 128 if samples is None else samples,
         "seed": (table and table.seed) or 0 if seed is None else seed,
@@ -130,8 +130,9 @@ def ensemble(
 
         from rich.console import Group as Together
 
-        from vibroimpact.cli import drawn, summary
+        from vibroimpact.cli import summary
         from vibroimpact.datasets.files import save
+        from vibroimpact.facts import ensemble
         from vibroimpact.figures import resonance_bands, save_figure, sensitivity_bars
         from vibroimpact.response.sweep import sweep, sweeps
         from vibroimpact.uncertainty.ensemble import ensemble as draw
@@ -167,8 +168,8 @@ def ensemble(
             files[f"figure of {name}"] = save_figure(
                 sensitivity_bars(found, title=what.title), f"{stem}.{out.figure}"
             )
-    facts = {**summary.rig_facts(what), **drawn.facts(data, given, indices)}
-    text = Together(summary.rig_text(what), drawn.text(data, given, indices))
+    facts = {**summary.rig_facts(what), **ensemble.facts(data, given, indices)}
+    text = Together(summary.rig_text(what), ensemble.text(data, given, indices))
     tell(text, facts, folder, files, out.json)
     return 0
 
@@ -194,7 +195,7 @@ def _distributions(what: Subject, options: tuple[tuple[str, str], ...]) -> dict[
             "--uncertain: missing; a parameter and its distribution are accepted, such as gap "
             "normal:5%, here or in the study as ensemble.uncertain"
         )
-    from vibroimpact.uncertainty.rigs import uncertain
+    from vibroimpact.uncertainty.random_rigs import uncertain
 
     try:
         uncertain((what.oscillator, what.repeated), given)

@@ -251,7 +251,7 @@ def _summary(
     from rich.console import Group as Together
     from rich.text import Text
 
-    from vibroimpact.identification.advice import next_test
+    from vibroimpact.identification.next_test import next_test
     from vibroimpact.reports.identification import amplitude_of
 
     notes = [line for test in tests for line in _notes(test, many=len(tests) > 1)]

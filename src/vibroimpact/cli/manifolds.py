@@ -83,7 +83,7 @@ def manifolds(
     with output_folder(out.output) as folder:
         from rich.console import Group as Together
 
-        from vibroimpact.attraction.grid import basins
+        from vibroimpact.attraction.basins import basins
         from vibroimpact.attraction.manifolds import manifolds as run
         from vibroimpact.cli import summary
         from vibroimpact.datasets.description import motion_parameters
@@ -148,7 +148,7 @@ def _text(data: xr.Dataset) -> RenderableType:
     from rich.table import Table
     from rich.text import Text
 
-    from vibroimpact.cli.numbers import LENGTHS, SPEEDS, fitting, plain
+    from vibroimpact.facts.number_format import LENGTHS, SPEEDS, fitting, plain
 
     facts = _facts(data)
     saddles, curves = facts["saddles"], facts["curves"]

@@ -125,8 +125,8 @@ def scenario_map(
         from vibroimpact.figures import save_figure
         from vibroimpact.figures import scenario_map as draw
         from vibroimpact.scenarios.borders import jump_border
-        from vibroimpact.scenarios.kinds import Scenario
         from vibroimpact.scenarios.map import scenario_map as run
+        from vibroimpact.scenarios.scenario import Scenario
 
         names = "-".join(name.replace("_", "-") for name, *_ in axes)
         stem = folder / f"{what.slug}-{names}-map"
@@ -289,7 +289,7 @@ def _as_option(message: str) -> str:
 
 def _shares(data: xr.Dataset) -> dict[str, float]:
     """Share of the nodes by scenario, those that occur."""
-    from vibroimpact.scenarios.kinds import Scenario
+    from vibroimpact.scenarios.scenario import Scenario
 
     kinds = data["scenario"].values
     return {s.label: float((kinds == s).mean()) for s in Scenario if (kinds == s).any()}

@@ -165,7 +165,7 @@ def _found(
 ) -> dict[str, xr.Dataset]:
     """The motions by name, with their spectra and sections."""
     from vibroimpact.cli.output import progress_bar
-    from vibroimpact.response.arrivals import arrivals
+    from vibroimpact.response.sweep_starts import arrivals
     from vibroimpact.stability.coexisting import coexisting
     from vibroimpact.stability.steady import steady
 
@@ -191,7 +191,7 @@ def _complete(data: xr.Dataset) -> xr.Dataset:
     import xarray as xr
 
     from vibroimpact.datasets.description import motion_parameters
-    from vibroimpact.response.section import stroboscopic_section
+    from vibroimpact.response.sections import stroboscopic_section
     from vibroimpact.response.spectrum import spectrum
 
     if not data.sizes["time"]:

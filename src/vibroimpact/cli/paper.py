@@ -71,7 +71,7 @@ def paper(
         vibroimpact paper --only fig15,fig16 --output results --figure svg
     """
     from vibroimpact.cli.output import output_folder, progress_bar, tell
-    from vibroimpact.model.counts import whole
+    from vibroimpact.model.count_checks import whole
     from vibroimpact.paper.claims import CLAIMS
     from vibroimpact.paper.items import ITEMS
 

@@ -9,7 +9,7 @@ from cyclopts import Parameter
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
-    from vibroimpact.cli.grid import Span
+    from vibroimpact.cli.frequency_grid import Span
     from vibroimpact.model import Oscillator
     from vibroimpact.model.excitation import Of
 
@@ -65,7 +65,7 @@ def option_range(
     InputError
         If there is no such parameter, an end is missing or cannot be used, or none lies between.
     """
-    from vibroimpact.cli.grid import NO_DEFAULT
+    from vibroimpact.cli.frequency_grid import NO_DEFAULT
     from vibroimpact.model import to_si
     from vibroimpact.model.parameters import parameter
 

@@ -103,7 +103,7 @@ def record(
 
         from vibroimpact.datasets.files import save
         from vibroimpact.figures import accelerogram, save_figure
-        from vibroimpact.response.accelerogram import accelerogram as as_dataset
+        from vibroimpact.response.record_dataset import accelerogram as as_dataset
         from vibroimpact.response.response_spectrum import response_spectrum
 
         spectrum = response_spectrum(found, np.geomspace(first, last, periods), ratios)
@@ -156,7 +156,7 @@ def _text(found: Record, facts: dict[str, Any]) -> RenderableType:
     from rich.console import Group as Together
     from rich.text import Text
 
-    from vibroimpact.cli.numbers import plain
+    from vibroimpact.facts.number_format import plain
     from vibroimpact.facts.tables import plain_table
     from vibroimpact.model import GRAVITY
     from vibroimpact.model.quantities import TIME

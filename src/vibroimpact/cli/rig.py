@@ -6,8 +6,8 @@ import textwrap
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from vibroimpact.cli.changes import changes, joined
 from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.rig_changes import changes, joined
 from vibroimpact.cli.study import Study, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
@@ -30,7 +30,7 @@ from vibroimpact.model.names import check_name, file_stem, literal
 from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
 from vibroimpact.model.rigs import as_shaking
 from vibroimpact.model.units import to_si
-from vibroimpact.response.doubts import doubt_gaps
+from vibroimpact.response.plausibility import doubt_gaps
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
 """Fields of a bumper, and the options that set them on both sides."""

@@ -148,7 +148,7 @@ def _given(
     """
     from vibroimpact.cli.study import SimulateTable
     from vibroimpact.model import Record, State, equilibrium, to_si
-    from vibroimpact.model.counts import check_samples
+    from vibroimpact.model.count_checks import check_samples
     from vibroimpact.model.quantities import FREQUENCY, LENGTH, TIME, VELOCITY
 
     table = what.study.simulate if what.study else SimulateTable()

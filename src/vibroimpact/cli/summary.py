@@ -11,10 +11,10 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact._version import __version__
-from vibroimpact.cli.numbers import plain
 from vibroimpact.cli.rig import Subject
 from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.errors import InputError
+from vibroimpact.facts.number_format import plain
 from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import (
     Bumper,

@@ -89,7 +89,7 @@ def sweep(
         vibroimpact sweep B2-G1-A3 --left-gap 9mm --no-right --output one-sided
         vibroimpact sweep building.toml --physical --direction forward --json
     """
-    from vibroimpact.cli import grid, summary
+    from vibroimpact.cli import frequency_grid, summary
     from vibroimpact.cli.output import as_plain_text, output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import sweeps
@@ -97,7 +97,9 @@ def sweep(
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
     table = what.study.sweep if what.study else None
-    held = grid.frequencies(start, stop, step, frequencies, table, grid.default_range(what))
+    held = frequency_grid.frequencies(
+        start, stop, step, frequencies, table, frequency_grid.default_range(what)
+    )
     way = direction or (table and table.direction) or "both"
     options: dict[str, Any] = {
         "tolerance": tolerance if tolerance is not None else table and table.tolerance,

@@ -9,7 +9,7 @@ import xarray as xr
 
 from vibroimpact.arguments import check_mapping
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.shaking import PEAKS
+from vibroimpact.design.design_shaking import PEAKS
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import to_si
 from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH

@@ -16,16 +16,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.earthquakes.intensity import Measure, measure
-from vibroimpact.earthquakes.peaks import MAX_EVENTS, PEAKS, RESIDUALS, Shaken, peaks
-from vibroimpact.earthquakes.plan import Block, Runs, blocks, chunks, digest, runs, suite
-from vibroimpact.earthquakes.response import with_both_sides
+from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, PEAKS, RESIDUALS, Shaken, peaks
+from vibroimpact.earthquakes.run_plan import Block, Runs, blocks, chunks, digest, runs, suite
+from vibroimpact.earthquakes.seismic_response import with_both_sides
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.counts import check_max_events, whole
+from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rigs import AnyRig
-from vibroimpact.response.accelerogram import record_notes
+from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
 from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read
 from vibroimpact.tasks.executors import THREADS, placed

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.earthquakes.credible_curves import begin_to_exceed, credible_curves
 from vibroimpact.earthquakes.suites import described, exceedance, known, limit_of
 from vibroimpact.errors import InputError
-from vibroimpact.model.counts import share
+from vibroimpact.model.count_checks import share
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS
 from vibroimpact.model.units import pretty

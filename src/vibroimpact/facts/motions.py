@@ -20,7 +20,7 @@ from vibroimpact.model.quantities import (
     fitting,
 )
 from vibroimpact.model.units import plain
-from vibroimpact.response.phases import touches
+from vibroimpact.response.motion_phases import touches
 
 _MOST_CONTACTS = 12
 """Contacts that are printed of a motion; the file has them all."""

@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.scenarios.classify import Classification
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.scenario import Scenario
 
 
 def meaning(label: str) -> str:

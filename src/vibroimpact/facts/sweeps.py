@@ -11,7 +11,7 @@ from rich.text import Text
 from vibroimpact.facts import largest
 from vibroimpact.facts.tables import titled_table
 from vibroimpact.model.units import plain
-from vibroimpact.response.doubts import UNBOUNDED
+from vibroimpact.response.plausibility import UNBOUNDED
 from vibroimpact.response.resonance import Features, Range
 
 _CURVES = {"eta_a": "η_a", "eta_d": "η_d"}

@@ -20,11 +20,11 @@ from .feature import feature_map as feature_map
 from .fit import fit_history as fit_history
 from .fit import fit_profiles as fit_profiles
 from .fit import fit_residuals as fit_residuals
+from .frequency_marks import frequency_marks as frequency_marks
 from .history import time_history as time_history
 from .lines import spectrum_lines as spectrum_lines
 from .loops import force_loop as force_loop
-from .marks import frequency_marks as frequency_marks
-from .page import motion_page as motion_page
+from .motion_page import motion_page as motion_page
 from .portrait import phase_portrait as phase_portrait
 from .record import record_history as record_history
 from .resonance import resonance_curves as resonance_curves

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.response_spectra import response_spectra
 from vibroimpact.figures.style import EDGE, also_in_g, panels
 from vibroimpact.model import GRAVITY, Record

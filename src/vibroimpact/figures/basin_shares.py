@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 from vibroimpact.errors import InputError
 from vibroimpact.figures.basins import colour_of
 from vibroimpact.figures.branches import axis_unit
-from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import LEGEND
 
 _ROUNDING = 1e-9

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new
 
 COLOURS = (
     "#f6e7bd",

@@ -12,12 +12,12 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.labels import Names
-from vibroimpact.figures.motions import axes_or_new
-from vibroimpact.figures.quantities import axis_label
+from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import LEGEND, SWEEPS
 from vibroimpact.model.parameters import in_units
-from vibroimpact.stability.labels import QUANTITIES, Quantity
+from vibroimpact.stability.branch_styles import QUANTITIES, Quantity
 
 _Array = NDArray[np.float64]
 

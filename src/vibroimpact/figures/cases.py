@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Rectangle
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.notebook import Panels, new_axes
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model import laboratory
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.scenario import Scenario
 
 _PER_GRAVITY = 1e2 / 9.80665
 

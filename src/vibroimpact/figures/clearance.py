@@ -11,8 +11,8 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels
-from vibroimpact.figures.motions import Shown, cycles_shown, named, shown
+from vibroimpact.figures.motion_style import Shown, cycles_shown, named, shown
+from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
 
 _LINES: dict[str, Any] = {

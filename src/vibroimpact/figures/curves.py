@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import MARKS, axis_unit
 from vibroimpact.figures.labels import Names
-from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import LEGEND
 
 _DASHES = {

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import xarray as xr
 from matplotlib.axes import Axes
 
-from vibroimpact.figures.motions import axes_or_new, gap_lines, name_lines, named, shown
+from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
 
 
 def hysteresis_cycle(

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from vibroimpact.earthquakes.fragility import lacking
 from vibroimpact.earthquakes.suites import fractiles, known
 from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import LEGEND
 from vibroimpact.model import GRAVITY, to_si
 from vibroimpact.model.quantities import LENGTH

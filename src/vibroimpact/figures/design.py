@@ -14,13 +14,13 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
+from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.design.limits import excesses
-from vibroimpact.design.shaking import fractile_of
 from vibroimpact.errors import InputError
-from vibroimpact.figures.between import finer, finer_axis, nearest
-from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.interpolation import finer, finer_axis, nearest
 from vibroimpact.figures.levels import number_lines
-from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import LEGEND, panels
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.parameters import PARAMETERS

@@ -11,14 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Drawing, Panel, Panels
-from vibroimpact.figures.motions import SIDES, Shown, named, shown
+from vibroimpact.figures.motion_style import SIDES, Shown, named, shown
+from vibroimpact.figures.notebook import Drawing, Panel, Panels
 from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
 from vibroimpact.figures.style import EDGE, LEGEND, also_in_g
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, fitting
-from vibroimpact.response.phases import any_recorded
+from vibroimpact.response.motion_phases import any_recorded
 
 _DASHES = ("-", "--", "-.", ":")
 _COLOURS = ("black", "#c8102e", "#1f4fbf", "#00795c")

@@ -12,9 +12,9 @@ from matplotlib.patches import Patch
 
 from vibroimpact.earthquakes.suites import fractiles
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels
-from vibroimpact.figures.motions import axes_or_new
-from vibroimpact.figures.quantities import axis_label
+from vibroimpact.figures.axis_labels import axis_label
+from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, panels
 from vibroimpact.model.parameters import PARAMETERS
 

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import FREE, LEGEND, SWEEPS
 from vibroimpact.model.names import literal
 from vibroimpact.response.resonance import features

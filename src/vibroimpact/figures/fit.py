@@ -11,7 +11,7 @@ from scipy.special import chdtri
 
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.notebook import Panels, new_axes
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
 from vibroimpact.model.names import literal
 from vibroimpact.model.parameters import PARAMETERS

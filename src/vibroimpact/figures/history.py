@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from vibroimpact.figures.inline import Panels
-from vibroimpact.figures.motions import SIDES, Shown, cycles_shown, gap_lines, named, shown
+from vibroimpact.figures.motion_style import SIDES, Shown, cycles_shown, gap_lines, named, shown
+from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import EDGE, LEGEND, panels
 
 

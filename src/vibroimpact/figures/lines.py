@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import axes_or_new, looks
+from vibroimpact.figures.motion_style import axes_or_new, looks
 
 _LABELS = {
     "displacement": (1e3, "amplitude of $u$ (mm)"),

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import MOTIONS
 from vibroimpact.model import (
     AnyIsolator,

@@ -11,11 +11,11 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, SWEEPS, panels
 from vibroimpact.measurements.features import measured_features
 from vibroimpact.model.quantities import GRAVITY
-from vibroimpact.response.swept import judged
+from vibroimpact.response.curve_pair import judged
 
 _Array = NDArray[np.float64]
 

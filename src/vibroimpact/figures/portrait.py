@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from vibroimpact.figures.motions import axes_or_new, gap_lines, name_lines, named, shown
+from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
 
 _MOST_VECTORS = 50_000
 """Points of a curve from which on it is a picture in SVG and PDF, which else had megabytes."""

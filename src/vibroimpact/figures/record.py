@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.history import BANDS
-from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import EDGE, LEGEND, also_in_g, panels
 
 _ROWS = (

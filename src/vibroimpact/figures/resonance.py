@@ -14,8 +14,8 @@ from matplotlib.patches import FancyArrowPatch, Patch
 from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
-from vibroimpact.figures.inline import Panels
 from vibroimpact.figures.measured import halves_of, measured_curves, measured_points
+from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.resonance_panels import Drawn, divides, normalised, physical_curves
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
 from vibroimpact.measurements.read import as_measured, is_measured

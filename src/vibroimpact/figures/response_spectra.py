@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import LEGEND, also_in_g
 
 _LABELS = {

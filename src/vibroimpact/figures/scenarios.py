@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
-from vibroimpact.figures.motions import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.plane import node_edges, plane_axes
 from vibroimpact.figures.style import SCENARIOS
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.scenario import Scenario
 
 
 class Mark(NamedTuple):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import MARKS, axis_unit
-from vibroimpact.figures.inline import Panels
+from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import LEGEND, SWEEPS, Look, panels
 
 _Array = NDArray[np.float64]

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError
-from vibroimpact.figures.inline import Panels, new_axes
+from vibroimpact.figures.notebook import Panels, new_axes
 from vibroimpact.model import GRAVITY
 
 FORMATS = ("png", "pdf", "svg")

@@ -12,7 +12,7 @@ import xarray as xr
 from vibroimpact.arguments import check_mapping, check_variables
 from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError, unknown
-from vibroimpact.identification.structure import CERTAIN
+from vibroimpact.identification.residual_structure import CERTAIN
 from vibroimpact.model import Bumper, Isolator, Oscillator, PolynomialIsolator, PowerBumper
 
 _CLEAR = 10.0

@@ -13,18 +13,18 @@ import xarray as xr
 from vibroimpact.arguments import check_name, check_variables
 from vibroimpact.errors import InputError
 from vibroimpact.identification import results
-from vibroimpact.identification.free import frees, written
-from vibroimpact.identification.given import tests_of, ties_of
+from vibroimpact.identification.equivalent_rigs import rivals
+from vibroimpact.identification.fit_inputs import tests_of, ties_of
+from vibroimpact.identification.free_parameters import frees, written
+from vibroimpact.identification.global_search import local, search
+from vibroimpact.identification.least_squares import Problem
 from vibroimpact.identification.posterior import posterior as sampled
-from vibroimpact.identification.problem import Problem
-from vibroimpact.identification.profiles import Profile, limit_of, profile
-from vibroimpact.identification.rivals import rivals
-from vibroimpact.identification.robust import noises, weighed
-from vibroimpact.identification.search import local, search
+from vibroimpact.identification.profile_likelihood import Profile, limit_of, profile
+from vibroimpact.identification.robust_loss import noises, weighed
 from vibroimpact.identification.uncertainty import bootstrap, spread
-from vibroimpact.identification.untouched import untouched
+from vibroimpact.identification.untouched_stops import untouched
 from vibroimpact.model import Rig
-from vibroimpact.model.counts import share, whole
+from vibroimpact.model.count_checks import share, whole
 from vibroimpact.model.excitation import Harmonic
 from vibroimpact.tasks.threads import Progress
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.identification.problem import Problem
-from vibroimpact.identification.robust import moments
+from vibroimpact.identification.least_squares import Problem
+from vibroimpact.identification.robust_loss import moments
 from vibroimpact.identification.uncertainty import Spread
 
 _BURN = 0.3

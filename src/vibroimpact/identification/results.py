@@ -15,15 +15,15 @@ from vibroimpact.datasets.description import (
     excitation_parameters,
     oscillator_parameters,
 )
-from vibroimpact.identification import words
-from vibroimpact.identification.problem import Array, Problem
-from vibroimpact.identification.profiles import Profile
-from vibroimpact.identification.rivals import Rival, came_to, outside
-from vibroimpact.identification.search import Found
-from vibroimpact.identification.shown import Shown
-from vibroimpact.identification.structure import TOLD, Row, Structure, structure
+from vibroimpact.identification import finding_texts
+from vibroimpact.identification.equivalent_rigs import Rival, came_to, outside
+from vibroimpact.identification.global_search import Found
+from vibroimpact.identification.least_squares import Array, Problem
+from vibroimpact.identification.overlay import Shown
+from vibroimpact.identification.profile_likelihood import Profile
+from vibroimpact.identification.residual_structure import TOLD, Row, Structure, structure
 from vibroimpact.identification.uncertainty import Spread
-from vibroimpact.identification.untouched import Untouched
+from vibroimpact.identification.untouched_stops import Untouched
 from vibroimpact.model import Oscillator
 from vibroimpact.model.access import Setting
 
@@ -114,7 +114,9 @@ def labelled(fit: Fit, samples: dict[str, Array | None], confidence: float) -> x
         "evaluations": found.evaluations,
         "robust": int(np.isfinite(problem.tail)),
     }
-    data.attrs["findings"] = "\n".join(words.findings(data, problem, x, found, judged, idle))
+    data.attrs["findings"] = "\n".join(
+        finding_texts.findings(data, problem, x, found, judged, idle)
+    )
     return describe(
         data,
         "vibroimpact.identify",

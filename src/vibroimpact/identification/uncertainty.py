@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.identification.problem import Problem
-from vibroimpact.identification.robust import moments
+from vibroimpact.identification.least_squares import Problem
+from vibroimpact.identification.robust_loss import moments
 
 Array = NDArray[np.float64]
 

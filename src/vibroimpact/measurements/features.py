@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from vibroimpact.measurements.names import CURVES as MEASURED
 from vibroimpact.response import resonance
+from vibroimpact.response.curve_pair import Swept, judged, swept
 from vibroimpact.response.peaks import CURVES, PROMINENCE
 from vibroimpact.response.resonance import APART, Features
-from vibroimpact.response.swept import Swept, judged, swept
 
 _NOISES = 6.0
 """Least difference of two motions, and least prominence of a peak, in standard deviations."""

@@ -20,13 +20,13 @@ import math
 from typing import Annotated, ClassVar, NamedTuple, TypeAlias
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.html_table import table
 from vibroimpact.model.isolators import Isolator
-from vibroimpact.model.kinds import Kinds, Named
+from vibroimpact.model.law_registry import Kinds, Named
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
-from vibroimpact.model.table import table
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 

@@ -20,6 +20,7 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.dimensionless import peak_displacement
+from vibroimpact.model.html_table import table
 from vibroimpact.model.isolators import (
     AnyIsolator,
     BilinearIsolator,
@@ -30,7 +31,6 @@ from vibroimpact.model.isolators import (
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, STIFFNESS, Quantity
 from vibroimpact.model.stops import Bumper
-from vibroimpact.model.table import table
 from vibroimpact.model.units import pretty, read
 
 Parameters: TypeAlias = Literal["table", "identified", "refined"]

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.errors import InputError, shown, warn_of_input
 from vibroimpact.model.about import About, read_values
-from vibroimpact.model.counts import MOST_SAMPLES
+from vibroimpact.model.count_checks import MOST_SAMPLES
+from vibroimpact.model.html_table import table
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, TIME, Quantity
-from vibroimpact.model.table import table
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.records.commas import checked
 from vibroimpact.records.doubts import of_size

@@ -23,9 +23,9 @@ from pydantic import (
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
 from vibroimpact.errors import InputError, shown
+from vibroimpact.model.html_table import table
 from vibroimpact.model.keys import MOST, SHOWN, listed, unknown_key
 from vibroimpact.model.quantities import Quantity
-from vibroimpact.model.table import table
 from vibroimpact.model.units import accepted, pretty, read
 
 _FIELD = re.compile(r"[a-z_]+(\.[a-z_]+)*: ")

@@ -18,7 +18,7 @@ from vibroimpact.paper.campaign import panels_of
 from vibroimpact.paper.curves import S2, S3, curves_of
 from vibroimpact.paper.item import Item, Table
 from vibroimpact.paper.study import PublishedStudy
-from vibroimpact.response.own_flight import largest_flight, resonance
+from vibroimpact.response.numerical_free_response import largest_flight, resonance
 
 
 def equivalent(isolator: str, acceleration: str) -> tuple[float, float]:

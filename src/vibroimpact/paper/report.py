@@ -16,7 +16,7 @@ from vibroimpact.paper.claim import Claim, Finding, Kind, Verdict
 from vibroimpact.paper.claims.reasons import REASONS
 from vibroimpact.paper.item import Item, Table
 from vibroimpact.paper.study import PublishedStudy
-from vibroimpact.scenarios.kinds import Scenario
+from vibroimpact.scenarios.scenario import Scenario
 
 Format = Literal["png", "svg"]
 Progress = Callable[[int, int | None], None]

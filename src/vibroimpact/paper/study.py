@@ -17,11 +17,11 @@ from vibroimpact.model import (
     laboratory,
     to_dimensionless,
 )
-from vibroimpact.response.arrivals import arrivals
+from vibroimpact.response.engine_input import as_state
 from vibroimpact.response.resonance import Features, features
 from vibroimpact.response.simulate import simulate
-from vibroimpact.response.start import as_state
 from vibroimpact.response.sweep import sweeps
+from vibroimpact.response.sweep_starts import arrivals
 from vibroimpact.scenarios.classify import Classification, classify
 from vibroimpact.scenarios.map import scenario_map
 from vibroimpact.stability.branch import branch

@@ -17,11 +17,11 @@ from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError, printable
 from vibroimpact.figures import resonance_curves, save_figure
 from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
-from vibroimpact.identification.advice import next_test
-from vibroimpact.identification.free import SENSORS
+from vibroimpact.identification.finding_texts import amplitude_words
+from vibroimpact.identification.free_parameters import SENSORS
 from vibroimpact.identification.identify import fitted
+from vibroimpact.identification.next_test import next_test
 from vibroimpact.identification.results import setting_of
-from vibroimpact.identification.words import amplitude_words
 from vibroimpact.measurements.read import as_measured
 from vibroimpact.model.names import file_stems
 from vibroimpact.model.parameters import PARAMETERS

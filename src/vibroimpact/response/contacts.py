@@ -12,8 +12,7 @@ from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine import measure
 from vibroimpact.model import Record, Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.response.measuring import measured
-from vibroimpact.response.phases import (
+from vibroimpact.response.motion_phases import (
     SIDES,
     Phases,
     Recorded,
@@ -23,6 +22,7 @@ from vibroimpact.response.phases import (
     relaxation_loss,
     touches,
 )
+from vibroimpact.response.phase_measures import measured
 
 _Array = NDArray[np.float64]
 _Numbers = NDArray[np.int64]

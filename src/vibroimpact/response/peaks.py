@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 import xarray as xr
 
-from vibroimpact.response.swept import Array, Direction, Swept, swept
+from vibroimpact.response.curve_pair import Array, Direction, Swept, swept
 
 PROMINENCE = 0.02
 """Least prominence of a peak, as a share of its height.

@@ -27,8 +27,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 import xarray as xr
 
+from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, swept
 from vibroimpact.response.peaks import CURVES, PROMINENCE, Peak, peaks
-from vibroimpact.response.swept import Array, Direction, Flags, Swept, swept
 
 APART = 0.01
 """Excursions that differ by more than this share belong to different motions.

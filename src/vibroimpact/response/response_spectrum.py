@@ -15,7 +15,7 @@ from vibroimpact.datasets.description import describe
 from vibroimpact.engine import spectra
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Record
-from vibroimpact.response.accelerogram import record_parameters
+from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.tasks.threads import Progress, Tally, available, each
 
 DIRECTIONS = 180

@@ -22,14 +22,14 @@ from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, Repeated, State, equilibrium, to_si
-from vibroimpact.model.counts import check_max_events, check_samples, whole
+from vibroimpact.model.count_checks import check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.rigs import takes_rig_or_record
-from vibroimpact.response.free_flight import check_bounded
-from vibroimpact.response.recorded import through
-from vibroimpact.response.reversal import ended
-from vibroimpact.response.start import as_state, components, engine_rig, engine_state
-from vibroimpact.response.written import EVENTS_AT_ONCE, listed, sampled
+from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
+from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
+from vibroimpact.response.record_history import through
+from vibroimpact.response.softening_limit import ended
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
 

@@ -13,9 +13,9 @@ from vibroimpact.engine import fourier
 from vibroimpact.errors import InputError
 from vibroimpact.model import Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.response.measuring import asked, table
-from vibroimpact.response.phases import Phases, Recorded, phases, recorded
-from vibroimpact.response.sine import forcing_sine
+from vibroimpact.response.motion_phases import Phases, Recorded, phases, recorded
+from vibroimpact.response.phase_measures import asked, table
+from vibroimpact.response.sine_fit import forcing_sine
 
 _Complex = NDArray[np.complex128]
 

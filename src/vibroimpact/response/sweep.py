@@ -26,7 +26,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Repeated, State, to_si
-from vibroimpact.model.counts import check_max_events, share, whole
+from vibroimpact.model.count_checks import check_max_events, share, whole
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.rigs import (
     AnyRig,
@@ -37,11 +37,11 @@ from vibroimpact.model.rigs import (
     rig_name,
     takes_rig,
 )
-from vibroimpact.response.doubts import doubt_gaps, note_unbounded
-from vibroimpact.response.held import held
-from vibroimpact.response.reversal import judged
-from vibroimpact.response.rows import Patience, prepared, rows
-from vibroimpact.response.start import as_state
+from vibroimpact.response.engine_input import as_state
+from vibroimpact.response.plausibility import doubt_gaps, note_unbounded
+from vibroimpact.response.softening_limit import judged
+from vibroimpact.response.sweep_arrays import Patience, prepared, rows
+from vibroimpact.response.sweep_dataset import held
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, each
 

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine import measure
-from vibroimpact.response.measuring import measured, view
-from vibroimpact.response.phases import (
+from vibroimpact.response.motion_phases import (
     Phases,
     Recorded,
     any_recorded,
@@ -20,6 +19,7 @@ from vibroimpact.response.phases import (
     impact_loss,
     relaxation_loss,
 )
+from vibroimpact.response.phase_measures import measured, view
 
 
 def totals(motion: xr.Dataset) -> xr.Dataset:

@@ -19,15 +19,15 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator
 from vibroimpact.response.sweep import sweep
 from vibroimpact.scenarios.axes import Base, Shaken, one_sine
-from vibroimpact.scenarios.behind import primary_branch
-from vibroimpact.scenarios.curves import holds
 from vibroimpact.scenarios.evidence import evidence
-from vibroimpact.scenarios.frequencies import frequencies
-from vibroimpact.scenarios.kinds import Scenario
 from vibroimpact.scenarios.map import map_workers
-from vibroimpact.scenarios.store import CREATED_BY
+from vibroimpact.scenarios.map_store import CREATED_BY
+from vibroimpact.scenarios.orbit_evidence import primary_branch
+from vibroimpact.scenarios.resonance_curves import holds
+from vibroimpact.scenarios.scenario import Scenario
+from vibroimpact.scenarios.sweep_frequencies import frequencies
+from vibroimpact.stability.bifurcation_curve import bifurcation_curve
 from vibroimpact.stability.bifurcations import FOLD
-from vibroimpact.stability.curves import bifurcation_curve
 from vibroimpact.tasks.threads import Progress, Tally, each
 
 FOLLOWED = ("stiffness_ratio", "gap", "gap_ratio", "amplitude")

@@ -9,18 +9,18 @@ import xarray as xr
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator
+from vibroimpact.model.html_table import table
 from vibroimpact.model.rigs import AnyShaking, takes_rig
-from vibroimpact.model.table import table
 from vibroimpact.response.sweep import sweep
 from vibroimpact.scenarios.axes import one_sine
-from vibroimpact.scenarios.behind import with_folds, with_kinds
-from vibroimpact.scenarios.curves import holds
+from vibroimpact.scenarios.classification import alternatives, confidence, scenario
 from vibroimpact.scenarios.evidence import Evidence, evidence
-from vibroimpact.scenarios.frequencies import cycles, highest
-from vibroimpact.scenarios.frequencies import frequencies as default_frequencies
+from vibroimpact.scenarios.evidence_text import in_words
+from vibroimpact.scenarios.orbit_evidence import with_folds, with_kinds
+from vibroimpact.scenarios.resonance_curves import holds
+from vibroimpact.scenarios.sweep_frequencies import cycles, highest
+from vibroimpact.scenarios.sweep_frequencies import frequencies as default_frequencies
 from vibroimpact.scenarios.thresholds import Thresholds, checked
-from vibroimpact.scenarios.verdict import alternatives, confidence, scenario
-from vibroimpact.scenarios.words import in_words
 from vibroimpact.tasks.threads import Progress
 
 MAX_CYCLES = 2000

@@ -17,15 +17,15 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.model import Harmonic, Oscillator
-from vibroimpact.model.room import at_rest, room
+from vibroimpact.model.clearance import at_rest, room
 from vibroimpact.model.unbounded import has_no_bound
-from vibroimpact.response.free_flight import reference_excursions, resonance_ratio
+from vibroimpact.response.analytic_free_response import reference_excursions, resonance_ratio
+from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, as_rigs
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps_beside, runs
-from vibroimpact.response.swept import Array, Direction, Flags, Swept, as_rigs
 from vibroimpact.scenarios.axes import Shaken
-from vibroimpact.scenarios.curves import Curves, each_curves
-from vibroimpact.scenarios.onset import foot_in_contact, onset, within
+from vibroimpact.scenarios.contact_onset import foot_in_contact, onset, within
+from vibroimpact.scenarios.resonance_curves import Curves, each_curves
 
 KNOWN = 0.5
 """Share of the holds of either direction that must have a value."""

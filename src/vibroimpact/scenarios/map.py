@@ -15,12 +15,12 @@ from vibroimpact.datasets.description import excitation_parameters, oscillator_p
 from vibroimpact.errors import InputError
 from vibroimpact.grids.refinement import UNKNOWN, Nodes, Scenarios
 from vibroimpact.model import from_dimensionless
-from vibroimpact.model.counts import share, whole
+from vibroimpact.model.count_checks import share, whole
 from vibroimpact.model.rigs import AnyRig, as_rig
 from vibroimpact.scenarios.axes import Axis, Base, axis, check_pair, one_sine
-from vibroimpact.scenarios.cell import RIG, classified
-from vibroimpact.scenarios.frequencies import STEP
-from vibroimpact.scenarios.store import MapStore, map_store
+from vibroimpact.scenarios.map_node import RIG, classified
+from vibroimpact.scenarios.map_store import MapStore, map_store
+from vibroimpact.scenarios.sweep_frequencies import STEP
 from vibroimpact.scenarios.thresholds import Thresholds, checked
 from vibroimpact.tasks.executors import PROCESSES, THREADS, placed
 from vibroimpact.tasks.processes import may_start

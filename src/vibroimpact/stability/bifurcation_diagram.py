@@ -22,14 +22,14 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.access import Setting
-from vibroimpact.model.counts import check_max_events, share, whole
+from vibroimpact.model.count_checks import check_max_events, share, whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.held import sizes
-from vibroimpact.response.start import as_state, components, engine_rig, engine_state
-from vibroimpact.stability.sectioned import POINT, Kind, Look, Seen, look_at
-from vibroimpact.stability.stepped import Patience, random_states, settings, stepped
+from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
+from vibroimpact.response.sweep_dataset import sizes
+from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
+from vibroimpact.stability.parameter_sweep import Patience, random_states, settings, stepped
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Tally, each
 

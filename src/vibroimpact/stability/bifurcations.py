@@ -30,8 +30,8 @@ from vibroimpact.engine import section_map
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import SEEN, Orbit, corrected, evaluated, is_fixed
-from vibroimpact.stability.parents import half_plus, parent, slid
-from vibroimpact.stability.trace import Station, solved
+from vibroimpact.stability.orbit_curve import Station, solved
+from vibroimpact.stability.parent_branches import half_plus, parent, slid
 
 _Array = NDArray[np.float64]
 

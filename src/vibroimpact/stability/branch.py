@@ -8,16 +8,16 @@ import xarray as xr
 from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State
-from vibroimpact.model.counts import MOST_CYCLES, whole
+from vibroimpact.model.count_checks import MOST_CYCLES, whole
 from vibroimpact.model.parameters import bounds
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.stability import bifurcations
-from vibroimpact.stability.family import Family, family
-from vibroimpact.stability.first import first_orbit
+from vibroimpact.stability.branch_dataset import Followed, as_dataset
 from vibroimpact.stability.fixed_points import HELD, Orbit
-from vibroimpact.stability.labelled import Followed, as_dataset
-from vibroimpact.stability.trace import CLOSED, Branch, Station
-from vibroimpact.stability.turning import FREE, InContact, bounded_by_flight, turns_into_flight
+from vibroimpact.stability.folds import FREE, InContact, bounded_by_flight, turns_into_flight
+from vibroimpact.stability.initial_orbit import first_orbit
+from vibroimpact.stability.orbit_curve import CLOSED, Branch, Station
+from vibroimpact.stability.parameter_family import Family, family
 from vibroimpact.tasks.threads import Progress, counted
 
 _GROWN = 3.0

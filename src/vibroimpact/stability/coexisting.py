@@ -14,12 +14,12 @@ from vibroimpact.arguments import STARTS, check_mapping
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated, RigidStop, State, Stop
-from vibroimpact.model.counts import whole
+from vibroimpact.model.count_checks import whole
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.response.arrivals import arrivals
-from vibroimpact.response.start import as_state, state_from
-from vibroimpact.stability.same import image_of, mirrors, same
-from vibroimpact.stability.settled import (
+from vibroimpact.response.engine_input import as_state, state_from
+from vibroimpact.response.sweep_starts import arrivals
+from vibroimpact.stability.equivalence import image_of, mirrors, same
+from vibroimpact.stability.settle import (
     Settled,
     approach,
     later,

@@ -17,16 +17,16 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
 from vibroimpact.model.access import Setting
-from vibroimpact.model.counts import check_max_events, whole
+from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.model.varied import Varied, varied, written
-from vibroimpact.response.follow import grow
-from vibroimpact.response.free_flight import check_bounded
-from vibroimpact.response.start import as_state, engine_rig, engine_state
+from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
+from vibroimpact.response.propagate import grow
 from vibroimpact.response.sweep import check_frequencies, named_rigs
-from vibroimpact.stability.averaged import Averaged
+from vibroimpact.stability.block_averages import Averaged
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import DONE, Progress, Tally, each
 

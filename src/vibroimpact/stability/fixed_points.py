@@ -17,8 +17,8 @@ from vibroimpact.engine.flows import carries
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.model.access import Setting
-from vibroimpact.response.follow import moved_on
-from vibroimpact.stability.family import Family
+from vibroimpact.response.propagate import moved_on
+from vibroimpact.stability.parameter_family import Family
 
 _Array = NDArray[np.float64]
 

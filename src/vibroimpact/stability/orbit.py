@@ -7,12 +7,12 @@ import xarray as xr
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine import section_map
 from vibroimpact.model import Oscillator, Repeated, State
-from vibroimpact.model.counts import MOST_CYCLES, whole
+from vibroimpact.model.count_checks import MOST_CYCLES, whole
 from vibroimpact.model.rigs import takes_rig
-from vibroimpact.stability.family import family
-from vibroimpact.stability.first import first_orbit
 from vibroimpact.stability.fixed_points import MAX_EVENTS
-from vibroimpact.stability.settled import settled_on
+from vibroimpact.stability.initial_orbit import first_orbit
+from vibroimpact.stability.parameter_family import family
+from vibroimpact.stability.settle import settled_on
 from vibroimpact.stability.steady import describe_motion
 
 

@@ -16,21 +16,21 @@ from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated, State, equilibrium
-from vibroimpact.model.counts import check_max_events, check_samples, whole
+from vibroimpact.model.count_checks import check_max_events, check_samples, whole
 from vibroimpact.model.rigs import takes_rig
 from vibroimpact.response.contacts import contact_log
-from vibroimpact.response.doubts import doubt_gaps
-from vibroimpact.response.measuring import measured
-from vibroimpact.response.phases import Recorded, cut
+from vibroimpact.response.engine_input import as_state, state_from
+from vibroimpact.response.motion_phases import Recorded, cut
+from vibroimpact.response.phase_measures import measured
+from vibroimpact.response.plausibility import doubt_gaps
 from vibroimpact.response.simulate import simulate
-from vibroimpact.response.start import as_state, state_from
 from vibroimpact.response.totals import energies, extremes
 from vibroimpact.stability.exponents import DISCARD
-from vibroimpact.stability.family import family
-from vibroimpact.stability.first import first_orbit
-from vibroimpact.stability.growth import judge_orbit, judge_wandering
-from vibroimpact.stability.kind import Judgement
-from vibroimpact.stability.settled import (
+from vibroimpact.stability.initial_orbit import first_orbit
+from vibroimpact.stability.motion_exponents import judge_orbit, judge_wandering
+from vibroimpact.stability.motion_type import Judgement
+from vibroimpact.stability.parameter_family import family
+from vibroimpact.stability.settle import (
     Settled,
     apart,
     approach,

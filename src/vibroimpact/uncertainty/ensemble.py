@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import origin
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator
-from vibroimpact.model.counts import whole
+from vibroimpact.model.count_checks import whole
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.tasks.threads import Progress, each
 from vibroimpact.uncertainty.distributions import Distribution
-from vibroimpact.uncertainty.rigs import Drawn, Method, Uncertain, shares, uncertain
+from vibroimpact.uncertainty.random_rigs import Drawn, Method, Uncertain, shares, uncertain
 
 _Array = NDArray[np.float64]
 

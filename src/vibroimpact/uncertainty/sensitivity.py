@@ -13,12 +13,12 @@ from scipy.stats import qmc
 from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator
-from vibroimpact.model.counts import whole
+from vibroimpact.model.count_checks import whole
 from vibroimpact.model.rigs import AnyRig
 from vibroimpact.tasks.threads import Progress
 from vibroimpact.uncertainty.distributions import Distribution
 from vibroimpact.uncertainty.ensemble import Response, responded
-from vibroimpact.uncertainty.rigs import check_power, uncertain
+from vibroimpact.uncertainty.random_rigs import check_power, uncertain
 
 _Array = NDArray[np.float64]
 

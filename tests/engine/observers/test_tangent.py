@@ -14,7 +14,7 @@ import vibroimpact as vi
 from properties.strategies import Motion, examples, motions, simulated
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
-from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_rig, engine_state
 
 COMPONENTS = ("displacement", "velocity", "right_bumper", "left_bumper")
 

@@ -10,7 +10,7 @@ import vibroimpact as vi
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.observers import record
-from vibroimpact.response.start import engine_rig, engine_state
+from vibroimpact.response.engine_input import engine_rig, engine_state
 
 ISOLATORS = {
     "linear": vi.Isolator(1.0, 0.2),

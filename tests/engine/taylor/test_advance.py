@@ -15,8 +15,8 @@ from engine.taylor.rigs import ISOLATORS, SHAKEN, STOPS, between, followed, star
 from properties.strategies import Motion, examples, motions
 from samples import sample
 from vibroimpact.engine.motion import ISOLATOR, LEFT_BUMPER, MODE, U, V, mirror_image
-from vibroimpact.response.laws import isolator_numbers
-from vibroimpact.response.start import engine_state
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.law_numbers import isolator_numbers
 
 CYCLES = 8
 SEEN = [U, V, ISOLATOR]

@@ -10,7 +10,7 @@ import pytest
 import vibroimpact as vi
 from engine.taylor.rigs import HYSTERETIC, ISOLATORS, between
 from engine.taylor.test_carry import carried
-from vibroimpact.response.start import engine_state
+from vibroimpact.response.engine_input import engine_state
 
 FREQUENCY = 0.9 / math.tau
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.attraction.grid import basins
+from vibroimpact.attraction.basins import basins
 from vibroimpact.explorer.pictures.numbers import one, short
 from vibroimpact.explorer.state import State
 from vibroimpact.tasks.threads import Progress

@@ -13,7 +13,7 @@ from vibroimpact.facts import sweeps as told
 from vibroimpact.facts.tables import as_text
 from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
 from vibroimpact.response import resonance
-from vibroimpact.response.free_flight import beside_resonance
+from vibroimpact.response.analytic_free_response import beside_resonance
 from vibroimpact.response.sweep import advice, sweep
 from vibroimpact.tasks.threads import Progress
 

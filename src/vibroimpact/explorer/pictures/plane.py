@@ -12,8 +12,8 @@ from vibroimpact.explorer.state import State
 from vibroimpact.model import from_dimensionless, to_dimensionless
 from vibroimpact.model.access import scale_of
 from vibroimpact.model.dimensionless import DimensionlessBumper
-from vibroimpact.scenarios.kinds import Scenario
 from vibroimpact.scenarios.map import scenario_map
+from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.tasks.threads import Progress
 
 _NODES, _STEP = 9, 0.03

@@ -9,11 +9,11 @@ import xarray as xr
 from vibroimpact.explorer.pictures.numbers import one
 from vibroimpact.explorer.state import State
 from vibroimpact.facts import scenario as told
+from vibroimpact.scenarios.classification import scenario
 from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.evidence import evidence
+from vibroimpact.scenarios.evidence_text import in_words
 from vibroimpact.scenarios.thresholds import Thresholds
-from vibroimpact.scenarios.verdict import scenario
-from vibroimpact.scenarios.words import in_words
 from vibroimpact.tasks.threads import Progress
 
 

@@ -12,7 +12,7 @@ from vibroimpact.model.isolators.friction import FrictionIsolator
 from vibroimpact.model.isolators.law import IsolatorLaw
 from vibroimpact.model.isolators.linear import Isolator
 from vibroimpact.model.isolators.polynomial import PolynomialIsolator
-from vibroimpact.model.kinds import Kinds
+from vibroimpact.model.law_registry import Kinds
 
 AnyIsolator: TypeAlias = (
     Isolator

@@ -9,7 +9,7 @@ from pydantic import model_validator
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.isolators.design import design, design_keys, force_of_strength
-from vibroimpact.model.kinds import Named
+from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, FORCE, STIFFNESS, power_damping
 from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import Accepts, constructor

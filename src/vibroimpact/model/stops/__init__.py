@@ -10,7 +10,7 @@ whether it is linear and, unless it is rigid, its `static_force`.
 
 from typing import TypeAlias
 
-from vibroimpact.model.kinds import Kinds
+from vibroimpact.model.law_registry import Kinds
 from vibroimpact.model.stops.bumper import Bumper
 from vibroimpact.model.stops.jankowski import JankowskiBumper
 from vibroimpact.model.stops.power import PowerBumper

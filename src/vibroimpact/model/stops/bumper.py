@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.kinds import Named
+from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS
 from vibroimpact.model.restitution import damping_ratio
 from vibroimpact.model.units import to_si

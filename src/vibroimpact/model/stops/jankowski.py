@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Self
 from pydantic import model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.kinds import Named
+from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, MASS, power_stiffness
 from vibroimpact.model.validation import Accepts, constructor
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar
 
-from vibroimpact.model.kinds import Named
+from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH
 from vibroimpact.model.validation import Accepts, constructor
 

@@ -8,9 +8,9 @@ import xarray as xr
 from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import BOTH, AbsentError, Array, claim
 from vibroimpact.paper.study import GAPS, PublishedStudy
+from vibroimpact.response.curve_pair import Direction
 from vibroimpact.response.peaks import Curve
 from vibroimpact.response.resonance import features
-from vibroimpact.response.swept import Direction
 
 _RANGE = (0.3, 8.0)
 _CODES = tuple(f"B3-{gap}-A3" for gap in reversed(GAPS))

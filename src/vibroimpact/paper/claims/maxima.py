@@ -20,7 +20,7 @@ from vibroimpact.paper.claims.reading import (
     trend,
 )
 from vibroimpact.paper.study import PublishedStudy
-from vibroimpact.response.swept import Direction
+from vibroimpact.response.curve_pair import Direction
 
 
 def _maxima(study: PublishedStudy, pair: str, direction: Direction) -> list[float]:

@@ -10,7 +10,7 @@ from vibroimpact.paper.claims.left import AROUND, CODE, curves, found_features, 
 from vibroimpact.paper.claims.reading import AbsentError, apart, at_most, claim, listed, turns
 from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.resonance import UNSETTLED_APART
-from vibroimpact.scenarios.curves import UNEVEN
+from vibroimpact.scenarios.resonance_curves import UNEVEN
 
 _CURVES = {"eta_a": "acceleration_excursion", "eta_d": "displacement_excursion"}
 _CONSTANT = 0.25

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from vibroimpact.model import laboratory
 from vibroimpact.paper.claim import Claim, Finding, Kind
 from vibroimpact.paper.study import HIGH, LOW, STEP, PublishedStudy
+from vibroimpact.response.curve_pair import Direction, in_contact
 from vibroimpact.response.peaks import Curve, Peak
 from vibroimpact.response.spectrum import spectrum
-from vibroimpact.response.swept import Direction, in_contact
 from vibroimpact.scenarios.evidence import SAME
 
 TEST_STEP = 0.1

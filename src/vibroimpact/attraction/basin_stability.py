@@ -1,0 +1,253 @@
+"""Shares of random states by the motion that they lead to, at one rig or along a parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.arguments import check_list, check_progress
+from vibroimpact.attraction.attractor_variables import POINTS, ranked
+from vibroimpact.attraction.attractors import Attractor
+from vibroimpact.attraction.basin_fractions import interval
+from vibroimpact.attraction.basins import span_of
+from vibroimpact.attraction.find_attractors import Search
+from vibroimpact.attraction.label_states import Stage
+from vibroimpact.attraction.match_attractors import matched
+from vibroimpact.attraction.state_window import Window, walls, window
+from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, Repeated, to_si
+from vibroimpact.model.count_checks import check_max_events, whole
+from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.quantities import LENGTH, VELOCITY
+from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress
+
+_Array = NDArray[np.float64]
+
+MOST_STATES = 10_000_000
+"""States that are drawn."""
+MOST_VALUES = 100_000
+"""Values of the parameter that is varied."""
+
+_SIZES = ("displacement_excursion", "acceleration_excursion", "eccentricity")
+
+
+class _Found(NamedTuple):
+    """What random states lead to at one value."""
+
+    known: list[Attractor]
+    counts: NDArray[np.int64]
+    given_up: int
+
+
+@takes_rig
+def basin_stability(
+    oscillator: Oscillator,
+    excitation: Repeated,
+    displacement: Sequence[float | str] | None = None,
+    velocity: Sequence[float | str] | None = None,
+    *,
+    parameter: str | None = None,
+    values: Iterable[float | str] | None = None,
+    states: int = 1000,
+    seed: int = 0,
+    max_cycles: int = 2000,
+    max_events: int = 10_000,
+    threads: int | None = None,
+    where: Any = THREADS,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Find how likely random states lead to each steady motion.
+
+    The share of the states that lead to a motion is its basin stability (P. J. Menck et al.,
+    Nature Physics 9, 89, 2013). States are drawn alike in displacement and velocity, bumpers
+    relaxed, at the phase of the excitation.
+
+    Parameters
+    ----------
+    oscillator, excitation
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
+    displacement, velocity
+        Lowest and highest of the states, in m and m/s. None for what `basins` takes, around all
+        motions along the parameter.
+    parameter, values
+        What is varied, such as "frequency" or "gap", and its values. A motion keeps its number as
+        long as its states lead to one near it at the next value.
+    states
+        How many are drawn; along a parameter the same ones at each value.
+    seed
+        Of the states; the same one gives the same states.
+    max_cycles, max_events, threads, where
+        As in `basins`.
+    progress
+        Called from the calling thread with the values done and all.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``attractor``, and one of the parameter's name if there is one: ``share`` with its 95%
+        interval ``share_low`` to ``share_high``, ``states``, ``motion`` ("" where there is no such
+        motion), ``period``, sizes; and ``given_up`` states.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or nothing dies out.
+    """
+    check_progress(progress)
+    drawn, seed = whole(states, "states", most=MOST_STATES), whole(seed, "seed", 0)
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
+    workers = placed(threads, where)
+    wide = span_of(displacement, LENGTH, "displacement")
+    fast = span_of(velocity, VELOCITY, "velocity")
+    varied, given = _values(oscillator, excitation, parameter, values)
+    searches = []
+    for value in given:
+        rig, shaken = (
+            varied.write(oscillator, excitation, value)
+            if varied
+            else (
+                oscillator,
+                excitation,
+            )
+        )
+        check_bounded(rig, shaken)
+        searches.append(Search(Stage(rig, shaken, max_events), max_cycles, workers))
+    if wide is None or fast is None:
+        every = [window(search) for search in searches]
+        wide, fast = wide or _around(w[0] for w in every), fast or _around(w[1] for w in every)
+    ranges = wide, fast
+    every_found: list[_Found] = []
+    numbers: list[list[int]] = []
+    for i, search in enumerate(searches):
+        points = _drawn(search.stage, ranges, drawn, seed)
+        before = every_found[-1].known if every_found else []
+        leads = search.label(_seeds(before)).owner
+        found = search.label(points)
+        order = [n for n in ranked(search.known) if (found.owner == n).any() or (leads == n).any()]
+        known = [search.known[n] for n in order]
+        places = [_places(one, ranges) for one in known]
+        going = {
+            number: order.index(int(leads[k]))
+            for k, number in enumerate(numbers[-1] if numbers else [])
+            if leads[k] >= 0
+        }
+        former = dict(
+            zip(numbers[-1] if numbers else [], [_places(a, ranges) for a in before], strict=True)
+        )
+        free = 1 + max((n for some in numbers for n in some), default=-1)
+        numbers.append(matched(former, places, going, free))
+        counts = np.array([(found.owner == n).sum() for n in order], dtype=np.int64)
+        every_found.append(_Found(known, counts, int((found.owner < 0).sum())))
+        if progress is not None:
+            progress(i + 1, len(searches))
+    data = _dataset(every_found, numbers, drawn, varied, given)
+    return describe(
+        data,
+        "vibroimpact.basin_stability",
+        {
+            "oscillator": oscillator_parameters(oscillator),
+            **excitation_parameters(excitation),
+            "displacement": list(wide),
+            "velocity": list(fast),
+            "parameter": varied.name if varied else None,
+            "states": drawn,
+            "seed": seed,
+            "max_cycles": max_cycles,
+        },
+    )
+
+
+def _values(
+    oscillator: Oscillator,
+    excitation: Repeated,
+    name: str | None,
+    values: Iterable[float | str] | None,
+) -> tuple[Parameter | None, list[float]]:
+    if name is None:
+        if values is not None:
+            raise InputError("parameter: missing; the name of what is varied is accepted")
+        return None, [0.0]
+    varied = parameter(name, of=excitation.of).of(oscillator)
+    listed = check_list(values, "values", MOST_VALUES, f"a list of values of {varied.name}")
+    given = [to_si(one, varied.quantity, f"values[{i}]") for i, one in enumerate(listed)]
+    if not given:
+        raise InputError(f"values: none are given; values of {varied.name} are accepted")
+    return varied, given
+
+
+def _around(ranges: Iterable[tuple[float, float]]) -> tuple[float, float]:
+    every = list(ranges)
+    return min(low for low, _ in every), max(high for _, high in every)
+
+
+def _drawn(stage: Stage, ranges: Window, count: int, seed: int) -> _Array:
+    """Random states of the window, where they can be."""
+    low, high = walls(stage)
+    begin, end = max(ranges[0][0], low), min(ranges[0][1], high)
+    if not begin < end:
+        raise InputError(
+            f"displacement: {ranges[0][0]:g} to {ranges[0][1]:g} m lies behind a rigid stop; a "
+            "range between the stops is accepted"
+        )
+    share = np.random.default_rng(seed).random((count, 2))
+    points = np.zeros((count, 5))
+    points[:, 0] = begin + share[:, 0] * (end - begin)
+    points[:, 1] = ranges[1][0] + share[:, 1] * (ranges[1][1] - ranges[1][0])
+    return points
+
+
+def _seeds(known: list[Attractor]) -> _Array:
+    """A state of each motion."""
+    return np.array([one.points[0] for one in known]).reshape(-1, 5)
+
+
+def _places(one: Attractor, ranges: Window) -> _Array:
+    """Its points at the section, over the window's sides."""
+    points: _Array = one.points[:POINTS, :2] / np.ptp(np.array(ranges), axis=1)
+    return points
+
+
+def _dataset(
+    found: list[_Found],
+    numbers: list[list[int]],
+    drawn: int,
+    varied: Parameter | None,
+    values: list[float],
+) -> xr.Dataset:
+    total = 1 + max((n for some in numbers for n in some), default=-1)
+    shape = (len(found), total)
+    counts = np.zeros(shape, dtype=np.int64)
+    motion = np.full(shape, "", dtype="<U14")
+    period = np.zeros(shape, dtype=np.int64)
+    sizes = {name: np.full(shape, np.nan) for name in _SIZES}
+    for i, (one, names) in enumerate(zip(found, numbers, strict=True)):
+        for known, count, number in zip(one.known, one.counts, names, strict=True):
+            counts[i, number] = count
+            motion[i, number] = str(known.motion["motion"].values)
+            period[i, number] = int(known.motion["period"])
+            for name in _SIZES:
+                sizes[name][i, number] = float(known.motion[name])
+    low, high = interval(counts, drawn)
+    dims = (varied.name if varied else "value", "attractor")
+    data = xr.Dataset(
+        {
+            "share": (dims, counts / drawn),
+            "share_low": (dims, low),
+            "share_high": (dims, high),
+            "states": (dims, counts),
+            "motion": (dims, motion),
+            "period": (dims, period),
+            **{name: (dims, values_) for name, values_ in sizes.items()},
+            "given_up": (dims[0], np.array([one.given_up for one in found], dtype=np.int64)),
+        },
+        {"attractor": np.arange(total)},
+    )
+    return data.assign_coords({varied.name: values}) if varied else data.isel(value=0)

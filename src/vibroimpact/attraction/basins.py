@@ -1,0 +1,258 @@
+"""Basins of attraction on a grid of the plane of displacement and velocity."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence, Set
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.arguments import check_progress, is_list
+from vibroimpact.attraction.attractor_variables import ranked, shares, variables
+from vibroimpact.attraction.basin_metrics import border_distances, entropies, uncertainty_exponent
+from vibroimpact.attraction.find_attractors import Search
+from vibroimpact.attraction.label_states import Stage
+from vibroimpact.attraction.state_grid import Lattice, lattice
+from vibroimpact.attraction.state_window import walls, window
+from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
+from vibroimpact.errors import InputError, shown
+from vibroimpact.grids.refinement import UNKNOWN, Nodes
+from vibroimpact.model import Oscillator, Repeated, to_si
+from vibroimpact.model.count_checks import check_max_events, whole
+from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
+from vibroimpact.model.rigs import takes_rig
+from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress
+
+_Labels = NDArray[np.int16]
+
+UNDECIDED, NOWHERE = -1, -2
+"""Of a state that was given up, and of one behind a rigid stop."""
+MOST_NODES = 100_000_000
+MOST_REFINED = 8
+
+
+@takes_rig
+def basins(
+    oscillator: Oscillator,
+    excitation: Repeated,
+    displacement: Sequence[float | str] | None = None,
+    velocity: Sequence[float | str] | None = None,
+    *,
+    nodes: int | tuple[int, int] = 200,
+    refine: int = 0,
+    right_bumper: float | str = 0.0,
+    left_bumper: float | str = 0.0,
+    isolator: float | str = 0.0,
+    max_cycles: int = 2000,
+    max_events: int = 10_000,
+    threads: int | None = None,
+    where: Any = THREADS,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Find which initial states lead to which steady motion.
+
+    States begin at the phase of the excitation. Motions need not be known: each state is followed
+    until it is where nothing leaves for another motion, and what it leads to is found there
+    (docs/how-to/map-basins.md).
+
+    Parameters
+    ----------
+    oscillator, excitation
+        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
+    displacement, velocity
+        Lowest and highest of the grid, in m and m/s. None for 1.6 times what the steady motions
+        take that a coarse grid of starts leads to.
+    nodes
+        Along each axis, or along displacement and velocity.
+    refine
+        How often the grid is made twice as dense beside borders. Between nodes that lead to one
+        motion nothing is followed then: stripes narrower than the first grid may be missed.
+    right_bumper, left_bumper
+        Deformation that a bumper still has where the mass begins (m; on the left below 0), at least
+        that which the mass presses. Others, and relaxed ones, have 0.
+    isolator
+        What the isolator remembers where it has a memory (m).
+    max_cycles
+        Forcing cycles behind which a motion that has not settled is said to wander.
+    max_events
+        Contacts and detachments in one forcing cycle at which a state is given up.
+    threads
+        How many regions of states are followed at once; None for one a processor. No result depends
+        on it.
+    where
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). No result depends on it.
+    progress
+        Called from the calling thread with the states done and all.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims ``velocity``, ``displacement``: ``basin``, the number of the motion (-1: given up, -2:
+        behind a rigid stop), ``capture_cycles`` until it was sure, and ``level`` of refinement. Dim
+        ``attractor``, the largest motion first: ``motion``, ``period``, sizes, ``share`` of the
+        states with its 95% interval, ``border_distance`` and ``mirror_image``. Dim ``point``: where
+        they are at the section. ``basin_entropy``, ``border_entropy``, ``uncertainty_exponent``.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or nothing dies out, so that each state has its own motion.
+    """
+    check_bounded(oscillator, excitation)
+    check_progress(progress)
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
+    workers = placed(threads, where)
+    refine = whole(refine, "refine", 0)
+    first = _nodes(nodes)
+    if refine > MOST_REFINED:
+        raise InputError(f"refine: {refine}; a whole number of at most {MOST_REFINED} is accepted")
+    plan = Nodes((((first[1] - 1) << refine) + 1, ((first[0] - 1) << refine) + 1), refine)
+    if plan.shape[0] * plan.shape[1] > MOST_NODES:
+        raise InputError(f"nodes: {plan.shape[1]} × {plan.shape[0]}; fewer are accepted")
+    others = _others(oscillator, right_bumper, left_bumper, isolator)
+    stage = Stage(oscillator, excitation, max_events)
+    search = Search(stage, max_cycles, workers)
+    wide = span_of(displacement, LENGTH, "displacement")
+    fast = span_of(velocity, VELOCITY, "velocity")
+    if wide is None or fast is None:
+        found = window(search)
+        wide, fast = wide or found[0], fast or found[1]
+    ranges = wide, fast
+    points = lattice(*ranges, plan.shape[::-1], others)
+    labels, cycles, levels = _labelled(search, points, plan, progress)
+    data = _dataset(search, ranges, plan, labels, cycles, levels)
+    return describe(
+        data,
+        "vibroimpact.basins",
+        {
+            "oscillator": oscillator_parameters(oscillator),
+            **excitation_parameters(excitation),
+            "right_bumper": float(others[0]),
+            "left_bumper": -float(others[1]),
+            "isolator": float(others[2]),
+            "refine": refine,
+            "max_cycles": max_cycles,
+        },
+    )
+
+
+def _nodes(given: int | tuple[int, int]) -> tuple[int, int]:
+    pair = given if isinstance(given, tuple | list) else (given, given)
+    if len(pair) != 2:
+        raise InputError(f"nodes: {shown(given)}; one number, or one for each axis, is accepted")
+    return whole(pair[0], "nodes", 2), whole(pair[1], "nodes", 2)
+
+
+def span_of(
+    given: Sequence[float | str] | None, quantity: Quantity, field: str
+) -> tuple[float, float] | None:
+    """Read the lowest and the highest of a window; None if none is given."""
+    if given is None:
+        return None
+    is_ordered = is_list(given) and hasattr(given, "__len__") and not isinstance(given, Set)
+    if not is_ordered or getattr(given, "ndim", 1) != 1 or len(given) != 2:
+        raise InputError(
+            f"{field}: {shown(given)}; a pair of the lowest and the highest is accepted"
+        )
+    low, high = (to_si(one, quantity, f"{field}[{i}]") for i, one in enumerate(given))
+    if not low < high:
+        raise InputError(f"{field}: {low:g} is not below {high:g}; a rising pair is accepted")
+    return low, high
+
+
+def _others(
+    oscillator: Oscillator, right: float | str, left: float | str, isolator: float | str
+) -> NDArray[np.float64]:
+    """Deformations of the bumpers away from the mass, and the isolator's memory."""
+    values = [
+        to_si(right, LENGTH, "right_bumper", minimum=0.0),
+        -to_si(left, LENGTH, "left_bumper", maximum=0.0),
+        to_si(isolator, LENGTH, "isolator"),
+    ]
+    for name, value, stop in (
+        ("right_bumper", values[0], oscillator.right),
+        ("left_bumper", values[1], oscillator.left),
+    ):
+        if value and not hasattr(stop, "damping"):
+            raise InputError(f"{name}: {value:g} m, but no bumper there remembers; 0 is accepted")
+    return np.array(values)
+
+
+def _labelled(
+    search: Search, points: Lattice, plan: Nodes, progress: Progress | None
+) -> tuple[_Labels, NDArray[np.int32], NDArray[np.int8]]:
+    """Motion, cycles and level of each node; -1 where it was given up."""
+    low, high = walls(search.stage)
+    outside = (points.displacement < low) | (points.displacement > high)
+    # One more than the number of the motion; 0 is given up.
+    known = np.full(plan.shape, UNKNOWN, dtype=np.int8)
+    cycles = np.full(plan.shape, -1, dtype=np.int32)
+    levels = np.full(plan.shape, -1, dtype=np.int8)
+    wall = np.int8(127)
+    known[:, outside] = wall
+    for level in range(plan.refine + 1):
+        chosen = plan.wanted(level, known)
+        chosen &= known == UNKNOWN
+        at = slice(None) if chosen.all() else np.flatnonzero(chosen)
+        del chosen
+        found = search.label(points[at], progress)
+        known.ravel()[at] = found.owner + np.int8(1)
+        cycles.ravel()[at] = found.cycles
+        levels.ravel()[at] = level
+        if level:
+            plan.fill(level, known)
+    labels = known.astype(np.int16) - np.int16(1)
+    labels[known == wall] = NOWHERE
+    return labels, cycles, levels
+
+
+def _dataset(
+    search: Search,
+    ranges: tuple[tuple[float, float], tuple[float, float]],
+    plan: Nodes,
+    labels: _Labels,
+    cycles: NDArray[np.int32],
+    levels: NDArray[np.int8],
+) -> xr.Dataset:
+    order = ranked(search.known)
+    # Motions that no state of the grid leads to, but one of the search's own, are left out.
+    order = [number for number in order if (labels == number).any()]
+    renamed = labels.copy()
+    for new, old in enumerate(order):
+        renamed[labels == old] = new
+    known = [search.known[number] for number in order]
+    u, v = (np.linspace(*one, n) for one, n in zip(ranges, plan.shape[::-1], strict=True))
+    omega = search.stage.excitation.angular_frequency
+    mixed = entropies(renamed)
+    exponent = uncertainty_exponent(renamed)
+    step = plan.spacing(0)
+    drawn = max(int((renamed[::step, ::step] >= UNDECIDED).sum()), 1)
+    points = [one.points[:, :2] / [1.0, omega] for one in known]
+    values: dict[str, Any] = {
+        "basin": (("velocity", "displacement"), renamed),
+        "capture_cycles": (("velocity", "displacement"), cycles),
+        "level": (("velocity", "displacement"), levels),
+        **variables(known),
+        **shares(renamed, len(known), drawn),
+        "border_distance": ("attractor", border_distances(renamed, u, v / omega, points)),
+        "basin_entropy": mixed.basin,
+        "border_entropy": mixed.border,
+        "uncertainty_exponent": exponent.value,
+        "uncertainty_exponent_error": exponent.uncertainty,
+    }
+    data = xr.Dataset(
+        values, {"velocity": v, "displacement": u, "attractor": np.arange(len(known))}
+    )
+    rows, columns = (len(range(0, n, step)) for n in plan.shape)
+    data.attrs["lattice"] = f"each state of {columns} × {rows} was followed" + (
+        f"; then {plan.refine} times those beside a border, to {plan.shape[1]} × {plan.shape[0]}: "
+        "what is narrower than the first grid may be missed"
+        if plan.refine
+        else ""
+    )
+    return data

@@ -1,0 +1,162 @@
+"""Many states followed at once until each is caught.
+
+A `Region` is all that its computation needs, and `follow_region` a pure function of it: regions may
+be followed on threads, or wherever else they are sent.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.attraction.state_grid import Lattice
+from vibroimpact.engine import capture
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.status import Status
+from vibroimpact.model import Oscillator, Repeated
+from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.tasks.threads import Progress, Tally, Workers, each
+
+_Array = NDArray[np.float64]
+_Whole = NDArray[np.int64]
+_Short = NDArray[np.int32]
+_Tiny = NDArray[np.int8]
+
+Points: TypeAlias = _Array | Lattice
+"""States as arrays, or the nodes of a grid."""
+
+_REGION = 2000
+"""States that a thread follows at a time."""
+_WORTH_IT = 16
+"""Regions; fewer are followed here sooner than they travel to a cluster."""
+
+
+class Stage(NamedTuple):
+    """What vibrates and what shakes it; the section is at the phase of the shaking."""
+
+    oscillator: Oscillator
+    excitation: Repeated
+    max_events: int = 10_000
+
+
+class Traps(NamedTuple):
+    """What catches states; see `engine.capture`."""
+
+    rows: _Array
+    cells: _Whole
+    grid: _Array
+
+
+NO_TRAPS = Traps(
+    np.empty((0, capture.TRAP)), np.empty((0, 0), dtype=np.int64), np.zeros(capture.GRID)
+)
+
+
+class Region(NamedTuple):
+    """States to be followed, and how far."""
+
+    stage: Stage
+    points: Points
+    """u, u̇, u_R, u_L, z as the engine counts, where the motions begin; empty where they go on."""
+    states: _Array
+    """Of the engine, where they go on; empty where they begin."""
+    traps: Traps
+    cycles: int
+
+
+class Followed(NamedTuple):
+    """Where states were caught."""
+
+    states: _Array
+    """Of the engine, of those that may go on: not settled, one after the other."""
+    owner: _Tiny
+    """Whose trap it was; -1 if none."""
+    cycles: _Short
+    outcome: _Tiny
+    """`Status`: done where it was caught, not settled where it may yet be."""
+
+
+def follow_region(region: Region, tally: Tally) -> Followed:
+    """Follow the states of one region."""
+    stage, points, states, traps, cycles = region
+    begun = len(points) > 0
+    points = np.ascontiguousarray(points)
+    states = np.zeros((len(points), layout.STATE)) if begun else np.ascontiguousarray(states).copy()
+    results = np.zeros((len(states), capture.RESULT), dtype=np.int64)
+    capture.caught(
+        engine_rig(stage.oscillator, stage.excitation),
+        stage.excitation.amplitude,
+        stage.excitation.frequency,
+        stage.excitation.phase,
+        cycles,
+        stage.max_events,
+        begun,
+        points,
+        *traps,
+        states,
+        results,
+        tally,
+    )
+    outcome = results[:, capture.OUTCOME].astype(np.int8)
+    return Followed(
+        states[outcome == Status.NOT_SETTLED],
+        results[:, capture.CAUGHT].astype(np.int8),
+        results[:, capture.CYCLES].astype(np.int32),
+        outcome,
+    )
+
+
+def follow(
+    stage: Stage,
+    points: Points | None,
+    states: _Array | None,
+    traps: Traps,
+    cycles: int,
+    threads: Workers = None,
+    progress: Progress | None = None,
+) -> Followed:
+    """Follow states in regions, over threads; no result depends on their number.
+
+    Parameters
+    ----------
+    points, states
+        Where the motions begin, or where they go on: one of the two is None.
+    """
+    begun: Points = np.empty((0, 5)) if points is None else points
+    held = np.empty((0, layout.STATE)) if states is None else states
+    number = max(len(begun), len(held))
+    if not number:
+        none = np.empty(0, dtype=np.int8)
+        return Followed(np.empty((0, layout.STATE)), none, none.astype(np.int32), none)
+    where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
+    regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
+    capture.caught.prepare(engine_rig(stage.oscillator, stage.excitation))
+    if len(regions) < _WORTH_IT and not isinstance(threads, int):
+        threads = None
+    found = each(follow_region, regions, steps=number, threads=threads, progress=progress)
+    return Followed(*(np.concatenate(column) for column in zip(*found, strict=True)))
+
+
+def images(
+    stage: Stage, points: _Array, cycles: int = 1, threads: Workers = None
+) -> tuple[_Array, NDArray[np.bool_]]:
+    """Where points of the section are some cycles later (nan if unknown), and which are known.
+
+    Points are u, u̇, u_R, u_L, z, the deformations away from the mass.
+    """
+    found = follow(stage, points, None, NO_TRAPS, cycles, threads)
+    known = found.outcome == Status.NOT_SETTLED
+    where = np.full(points.shape, np.nan)
+    where[known] = parts(found.states)
+    return where, known
+
+
+def parts(states: _Array) -> _Array:
+    """u, u̇, u_R, u_L, z of states of the engine."""
+    return states[:, [*PLACES]]
+
+
+PLACES = (layout.U, layout.V, layout.RIGHT_BUMPER, layout.LEFT_BUMPER, layout.ISOLATOR)
+"""Where u, u̇, u_R, u_L and z stand in a state of the engine."""

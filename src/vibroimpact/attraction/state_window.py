@@ -1,0 +1,61 @@
+"""Which states are looked at where none are given: those that steady motions reach, and more."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vibroimpact.attraction.find_attractors import Search
+from vibroimpact.attraction.label_states import Stage
+from vibroimpact.attraction.state_grid import lattice
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import RigidStop, State
+from vibroimpact.stability.settle import approach, reach, reach_at_rest
+
+Window = tuple[tuple[float, float], tuple[float, float]]
+"""Ranges of displacement (m) and velocity (m/s)."""
+
+_WIDER = 1.6
+"""Over what the steady motions take."""
+_FIRST = 2.0
+"""Over the size of the motion from rest, and the gaps: where other motions are sought."""
+_LATTICE = 20
+"""Starts along each axis."""
+
+
+def walls(stage: Stage) -> tuple[float, float]:
+    """Least and largest displacement that can be (m)."""
+    left, right = stage.oscillator.left, stage.oscillator.right
+    return (
+        -left.gap if isinstance(left, RigidStop) else -np.inf,
+        right.gap if isinstance(right, RigidStop) else np.inf,
+    )
+
+
+def window(search: Search) -> Window:
+    """A window around all motions that starts in a larger one lead to.
+
+    Raises
+    ------
+    InputError
+        If nothing moves.
+    """
+    stage = search.stage
+    excitation = stage.excitation
+    rest = approach(stage.oscillator, excitation, State(phase=excitation.phase))
+    size = reach_at_rest(stage.oscillator, excitation)
+    if rest.status in (Status.DONE, Status.NOT_SETTLED):
+        size = max(size, reach(rest, rest.state))
+    size = _FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops), 0.0)
+    if not size > 0.0:
+        raise InputError("displacement: missing, and nothing moves; a range is accepted")
+    low, high = walls(stage)
+    fast = size * excitation.angular_frequency
+    search.label(lattice((max(-size, low), min(size, high)), (-fast, fast), (_LATTICE, _LATTICE)))
+    if not search.known:
+        return (max(-size, low), min(size, high)), (-fast, fast)
+    most = max(float(one.motion["displacement_max"]) for one in search.known)
+    least = min(float(one.motion["displacement_min"]) for one in search.known)
+    fast = _WIDER * max(float(np.abs(one.motion["velocity"]).max()) for one in search.known)
+    middle, half = 0.5 * (most + least), 0.5 * _WIDER * (most - least)
+    return (max(middle - half, low), min(middle + half, high)), (-fast, fast)

@@ -1,0 +1,180 @@
+"""Displacement, acceleration and contact force of many designs as one dataset."""
+
+from __future__ import annotations
+
+import itertools
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.design.design_shaking import AnyShaken, asked, one_rig
+from vibroimpact.design.limits import limits_of
+from vibroimpact.design.pareto import non_dominated
+from vibroimpact.design.worst_sine import STEP
+from vibroimpact.earthquakes.run_plan import Runs, runs
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Bumper, Oscillator
+from vibroimpact.model.rigs import AnyRig
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress
+
+_STIFFNESSES = {
+    "bumper_stiffness",
+    "proportional_stiffness",
+    "stiffness_at_restitution",
+    "stiffness_ratio",
+}
+
+
+def design_chart(
+    oscillator: Oscillator | AnyRig,
+    shaking: AnyShaken,
+    vary: Mapping[str, ArrayLike],
+    *,
+    limits: Mapping[str, float | str] | None = None,
+    fractile: float = 1.0,
+    frequencies: tuple[float | str, float | str] | None = None,
+    step: float = STEP,
+    tail: float | str | None = None,
+    threads: int | None = None,
+    where: Any = THREADS,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Return the trade-off between displacement and acceleration over parameters of a rig.
+
+    Parameters
+    ----------
+    oscillator
+        What vibrates, with any isolator and any stops; or a case, its code or a study file.
+    shaking
+        Sines, by their amplitude as in `sweep`: the worst steady motion counts of all frequencies,
+        swept up and down. Or a record, or several by name or as a list: a fractile over them
+        counts, each from rest, at its own size.
+    vary
+        Values of parameters by name, all combined, such as ``"gap"``, ``"bumper_stiffness"``,
+        ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` or ``"yield_force"``. Those
+        of stops are set on both sides, where the stop has them. ``"bumper_stiffness"`` keeps the
+        bumpers' damping, ``"stiffness_at_restitution"`` lets it follow, for the same restitution.
+    limits
+        What must not be exceeded, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
+        ``"peak_displacement"`` (m; ``_right``, ``_left``). A design that exceeds one is told as
+        the others are, and stands aside in ``pareto``.
+    fractile
+        Share of the records below; 1 for the largest of all. It is taken of each quantity by
+        itself, interpolated between records, and limits are held against it.
+    frequencies
+        Lowest and highest frequency of the sines. None for a range about the primary resonance, of
+        each design.
+    step
+        Step of the sweeps, as a share of the natural frequency, or smaller where the damping is
+        light; about the largest responses it is 64 times as fine.
+    tail
+        How long a motion is followed behind a record; see `seismic_response`.
+    threads
+        How many designs are computed at once; None for one a processor. No result depends on it.
+    where
+        ``"threads"``, ``"processes"``, or a dask cluster, as of `scenario_map`. No result depends
+        on it.
+    progress
+        Called from the calling thread with what is done and all there is.
+
+    Returns
+    -------
+    xarray.Dataset
+        A dim for each parameter that is varied. ``peak_displacement`` (m; ``_right``, ``_left``),
+        ``peak_acceleration`` (absolute, m/s²), ``peak_force`` of a stop (N), ``penetration`` beyond
+        a gap (m), ``hitting``: the share of the records that make the mass hit, or whether any sine
+        does. ``pareto``: whether no other design has less displacement without more acceleration,
+        or less acceleration without more displacement; of designs that do the same, such as hit
+        nothing, the first one counts. ``within_limits``, if there are limits: whether all are
+        kept. ``bumper_damping`` (N s/m) where a stiffness of both bumpers is varied. Of sines also
+        where the largest are (``displacement_frequency``, ``acceleration_frequency``), and
+        ``unsettled_count``, holds without a periodic motion, whose peaks are those of 100 cycles.
+        ``status`` is 0 where a design was done; values of one that was given up are NaN, and
+        infinite where the motion had no bound.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    rig = one_rig(oscillator)
+    what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
+    plan = _designs(rig, vary)
+    most = limits_of(limits)
+    workers = placed(threads, where)
+    places = list(itertools.product(*(range(n) for n in plan.shape)))
+    rigs = [plan.oscillator(at) for at in places]
+    data = _dataset(plan, {**what.peaks(rigs, workers, progress), **_dampings(plan, rigs)}, most)
+    warn(data["status"].values, "design")
+    parameters = {
+        "oscillator": oscillator_parameters(rig),
+        "varied": {one.name: one.values.tolist() for one in plan.varied},
+        "limits": most,
+        **what.parameters(),
+    }
+    data = describe(data, "vibroimpact.design_chart", parameters, what.notes())
+    for one in plan.varied:
+        data[one.name].attrs.update(units=one.units, long_name=one.long_name)
+    return data
+
+
+def _designs(oscillator: Oscillator, vary: Any) -> Runs:
+    """Read which rigs are looked at.
+
+    Raises
+    ------
+    InputError
+        If nothing is varied, or a value cannot be used.
+    """
+    if not isinstance(vary, Mapping) or not vary:
+        raise InputError(
+            f"vary: {vary!r}; values of one parameter or more are accepted, such as "
+            '{"gap": ["200 mm", "300 mm"]}'
+        )
+    return runs(oscillator, None, vary)
+
+
+def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
+    """The damping of both bumpers beside the stiffness that is varied, if they share one."""
+    names = {one.name for one in plan.varied}
+    if "bumper_damping" in names or not names & _STIFFNESSES:
+        return {}
+    every = [{stop.damping for stop in rig.stops if isinstance(stop, Bumper)} for rig in rigs]
+    if any(len(one) != 1 for one in every):
+        return {}
+    return {"bumper_damping": np.array([one.pop() for one in every])}
+
+
+def _dataset(
+    plan: Runs, found: Mapping[str, NDArray[Any]], limits: Mapping[str, float]
+) -> xr.Dataset:
+    """What was found of each design, over what was varied."""
+    within = np.ones(found["status"].shape, dtype=bool)
+    for name, limit in limits.items():
+        within &= found[name] <= limit
+    u, a = (
+        np.where(within, found[name], np.nan) for name in ("peak_displacement", "peak_acceleration")
+    )
+    own = {"pareto": non_dominated(u, a), **({"within_limits": within} if limits else {})}
+    shaped = {
+        name: (plan.dims, values.reshape(plan.shape)) for name, values in {**found, **own}.items()
+    }
+    return xr.Dataset(shaped, {one.name: one.values for one in plan.varied})
+
+
+def warn(status: NDArray[Any], who: str) -> None:
+    """Tell of designs that were given up."""
+    for code in np.unique(status[status != Status.DONE]):
+        count = int((status == code).sum())
+        warnings.warn(
+            f"{who}: {count} of {status.size} designs were given up: {Status(int(code)).advice}",
+            RuntimeWarning,
+            stacklevel=3,
+        )

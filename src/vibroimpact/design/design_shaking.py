@@ -1,0 +1,247 @@
+"""What a rig is sized for: sines over a range of frequencies, or a suite of records."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, Protocol, TypeAlias
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.datasets.description import excitation_parameters
+from vibroimpact.design.worst_sine import Sines
+from vibroimpact.earthquakes.peak_demands import Shaken, peaks
+from vibroimpact.earthquakes.run_plan import digest, suite
+from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator, Record, to_si
+from vibroimpact.model.count_checks import share
+from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
+from vibroimpact.model.rigs import as_rig
+from vibroimpact.response.record_dataset import record_notes
+from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.tasks.threads import Progress, Workers
+
+_Array = NDArray[np.float64]
+
+AnyShaken: TypeAlias = float | str | Harmonic | Record | Sequence[Record] | Mapping[str, Record]
+"""An amplitude of sines, or one record or several."""
+
+PEAKS = (
+    "peak_displacement",
+    "peak_displacement_right",
+    "peak_displacement_left",
+    "peak_acceleration",
+    "peak_force",
+    "penetration",
+)
+"""What is found of each rig, in m, m/s² and N."""
+
+
+class Asked(Protocol):
+    """What a rig is sized for."""
+
+    def peaks(
+        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
+    ) -> dict[str, NDArray[Any]]:
+        """`PEAKS` of each rig, ``hitting``, ``status`` and what else is known of it."""
+
+    def parameters(self) -> dict[str, Any]:
+        """What it is, for a dataset's attributes."""
+
+
+class BySines(NamedTuple):
+    """The worst of sines, swept both ways."""
+
+    sines: Sines
+
+    def peaks(
+        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
+    ) -> dict[str, NDArray[Any]]:
+        """Of each rig the largest over all frequencies."""
+        worst = self.sines.worst(rigs, workers, progress)
+        right, left = (np.array([getattr(one, side) for one in worst]) for side in _SIDES)
+        return {
+            "peak_displacement": np.maximum(right, left),
+            "peak_displacement_right": right,
+            "peak_displacement_left": left,
+            "peak_acceleration": np.array([one.acceleration for one in worst]),
+            "peak_force": np.array([one.force for one in worst]),
+            "penetration": _penetration(rigs, right, left),
+            "hitting": np.array([float(one.hits) for one in worst]),
+            "displacement_frequency": np.array([one.displacement_frequency for one in worst]),
+            "acceleration_frequency": np.array([one.acceleration_frequency for one in worst]),
+            "unsettled_count": np.array([one.unsettled for one in worst], dtype=np.int64),
+            "status": np.array([one.status for one in worst], dtype=np.int64),
+        }
+
+    def notes(self) -> list[str]:
+        """None of sines."""
+        return []
+
+    def parameters(self) -> dict[str, Any]:
+        """The sine, and the range."""
+        return {
+            **excitation_parameters(self.sines.shaken, "frequency"),
+            "frequencies": [self.sines.low, self.sines.high],
+            "step": self.sines.step,
+        }
+
+
+class ByRecords(NamedTuple):
+    """A fractile over records, each from rest."""
+
+    records: dict[str, Record]
+    fractile: float
+    """Share of the records below; 1 for the largest of all."""
+    tail: float | None
+
+    def notes(self) -> list[str]:
+        """What was noted of the records."""
+        return record_notes(self.records)
+
+    def runs(
+        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
+    ) -> dict[str, NDArray[Any]]:
+        """Of each record and rig, as arrays (record, rig)."""
+        one = np.ones(1)
+        found = peaks(
+            [Shaken(rig, record, one) for record in self.records.values() for rig in rigs],
+            tail=self.tail,
+            threads=workers,
+            progress=progress,
+        )
+        shaped = {n: v.reshape(len(self.records), len(rigs)) for n, v in found.items()}
+        beyond = np.isin(shaped["status"], UNSTABLE)
+        values: dict[str, NDArray[Any]] = {
+            name: np.where(beyond, np.inf, value) for name, value in shaped.items()
+        }
+        values["status"] = shaped["status"]
+        return values
+
+    def peaks(
+        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
+    ) -> dict[str, NDArray[Any]]:
+        """Of each rig the fractile over the records."""
+        runs = self.runs(rigs, workers, progress)
+        right, left = (runs[f"peak_displacement_{side}"] for side in _SIDES)
+        force = np.maximum(runs["peak_force_right"], runs["peak_force_left"])
+        every = {
+            "peak_displacement": np.maximum(right, left),
+            "peak_displacement_right": right,
+            "peak_displacement_left": left,
+            "peak_acceleration": runs["peak_acceleration"],
+            "peak_force": force,
+            "penetration": _penetration(rigs, right, left),
+        }
+        status = runs["status"]
+        bad = (status != Status.DONE) & ~np.isin(status, UNSTABLE)
+        given_up = bad.any(axis=0)
+        found: dict[str, NDArray[Any]] = {}
+        for name, values in every.items():
+            (known,) = quantiles(np.nan_to_num(values, nan=0.0), [self.fractile], 0)
+            found[name] = np.where(given_up, np.nan, known)
+        found["hitting"] = np.where(given_up, np.nan, (force > 0.0).mean(axis=0))
+        worst = np.where(given_up, np.where(bad, status, 0).max(axis=0), status.max(axis=0))
+        found["status"] = worst.astype(np.int64)
+        return found
+
+    def parameters(self) -> dict[str, Any]:
+        """The records, and the fractile."""
+        return {
+            "records": {name: digest(one) for name, one in self.records.items()},
+            "fractile": self.fractile,
+            "tail": self.tail,
+        }
+
+
+_SIDES = ("right", "left")
+
+
+def fractile_of(data: xr.Dataset) -> float | None:
+    """The fractile of a dataset of sizes; None where all records count, or there is one, or sines.
+
+    Of one record, or of all of them, the fractile is the value itself and needs no word.
+    """
+    about = json.loads(data.attrs.get("parameters", "{}"))
+    share = float(about.get("fractile", 1.0))
+    return share if share < 1.0 and len(about["records"]) > 1 else None
+
+
+def _penetration(rigs: Sequence[Oscillator], right: _Array, left: _Array) -> _Array:
+    """How far the mass goes beyond a gap (m), 0 where it does not."""
+    gaps = np.array(
+        [[np.inf if stop is None else stop.gap for stop in (rig.right, rig.left)] for rig in rigs]
+    ).reshape(-1, 2)
+    with np.errstate(invalid="ignore"):
+        found: _Array = np.maximum(np.maximum(right - gaps[:, 0], left - gaps[:, 1]), 0.0)
+    return found
+
+
+def asked(
+    oscillator: Oscillator,
+    shaking: Any,
+    *,
+    fractile: float,
+    frequencies: tuple[float | str, float | str] | None,
+    step: float,
+    tail: float | str | None,
+) -> BySines | ByRecords:
+    """Read what a rig is sized for.
+
+    Raises
+    ------
+    InputError
+        If it cannot be used.
+    """
+    if _are_records(shaking):
+        if frequencies is not None:
+            raise InputError("frequencies: given with records; they are accepted beside a sine")
+        return ByRecords(
+            suite(shaking),
+            to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),
+            None if tail is None else to_si(tail, TIME, "tail", minimum=0.0),
+        )
+    _, sine = one_sine(oscillator, shaking, "shaking")
+    return BySines(Sines(sine, *_range(frequencies), share(step, "step")))
+
+
+def one_rig(oscillator: Any) -> Oscillator:
+    """Read what vibrates: an oscillator, or a case, its code or a study file.
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+    """
+    if isinstance(oscillator, Oscillator):
+        return oscillator
+    return as_rig(oscillator, otherwise="an oscillator, ").oscillator
+
+
+def _are_records(shaking: Any) -> bool:
+    if isinstance(shaking, Record | Mapping):
+        return True
+    listed = isinstance(shaking, Sequence) and not isinstance(shaking, str)
+    return listed and (not shaking or any(isinstance(one, Record) for one in shaking))
+
+
+def _range(frequencies: Any) -> tuple[float | None, float | None]:
+    if frequencies is None:
+        return None, None
+    if isinstance(frequencies, str) or len(frequencies) != 2:
+        raise InputError(
+            f'frequencies: {frequencies!r}; the lowest and the highest, as ("0.2 Hz", "3 Hz"), '
+            "are accepted"
+        )
+    low, high = (
+        to_si(one, FREQUENCY, f"frequencies[{i}]", above=0.0) for i, one in enumerate(frequencies)
+    )
+    if not low < high:
+        raise InputError(
+            f"frequencies[1]: {high:g} Hz is not above {low:g} Hz; a rising pair is accepted"
+        )
+    return low, high

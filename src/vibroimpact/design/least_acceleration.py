@@ -1,0 +1,297 @@
+"""The least acceleration within ranges of parameters: which bumper for this gap."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.design.design_shaking import AnyShaken, Asked, asked, one_rig
+from vibroimpact.design.limits import QUANTITIES, limits_of
+from vibroimpact.design.worst_sine import STEP
+from vibroimpact.earthquakes.run_plan import Runs, runs
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError, warn_of_input
+from vibroimpact.model import Bumper, Oscillator
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.units import pretty
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress, Workers
+
+_Array = NDArray[np.float64]
+_Range = tuple[float | str, float | str]
+
+_STIFFNESSES = (0.1, 100.0)
+"""Of a bumper over that of the isolator, if no range is given."""
+_DAMPINGS = (0.01, 10.0)
+"""Of a bumper over the critical damping on the isolator."""
+_WIDE = 10.0
+"""Ratio of the ends of a range from which on it is searched by ratios, not by differences."""
+_EACH, _TIMES, _TOLERANCE = 12, 60, 1e-3
+"""Designs for each parameter in a generation, generations, and the spread of the last one."""
+
+
+class _Space(NamedTuple):
+    """The ranges that are searched."""
+
+    rig: Oscillator
+    names: tuple[str, ...]
+    low: _Array
+    high: _Array
+    logarithmic: NDArray[np.bool_]
+
+    @property
+    def bounds(self) -> list[tuple[float, float]]:
+        """As the search sees them."""
+        ends = (
+            np.where(self.logarithmic, np.log(np.where(self.logarithmic, end, 1.0)), end)
+            for end in (self.low, self.high)
+        )
+        return list(zip(*ends, strict=True))
+
+    def values(self, x: _Array) -> _Array:
+        """Values of the parameters, for columns of what the search sees."""
+        logs = self.logarithmic[:, np.newaxis]
+        found = np.where(logs, np.exp(np.where(logs, x, 0.0)), x)
+        return np.clip(found, self.low[:, np.newaxis], self.high[:, np.newaxis])
+
+    def rigs(self, x: _Array) -> list[Oscillator]:
+        """The design of each column."""
+        return [
+            runs(self.rig, None, {n: [v] for n, v in zip(self.names, one, strict=True)}).oscillator(
+                (0,) * len(self.names)
+            )
+            for one in self.values(x).T.tolist()
+        ]
+
+
+class _Known:
+    """What is known of the designs that were tried, each computed once."""
+
+    def __init__(
+        self, what: Asked, space: _Space, workers: Workers, progress: Progress | None
+    ) -> None:
+        self.what, self.space, self.workers, self.progress = what, space, workers, progress
+        self.rows: dict[bytes, dict[str, float]] = {}
+
+    def __call__(self, x: _Array) -> list[dict[str, float]]:
+        """Of each column; what has no bound or was given up counts as infinite."""
+        columns = np.ascontiguousarray(x.reshape(len(self.space.names), -1).T)
+        new = [one for one in columns if one.tobytes() not in self.rows]
+        new = list({one.tobytes(): one for one in new}.values())
+        if new:
+            found = self.what.peaks(self.space.rigs(np.array(new).T), self.workers, None)
+            for i, one in enumerate(new):
+                self.rows[one.tobytes()] = {name: float(v[i]) for name, v in found.items()}
+            if self.progress:
+                self.progress(len(self.rows), None)
+        return [self.rows[one.tobytes()] for one in columns]
+
+    def of(self, name: str, x: _Array) -> _Array:
+        """One quantity of each column."""
+        found = np.array([one[name] for one in self(x)])
+        return np.where(np.isfinite(found), found, _VAST)
+
+
+_NEAR = 0.01
+"""Share of a limit, or of a range, within which the best design is at its end."""
+_VAST = 1e30
+"""Stands for infinity, of which the search knows no more and no less."""
+
+
+def least_acceleration(
+    oscillator: Oscillator | AnyRig,
+    shaking: AnyShaken,
+    ranges: Mapping[str, _Range] | None = None,
+    *,
+    gap: float | str | None = None,
+    limits: Mapping[str, float | str] | None = None,
+    fractile: float = 1.0,
+    frequencies: _Range | None = None,
+    step: float = STEP,
+    tail: float | str | None = None,
+    seed: int = 0,
+    threads: int | None = None,
+    where: Any = THREADS,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Return the design with the least acceleration: which bumper for this gap.
+
+    The acceleration jumps where the motion does and has several valleys, and each value is a whole
+    computation: differential evolution (Storn and Price 1997, by ``scipy.optimize``) needs no
+    derivative, leaves valleys, and tries whole generations at once, on all threads. It is
+    repeatable by its seed. It is no proof: another ``seed`` may find a lower valley.
+
+    Parameters
+    ----------
+    oscillator, shaking, fractile, frequencies, step, tail, threads, where
+        As of `design`.
+    ranges
+        Lowest and highest value of parameters by name, as those of `design`. None for the
+        stiffness of the bumpers from 0.1 to 100 times that of the isolator and their damping from
+        0.01 to 10 times the critical one on it.
+    gap
+        Gap of each side (m); None for those of the oscillator.
+    limits
+        What must not be exceeded, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
+        ``"peak_displacement"`` (m; ``_right``, ``_left``).
+    seed
+        Of the search.
+    progress
+        Called from the calling thread with the designs tried, of nobody knows how many.
+
+    Returns
+    -------
+    xarray.Dataset
+        Without dims: the parameters by name, and the variables of `design` there;
+        ``evaluations``, the designs that were tried. The attribute ``notes`` says if the best
+        design touches no stop, which limits it stays away from, and which parameters ended at an
+        end of their range.
+
+    Warns
+    -----
+    InputWarning
+        If the best design touches no stop: what the stops are like then plays no part.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or no design keeps the limits.
+    """
+    from scipy.optimize import NonlinearConstraint, differential_evolution
+
+    rig = one_rig(oscillator)
+    if gap is not None:
+        rig = runs(rig, [gap], None).oscillator((0,))
+    space = _space(rig, ranges)
+    what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
+    most = limits_of(limits)
+    known = _Known(what, space, placed(threads, where), progress)
+    constraints = tuple(
+        NonlinearConstraint(lambda x, name=name: known.of(name, x)[np.newaxis], -np.inf, limit)
+        for name, limit in most.items()
+    )
+    found = differential_evolution(
+        lambda x: known.of("peak_acceleration", x),
+        space.bounds,
+        popsize=_EACH,
+        maxiter=_TIMES,
+        tol=_TOLERANCE,
+        rng=seed,
+        polish=False,
+        updating="deferred",
+        vectorized=True,
+        constraints=constraints,
+    )
+    (best,) = known(np.asarray(found.x)[:, np.newaxis])
+    _refuse(best, most)
+    values = space.values(np.asarray(found.x)[:, np.newaxis])[:, 0]
+    notes = [*_untouched(rig, best), *_slack(best, most), *_at_ends(space, values)]
+    if rig.stops and not best["hitting"]:
+        warn_of_input("least_acceleration", notes)
+    data = xr.Dataset(
+        {
+            **dict(zip(space.names, values.tolist(), strict=True)),
+            **best,
+            "evaluations": len(known.rows),
+        }
+    )
+    parameters = {
+        "oscillator": oscillator_parameters(rig),
+        "ranges": {
+            name: [float(low), float(high)]
+            for name, low, high in zip(space.names, space.low, space.high, strict=True)
+        },
+        "limits": most,
+        "seed": seed,
+        **what.parameters(),
+    }
+    return describe(data, "vibroimpact.least_acceleration", parameters, [*what.notes(), *notes])
+
+
+def _space(rig: Oscillator, ranges: Any) -> _Space:
+    given = _bumper_ranges(rig) if ranges is None else ranges
+    if not isinstance(given, Mapping) or not given:
+        raise InputError(
+            f"ranges: {given!r}; the lowest and the highest value of one parameter or more are "
+            'accepted, such as {"bumper_stiffness": ("1 MN/m", "1 GN/m")}'
+        )
+    for name, ends in given.items():
+        if isinstance(ends, str) or not isinstance(ends, Sequence) or len(ends) != 2:
+            raise InputError(
+                f"ranges[{name!r}]: {ends!r}; a pair of the lowest and the highest is accepted"
+            )
+    plan: Runs = runs(rig, None, given)
+    low, high = (np.array([one.values[i] for one in plan.varied]) for i in (0, 1))
+    for one in plan.varied:
+        if not one.values[0] < one.values[1]:
+            raise InputError(
+                f"ranges[{one.name!r}]: {one.values[1]:g} is not above {one.values[0]:g}; a rising "
+                "pair is accepted"
+            )
+    wide = (low > 0.0) & (high >= _WIDE * np.maximum(low, 0.0))
+    return _Space(rig, tuple(one.name for one in plan.varied), low, high, wide)
+
+
+def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
+    """Ranges of a bumper for this isolator."""
+    if not rig.stops or not all(isinstance(stop, Bumper) for stop in rig.stops):
+        raise InputError(
+            "ranges: missing; without them the stiffness and damping of bumpers are searched, and "
+            "this rig has " + ("no stop" if not rig.stops else "another stop")
+        )
+    spring = rig.isolator.initial_stiffness
+    if spring == 0.0:
+        raise InputError("ranges: missing; they are needed for an isolator without a spring")
+    critical = 2.0 * math.sqrt(spring * rig.mass)
+    return {
+        "bumper_stiffness": (_STIFFNESSES[0] * spring, _STIFFNESSES[1] * spring),
+        "bumper_damping": (_DAMPINGS[0] * critical, _DAMPINGS[1] * critical),
+    }
+
+
+def _untouched(rig: Oscillator, best: Mapping[str, float]) -> Iterator[str]:
+    if rig.stops and not best["hitting"]:
+        yield "the best design touches no stop, so what the stops are like plays no part"
+
+
+def _slack(best: Mapping[str, float], limits: Mapping[str, float]) -> Iterator[str]:
+    """Limits that the best design does not come near."""
+    for name, limit in limits.items():
+        if best[name] < (1.0 - _NEAR) * limit:
+            quantity = QUANTITIES[VARIABLES[name].units]
+            reached, allowed = (
+                pretty(float(f"{value:.4g}"), quantity) for value in (best[name], limit)
+            )
+            yield f"the limit of {name.replace('_', ' ')} does not bind: {reached} of {allowed}"
+
+
+def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
+    """Parameters whose range may hide a better design."""
+    for name, value, low, high, logs in zip(
+        space.names, values, space.low, space.high, space.logarithmic, strict=True
+    ):
+        at, first, last = np.log([value, low, high]) if logs else (value, low, high)
+        share = (at - first) / (last - first)
+        if not _NEAR < share < 1.0 - _NEAR:
+            end = pretty(float(low if share <= _NEAR else high), PARAMETERS[name].quantity)
+            which = "lower" if share <= _NEAR else "upper"
+            yield f"{name} ended at the {which} end of its range, {end}"
+
+
+def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:
+    if not math.isfinite(best["peak_acceleration"]):
+        raise InputError(f"ranges: no design was done ({Status(int(best['status'])).advice})")
+    for name, limit in limits.items():
+        if best[name] > limit:
+            raise InputError(
+                f"limits[{name!r}]: no design that was tried keeps {limit:g} "
+                f"{VARIABLES[name].units} with the others; the best has {best[name]:g}"
+            )

@@ -1,0 +1,132 @@
+"""The gap that a mass needs so as to hit nothing: how far it moves without stops."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.design.design_shaking import AnyShaken, ByRecords, asked, one_rig
+from vibroimpact.design.worst_sine import STEP, Sines
+from vibroimpact.earthquakes.suites import quantiles
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, equilibrium
+from vibroimpact.model.rigs import AnyRig
+from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
+from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.threads import Progress, Workers
+
+
+def required_gap(
+    oscillator: Oscillator | AnyRig,
+    shaking: AnyShaken,
+    *,
+    fractile: float = 1.0,
+    frequencies: tuple[float | str, float | str] | None = None,
+    step: float = STEP,
+    tail: float | str | None = None,
+    threads: int | None = None,
+    where: Any = THREADS,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Return the gaps at which a rig hits nothing: how far it moves without stops.
+
+    Parameters
+    ----------
+    oscillator, shaking, fractile, frequencies, step, tail, threads, where, progress
+        As of `design`; the fractile is that of the larger side of each record, and of each side by
+        itself, so that the gap for both may exceed those of the two. Of sines and a linear isolator
+        the worst frequency is known in closed form, and the gap is that of the steady motion: exact
+        at any frequency of the range, all of them if none is given. Of other isolators it is that
+        of sweeps up and down. A transient may reach farther. Of records it is exact: each begins at
+        rest.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``required_gap`` (m) of each side if both are to have the same, ``required_gap_right`` and
+        ``required_gap_left`` if not; of sines ``displacement_frequency`` (Hz), of records
+        ``peak_displacement_right`` and ``peak_displacement_left`` of each (dim ``record``).
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or the free motion has no bound or was given up.
+    """
+    workers = placed(threads, where)
+    rig = one_rig(oscillator)
+    what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
+    free = rig.without_bumpers()
+    if isinstance(what, ByRecords):
+        found = _of_records(free, what, workers, progress)
+    elif free.isolator.linear:
+        found = _in_closed_form(free, what.sines)
+    else:
+        found = _swept(free, what.sines, workers, progress)
+    if not np.isfinite(found["required_gap"]):
+        raise InputError(
+            "shaking: the mass moves without bound where no stop holds it; an isolator that does "
+            "is accepted"
+        )
+    parameters = {"oscillator": oscillator_parameters(rig), **what.parameters()}
+    return describe(found, "vibroimpact.required_gap", parameters, what.notes())
+
+
+def _in_closed_form(free: Oscillator, sines: Sines) -> xr.Dataset:
+    """The displacement rises up to its resonance, and falls behind it."""
+    natural = free.natural_frequency
+    worst = natural * peak_ratio(free.damping_ratio, sines.shaken)
+    # Without a peak it is largest at an end; far beyond resonance stands for infinity.
+    low = 1e-9 * natural if sines.low is None else sines.low
+    high = 1e9 * natural if sines.high is None else sines.high
+    at = min(max(worst, low), high)
+    swing, _ = free_flight_excursions(free, sines.shaken, np.array([at]))
+    rest = equilibrium(free).displacement
+    reach = 0.5 * float(swing[0])
+    return _sides(reach + rest, reach - rest, displacement_frequency=at)
+
+
+def _swept(
+    free: Oscillator, sines: Sines, workers: Workers, progress: Progress | None
+) -> xr.Dataset:
+    (worst,) = sines.worst([free], workers, progress)
+    _refuse(worst.status)
+    return _sides(worst.right, worst.left, displacement_frequency=worst.displacement_frequency)
+
+
+def _of_records(
+    free: Oscillator, what: ByRecords, workers: Workers, progress: Progress | None
+) -> xr.Dataset:
+    runs = what.runs([free], workers, progress)
+    for status in runs["status"].ravel():
+        _refuse(int(status))
+    right, left = (runs[f"peak_displacement_{side}"][:, 0] for side in ("right", "left"))
+    # A fractile of both is not the larger of the two fractiles.
+    wide, *each = (
+        float(quantiles(one, [what.fractile], 0)[0])
+        for one in (np.maximum(right, left), right, left)
+    )
+    data = _sides(*each)
+    data["required_gap"] = wide
+    data["peak_displacement_right"] = ("record", right)
+    data["peak_displacement_left"] = ("record", left)
+    return data.assign_coords(record=list(what.records))
+
+
+def _sides(right: float, left: float, **others: Any) -> xr.Dataset:
+    return xr.Dataset(
+        {
+            "required_gap": max(right, left),
+            "required_gap_right": right,
+            "required_gap_left": left,
+            **others,
+        }
+    )
+
+
+def _refuse(status: int) -> None:
+    if status not in (Status.DONE, Status.NOT_FINITE, Status.REVERSED):
+        raise InputError(f"shaking: the free motion was given up ({Status(status).advice})")

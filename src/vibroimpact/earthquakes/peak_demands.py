@@ -1,0 +1,186 @@
+"""Many rigs through records, at several scales each: their peaks as plain arrays.
+
+All that looks at more motions than a few goes through `peaks`: no dataset is made of a run, and no
+history is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.arguments import check_progress
+from vibroimpact.earthquakes.free_vibration import BLOCKS, SMALL, block, free_tail, settles
+from vibroimpact.engine import earthquakes as found
+from vibroimpact.model import Oscillator, Record, equilibrium
+from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.softening_limit import judged
+from vibroimpact.tasks.threads import Progress, Tally, Workers, breadth, each
+
+_Array = NDArray[np.float64]
+
+PEAKS = (
+    "peak_displacement_right",
+    "peak_displacement_left",
+    "peak_acceleration",
+    "peak_force_right",
+    "peak_force_left",
+    "impulse_right",
+    "impulse_left",
+    "impact_count_right",
+    "impact_count_left",
+)
+"""What is found of each run, in m, m/s², N and N s; infinite forces are those of rigid stops."""
+
+ENERGIES = ("total_supplied", "total_isolator", "total_bumpers")
+"""In J, over the record and the tail."""
+
+RESIDUALS = ("residual_displacement", "residual_swing")
+"""In m: where the mass comes to rest, and half the width of its last swing about that place."""
+
+MAX_EVENTS = 10_000
+"""Contacts and detachments in a step of a record at which a motion is given up."""
+
+_AT_ONCE = 64
+"""Scales of one call of the engine, at most."""
+
+
+class Shaken(NamedTuple):
+    """A rig, a record, and the numbers that the record is multiplied by."""
+
+    oscillator: Oscillator
+    record: Record
+    factors: _Array
+
+
+def peaks(
+    shaken: Sequence[Shaken],
+    *,
+    tail: float | None = None,
+    energies: bool = False,
+    residuals: bool = False,
+    max_events: int = MAX_EVENTS,
+    threads: Workers = None,
+    progress: Progress | None = None,
+    by_line: bool = False,
+) -> dict[str, NDArray[np.generic]]:
+    """Return the peaks of rigs through records, at several scales each, from their rest.
+
+    Parameters
+    ----------
+    shaken
+        The rigs with their records; all have the same number of factors.
+    tail
+        How long each is followed behind its record (s); None for what `free_tail` says.
+    energies
+        Whether `ENERGIES` are found, too, which takes several times as long.
+    residuals
+        Whether `RESIDUALS` are found, too.
+    max_events
+        See `MAX_EVENTS`.
+    threads
+        How many run at once, None for one a processor; or a cluster. No result depends on it.
+    progress
+        Called from the calling thread with the runs done and all there are.
+    by_line
+        Whether progress counts the steps of the records, in the place of runs.
+
+    Returns
+    -------
+    dict of ndarray, shape (shaken, factor)
+        `PEAKS`, what else was asked for, and ``status``: a `Status` each, 0 where the run was
+        done. All values of another run are NaN but for its status.
+    """
+    count = len(shaken[0].factors) if shaken else 0
+    rows = np.full((len(shaken), count, found.FOUND), np.nan)
+    workers = breadth(threads)
+    # Few rigs with many scales are dealt out, too.
+    few = max(1, min(_AT_ONCE, -(-count * len(shaken) // (4 * workers))))
+    parts = [(n, slice(i, i + few)) for n in range(len(shaken)) for i in range(0, count, few)]
+    vectors = [engine_rig(one.oscillator, one.record) for one in shaken]
+    starts = [engine_state(one.oscillator, equilibrium(one.oscillator)) for one in shaken]
+    found.respond.prepare(*vectors)
+    items = [
+        (shaken[n]._replace(factors=np.array(shaken[n].factors[some])), vectors[n], starts[n])
+        for n, some in parts
+    ]
+
+    def task(item: tuple[Shaken, _Array, _Array], tally: Tally) -> _Array:
+        (rig, record, factors), vector, start = item
+        mine = np.empty((len(factors), found.FOUND))
+        rests = residuals and settles(rig)
+        found.respond(
+            vector,
+            np.array(record.acceleration),  # which is not to be written to: another type, refused
+            record.step,
+            factors,
+            free_tail(rig, record) if tail is None else tail,
+            start,
+            max_events,
+            int(energies),
+            block(rig, record),
+            BLOCKS if rests else 0,
+            SMALL,
+            tally,
+            mine,
+        )
+        return mine
+
+    steps = count * sum(len(one.record.acceleration) - 1 for one in shaken)
+    told = progress if by_line else _by_run(progress, len(shaken) * count)
+    done = each(task, items, steps=steps, threads=threads, progress=told)
+    for (n, some), mine in zip(parts, done, strict=True):
+        rows[n, some] = mine
+    return _named(shaken, rows, energies, residuals)
+
+
+def _by_run(progress: Progress | None, runs: int) -> Progress | None:
+    """Progress that counts runs, from that which counts the steps of all their records."""
+    check_progress(progress)
+    return progress and (lambda done, total: progress(done * runs // (total or 1), runs))
+
+
+def _named(
+    shaken: Sequence[Shaken], rows: _Array, energies: bool, residuals: bool
+) -> dict[str, NDArray[np.generic]]:
+    """The engine's numbers in SI units, by name."""
+    mass = np.array([one.oscillator.mass for one in shaken])[:, np.newaxis]
+    farthest = np.maximum(rows[..., found.U_MOST], -rows[..., found.U_LEAST])
+    status = [
+        judged(one.oscillator, row[:, found.OUTCOME], far)
+        for one, row, far in zip(shaken, rows, farthest, strict=True)
+    ]
+    acceleration = np.maximum(rows[..., found.A_MOST], -rows[..., found.A_LEAST])
+    columns: list[_Array] = [
+        rows[..., found.U_MOST],
+        0.0 - rows[..., found.U_LEAST],
+        acceleration,
+        *(
+            mass * rows[..., at]
+            for at in (
+                found.FORCE_RIGHT,
+                found.FORCE_LEFT,
+                found.IMPULSE_RIGHT,
+                found.IMPULSE_LEFT,
+            )
+        ),
+        rows[..., found.HITS_RIGHT],
+        rows[..., found.HITS_LEFT],
+    ]
+    values: dict[str, NDArray[np.generic]] = dict(zip(PEAKS, columns, strict=True))
+    if energies:
+        sums = (found.WORK, found.LOST, found.LOST_STOPS)
+        values |= {name: mass * rows[..., at] for name, at in zip(ENERGIES, sums, strict=True)}
+    if residuals:
+        rest, swing = rows[..., found.REST], rows[..., found.SWING]
+        for n, one in enumerate(shaken):
+            if not settles(one.oscillator):
+                done = rows[n, :, found.OUTCOME] == 0.0
+                rest[n] = np.where(done, equilibrium(one.oscillator).displacement, np.nan)
+                swing[n] = np.where(done, 0.0, np.nan)
+        values |= {RESIDUALS[0]: rest, RESIDUALS[1]: swing}
+    values["status"] = np.array(status, dtype=np.int64).reshape(farthest.shape)
+    return values

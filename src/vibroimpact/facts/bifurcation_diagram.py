@@ -1,0 +1,80 @@
+"""What ``vibroimpact bifurcation`` found, for people and for programs."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from vibroimpact.facts.number_format import plain, shown_in
+
+
+def facts(data: xr.Dataset) -> dict[str, Any]:
+    """Return, of each start, the ranges in which motions are of one kind, in SI units."""
+    name = data.attrs["parameter"]
+    return {
+        "parameter": name,
+        "starts": {str(start): _ranges(data.sel(start=start)) for start in data["start"].values},
+    }
+
+
+def _ranges(one: xr.Dataset) -> list[dict[str, Any]]:
+    """Runs of values with the same kind of motion and the same period."""
+    values = one[one.attrs["parameter"]].values
+    kind, period = one["motion"].values, one["period"].values
+    largest = one["exponents"].values[:, 0]
+    edges = np.flatnonzero((kind[1:] != kind[:-1]) | (period[1:] != period[:-1])) + 1
+    return [
+        {
+            "from": float(values[first]),
+            "to": float(values[last - 1]),
+            "values": int(last - first),
+            "motion": str(kind[first]),
+            "period": int(period[first]),
+            "largest_exponent": float(largest[first:last].max()),
+        }
+        for first, last in itertools.pairwise([0, *edges, len(values)])
+    ]
+
+
+_MOST = 12
+"""Ranges of a start that are printed."""
+
+
+def text(data: xr.Dataset) -> RenderableType:
+    """Return the ranges as tables, the widest of many."""
+    told = facts(data)
+    units = data[told["parameter"]].attrs["units"]
+    unit = shown_in(units, data[told["parameter"]].values)
+    parts: list[RenderableType] = []
+    for start, ranges in told["starts"].items():
+        parts += [Text(), Text(start[:1].upper() + start[1:], style="bold")]
+        chosen = sorted(ranges, key=lambda one: -one["values"])[:_MOST]
+        parts.append(_table([one for one in ranges if one in chosen], told["parameter"], unit))
+        if len(ranges) > _MOST:
+            parts.append(Text(f"and {len(ranges) - _MOST} narrower ranges"))
+    return Group(*parts)
+
+
+def _table(ranges: list[dict[str, Any]], parameter: str, unit: Any) -> Table:
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
+    table.add_column("motion")
+    words = parameter.replace("_", " ")
+    table.add_column(f"{words}{f' ({unit.symbol})' if unit.symbol else ''}", justify="right")
+    for name in ("values", "largest exponent (1/s)"):
+        table.add_column(name, justify="right")
+    for one in ranges:
+        period = f", period {one['period']}" if one["period"] else ""
+        ends = [plain(one[end] / unit.size, 6) for end in ("from", "to")]
+        table.add_row(
+            one["motion"] + period,
+            ends[0] if ends[0] == ends[1] else " to ".join(ends),
+            str(one["values"]),
+            plain(one["largest_exponent"], 4),
+        )
+    return table

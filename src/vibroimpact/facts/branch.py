@@ -1,0 +1,104 @@
+"""What ``vibroimpact branch`` found, for people and for programs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from vibroimpact.facts.number_format import plain, shown_in
+
+
+def facts(data: xr.Dataset) -> dict[str, Any]:
+    """Return the bifurcations and how each branch ended, in SI units."""
+    found = []
+    for i in range(data.sizes["bifurcation"]):
+        row = data.isel(bifurcation=i)
+        found.append(
+            {
+                "branch": int(row["bifurcation_branch"]),
+                "kind": row["bifurcation_kind"].item(),
+                "value": float(row["bifurcation_value"]),
+                "period": int(row["bifurcation_period"]),
+                "turns": bool(row["bifurcation_turns"]),
+                "contacts": row["bifurcation_contacts"].item(),
+                "eta_d": float(row["bifurcation_eta_d"]),
+                "multipliers": [
+                    [float(real), float(imaginary)]
+                    for real, imaginary in zip(
+                        row["bifurcation_multiplier_real"].values,
+                        row["bifurcation_multiplier_imag"].values,
+                        strict=True,
+                    )
+                ],
+            }
+        )
+    branches = []
+    for number in np.unique(data["branch"].values):
+        prefix = _prefix(data, int(number))
+        mine = data["branch"].values == number
+        branches.append(
+            {
+                "branch": int(number),
+                "points": int(mine.sum()),
+                "period": int(data["period"].values[mine][0]),
+                "closed": bool(data.attrs[f"{prefix}closed"]),
+                "ended_low": data.attrs[f"{prefix}ended_low"],
+                "ended_high": data.attrs[f"{prefix}ended_high"],
+            }
+        )
+    return {"parameter": data.attrs["parameter"], "branches": branches, "bifurcations": found}
+
+
+def text(data: xr.Dataset) -> RenderableType:
+    """Return the branches and their bifurcations as tables."""
+    told = facts(data)
+    units = data[told["parameter"]].attrs["units"]
+    parts: list[RenderableType] = []
+    for one in told["branches"]:
+        number = one["branch"]
+        title = f"Branch {number}: period {one['period']}, {one['points']} orbits"
+        parts += [Text(), Text(title, style="bold")]
+        if one["closed"]:
+            parts.append(Text("closed"))
+        else:
+            parts.append(Text(f"beginning: {one['ended_low']}; end: {one['ended_high']}"))
+        mine = [b for b in told["bifurcations"] if b["branch"] == number]
+        parts.append(_table(mine, told["parameter"], units) if mine else Text("no bifurcation"))
+    return Group(*parts)
+
+
+def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
+    table = Table("bifurcation", box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
+    unit = shown_in(units, [one["value"] for one in found])
+    heading = f"{parameter.replace('_', ' ')}{f' ({unit.symbol})' if unit.symbol else ''}"
+    for name in (heading, "η_d", "largest multipliers", ""):
+        table.add_column(name, justify="right")
+    for one in found:
+        first, second = one["multipliers"][:2]
+        if abs(first[1]) > 1e-9 * abs(first[0]):
+            largest = f"{first[0]:.4f} ± {abs(first[1]):.4f}i"
+        else:
+            largest = f"{first[0]:.4f}, {second[0]:.4f}"
+        table.add_row(
+            one["kind"],
+            f"{plain(one['value'] / unit.size, 10)}",
+            f"{plain(one['eta_d'], 4)}",
+            largest,
+            _note(one),
+        )
+    return table
+
+
+def _note(one: dict[str, Any]) -> str:
+    if one["turns"]:
+        return "turns back"
+    return str(one["contacts"]) if one["kind"] == "grazing" else ""
+
+
+def _prefix(data: xr.Dataset, number: int) -> str:
+    return "" if "closed" in data.attrs else f"branch_{number}_"

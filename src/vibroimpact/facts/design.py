@@ -1,0 +1,279 @@
+"""What a design asks for and what it gives, for people and for programs."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from rich.console import RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.design.design_shaking import fractile_of
+from vibroimpact.design.limits import QUANTITIES
+from vibroimpact.earthquakes.suites import quantiles
+from vibroimpact.facts.number_format import plain
+from vibroimpact.model import GRAVITY, Oscillator
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.quantities import FORCE, LENGTH
+from vibroimpact.model.units import pretty
+
+_HEADS = {"stiffness_at_restitution": "bumper stiffness"}
+_SIDES = ("right", "left")
+_ROWS = 8
+"""Designs of the front that are told, at most."""
+
+
+def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[str, Any]:
+    """Every number, in SI units."""
+    names = ("required_gap", "required_gap_right", "required_gap_left")
+    return {
+        **{name: float(gap[name]) for name in names},
+        **_records_facts(gap),
+        "designs": int(data["pareto"].size),
+        **_limits_facts(data),
+        "front": [{str(name): _item(value) for name, value in one.items()} for one in _front(data)],
+        "best": None
+        if least is None
+        else {
+            **{str(name): value.item() for name, value in least.data_vars.items()},
+            "notes": _notes(least),
+        },
+    }
+
+
+def text(
+    rig: Oscillator,
+    gap: xr.Dataset,
+    data: xr.Dataset,
+    least: xr.Dataset | None,
+    records: list[str],
+    *,
+    chosen: bool = False,
+) -> Iterator[RenderableType]:
+    """Sentences, and a table of what no other design beats.
+
+    ``chosen`` says whether the gap of the rig was asked for, by an option.
+    """
+    share = fractile_of(gap)
+    yield Text()
+    if share is None:
+        yield Text(_needed(gap, records))
+    else:
+        yield Text(_needed_by_share(gap, records, share))
+    if rig.stops:
+        yield Text(_enough(rig, gap) if share is None else _enough_for_share(rig, gap, share))
+    rows = list(_front(data))
+    dims = [str(dim) for dim in data["pareto"].dims]
+    size = " × ".join(str(n) for n in data["pareto"].shape)
+    over = " and ".join(_words(dim) for dim in dims)
+    yield Text(f"Designs: {size}, over {over}; {_which(data, len(rows))}.")
+    if "gap" in dims and rig.stops and least is not None:
+        yield Text(f"The designs vary the gap; only the search keeps {_gaps(rig)}.")
+    elif "gap" in dims and rig.stops and chosen:
+        yield Text(f"The designs vary the gap; {_gaps(rig)} plays no part in them.")
+    if share is not None:
+        yield Text(
+            f"All values are {_percent(share)} fractiles over the records, each by itself, and so "
+            "is what limits are held against."
+        )
+    dampings = data["bumper_damping"].values if "bumper_damping" in data.data_vars else np.zeros(1)
+    beside = ["bumper_damping"] if np.ptp(dampings) > 0.0 else []
+    if not beside and dampings.any():
+        yield Text(
+            f"All keep the bumpers' damping of {_value('bumper_damping', dampings.flat[0])}; "
+            "--vary stiffness-at-restitution keeps their restitution instead."
+        )
+    if rows:
+        yield _table(rows, [*dims, *beside])
+    if least is not None:
+        best = ", ".join(
+            f"{_words(name)} {_value(name, float(least[name]))}"
+            for name in map(str, least.data_vars)
+            if name in PARAMETERS
+        )
+        yield Text()
+        of = "" if share is None else f", as {_percent(share)} fractiles"
+        yield Text(f"Least acceleration for {_gaps(rig)}: {best}: {_demands(least)}{of}.")
+        for note in _notes(least):
+            yield Text(f"Of this design: {note}.")
+
+
+def _notes(least: xr.Dataset) -> list[str]:
+    return str(least.attrs.get("notes", "")).splitlines()
+
+
+def _records_facts(gap: xr.Dataset) -> dict[str, Any]:
+    """The share of the records that count, and what all of them need; nothing of sines."""
+    if "record" not in gap.dims:
+        return {}
+    every = _every(gap)
+    return {
+        "fractile": json.loads(gap.attrs["parameters"])["fractile"],
+        # None where no gap is enough: JSON knows no infinity.
+        "required_gap_of_all_records": every if math.isfinite(every) else None,
+    }
+
+
+def _every(gap: xr.Dataset) -> float:
+    """The gap that hits nothing under any record; infinite if one moves the mass beyond limits."""
+    return max(float(gap[f"peak_displacement_{side}"].max()) for side in _SIDES)
+
+
+def _needed(gap: xr.Dataset, records: list[str]) -> str:
+    under = f"under {', '.join(records)}" if records else "under the sines"
+    need = _length(float(gap["required_gap"]))
+    sides = " and ".join(
+        f"{_length(float(gap[f'required_gap_{side}']))} to the {side}" for side in _SIDES
+    )
+    return f"Required gap: {need} to hit nothing {under} ({sides})."
+
+
+def _needed_by_share(gap: xr.Dataset, records: list[str], share: float) -> str:
+    """With what all records need: under the rest of them something is hit."""
+    need, every = _length(float(gap["required_gap"])), _every(gap)
+    sides = ", ".join(
+        f"{_length(float(gap[f'required_gap_{side}']))} to the {side}" for side in _SIDES
+    )
+    whole = (
+        f"{_length(every)} to hit nothing under all of them"
+        if math.isfinite(every)
+        else "no gap is enough for all of them"
+    )
+    return (
+        f"Required gap: {need}, the {_percent(share)} fractile over {', '.join(records)} (each "
+        f"side by itself: {sides}); {whole}."
+    )
+
+
+def _limits_facts(data: xr.Dataset) -> dict[str, Any]:
+    """The limits, and how many designs keep them; nothing if there are none."""
+    if "within_limits" not in data:
+        return {}
+    limits = json.loads(data.attrs["parameters"])["limits"]
+    return {"limits": limits, "designs_within_limits": int(data["within_limits"].sum())}
+
+
+def _which(data: xr.Dataset, front: int) -> str:
+    """How many designs keep the limits, and how many of them no other one beats."""
+    best = f"{front} {_be(front)} beaten by no other in both displacement and acceleration"
+    told = _limits_facts(data)
+    if not told:
+        return best
+    limits = " and ".join(
+        f"{_words(name)} {pretty(value, QUANTITIES[VARIABLES[name].units])}"
+        for name, value in told["limits"].items()
+    )
+    count = told["designs_within_limits"]
+    kept = f"{count or 'none'} {_be(count or 1)} within {limits}"
+    return f"{kept}, and of these {best}" if count else kept
+
+
+def _be(count: int) -> str:
+    return "is" if count == 1 else "are"
+
+
+def _enough(rig: Oscillator, gap: xr.Dataset) -> str:
+    """Whether the gaps of the rig suffice."""
+    short = {
+        side: float(gap[f"required_gap_{side}"]) - stop.gap
+        for side, stop in (("right", rig.right), ("left", rig.left))
+        if stop is not None
+    }
+    lacking = {side: by for side, by in short.items() if by > 0.0}
+    if not lacking:
+        return f"{_gaps(rig).capitalize()} is enough."
+    told = " and ".join(f"{_length(by)} short on the {side}" for side, by in lacking.items())
+    return f"{_gaps(rig).capitalize()} is {told}."
+
+
+def _enough_for_share(rig: Oscillator, gap: xr.Dataset, share: float) -> str:
+    """The same of a fractile, and how many records hit nevertheless.
+
+    What counts of a record is the side on which it goes farthest beyond: a gap that is enough for
+    the fractile of each side may not be for that of both.
+    """
+    beyond = np.max(
+        [
+            gap[f"peak_displacement_{side}"].values - stop.gap
+            for side, stop in (("right", rig.right), ("left", rig.left))
+            if stop is not None
+        ],
+        axis=0,
+    )
+    short = float(quantiles(beyond, [share], 0)[0])
+    told = "enough" if short <= 0.0 else f"{_length(short)} short"
+    hits = int((beyond > 0.0).sum())
+    return (
+        f"{_gaps(rig).capitalize()} is {told} for the {_percent(share)} fractile; the mass hits a "
+        f"stop under {hits or 'none'} of the {len(beyond)} records."
+    )
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:g} %"
+
+
+def _gaps(rig: Oscillator) -> str:
+    gaps = list(dict.fromkeys(pretty(stop.gap, LENGTH) for stop in rig.stops))
+    return f"the gap of {' and '.join(gaps)}"
+
+
+def _table(rows: list[xr.Dataset], names: list[str]) -> Table:
+    table = Table(box=None, pad_edge=False, padding=(0, 2), header_style="")
+    heads = [_HEADS.get(name, _words(name)) for name in names]
+    for head in (*heads, "displacement", "acceleration", "contact force"):
+        table.add_column(head, justify="right")
+    picked = np.unique(np.linspace(0, len(rows) - 1, min(_ROWS, len(rows))).round().astype(int))
+    for i in picked:
+        one = rows[i]
+        table.add_row(
+            *(_value(name, float(one[name])) for name in names),
+            _length(float(one["peak_displacement"])),
+            f"{plain(float(one['peak_acceleration']) / GRAVITY, 4)} g",
+            _force(float(one["peak_force"])),
+        )
+    return table
+
+
+def _front(data: xr.Dataset) -> Iterator[xr.Dataset]:
+    """The designs that no other one beats, by displacement."""
+    dims = [str(dim) for dim in data["pareto"].dims]
+    at = np.argwhere(data["pareto"].values)
+    u = data["peak_displacement"].values[tuple(at.T)]
+    for k in np.argsort(u, kind="stable"):
+        yield data.isel(dict(zip(dims, map(int, at[k]), strict=True))).reset_coords()
+
+
+def _demands(one: xr.Dataset) -> str:
+    size = float(one["peak_acceleration"])
+    return (
+        f"{plain(size / GRAVITY, 4)} g, with a displacement of "
+        f"{_length(float(one['peak_displacement']))} and a contact force of "
+        f"{_force(float(one['peak_force']))}"
+    )
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def _value(name: str, value: float) -> str:
+    return pretty(float(f"{value:.4g}"), PARAMETERS[name].quantity)
+
+
+def _length(value: float) -> str:
+    return pretty(float(f"{value:.4g}"), LENGTH)
+
+
+def _force(value: float) -> str:
+    return pretty(float(f"{value:.4g}"), FORCE)
+
+
+def _item(value: Any) -> Any:
+    return value.item()

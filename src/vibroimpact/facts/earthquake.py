@@ -1,0 +1,170 @@
+"""What a record asked of a rig, for people and for programs."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import xarray as xr
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from vibroimpact.earthquakes.free_vibration import settles
+from vibroimpact.facts.number_format import (
+    ENERGIES,
+    FORCES,
+    IMPULSES,
+    LENGTHS,
+    Scale,
+    fitting,
+    plain,
+)
+from vibroimpact.facts.tables import plain_table
+from vibroimpact.model import GRAVITY, Oscillator, Record
+from vibroimpact.model.quantities import FORCE, LENGTH
+from vibroimpact.model.units import pretty
+
+_SIDES = ("right", "left")
+
+
+def together(names: list[str], responses: list[xr.Dataset]) -> xr.Dataset:
+    """Responses to several records as one dataset."""
+    attributes = {**responses[0].attrs}
+    bare = [one.drop_attrs(deep=False) for one in responses]
+    data = xr.concat(bare, xr.DataArray(names, dims="record", name="record"))
+    return data.assign_attrs(attributes)
+
+
+def facts(
+    name: str, record: Record, response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None
+) -> dict[str, Any]:
+    """Every number of a response, in SI units."""
+    return {
+        "name": name,
+        "record": dict(record.rows()),
+        **{str(key): value.item() for key, value in response.data_vars.items()},
+        "status": response.attrs["status"],
+        "without_stops": None
+        if free is None
+        else {
+            key: free[key].item()
+            for key in ("peak_displacement_right", "peak_displacement_left", "peak_acceleration")
+        },
+        "verdict": sentence(response, rig, free),
+    }
+
+
+def text(
+    name: str, record: Record, response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None
+) -> RenderableType:
+    """A table of a response, and a sentence."""
+    table = plain_table()
+    shaken = f"{plain(record.peak, 5)} m/s² = {plain(record.peak / GRAVITY, 4)} g"
+    when = f"at {plain(record.peak_time, 6)} s of {plain(record.duration, 6)} s"
+    table.add_row("peak of the base", shaken, when)
+    table.add_row("displacement", _both(response, "peak_displacement", LENGTHS), "")
+    size = float(response["peak_acceleration"])
+    ratio = f"{plain(size / record.peak, 4)} times the base's" if record.peak else ""
+    table.add_row("acceleration", f"{plain(size, 5)} m/s² = {plain(size / GRAVITY, 4)} g", ratio)
+    if int(response["impact_count"]) or float(response["impulse"]):
+        force = _both(response, "peak_force", FORCES)
+        table.add_row("contact force", force, f"impulse {_both(response, 'impulse', IMPULSES)}")
+        counts = [int(response[f"impact_count_{side}"]) for side in _SIDES]
+        table.add_row("contacts", f"{counts[0]} right, {counts[1]} left", "")
+    names = ("total_supplied", "total_isolator", "total_bumpers")
+    supplied, isolator, stops = (float(response[key]) for key in names)
+    unit = fitting((supplied, isolator, stops), ENERGIES)
+    parts = [
+        f"{plain(value / unit.size, 4)} {unit.symbol}" for value in (supplied, isolator, stops)
+    ]
+    lost = f"lost: {parts[1]} in the isolator" + (f", {parts[2]} in the stops" if rig.stops else "")
+    table.add_row("energy supplied", parts[0], lost)
+    rest, swing = float(response["residual_displacement"]), float(response["residual_swing"])
+    still = abs(swing) <= 1e-5 * float(response["peak_displacement"])
+    table.add_row(
+        "comes to rest at",
+        pretty(rest, LENGTH),
+        _unsettled(rig, swing, still),
+    )
+    return Group(Text(name, style="bold"), table, Text(sentence(response, rig, free)))
+
+
+def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
+    """Words for a mass that does not come to rest, or may not."""
+    if not is_still:
+        return f"still swinging by ±{pretty(swing, LENGTH)}"
+    if rig.isolator.damping == 0.0 and not settles(rig):
+        return "not settled: the isolator has no damping, and the mass may swing about it for ever"
+    return ""
+
+
+def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> str:
+    """Whether the mass hits its stops, and how hard."""
+    if not rig.stops:
+        return "There is no stop to hit."
+    counts = {side: int(response[f"impact_count_{side}"]) for side in _SIDES}
+    hit = {side: n for side, n in counts.items() if n}
+    if not hit:
+        return _pressed(response) or f"It hits no stop: {_left(response, rig)} are left."
+    times = " and ".join(f"the {side} stop {_times(n)}" for side, n in hit.items())
+    force = float(response["peak_force"])
+    hard = (
+        f"with {pretty(float(f'{force:.4g}'), FORCE)} at most"
+        if math.isfinite(force)
+        else f"with an impulse of {_value(float(response['impulse']), IMPULSES)} in all"
+    )
+    said = f"It hits {times}, {hard}"
+    if free is None:
+        return f"{said}."
+    far = max((float(free[f"peak_displacement_{side}"]), side) for side in hit)
+    ratio = float(response["peak_acceleration"]) / float(free["peak_acceleration"])
+    return (
+        f"{said}; its acceleration is {plain(ratio, 3)} times that without stops, where it would "
+        f"move by {_value(far[0], LENGTHS)} to the {far[1]}."
+    )
+
+
+def _pressed(response: xr.Dataset) -> str:
+    """Of stops that it presses from the start, as under preload, and does not meet again."""
+    forces = {side: float(response[f"peak_force_{side}"]) for side in _SIDES}
+    pressed = {side: force for side, force in forces.items() if force > 0.0}
+    if not pressed:
+        return ""
+    told = " and ".join(
+        f"the {side} stop with {pretty(float(f'{force:.4g}'), FORCE)} at most"
+        for side, force in pressed.items()
+    )
+    return f"It presses {told}, from the start on; no impact follows."
+
+
+def _left(response: xr.Dataset, rig: Oscillator) -> str:
+    """What is left of the gaps."""
+    parts = []
+    for side in _SIDES:
+        stop = getattr(rig, side)
+        if stop is not None:
+            free = stop.gap - float(response[f"peak_displacement_{side}"])
+            parts.append(
+                f"{_value(free, LENGTHS)} of the {pretty(stop.gap, LENGTH)} gap on the {side}"
+            )
+    return " and ".join(parts)
+
+
+def _times(count: int) -> str:
+    return {1: "once", 2: "twice"}.get(count, f"{count} times")
+
+
+def _value(value: float, scales: tuple[Scale, ...]) -> str:
+    unit = fitting((value,), scales)
+    return f"{plain(value / unit.size, 4)} {unit.symbol}"
+
+
+def _both(response: xr.Dataset, name: str, scales: tuple[Scale, ...]) -> str:
+    """Of either side, in one unit."""
+    values = [float(response[f"{name}_{side}"]) for side in _SIDES]
+    unit = fitting(values, scales)
+    parts = [
+        f"{plain(value / unit.size, 4)} {unit.symbol}" if math.isfinite(value) else "infinite"
+        for value in values
+    ]
+    return ", ".join(f"{part} {side}" for part, side in zip(parts, _SIDES, strict=True))

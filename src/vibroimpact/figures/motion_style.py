@@ -1,0 +1,296 @@
+"""What the figures of motions share: names and looks, and curves that pass through the events."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from vibroimpact import errors
+from vibroimpact.errors import InputError
+from vibroimpact.figures.notebook import new_axes
+from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
+from vibroimpact.measurements.read import is_measured
+from vibroimpact.model import Record
+from vibroimpact.model.names import literal
+from vibroimpact.response.contacts import contacts
+from vibroimpact.response.motion_phases import any_recorded, phases, recorded, touches
+from vibroimpact.response.sine_fit import forcing_sine, slope
+
+_Array = NDArray[np.float64]
+
+SIDES = {1: "right", -1: "left"}
+
+MOST_CYCLES = 12
+"""Forcing cycles of a time history in which a contact can still be told from the next."""
+
+
+class Shown(NamedTuple):
+    """One motion as it is drawn: values with both sides of each event, against t/T."""
+
+    look: Look
+    at: _Array
+    """Time in forcing cycles; of a motion through a `Record` in seconds."""
+    values: dict[str, _Array]
+    """By variable: displacement, velocity, acceleration, clearances."""
+    touching: list[tuple[int, float, float]]
+    """Side, begin and end of each contact in forcing cycles."""
+    peaks: tuple[_Array, _Array]
+    """Times (forcing cycles) and values of the acceleration's peaks in contact."""
+    gaps: dict[str, float]
+    """Gap (m) on each side that has a bumper."""
+
+
+def named(
+    motions: xr.Dataset | Mapping[str, xr.Dataset], records: bool = False
+) -> dict[str, xr.Dataset]:
+    """Motions by name; one alone is called "motion". Only `records` may go through a `Record`.
+
+    Raises
+    ------
+    InputError
+        If there is none, or one is not that of a motion with samples.
+    """
+    # A dataset is a mapping, too.
+    if isinstance(motions, Mapping) and not isinstance(motions, xr.Dataset):
+        given = dict(motions)
+    else:
+        given = {"motion": motions}
+    if not given:
+        raise InputError("motions: there is none; at least one motion is accepted")
+    for motion in given.values():
+        if not _seen(motion):
+            (any_recorded if records else recorded)(motion)
+    return given
+
+
+def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: int) -> float:
+    """Forcing cycles to show: those asked for, or whole periods of each periodic motion.
+
+    These are at least `least`; where the common period is longer than `MOST_CYCLES`, they are
+    whole periods of the longest one.
+
+    Raises
+    ------
+    InputError
+        If those asked for are no number greater than 0.
+    """
+    if cycles is not None:
+        if not 0.0 < cycles < math.inf:
+            raise InputError(f"cycles: {cycles!r}; a number greater than 0 is accepted")
+        return cycles
+    periods = [
+        round(origin.cycles)
+        for motion in motions.values()
+        if not _seen(motion) and (origin := recorded(motion)).periodic
+    ]
+    shared = math.lcm(*periods)
+    if shared > MOST_CYCLES:
+        shared = max(periods)
+    return float(shared * math.ceil(least / shared))
+
+
+def looks(names: list[str]) -> list[Look]:
+    """How each motion is drawn: those called after a sweep as that sweep, the others in turn."""
+    spare = iter([*MOTIONS, *MOTIONS] * (1 + len(names) // len(MOTIONS)))
+    found = []
+    for name in names:
+        known = [look for key, look in SWEEPS.items() if key in name]
+        look = known[0] if len(known) == 1 else next(spare)
+        found.append(look._replace(label=literal(name)))
+    return found
+
+
+def shown(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[Shown]:
+    """Curves of motions: the last cycles of a simulation, the first ones of a steady motion.
+
+    A periodic motion is repeated as often as it takes, or shown once if `cycles` is infinite.
+    Measured ones are moved by whole cycles to where the others begin.
+    """
+    drawn = [
+        _shown(motion, look, cycles)
+        for motion, look in zip(motions.values(), looks(list(motions)), strict=True)
+    ]
+    of_model = [c.at[0] for c, m in zip(drawn, motions.values(), strict=True) if not _seen(m)]
+    if not of_model:
+        return drawn
+    return [
+        curve._replace(at=curve.at + math.floor(min(of_model) + 1e-9) - math.floor(curve.at[0]))
+        if _seen(motion) and "cycle" not in motion and len(curve.at)
+        else curve
+        for curve, motion in zip(drawn, motions.values(), strict=True)
+    ]
+
+
+def _seen(motion: xr.Dataset) -> bool:
+    """Whether a motion was measured."""
+    return is_measured(motion) and "event_time" not in motion
+
+
+def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axes:
+    """The given axes, or those of a new figure.
+
+    Raises
+    ------
+    InputError
+        If something else is given.
+    """
+    if isinstance(ax, Axes):
+        return ax
+    if ax is not None:
+        raise InputError(f"ax: {errors.shown(ax)}; axes of matplotlib, or None, are accepted")
+    made: Axes = new_axes(1, 1, size)[0, 0]
+    if title:
+        # Above the legend, which is above the axes.
+        made.figure.suptitle(title, fontsize="medium")
+    return made
+
+
+def name_lines(ax: Axes, curves: list[Shown]) -> None:
+    """Add a legend above the axes where there is more than one motion."""
+    if len(curves) > 1:
+        ax.legend(ncols=min(len(curves), 3), **LEGEND)
+
+
+def _measured(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
+    """A measured history; its cycles begin where the base's sine, as A sin θ, has θ = 0.
+
+    A velocity that was not measured is the slope of the displacement, smoothed.
+    """
+    time = motion["time"].values
+    base, moved = (
+        motion[name].values if name in motion else None
+        for name in ("base_acceleration", "displacement")
+    )
+    sine = forcing_sine(time, base, moved, motion.attrs.get("frequency"))
+    at = time
+    if sine is not None:
+        at = sine.frequency * time + (sine.phase / (2.0 * math.pi) if base is not None else 0.0)
+        at = at - math.floor(at[0])
+    values = {}
+    for name in ("displacement", "velocity", "acceleration"):
+        held = motion[name].values if name in motion else np.full(len(time), np.nan)
+        if name == "velocity" and name not in motion and moved is not None:
+            known = np.isfinite(moved)
+            held = np.full(len(time), np.nan)
+            held[known] = slope(time[known], moved[known], sine)
+        values[name] = held
+    curve = Shown(look, at, values, [], (np.empty(0), np.empty(0)), {})
+    last = min(float(at[-1]), math.ceil(at[0]) + cycles)
+    return curve if math.isinf(cycles) else _cut(curve, float(math.ceil(at[0])), last)
+
+
+def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
+    if _seen(motion):
+        return _measured(motion, look, cycles)
+    origin = any_recorded(motion)
+    shaken = origin.excitation
+    if isinstance(shaken, Record):
+        frequency, at = 1.0, motion["time"].values
+        events = motion["event_time"].values
+    else:
+        frequency, at = shaken.frequency, motion["cycle"].values
+        events = motion["event_cycle"].values + motion["event_cycle_time"].values * frequency
+    times = np.concatenate([at, events, events])
+    order = np.argsort(times, kind="stable")
+
+    def merged(name: str, before: str, behind: str) -> _Array:
+        parts = [motion[name].values, motion[before].values, motion[behind].values]
+        return np.asarray(np.concatenate(parts)[order], dtype=float)
+
+    every = phases(motion)
+    arrival = motion["event_velocity"].values
+    parting, begins = arrival.copy(), every.event >= 0
+    parting[every.event[begins]] = every.first[begins, 1]  # an impact turns it round
+    values = {
+        "displacement": merged("displacement", "event_displacement", "event_displacement"),
+        "velocity": np.concatenate([motion["velocity"].values, arrival, parting])[order],
+        "acceleration": merged(
+            "acceleration", "event_acceleration_before", "event_acceleration_behind"
+        ),
+    }
+    gaps = {}
+    for side, name in SIDES.items():
+        bumper = getattr(origin.oscillator, name)
+        if bumper is None:
+            continue
+        gaps[name] = bumper.gap
+        distance = motion[f"event_{name}_bumper"].values - motion["event_displacement"].values
+        mine = motion["event_side"].values == side
+        clearance = np.where(mine, 0.0, bumper.gap + side * distance)
+        parts = [motion[f"{name}_clearance"].values, clearance, clearance]
+        values[f"{name}_clearance"] = np.concatenate(parts)[order]
+    touching = [
+        (side, begin, begin + float(every.length[i]) * frequency)
+        for side in (1, -1)
+        for i in np.flatnonzero(touches(every.contact, side))
+        for begin in [float(every.begin[i]) * frequency]
+    ]
+    if isinstance(shaken, Record):  # cut at each of its lines
+        touching = _joined(touching)
+    log = motion if "contact_peak_time" in motion else contacts(motion)
+    peak_at = log["contact_peak_time"].values * frequency
+    height = np.interp(peak_at, times[order], values["acceleration"])
+    peak = log["contact_peak_acceleration"].values * np.sign(height)
+    curve = Shown(look, times[order], values, touching, (peak_at, peak), gaps)
+    if math.isinf(cycles):
+        return curve
+    if origin.periodic:
+        return _cut(_repeated(curve, origin.cycles, cycles), 0.0, cycles)
+    if "period" in motion:  # steady, but not periodic: its record begins anywhere
+        return _cut(curve, 0.0, cycles)
+    return _cut(curve, max(float(at[0]), float(at[-1]) - cycles), float(at[-1]))
+
+
+def _repeated(curve: Shown, period: float, cycles: float) -> Shown:
+    turns = np.arange(-1, math.ceil(cycles / period) + 1) * period
+    return curve._replace(
+        at=np.concatenate([curve.at + turn for turn in turns]),
+        values={name: np.tile(value, len(turns)) for name, value in curve.values.items()},
+        touching=_joined([(s, a + turn, b + turn) for turn in turns for s, a, b in curve.touching]),
+        peaks=(
+            np.concatenate([curve.peaks[0] + turn for turn in turns]),
+            np.tile(curve.peaks[1], len(turns)),
+        ),
+    )
+
+
+def _joined(touching: list[tuple[int, float, float]]) -> list[tuple[int, float, float]]:
+    """Join the two parts of a contact that goes on across the end of the period."""
+    joined: list[tuple[int, float, float]] = []
+    for side, begin, end in sorted(touching, key=lambda contact: contact[1]):
+        if joined and joined[-1][0] == side and begin - joined[-1][2] < 1e-9:
+            joined[-1] = (side, joined[-1][1], end)
+        else:
+            joined.append((side, begin, end))
+    return joined
+
+
+def _cut(curve: Shown, first: float, last: float) -> Shown:
+    inside = (curve.at >= first) & (curve.at <= last)
+    seen = (curve.peaks[0] >= first) & (curve.peaks[0] <= last)
+    return curve._replace(
+        at=curve.at[inside],
+        values={name: value[inside] for name, value in curve.values.items()},
+        touching=[
+            (s, max(a, first), min(b, last))
+            for s, a, b in curve.touching
+            if b >= first and a <= last
+        ],
+        peaks=(curve.peaks[0][seen], curve.peaks[1][seen]),
+    )
+
+
+def gap_lines(ax: Axes, curves: list[Shown], *, horizontal: bool) -> None:
+    """Dashed lines where the bumpers are at rest (mm)."""
+    gaps = {
+        (1 if name == "right" else -1) * gap for curve in curves for name, gap in curve.gaps.items()
+    }
+    for gap in sorted(gaps):
+        draw = ax.axhline if horizontal else ax.axvline
+        draw(1e3 * gap, color="black", linestyle="--", linewidth=0.8, zorder=2)

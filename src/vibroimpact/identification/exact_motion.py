@@ -1,0 +1,131 @@
+"""Exact motions of a rig at the times of a measurement, from given states."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import batch, recorded
+from vibroimpact.engine.observers import record as observed
+from vibroimpact.engine.status import DONE
+from vibroimpact.model import Harmonic, Oscillator, Record, State
+from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.record_history import straight
+
+Array = NDArray[np.float64]
+
+_SAMPLES = 400
+"""In a forcing cycle, between which a cubic is laid: its error is 1e-6 of a tenth harmonic."""
+_FINER = 2
+"""Samples for each of a measurement, at least: a jump is spread over one of them."""
+_MAX_EVENTS = 2000
+_COLUMNS = {
+    "displacement": observed.DISPLACEMENT,
+    "velocity": observed.VELOCITY,
+    "acceleration": observed.ACCELERATION,
+}
+
+
+class Moved(NamedTuple):
+    """A motion at some times."""
+
+    values: dict[str, Array]
+    end: tuple[float, float]
+    """Displacement (m) and velocity (m/s) at the last time."""
+    reach: tuple[float, float]
+    """How far it goes to the right and to the left (m), between these times as well."""
+
+
+class Joined(NamedTuple):
+    """What a rig does in a test, window by window."""
+
+    values: dict[str, Array]
+    """At all times, by channel."""
+    gaps: Array
+    """Between the end of each window and the beginning of the next."""
+    reach: tuple[float, float]
+    """How far it goes to the right and to the left (m)."""
+
+
+def under_sine(
+    oscillator: Oscillator, shaken: Harmonic, start: State | Array, time: Array
+) -> Moved | None:
+    """The motion under a sine from a state at the first of the times; None if it was given up.
+
+    The phase is that at the first time. Displacement and velocity between samples are cubics with
+    the right slopes; the acceleration, which jumps at contacts, is a straight line.
+    """
+    vector = engine_state(oscillator, start) if isinstance(start, State) else start.copy()
+    at = (time - time[0]) * shaken.frequency
+    length = max(float(at[-1]), 1.0 / _SAMPLES)
+    samples = max(_SAMPLES, math.ceil(_FINER * (len(at) - 1) / length))
+    out = np.empty((observed.SAMPLE, math.ceil(length * samples - 1e-9) + 1))
+    buffer = np.empty((_MAX_EVENTS + 1 + 20_000, observed.EVENT))
+    rig, done, outcome = engine_rig(oscillator, shaken), 0, int(DONE)
+    while done < length and outcome == DONE:
+        done, _, outcome = batch.trajectory(
+            rig, shaken.amplitude, shaken.frequency, shaken.phase, vector, float(done), length,
+            samples, _MAX_EVENTS, out, buffer,
+        )  # fmt: skip
+    if outcome != DONE:
+        return None
+    grid = np.minimum(np.arange(out.shape[1]) / samples, length)
+    base = shaken.at(2.0 * np.pi * grid + shaken.phase) if shaken.moves_base else 0.0 * grid
+    seconds = np.asarray(grid / shaken.frequency, dtype=np.float64)
+    wanted: Array = at / shaken.frequency
+    return _between(out, seconds, wanted, base)
+
+
+def under_record(oscillator: Oscillator, record: Record, start: State, time: Array) -> Moved | None:
+    """The motion under a record from a state at its beginning; None if it was given up.
+
+    The times are those since the beginning of the record.
+    """
+    vector = engine_state(oscillator, start)
+    lines = straight(record, 0.0)
+    out = np.empty((observed.SAMPLE, len(lines) + 1))
+    buffer = np.empty((_MAX_EVENTS + 1 + 20_000, observed.EVENT))
+    steepest = float(np.abs(lines[:, recorded.SLOPE]).max())
+    rig, done, outcome = engine_rig(oscillator, record), 0, int(DONE)
+    while done < len(lines) and outcome == DONE:
+        done, _, outcome = recorded.follow(
+            rig, record.peak, steepest, lines, vector, done, 1, record.step, _MAX_EVENTS, out,
+            buffer,
+        )  # fmt: skip
+    if outcome != DONE:
+        return None
+    grid: Array = np.arange(out.shape[1], dtype=np.float64) * record.step
+    return _between(out, grid, time, record.at(grid))
+
+
+def _between(out: Array, grid: Array, time: Array, base: Array) -> Moved:
+    """Values at times between the samples of a motion."""
+    step = np.diff(grid)
+    keep = np.concatenate([[True], step > 1e-12 * max(grid[-1], 1e-300)])
+    grid, out, base = grid[keep], out[:, keep], base[keep]
+    i = np.clip(np.searchsorted(grid, time, side="right") - 1, 0, max(len(grid) - 2, 0))
+    reach = (float(out[observed.DISPLACEMENT].max()), -float(out[observed.DISPLACEMENT].min()))
+    if len(grid) < 2:
+        u, v = float(out[0, 0]), float(out[1, 0])
+        return Moved({n: np.full(len(time), out[c, 0]) for n, c in _COLUMNS.items()}, (u, v), reach)
+    h = grid[i + 1] - grid[i]
+    s = (time - grid[i]) / h
+    rows = {name: out[column] for name, column in _COLUMNS.items()}
+    slopes = {
+        "displacement": rows["velocity"],
+        "velocity": rows["acceleration"] - base,
+    }
+    values = {"acceleration": rows["acceleration"][i] * (1.0 - s) + rows["acceleration"][i + 1] * s}
+    for name, slope in slopes.items():
+        y, k = rows[name], slope
+        values[name] = (
+            (1.0 + 2.0 * s) * (1.0 - s) ** 2 * y[i]
+            + s * (1.0 - s) ** 2 * h * k[i]
+            + s**2 * (3.0 - 2.0 * s) * y[i + 1]
+            + s**2 * (s - 1.0) * h * k[i + 1]
+        )
+    last = (float(values["displacement"][-1]), float(values["velocity"][-1]))
+    return Moved(values, last, reach)

@@ -1,0 +1,170 @@
+"""What a fit says, in words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.identification.fit_inputs import BASE
+from vibroimpact.identification.global_search import Found
+from vibroimpact.identification.least_squares import Array, Problem
+from vibroimpact.identification.repeated_dwells import stray_values
+from vibroimpact.identification.residual_structure import CERTAIN, HINT, Structure
+from vibroimpact.identification.sensor_checks import BAD, sensor_doubts
+from vibroimpact.identification.untouched_stops import Untouched
+from vibroimpact.model.excitation import Harmonic
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.quantities import ACCELERATION
+from vibroimpact.model.units import pretty
+
+_WEAK = 0.25
+"""Of a value: an interval whose half is wider leaves a parameter all but undetermined."""
+_BOUND = 0.95
+"""Correlation from which on two parameters are said to stand for each other."""
+_SAME = 1e-3
+"""Difference, as a share, up to which a value of another rig is the same."""
+_BLIND = "excursions do not tell right from left; maxima and minima, or time histories, do"
+_FEW = 2
+_FAR = 5.0
+"""So many times the noise: something is wrong with what was given, such as the amplitude."""
+
+
+def findings(
+    data: xr.Dataset,
+    problem: Problem,
+    x: Array,
+    found: Found,
+    judged: list[Structure],
+    idle: Untouched,
+) -> list[str]:
+    """Lines about how well a fit is known, what is not determined, and what the model lacks."""
+    lines = [
+        f"{found.alike} of {found.starts} starts came to this fit"
+        + ("" if found.alike >= _FEW else "; more starts may find a better one")
+    ]
+    lines += _alternatives(data, problem, x)
+    lines += [
+        line for number in range(len(problem.free)) if (line := _of(data, problem, number, idle))
+    ]
+    correlation = data["correlation"].values
+    for i in range(len(correlation)):
+        for j in range(i):
+            if abs(correlation[i, j]) > _BOUND and not {i, j} & idle.all:
+                one, other = problem.free[j].key, problem.free[i].key
+                both = "ratio" if correlation[i, j] > 0 else "product"
+                lines.append(
+                    f"{one} and {other} can hardly be told apart (correlation "
+                    f"{correlation[i, j]:.3f}): their {both} is known better than either"
+                )
+    for number, (test, what) in enumerate(zip(problem.tests, judged, strict=True)):
+        if left := str(test.data.attrs.get("left_out", "")).splitlines():
+            lines.append(
+                f"{test.name}: {', '.join(map(repr, left))} of the file not understood, and not "
+                "used; columns= of read_measurement says what a column holds"
+            )
+        if test.kind == "curves":
+            lines += stray_values(test.name, test.data)
+        shaken = problem.setting(x, test)[0][1]
+        source = str(test.data.attrs["amplitude_source"])
+        amplitude = "" if source == BASE else amplitude_words(shaken, source)
+        lines += _shape(test.name, test.kind, what, amplitude)
+        if what.excess > BAD and what.excess_chance < CERTAIN:
+            lines += sensor_doubts(problem, x, number)
+    return lines
+
+
+def _alternatives(data: xr.Dataset, problem: Problem, x: Array) -> list[str]:
+    """Other rigs that fit as well, by what differs in them."""
+    here = data["fitted_value"].values
+    lines, exchanged = [], False
+    if "alternative_value" in data:
+        for number in range(data.sizes["alternative"]):
+            rival = data.isel(alternative=number)
+            values = rival["alternative_value"].values
+            told = ", ".join(
+                f"{free.key} {pretty(float(values[i]), free.quantity, 4)} (instead of "
+                f"{pretty(float(here[i]), free.quantity, 4)})"
+                for i, free in enumerate(problem.free)
+                if abs(values[i] - here[i]) > _SAME * abs(here[i])
+            )
+            mirrored = bool(rival["alternative_mirrored"])
+            exchanged = exchanged or mirrored
+            lines.append(
+                f"with right and left exchanged, the rig fits as well: {told}; {_BLIND}"
+                if mirrored
+                else f"another rig fits as well: {told}"
+            )
+    asked = any(one.name.partition("_")[0] in ("right", "left") for one in problem.free)
+    uneven = any(not problem.setting(x, test)[0][0].symmetric for test in problem.tests)
+    if asked and uneven and not exchanged and all(test.blind for test in problem.tests):
+        lines.append(f"which side is the right one rests on the values given: {_BLIND}")
+    return lines
+
+
+def _of(data: xr.Dataset, problem: Problem, number: int, idle: Untouched) -> str:
+    one = problem.free[number]
+    value = float(data["fitted_value"][number])
+    low, high = data["interval"][number].values.tolist()
+    open_low, open_high = (bool(v) for v in data["interval_open"][number].values)
+    meaning = PARAMETERS[one.name].long_name if one.name in PARAMETERS else one.name
+    named = f"{one.key} ({meaning.replace('_', ' ')})"
+    weak = abs(high - low) > 2.0 * _WEAK * abs(value) and one.quantity.symbol != ""
+    if number in idle.others:
+        return f"{named} is not determined: in these tests the mass does not touch the stop"
+    if number in idle.gaps:
+        return (
+            f"{named} is known from below only: in these tests the mass does not touch the stop, "
+            f"and {pretty(low, one.quantity, 3)} and more fits as well (with the other values of "
+            "the stop held)"
+        )
+    if not (open_low or open_high or weak):
+        return ""
+    ends = f"{pretty(low, one.quantity, 3)} to {pretty(high, one.quantity, 3)}"
+    if open_low and open_high:
+        return f"{named} is not determined: all of {ends} fits as well"
+    if open_low:
+        return f"{named} is known from above only: {ends} fits as well"
+    if open_high and high < one.high:
+        return (
+            f"{named} is known from below only: {pretty(low, one.quantity, 3)} and more fits as "
+            f"well (tried up to {pretty(high, one.quantity, 3)})"
+        )
+    if open_high:
+        return f"{named} is known from below only: {ends} fits as well"
+    return f"{named} is poorly determined: {ends} fits as well"
+
+
+def amplitude_words(shaken: Any, source: str) -> str:
+    """The peak base acceleration of a test, and where it is from; that alone if it was measured."""
+    told = f"from {source}" if source else ""
+    if source == BASE or not isinstance(shaken, Harmonic):
+        return told
+    return ", ".join(filter(None, [pretty(shaken.amplitude, ACCELERATION, 4), told]))
+
+
+def _shape(name: str, kind: str, what: Structure, amplitude: str) -> list[str]:
+    unit = "Hz" if kind == "curves" else "s"
+    lines = []
+    if what.chance < CERTAIN:
+        lines.append(
+            f"{name}: the residuals are not noise: neighbours agree (correlation "
+            f"{what.correlation:.2f}), most between {what.worst[0]:.4g} and {what.worst[1]:.4g} "
+            f"{unit}; the model lacks something there"
+        )
+    elif what.chance < HINT:
+        lines.append(
+            f"{name}: neighbouring residuals agree more than noise would in all but "
+            f"{100.0 * what.chance:.1g} % of tests: compare other laws of the stops or the isolator"
+        )
+    if what.excess_chance < CERTAIN and np.isfinite(what.excess):
+        lines.append(
+            f"{name}: the residuals are {what.excess:.3g} times the noise of the measurement"
+            + (
+                f"; the amplitude was taken as {amplitude}"
+                if amplitude and what.excess > _FAR
+                else ""
+            )
+        )
+    return lines

@@ -1,0 +1,133 @@
+"""What a fit is given: tests with their rigs, whatever form they come in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from vibroimpact.errors import InputError, printable, shown, unknown
+from vibroimpact.identification.curve_residuals import CurveTest
+from vibroimpact.identification.history_residuals import HistoryTest
+from vibroimpact.identification.least_squares import Test
+from vibroimpact.measurements.read import CALL, as_measured
+from vibroimpact.model import Oscillator
+from vibroimpact.model.access import Setting
+from vibroimpact.model.excitation import Harmonic, Periodic
+from vibroimpact.model.names import check_name
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model.rigs import as_rig, as_shaking
+from vibroimpact.model.units import to_si
+
+BASE = "the measured base"
+"""Where the amplitude of a history is from whose base was measured."""
+
+
+def tests_of(
+    data: Any, oscillator: Any, amplitude: Any, noise: Any, window: int | None, steady: bool
+) -> list[Test]:
+    """Read the tests, each with the rig and shaking that it begins from.
+
+    Raises
+    ------
+    InputError
+        If one of them cannot be used, or its amplitude is not known.
+    """
+    named = _named(data)
+    found: list[Test] = []
+    for name, one in named.items():
+        where = f"data[{name!r}]" if len(named) > 1 else "data"
+        measured = as_measured(one, where)
+        rig = _of(oscillator, name, list(named), "oscillator")
+        given = _of(amplitude, name, list(named), "amplitude")
+        share = _of(noise, name, list(named), "noise")
+        share = None if share is None else to_si(share, DIMENSIONLESS, "noise", above=0.0)
+        setting, source = _setting(rig, given, measured, where)
+        measured = measured.assign_attrs(amplitude_source=source)
+        if measured.attrs["kind"] == "curves":
+            found.append(CurveTest(name, measured, setting, share))
+        else:
+            found.append(HistoryTest(name, measured, setting, share, window, steady))
+    return found
+
+
+def _named(data: Any) -> dict[str, Any]:
+    """Tests by name: a file's is that of the file."""
+    if isinstance(data, Mapping) and not isinstance(data, xr.Dataset):
+        named = {check_name(name, "data"): one for name, one in data.items()}
+    else:
+        alone = isinstance(data, xr.Dataset | str | Path) or not isinstance(data, Sequence)
+        items = [data] if alone else list(data)
+        named = {}
+        for i, one in enumerate(items, 1):
+            source = one.attrs.get("source") if isinstance(one, xr.Dataset) else str(one)
+            name = Path(source).stem if source and isinstance(one, xr.Dataset | str | Path) else ""
+            name = printable(name) or f"test {i}"
+            named[name if name not in named else f"{name} {i}"] = one
+    if not named:
+        raise InputError("data: there is none; at least one test is accepted")
+    return named
+
+
+def _of(given: Any, name: str, names: list[str], field: str) -> Any:
+    """What belongs to one test: the same for all, one by name, or one by position."""
+    if isinstance(given, Mapping):
+        if name not in given:
+            raise InputError(f"{field}: none for {name!r}; one for each of {names} is accepted")
+        return given[name]
+    if isinstance(given, list):
+        if len(given) != len(names):
+            raise InputError(f"{field}: {len(given)} for {len(names)} tests; as many are accepted")
+        return given[names.index(name)]
+    return given
+
+
+def _setting(rig: Any, amplitude: Any, data: xr.Dataset, where: str) -> tuple[Setting, str]:
+    """The rig with its shaking, and where that is from: the call, a file, or the rig given."""
+    carried: Any = None
+    if not isinstance(rig, Oscillator):
+        rig, carried = as_rig(rig, "oscillator", "an oscillator, ")
+    chosen, source = amplitude, CALL
+    if chosen is None:
+        chosen = data.attrs.get("amplitude")
+        source = str(data.attrs.get("amplitude_source", "the data"))
+    if chosen is None:
+        chosen, source = carried, "the rig given"
+    base = data.attrs["kind"] == "history" and "base_acceleration" in data
+    if base:
+        source = BASE
+    if chosen is None and base:
+        return (rig, Harmonic(1.0, 1.0)), source
+    if chosen is None:
+        raise InputError(
+            f"amplitude: missing, and {where} does not say it; the peak base acceleration of the "
+            'test is accepted, such as amplitude="0.05 g"'
+        )
+    shaken, sizes = as_shaking(chosen, "amplitude")
+    if sizes is not None or not isinstance(shaken, Harmonic | Periodic):
+        raise InputError("amplitude: a list; one for each test is accepted, as a mapping by name")
+    return (rig, shaken), source
+
+
+def ties_of(ties: Mapping[str, str] | None) -> dict[str, str]:
+    """Read which parameters follow which.
+
+    Raises
+    ------
+    InputError
+        If a name is no parameter of a rig.
+    """
+    if not isinstance(ties, Mapping | None):
+        raise InputError(
+            f"ties: {shown(ties)}; a mapping such as {{'left_gap': 'right_gap'}} is accepted"
+        )
+    found = {}
+    for tied, to in (ties or {}).items():
+        for name in (tied, to):
+            if not isinstance(name, str) or name.replace("-", "_") not in PARAMETERS:
+                raise InputError(f"ties: {unknown(name, PARAMETERS)}")
+        found[tied.replace("-", "_")] = to.replace("-", "_")
+    return found

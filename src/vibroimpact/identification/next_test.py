@@ -1,0 +1,252 @@
+"""Which next test would tell most: the information of holds at candidate frequencies.
+
+To first order, a hold at which excursions have the derivatives R (in standard deviations of the
+measurement) takes the covariance C of a fit to C − C Rᵀ (1 + R C Rᵀ)⁻¹ R C.
+
+The derivatives are secants over one standard deviation along each axis of C: a hold beside a fold,
+which a rig that is as likely would have passed, tells nothing that can be counted on.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.arguments import check_list, check_name, check_variables
+from vibroimpact.datasets.description import describe
+from vibroimpact.engine import hold
+from vibroimpact.identification.branch_response import Rig, sizes
+from vibroimpact.identification.free_parameters import NEAR_ZERO, SENSORS, size_of
+from vibroimpact.identification.results import setting_of
+from vibroimpact.model.access import Setting
+from vibroimpact.model.count_checks import share as fraction
+from vibroimpact.model.excitation import sized
+from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model.units import pretty, to_si
+from vibroimpact.response.sweep import check_frequencies
+
+Array = NDArray[np.float64]
+
+_MOST = 0.2
+"""Of a value, by which it is moved at most: where it is hardly known, one deviation is too far."""
+_FACTORS = (0.5, 0.75, 1.0, 1.5, 2.0)
+"""Of the amplitude."""
+_POINTS = 121
+_WILD = 0.5
+"""Change of a logarithm over one deviation at which a jump may have been passed."""
+_LITTLE = 0.98
+"""Of a standard error, beyond which a hold is hardly worth it."""
+_NOISE = 0.02
+"""Of a hold to come, where the fit's tests were no curves."""
+
+
+def next_test(
+    result: xr.Dataset,
+    frequencies: Iterable[float | str] | None = None,
+    amplitudes: Iterable[float | str] | None = None,
+    *,
+    test: str | None = None,
+    noise: float | None = None,
+    margin: float = 0.02,
+) -> xr.Dataset:
+    """Say which hold of a stepped sine would reduce the uncertainty of a fit most.
+
+    Parameters
+    ----------
+    result
+        Dataset of `identify`.
+    frequencies
+        Candidates in Hz; None for 121 from half the natural frequency to five times it.
+    amplitudes
+        Candidates, peak base accelerations (m/s², or text); None for half to twice that of the
+        test.
+    test
+        Whose rig would be tested; None for the first.
+    noise
+        Of the test to come, a share of a value; None for that of the fit.
+    margin
+        Share of its frequency by which a hold keeps away from the jump that lies ahead of it in its
+        direction; 0 to go as close as the fit knows the jump.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dims ``candidate_amplitude``, ``direction``, ``frequency`` and ``parameter``:
+        ``remaining_error``, each standard error behind the hold over that before it, and
+        ``information`` about all parameters together (nats). NaN where the motion does not settle,
+        or a jump lies too near. The attribute ``findings`` says the best holds in words.
+
+    Raises
+    ------
+    InputError
+        If the dataset is no fit, or a candidate cannot be used.
+    """
+    check_variables(result, ["covariance"], "result", "a dataset of identify")
+    rigs = json.loads(result.attrs["rigs"])
+    name = next(iter(rigs)) if test is None else test
+    check_name(name, rigs, "test")
+    oscillator, shaken = setting_of(rigs[name])
+    natural = oscillator.angular_frequency / (2.0 * np.pi) or float(shaken.frequency)
+    grid = (
+        np.linspace(0.5 * natural, 5.0 * natural, _POINTS)
+        if frequencies is None
+        else check_frequencies(frequencies)
+    )
+    levels = (
+        shaken.amplitude * np.array(_FACTORS)
+        if amplitudes is None
+        else np.array(
+            [
+                sized(one, shaken.of, f"amplitudes[{i}]", positive=True)[0]
+                for i, one in enumerate(check_list(amplitudes, "amplitudes"))
+            ]
+        )
+    )
+    own = float(result["noise"].sel(test=name))
+    curves = str(result["test_kind"].sel(test=name).values) == "curves"
+    told = None if noise is None else to_si(noise, DIMENSIONLESS, "noise", above=0.0)
+    share = told if told is not None else max(own, 1e-4) if curves else _NOISE
+    margin = to_si(margin, DIMENSIONLESS, "margin", minimum=0.0)
+    margin = fraction(margin, "margin") if margin else 0.0
+    keys = [str(key) for key in result["parameter"].values]
+    covariance = result["covariance"].values
+    shape = (len(levels), 2, len(grid))
+    error = np.full((*shape, len(keys)), np.nan)
+    gain = np.full(shape, np.nan)
+    axes = _axes(covariance)
+    before = np.sqrt(np.sum(axes**2, axis=1))
+    for a, level in enumerate(levels):
+        setting = (oscillator, shaken.replace(amplitude=level))
+        slopes, known = _slopes(setting, keys, name, grid, axes)
+        if margin:
+            known &= _far_from_jumps(setting, grid, margin)
+        for d, k in np.argwhere(known):
+            rows = slopes[d, k] / share
+            seen = np.eye(2) + rows @ rows.T
+            drop = axes @ rows.T
+            after = before**2 - np.sum(drop * np.linalg.solve(seen, drop.T).T, axis=1)
+            error[a, d, k] = np.sqrt(np.maximum(after, 0.0)) / before
+            gain[a, d, k] = 0.5 * np.linalg.slogdet(seen)[1]
+    dims = ("candidate_amplitude", "direction", "frequency")
+    data = xr.Dataset(
+        {"information": (dims, gain), "remaining_error": ((*dims, "parameter"), error)},
+        {
+            "candidate_amplitude": levels,
+            "direction": ["forward", "backward"],
+            "frequency": grid,
+            "parameter": keys,
+        },
+    )
+    data.attrs["findings"] = "\n".join(_told(data, result, shaken))
+    return describe(data, "vibroimpact.next_test", {"test": name, "noise": share})
+
+
+def _axes(covariance: Array) -> Array:
+    """Columns whose sum of outer products is the covariance: its axes, counted in errors."""
+    error = np.sqrt(np.diag(covariance))
+    size, axes = np.linalg.eigh(covariance / np.outer(error, error))
+    found: Array = error[:, np.newaxis] * axes * np.sqrt(np.maximum(size, 0.0))
+    return found
+
+
+def _slopes(
+    setting: Setting, keys: list[str], test: str, grid: Array, axes: Array
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Changes of both excursions' logarithms by one deviation along each axis of the covariance.
+
+    Returns
+    -------
+    slopes, known
+        By direction, frequency, excursion and axis; and where no jump is passed, and all settle.
+    """
+    own = [
+        (row, PARAMETERS[bare])
+        for row, (bare, _, whose) in enumerate(key.partition("[") for key in keys)
+        if bare not in SENSORS and (not whose or whose == f"{test}]")
+    ]
+    now = np.array([of.read(*setting) for _, of in own])
+    size = np.array([size_of(of.of(setting[0]).quantity, setting) for _, of in own])
+    most = np.where(np.abs(now) < NEAR_ZERO * size, size, _MOST * np.abs(now))
+    here = _swept(setting, grid)
+    slopes = np.zeros((2, len(grid), 2, axes.shape[1]))
+    known = here[1]
+    for column, axis in enumerate(axes.T):
+        along = axis[[row for row, _ in own]]
+        if not along.any():
+            continue
+        part = float(min(1.0, np.min(most / np.maximum(np.abs(along), 1e-300))))
+        ends = []
+        for sign in (1.0, -1.0):
+            moved = setting
+            for (_, of), value in zip(own, now + sign * part * along, strict=True):
+                least = -np.inf if of.least is None else of.least
+                moved = of.write(*moved, max(float(value), least))
+            ends.append(_swept(moved, grid))
+        (above, settled), (below, also) = ends
+        slopes[..., column] = (above - below) / (2.0 * part)
+        bent = np.abs(above + below - 2.0 * here[0]) + np.abs(above - below)
+        known = known & settled & also & (bent.max(axis=-1) < _WILD)
+    return slopes, known
+
+
+def _far_from_jumps(setting: Setting, grid: Array, margin: float) -> NDArray[np.bool_]:
+    """Where a sweep can go on by a share of its frequency without a jump; by direction."""
+    rig = Rig(setting)
+    clear = np.ones((2, len(grid)), dtype=bool)
+    for row, sign in enumerate((1.0, -1.0)):
+        ahead = [grid * (1.0 + sign * margin * part) for part in (0.0, 0.5, 1.0)]
+        path = np.unique(np.concatenate(ahead))[:: int(sign)]
+        wild = np.abs(np.diff(sizes(rig.sweep(path)[0]), axis=0)).max(axis=1) > _WILD
+        for step in np.flatnonzero(wild):
+            first, second = sorted((path[step], path[step + 1]))
+            clear[row] &= (np.maximum(ahead[0], ahead[2]) <= first) | (
+                np.minimum(ahead[0], ahead[2]) >= second
+            )
+    return clear
+
+
+def _swept(setting: Setting, grid: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Logarithms of both excursions by direction and frequency, and where the motion settled."""
+    rig = Rig(setting)
+    rows = np.stack([rig.sweep(grid)[0], rig.sweep(grid[::-1])[0][::-1]])
+    return sizes(rows), rows[..., hold.PERIOD] > 0
+
+
+def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
+    """The best hold for each parameter that is known worst, and for all."""
+    lines = []
+    relative = result["standard_error"].values / np.maximum(
+        np.abs(result["fitted_value"].values), 1e-300
+    )
+    worst = int(np.argmax(relative))
+    key = str(result["parameter"].values[worst])
+    for what, of in (
+        (key, data["remaining_error"].isel(parameter=worst)),
+        ("", -data["information"]),
+    ):
+        if not np.isfinite(of.values).any():
+            continue
+        best = of.isel(of.argmin(...))
+        amplitude = pretty(float(best["candidate_amplitude"]), PARAMETERS["amplitude"].quantity, 3)
+        where = (
+            f"a hold at {float(best['frequency']):.3g} Hz ({best['direction'].item()}), {amplitude}"
+        )
+        if what and float(best) > _LITTLE:
+            lines.append(
+                f"next test: no hold of a stepped sine would tell much more; {where}, would take "
+                f"the standard error of {what} to {100.0 * float(best):.1f} % of what it is"
+            )
+            break
+        if what:
+            lines.append(
+                f"next test: {where}, would take the standard error of {what} to "
+                f"{100.0 * float(best):.0f} % of what it is"
+            )
+        else:
+            lines.append(f"next test: {where}, would tell most of all parameters together")
+    return lines

@@ -1,0 +1,102 @@
+"""Soft tails: what they cost under normal noise, and the noise that they leave."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from copy import copy
+from typing import NamedTuple
+
+import numpy as np
+
+from vibroimpact.identification.least_squares import Array, Problem, Test, softened
+
+_X, _W = np.polynomial.hermite_e.hermegauss(80)
+_W = _W / _W.sum()
+
+
+class Soft(NamedTuple):
+    """Moments of soft residuals of standard normal noise; 1 without a tail."""
+
+    square: float
+    """Mean square of the residuals."""
+    inflation: float
+    """Of a parameter's variance over that of least squares."""
+    deviance: float
+    """By which a difference of the sums of squares is multiplied to be one of χ²."""
+
+
+def moments(tail: float) -> Soft:
+    """The moments of a tail."""
+    if not np.isfinite(tail):
+        return Soft(1.0, 1.0, 1.0)
+    share = 1.0 + (_X / tail) ** 2
+    pull = float(_W @ (_X**2 / share))
+    slope = float(_W @ share**-1.5)
+    return Soft(float(_W @ softened(_X, tail) ** 2), pull / slope**2, slope / pull)
+
+
+_MANY = 8
+"""Values of a quantity from which on its noise is told by itself."""
+_RATIO = 0.05
+"""A quantity's noise is taken as no smaller a share of all."""
+_LEAST = 1e-9
+"""Noise is taken as no smaller."""
+_STEPS = 30
+
+
+def noises(problem: Problem, x: Array, said: Sequence[bool]) -> list[float]:
+    """The standard deviation of each test's points, from what the fit leaves.
+
+    Parameters
+    ----------
+    problem, x
+        The fit.
+    said
+        Of which tests it is known beforehand.
+    """
+    plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf, weights=None)
+    residuals = plain.values(x).residuals
+    used = sum(t.points_count for t in problem.tests)
+    spare = max(1.0 - len(x) / used, 0.1)
+    found, begin = [], 0
+    for test, known in zip(problem.tests, said, strict=True):
+        points = residuals[begin : begin + test.points_count]
+        begin += test.count
+        found.append(test.noise if known else max(_noise(points, problem.tail, spare), _LEAST))
+    return found
+
+
+def weighed(problem: Problem, x: Array, said: Sequence[bool]) -> list[Test]:
+    """The tests, each quantity weighed by its own noise where that is not known beforehand."""
+    plain = problem.replaced(sigma=[1.0] * len(problem.tests), tail=np.inf, weights=None)
+    residuals = plain.values(x).residuals
+    found, begin = [], 0
+    for test, known in zip(problem.tests, said, strict=True):
+        points = residuals[begin : begin + test.points_count]
+        begin += test.count
+        changed = copy(test)
+        if not known and len(test.weights) > 1:
+            of = np.array(test.channels)
+            own = {name: test.weights[name] * _noise(points[of == name], problem.tail, 1.0)
+                   for name in test.weights if (of == name).sum() >= _MANY}  # fmt: skip
+            whole = float(np.sqrt(np.mean(np.square(list(own.values()))))) if own else 0.0
+            if whole > _LEAST:
+                rest = dict.fromkeys(test.weights, 1.0)
+                changed.weights = rest | {
+                    name: max(size / whole, _RATIO) for name, size in own.items()
+                }
+        found.append(changed)
+    return found
+
+
+def _noise(points: Array, tail: float, spare: float) -> float:
+    if not np.isfinite(tail):
+        return float(np.sqrt(np.mean(points**2) / spare))
+    # The noise at which the soft residuals have the mean square of normal ones.
+    size = max(1.4826 * float(np.median(np.abs(points))), _LEAST)
+    square = moments(tail).square * spare
+    for _ in range(_STEPS):
+        size = max(
+            size * float(np.sqrt(np.mean(softened(points / size, tail) ** 2) / square)), _LEAST
+        )
+    return size

@@ -1,0 +1,73 @@
+"""Stops that a fitted rig never touches: nothing of them shows but that their gaps are wide."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from vibroimpact.errors import InputError
+from vibroimpact.identification.free_parameters import SENSORS, Free
+from vibroimpact.identification.least_squares import Array, Problem, Test
+from vibroimpact.model.parameters import PARAMETERS
+
+
+class Untouched(NamedTuple):
+    """Free parameters of stops that are never touched, by their numbers."""
+
+    gaps: Mapping[int, float]
+    """Those that move a gap, each with its value at which the mass would just reach the stop."""
+    others: frozenset[int]
+
+    @property
+    def all(self) -> frozenset[int]:
+        """Both."""
+        return self.others | frozenset(self.gaps)
+
+
+def untouched(problem: Problem, x: Array) -> Untouched:
+    """Find the free parameters of stops that no motion of the fitted rig reaches."""
+    idle = [_idle(problem, x, number) for number in range(len(problem.tests))]
+    gaps, others = {}, set()
+    for number, one in enumerate(problem.free):
+        mine = [(test, sides) for test, sides in zip(problem.tests, idle, strict=True)
+                if one.test in (None, test.name)]  # fmt: skip
+        moved = [_moved(problem, x, number, one, test) for test, _ in mine]
+        pairs = list(zip(moved, (sides for _, sides in mine), strict=True))
+        if not all(far and far <= set(sides) for far, sides in pairs):
+            continue
+        if one.name.endswith(("gap", "gap_ratio")):
+            share = max(sides[side] for far, sides in pairs for side in far)
+            gaps[number] = share * float(x[number] * problem.scale[number])
+        else:
+            others.add(number)
+    return Untouched(gaps, frozenset(others))
+
+
+def _idle(problem: Problem, x: Array, number: int) -> dict[str, float]:
+    """The sides of a test's rig whose stop is never reached, and how much of the gap is used."""
+    test = problem.tests[number]
+    (rig, shaken), _ = problem.setting(x, test)
+    reach = test.reach((rig, shaken), problem.of_test(x, number))
+    found = {}
+    for side, far in zip(("right", "left"), reach, strict=True):
+        stop = getattr(rig, side)
+        if stop is not None and far < stop.gap:
+            found[side] = max(far, 0.0) / stop.gap if stop.gap > 0.0 else 1.0
+    return found
+
+
+def _moved(problem: Problem, x: Array, number: int, one: Free, test: Test) -> set[str]:
+    """The sides whose stop depends on a parameter; none if anything else does."""
+    if one.name in SENSORS:
+        return set()
+    other = x.copy()
+    now = float(x[number] * problem.scale[number])
+    other[number] = PARAMETERS[one.name].beside(now) / problem.scale[number]
+    (rig, shaken), _ = problem.setting(x, test)
+    try:
+        (changed, also), _ = problem.setting(other, test)
+    except InputError:
+        return set()
+    if also != shaken or changed.replace(right=rig.right, left=rig.left) != rig:
+        return set()
+    return {side for side in ("right", "left") if getattr(changed, side) != getattr(rig, side)}

@@ -1,0 +1,268 @@
+"""From the model to the engine: rigs as vectors, states checked against their rig."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.datasets.description import COMPONENTS
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine import section_map
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.observers import record
+from vibroimpact.engine.parameters import Drive, rig_vector
+from vibroimpact.errors import InputError
+from vibroimpact.model import Bumper, Oscillator, Periodic, Record, Repeated, RigidStop, State
+from vibroimpact.response.law_numbers import isolator_numbers, stop_numbers
+
+TOUCHING = 1e-12
+"""A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
+
+_COLUMNS = np.array(
+    [
+        layout.U,
+        layout.V,
+        layout.RIGHT_BUMPER,
+        layout.LEFT_BUMPER,
+        layout.MODE,
+        layout.MODE,
+        layout.ISOLATOR,
+    ]
+)
+"""Where an engine's state holds each of `COMPONENTS`; it has no phase, and the mode tells the
+contact."""
+_TOUCHING = np.array(record.TOUCHING)
+
+
+def engine_rig(oscillator: Oscillator, shaken: Repeated | Record) -> NDArray[np.float64]:
+    """The oscillator and what shakes it as the vector that the engine reads."""
+    stiffness, damping, law = isolator_numbers(oscillator.isolator)
+    return rig_vector(
+        oscillator.mass,
+        stiffness,
+        damping,
+        stop_numbers(oscillator.right),
+        stop_numbers(oscillator.left),
+        oscillator.force,
+        _drive(oscillator, shaken),
+        law,
+    )
+
+
+def system_vector(oscillator: Oscillator, excitation: Repeated) -> NDArray[np.float64]:
+    """The same with the size and the frequency of what shakes it: a system of the section's map."""
+    rig = engine_rig(oscillator, excitation)
+    vector = np.resize(rig, max(section_map.SYSTEM, len(rig)))
+    vector[section_map.AMPLITUDE] = excitation.amplitude
+    vector[section_map.FREQUENCY] = excitation.frequency
+    return vector
+
+
+def _drive(oscillator: Oscillator, shaken: Repeated | Record) -> Drive:
+    """What shakes the mass, as the base acceleration that does the same.
+
+    A displacement X sin θ of the base is the acceleration −X ω² sin θ, a force F sin θ on the
+    mass −F/M sin θ.
+    """
+    if isinstance(shaken, Record):
+        return Drive(interval=shaken.step)
+    scale, power = {
+        "acceleration": (1.0, 0.0),
+        "displacement": (-1.0, 2.0),
+        "force": (-1.0 / oscillator.mass, 0.0),
+    }[shaken.of]
+    weights: tuple[tuple[float, float], ...] = ()
+    if isinstance(shaken, Periodic):
+        sizes = [one / shaken.amplitude for one in shaken.amplitudes]
+        weights = tuple(
+            (size * math.cos(angle), size * math.sin(angle))
+            for size, angle in zip(sizes, shaken.phases, strict=True)
+        )
+    return Drive(1.0 if shaken.moves_base else 0.0, scale, power, weights)
+
+
+def as_state(start: State | xr.DataArray | xr.Dataset) -> State:
+    """Accept a `State`, a dataset of `simulate`, or its `final_state`."""
+    if isinstance(start, State):
+        return start
+    if isinstance(start, xr.Dataset) and "final_state" in start:
+        start = start["final_state"]
+    if isinstance(start, xr.DataArray) and start.dims == ("component",):
+        values: dict[str, Any] = {
+            str(k): float(start.sel(component=k)) for k in start["component"].values
+        }
+        if "contact" in values:
+            values["contact"] = int(values["contact"])
+        return State(**values)
+    raise InputError(
+        f"start: {type(start).__name__} is not a state; a State, a dataset of simulate or its "
+        "final_state is accepted"
+    )
+
+
+def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
+    """The state as the engine's vector, absent values deduced.
+
+    Raises
+    ------
+    InputError
+        If the mass lies inside a bumper, or is said to touch one that it does not touch.
+    """
+    u, v = state.displacement, state.velocity
+    deformations = [0.0, 0.0]
+    mode = FLIGHT
+    # Seen from each side in turn: s = +1 towards the right stop, −1 towards the left one.
+    for i, (name, stop, given, sign) in enumerate(
+        (
+            ("right_bumper", oscillator.right, state.right_bumper, 1),
+            ("left_bumper", oscillator.left, state.left_bumper, -1),
+        )
+    ):
+        said = None if state.contact is None else state.contact in (sign, 2)
+        if stop is None:
+            if given:
+                raise InputError(
+                    f"start.{name}: {given:g} m, but the oscillator has no such bumper; "
+                    "0 or nothing is accepted"
+                )
+            if said:
+                raise InputError(
+                    f"start.contact: {state.contact}, but the oscillator has no bumper there; "
+                    "0 is accepted"
+                )
+            continue
+        slack = TOUCHING * max(
+            abs(stop.gap), abs(u), abs(v) / (oscillator.angular_frequency or np.inf)
+        )
+        reach = sign * u - stop.gap
+        if isinstance(stop, RigidStop):
+            touches, deformation = _on_wall(stop, sign, state, name, reach, slack, said)
+            if touches:
+                u = sign * stop.gap
+        elif not isinstance(stop, Bumper):
+            slack = TOUCHING * max(abs(stop.gap), abs(u))
+            touches, deformation = _on_power_law(sign, state, reach, slack, said, sign * v)
+        else:
+            touches, deformation = _on_bumper(stop, sign, state, name, reach, slack, said, sign * v)
+        if touches:
+            mode |= RIGHT if sign == 1 else LEFT
+        deformations[i] = deformation
+    vector = np.zeros(layout.STATE)
+    vector[layout.MODE] = mode
+    vector[layout.FRESH] = mode  # what touches begins to
+    vector[layout.U], vector[layout.V] = u, v
+    vector[layout.RIGHT_BUMPER], vector[layout.LEFT_BUMPER] = deformations
+    vector[layout.ISOLATOR] = state.isolator
+    return vector
+
+
+def _on_power_law(
+    sign: int, state: State, reach: float, slack: float, said: bool | None, closing: float
+) -> tuple[bool, float]:
+    """Whether the mass presses a stop without memory, and the speed at which it met it (m/s)."""
+    given = state.right_bumper if sign == 1 else state.left_bumper
+    touches = reach > slack or (abs(reach) <= slack and (bool(said) or closing > 0.0))
+    if said is not None and said != touches and abs(reach) > slack:
+        raise InputError(
+            f"start.contact: {state.contact}, but the mass is {-reach:g} m away from the stop; "
+            f"{sign if touches else 0} is accepted"
+        )
+    met = sign * given if given is not None else closing if abs(reach) <= slack else 0.0
+    return touches, max(met, 0.0) if touches else 0.0
+
+
+def _on_wall(
+    stop: RigidStop,
+    sign: int,
+    state: State,
+    name: str,
+    reach: float,
+    slack: float,
+    said: bool | None,
+) -> tuple[bool, float]:
+    """Whether the mass rests on a rigid stop, and its deformation, 0.
+
+    A mass at rest there that nothing presses is let go by the engine at once.
+    """
+    given = state.right_bumper if sign == 1 else state.left_bumper
+    if given:
+        raise InputError(
+            f"start.{name}: {given:g} m, but a rigid stop does not deform; 0 is accepted"
+        )
+    if reach > slack:
+        raise InputError(
+            f"start.displacement: {state.displacement:g} m lies {reach:g} m inside the rigid stop; "
+            f"{sign * stop.gap:g} m and less far is accepted"
+        )
+    rests = reach >= -slack and state.velocity == 0.0
+    if said and not rests:
+        raise InputError(
+            f"start.contact: {state.contact}, but the mass does not rest on the rigid stop "
+            f"({-reach:g} m away, {state.velocity:g} m/s); 0 is accepted"
+        )
+    return rests and said is not False, 0.0
+
+
+def _on_bumper(
+    stop: Bumper,
+    sign: int,
+    state: State,
+    name: str,
+    reach: float,
+    slack: float,
+    said: bool | None,
+    closing: float,
+) -> tuple[bool, float]:
+    """Whether the mass presses a bumper, and the bumper's deformation away from the mass (m)."""
+    given = state.right_bumper if sign == 1 else state.left_bumper
+    deformation = max(reach, 0.0) if given is None else sign * given
+    if reach > deformation + slack:
+        raise InputError(
+            f"start.{name}: {sign * deformation:g} m puts the mass at {state.displacement:g} m "
+            f"inside the bumper; {sign * reach:g} m or more is accepted"
+        )
+    touches = deformation - reach <= slack
+    if said and not touches:
+        raise InputError(
+            f"start.contact: {state.contact}, but the bumper is {deformation - reach:g} m away; "
+            "0 is accepted"
+        )
+    force = stop.stiffness * deformation + stop.damping * closing
+    if stop.damping == 0.0 and not touches:
+        deformation = 0.0  # without a dashpot a free bumper is at rest at once
+    rounding = TOUCHING * (stop.stiffness * deformation + stop.damping * abs(closing))
+    if said and force < -rounding:
+        raise InputError(
+            f"start.contact: {state.contact}, but the bumper would pull with {-force:g} N; "
+            "0 is accepted, or a velocity at which it presses"
+        )
+    if said is False and touches and stop.damping == 0.0 and deformation > slack:
+        raise InputError(
+            f"start.contact: {state.contact}, but the mass presses the {name} by "
+            f"{deformation:g} m, which has no dashpot to lag behind; {sign} is accepted"
+        )
+    presses = force > 0.0 or (deformation == 0.0 and stop.damping == 0.0 and closing > 0.0)
+    return bool(said) or (said is None and touches and presses), deformation
+
+
+def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:
+    """Engine states (last axis) as the components of a dataset's state."""
+    found: NDArray[np.float64] = vector.take(_COLUMNS, axis=-1)
+    right, left, angle, contact = (found[..., i] for i in range(2, 6))
+    # At the end of a contact without a dashpot, rounding may leave a deformation below zero.
+    np.maximum(right, 0.0, out=right)
+    np.minimum(-left, 0.0, out=left)
+    angle[...] = phase % (2.0 * math.pi)
+    contact[...] = _TOUCHING[contact.astype(np.int64)]
+    found += 0.0  # no negative zeros
+    return found
+
+
+def state_from(vector: NDArray[np.float64], phase: float) -> State:
+    """An engine's state at a forcing phase as a `State`."""
+    values: dict[str, Any] = dict(zip(COMPONENTS, components(vector, phase), strict=True))
+    return State(**{**values, "contact": int(values["contact"])})

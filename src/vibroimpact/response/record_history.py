@@ -1,0 +1,111 @@
+"""A motion through a record, and the free vibration behind it."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.datasets.description import COMPONENTS, describe, oscillator_parameters
+from vibroimpact.engine import recorded
+from vibroimpact.engine.motion import U
+from vibroimpact.engine.observers import record as observed
+from vibroimpact.engine.status import Status
+from vibroimpact.model import Oscillator, Record, State, equilibrium
+from vibroimpact.model.count_checks import check_samples
+from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
+from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
+from vibroimpact.response.softening_limit import ended
+from vibroimpact.tasks.interruptible import Calls
+from vibroimpact.tasks.threads import Progress
+
+_Array = NDArray[np.float64]
+
+
+def through(
+    oscillator: Oscillator,
+    record: Record,
+    tail: float,
+    start: State | xr.DataArray | xr.Dataset | None,
+    samples: int,
+    max_events: int,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """What `simulate` returns of a record; `tail` in s."""
+    lines = straight(record, tail)
+    check_samples(len(lines), samples, "samples")
+    state = equilibrium(oscillator) if start is None else as_state(start)
+    vector = engine_state(oscillator, state)
+    first = components(vector, 0.0)
+    rig = engine_rig(oscillator, record)
+    ends = record.duration + tail
+    count = int(np.ceil(ends / record.step * samples - 1e-6)) + 1 if samples else 0
+    out = np.empty((observed.SAMPLE, count))
+    buffer = np.empty((max_events + 1 + (EVENTS_AT_ONCE if samples else 0), observed.EVENT))
+    steepest = float(np.abs(lines[:, recorded.SLOPE]).max())
+    found = []
+    at, outcome = 0, int(Status.DONE)
+    calls = Calls(len(lines), progress)
+    while at < len(lines) and outcome == Status.DONE:
+        at, events, outcome = recorded.follow(
+            rig,
+            record.peak,
+            steepest,
+            lines[: int(calls.end(at))],
+            vector,
+            at,
+            samples,
+            record.step,
+            max_events,
+            out,
+            buffer,
+        )
+        found.append(buffer[:events].copy())
+    del lines  # a third of the result
+    status = Status(outcome)
+    told = ended(oscillator, status, out[observed.DISPLACEMENT], vector[U])
+    time = np.minimum(np.arange(count) * (record.step / max(samples, 1)), ends)
+    if status is not Status.DONE:
+        # The step that was given up is left out; its events until then are kept.
+        finished = max(at - 1, 0)
+        stopped = f"simulate stopped {finished * record.step:g} s into the record: {told.advice}"
+        warnings.warn(stopped, RuntimeWarning, stacklevel=4)
+        out, time = out[:, : finished * samples], time[: finished * samples]
+    variables: dict[str, Any] = {"final_state": ("component", components(vector, 0.0))}
+    coordinates: dict[str, Any] = {"component": COMPONENTS}
+    if samples:
+        coordinates["time"] = time
+        variables["initial_state"] = ("component", first)
+        variables |= sampled(out, oscillator.isolator)
+        variables["base_acceleration"] = ("time", record.at(time))
+        events = listed(found, record.step, oscillator.isolator)
+        # A record has steps, not cycles.
+        variables |= {name: one for name, one in events.items() if "cycle" not in name}
+    data = xr.Dataset(variables, coordinates)
+    if status is Status.DONE and told is not status:
+        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=4)
+    data.attrs["status"] = told.advice
+    parameters = {
+        "oscillator": oscillator_parameters(oscillator),
+        "record": {"samples": len(record.acceleration), "step": record.step, "peak": record.peak},
+        "tail": tail,
+    }
+    return describe(data, "vibroimpact.simulate", parameters, record.about.notes)
+
+
+def straight(record: Record, tail: float) -> _Array:
+    """The record's straight lines, and those of no acceleration behind it."""
+    values, step = record.acceleration, record.step
+    whole = int(tail / step)
+    rest = tail - whole * step
+    lengths = [step] * whole + ([rest] if rest > 1e-9 * step else [])
+    moving = len(values) - 1
+    lines = np.zeros((moving + len(lengths), recorded.LINE))
+    lines[:moving, recorded.BEGINS] = values[:-1]
+    lines[:moving, recorded.SLOPE] = np.diff(values) / step
+    lines[:moving, recorded.LASTS] = step
+    lines[moving:, recorded.LASTS] = lengths
+    return lines

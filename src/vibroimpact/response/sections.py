@@ -1,0 +1,113 @@
+"""Sections of a motion: once a forcing cycle (stroboscopic), and at every contact (impact)."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.datasets.description import describe, motion_parameters, noted
+from vibroimpact.engine import lyapunov
+from vibroimpact.engine.status import Status
+from vibroimpact.model import to_si
+from vibroimpact.model.count_checks import check_samples, whole
+from vibroimpact.model.quantities import ANGLE
+from vibroimpact.response.contacts import contacts
+from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.motion_phases import beginning, recorded
+from vibroimpact.response.propagate import grown, moved_on
+
+_MAX_EVENTS = 10_000
+_NAMES = ("displacement", "velocity", "right_bumper", "left_bumper")
+
+
+def stroboscopic_section(
+    motion: xr.Dataset, phase: float | str = 0.0, cycles: int | None = None
+) -> xr.Dataset:
+    """Look at a motion once a forcing cycle, always at the same phase.
+
+    Parameters
+    ----------
+    motion
+        Dataset of `steady`, or of `simulate` with samples; the motion is followed from its
+        beginning.
+    phase
+        The forcing's phase θ at which to look, rad: the base acceleration is then A sin θ.
+    cycles
+        How many points; None for as many as the record has whole cycles.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``section_point``: ``section_displacement``, ``section_velocity`` and the bumpers'
+        deformations. If the motion met the event limit there are fewer points than asked for, and a
+        warning says so.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a motion with samples, or a value cannot be used.
+    """
+    origin = recorded(motion)
+    angle = to_si(phase, ANGLE, "phase")
+    count = max(1, math.floor(origin.cycles)) if cycles is None else whole(cycles, "cycles")
+    check_samples(count, 1, "cycles")
+    start = beginning(motion)
+    state = engine_state(origin.oscillator, start)
+    rig = engine_rig(origin.oscillator, origin.excitation)
+    shaken = origin.excitation
+    ahead = ((angle - shaken.phase) / (2.0 * math.pi)) % 1.0
+    first = np.array(
+        [start.displacement, start.velocity, start.right_bumper, start.left_bumper], dtype=float
+    )
+    status = Status.DONE
+    if ahead > 0.0:
+        status, state = moved_on(rig, shaken, state, ahead, _MAX_EVENTS)
+        first = np.array([*state[2:5], -state[5]])
+    points = np.empty((0, len(_NAMES)))
+    if status is Status.DONE:
+        status, rows = grown(rig, shaken.replace(phase=angle), state, count, _MAX_EVENTS)
+        known = rows[:, lyapunov.SECTION :][:, : len(_NAMES)]
+        points = np.vstack([first, known])[:count]
+    if len(points) < count:
+        warnings.warn(
+            f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+    data = xr.Dataset(
+        {f"section_{name}": ("section_point", points[:, i]) for i, name in enumerate(_NAMES)}
+    )
+    return describe(
+        data,
+        "vibroimpact.stroboscopic_section",
+        {**motion_parameters(motion), "section": angle},
+        noted(motion),
+    )
+
+
+def impact_section(motion: xr.Dataset) -> xr.Dataset:
+    """Look at a motion at every contact: the forcing's phase and the closing velocity.
+
+    Parameters
+    ----------
+    motion
+        Dataset of `steady`, or of `simulate` with samples (one a cycle is enough).
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``contact_number``: side, start, phase and velocity at the start of each contact.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not that of a motion with samples.
+    """
+    recorded(motion)  # its phases are asked for
+    log = contacts(motion)
+    chosen = log[["contact_side", "contact_start", "contact_start_phase", "contact_start_velocity"]]
+    chosen.attrs["created_by"] = "vibroimpact.impact_section"
+    return chosen

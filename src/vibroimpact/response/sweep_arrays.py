@@ -1,0 +1,123 @@
+"""The sweep of one rig as plain numbers: what datasets are made from, and maps look at."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import batch, hold
+from vibroimpact.engine import motion as layout
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, Repeated, State, equilibrium
+from vibroimpact.response.analytic_free_response import (
+    check_each_bounded,
+    free_flight_excursions,
+    reference_excursions,
+)
+from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.numerical_free_response import swept_flight
+from vibroimpact.tasks.threads import Tally
+
+_Array = NDArray[np.float64]
+
+
+class Prepared(NamedTuple):
+    """A rig, ready to be swept over some frequencies."""
+
+    frequencies: _Array
+    """In Hz, rising."""
+    rig: _Array
+    """As the engine's vector."""
+    levels: _Array
+    """The amplitude at each frequency."""
+    start: _Array
+    """Where either sweep begins, as the engine's vector."""
+    free: _Array
+    """Excursions in free flight (m, m/s²) at each frequency, shape (2, frequency)."""
+    largest: _Array
+    """The largest ones at any frequency."""
+
+
+class Patience(NamedTuple):
+    """How each frequency is held; see `sweeps`."""
+
+    phase: float
+    tolerance: float
+    max_cycles: int
+    window: int
+    max_events: int
+    transient: float = hold.PATIENT
+    """Time (s) after which a motion that is plainly chaotic is waited for no longer."""
+
+
+def prepared(
+    oscillator: Oscillator,
+    shaken: Repeated,
+    frequencies: _Array,
+    sizes: tuple[float, ...] | None = None,
+    state: State | None = None,
+) -> Prepared:
+    """Look at a rig once, before it is swept in either direction.
+
+    Raises
+    ------
+    InputError
+        If the sizes do not go with the frequencies, or the state or a frequency not with the rig.
+    """
+    levels = _levels(sizes, shaken, frequencies)
+    least = shaken if sizes is None else shaken.replace(amplitude=levels.min())
+    check_each_bounded(oscillator, least, frequencies)
+    if oscillator.isolator.linear:
+        free = np.array(free_flight_excursions(oscillator, shaken, frequencies))
+        free *= levels / shaken.amplitude
+    else:
+        free = np.array(swept_flight(oscillator, shaken, frequencies, levels))
+    most = shaken if sizes is None else shaken.replace(amplitude=levels.max())
+    return Prepared(
+        frequencies,
+        engine_rig(oscillator, shaken),
+        levels,
+        engine_state(oscillator, state or equilibrium(oscillator)),
+        free,
+        np.array(reference_excursions(oscillator, most)),
+    )
+
+
+def rows(one: Prepared, direction: str, patience: Patience, tally: Tally) -> tuple[_Array, _Array]:
+    """Sweep a rig in one direction.
+
+    Returns
+    -------
+    results, states : ndarray, shape (frequency, column)
+        As `engine.batch.sweep` writes them, but by rising frequency.
+    """
+    order = slice(None, None, 1 if direction == "forward" else -1)
+    found = np.empty((len(one.frequencies), hold.RESULTS))
+    reached = np.zeros((len(one.frequencies), layout.STATE))
+    phase, *waits = patience
+    batch.sweep(
+        one.rig,
+        np.ascontiguousarray(one.levels[order]),
+        np.ascontiguousarray(one.frequencies[order]),
+        phase,
+        one.start.copy(),
+        *waits,
+        found,
+        reached,
+        tally,
+    )
+    return found[order], reached[order]
+
+
+def _levels(sizes: tuple[float, ...] | None, shaken: Repeated, grid: _Array) -> _Array:
+    """The amplitude at each frequency."""
+    if sizes is None:
+        return np.full(len(grid), shaken.amplitude)
+    if len(sizes) != len(grid):
+        raise InputError(
+            f"amplitude: {len(sizes)} of them for {len(grid)} frequencies; one, or one for each "
+            "frequency, is accepted"
+        )
+    return np.array(sizes)

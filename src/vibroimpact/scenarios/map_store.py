@@ -1,0 +1,165 @@
+"""A map on disk, as a Zarr group that is written a block at a time.
+
+Every array is written block by block, each block a file of its own that is renamed into place;
+only then the block is marked done. A map that was stopped at any moment therefore lacks at most
+the block that was in work, and is completed to what it would have been.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.grids.refinement import UNKNOWN
+from vibroimpact.model.excitation import Of
+from vibroimpact.model.parameters import parameter
+from vibroimpact.scenarios.axes import Axis
+from vibroimpact.scenarios.map_node import COUNTS, VALUES
+from vibroimpact.scenarios.scenario import Scenario
+from vibroimpact.stores.zarr_store import Block, Kind, create, finished, folder, read
+
+if TYPE_CHECKING:  # it takes long to load: only where a map is made or read
+    import zarr
+
+CREATED_BY = "vibroimpact.scenario_map"
+
+_KIND = Kind("map", CREATED_BY, frozenset({"scenario", "level", *VALUES, *COUNTS}))
+
+
+class MapStore:
+    """The arrays of a map."""
+
+    def __init__(self, group: zarr.Group) -> None:
+        self._group = group
+
+    def computed(self) -> tuple[NDArray[np.int8], NDArray[np.int16]]:
+        """Scenario at each node, and the level at which it was computed (-1: it was not)."""
+        return self._read("scenario"), self._read("level")
+
+    def write(
+        self,
+        block: tuple[slice, slice],
+        chosen: NDArray[np.bool_],
+        level: int,
+        values: Mapping[str, NDArray[Any]],
+    ) -> None:
+        """Put what was computed at the chosen nodes of a block, in the order of `np.nonzero`."""
+        for name, new in {**values, "level": np.full(chosen.sum(), level)}.items():
+            if chosen.all():
+                part = np.reshape(new, chosen.shape)
+            else:
+                part = self._read(name, block)
+                part[chosen] = new
+            self._array(name)[block] = part
+
+    def inherit(self, scenarios: NDArray[np.int8]) -> None:
+        """Put the scenarios of all nodes; the levels tell which were computed."""
+        self._array("scenario")[:] = scenarios
+
+    def done(self, level: int, row: int, column: int) -> bool:
+        """Whether a block of a level is complete."""
+        return bool(self._read("done", (level, row, column)) == 1)
+
+    def mark(self, level: int, row: int, column: int) -> None:
+        """Say that a block of a level is complete."""
+        self._array("done")[level, row, column] = 1
+
+    def finished(self) -> bool:
+        """Whether the whole map is there."""
+        return finished(self._group)
+
+    def finish(self) -> None:
+        """Say that the whole map is there."""
+        self._group.attrs["finished"] = True
+
+    def dataset(self) -> xr.Dataset:
+        """The map; values are read when they are used."""
+        data: xr.Dataset = xr.open_zarr(self._group.store, consolidated=False, chunks=None)
+        del data.attrs["finished"]
+        return data[["scenario", *VALUES, *COUNTS, "level"]]
+
+    def _array(self, name: str) -> zarr.Array[Any]:
+        import zarr
+
+        array = self._group[name]
+        assert isinstance(array, zarr.Array)
+        return array
+
+    def _read(self, name: str, where: Any = ...) -> NDArray[Any]:
+        return read(self._group, "map", name, where)
+
+
+@contextmanager
+def map_store(
+    path: Path | str | None,
+    axes: tuple[Axis, Axis],
+    chunk: int,
+    levels: int,
+    parameters: dict[str, Any],
+) -> Iterator[MapStore]:
+    """Open a map's store, or make it; None keeps it in memory.
+
+    Parameters
+    ----------
+    path
+        Folder of the store; it must not exist, or hold the same map.
+    axes
+        x and y, with the values of the finest grid.
+    chunk
+        Nodes along each side of a block.
+    levels
+        How many there are.
+    parameters
+        What the map is made from. A store with others is refused.
+
+    Raises
+    ------
+    InputError
+        If the folder holds something else, cannot be written to, or is in use.
+    """
+    of = parameters["base"].get("of", "acceleration")
+    make = partial(_make, axes=axes, chunk=chunk, levels=levels, of=of)
+    rows, columns = (range(0, len(one.values), chunk) for one in reversed(axes))
+    blocks = (
+        Block(
+            tuple((level, r, c) for level in range(levels)),
+            (slice(row, row + chunk), slice(column, column + chunk)),
+        )
+        for r, row in enumerate(rows)
+        for c, column in enumerate(columns)
+    )
+    with folder(path, _KIND, parameters, make, blocks) as group:
+        yield MapStore(group)
+
+
+def _make(group: zarr.Group, axes: tuple[Axis, Axis], chunk: int, levels: int, of: Of) -> None:
+    import zarr
+
+    x, y = axes
+    dims = (y.name, x.name)
+    shape = (len(y.values), len(x.values))
+    for one in axes:
+        create(group, one.name, one.values.shape, one.values.shape, "f8", np.nan, (one.name,))
+        array = group[one.name]
+        assert isinstance(array, zarr.Array)
+        array[:] = one.values
+        known = parameter(one.name, of=of)
+        array.attrs.update(units=known.units, long_name=known.long_name)
+    chunks = (min(chunk, shape[0]), min(chunk, shape[1]))
+    create(group, "scenario", shape, chunks, "i1", UNKNOWN, dims)
+    group["scenario"].attrs.update(
+        flag_values=[int(s) for s in Scenario], flag_meanings=" ".join(s.label for s in Scenario)
+    )
+    for name in VALUES:
+        create(group, name, shape, chunks, "f8", np.nan, dims)
+    for name in (*COUNTS, "level"):
+        create(group, name, shape, chunks, "i2", -1, dims)
+    blocks = tuple(-(-n // chunk) for n in shape)
+    create(group, "done", (levels, *blocks), (1, 1, 1), "i1", 0, ("pass", "row", "column"))

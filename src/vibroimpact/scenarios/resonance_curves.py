@@ -1,0 +1,158 @@
+"""The curves of one rig in both directions, as what its scenario is told from.
+
+They come from a dataset, or from a sweep of their own without one: a map has ten thousand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.datasets.description import COMPONENTS
+from vibroimpact.engine import hold
+from vibroimpact.engine.status import NOT_SETTLED
+from vibroimpact.errors import InputError
+from vibroimpact.model import State
+from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, each_swept
+from vibroimpact.response.engine_input import components
+from vibroimpact.response.sweep_arrays import Patience, prepared, rows
+from vibroimpact.scenarios.axes import Shaken
+from vibroimpact.tasks.threads import Tally
+
+UNEVEN = 1e-6
+"""Eccentricity, as a share of the excursion, that rounding does not explain."""
+_TOLERANCE, _MAX_EVENTS = 1e-12, 10_000
+"""As of `sweeps`."""
+_CONTACTS = ("impacts_right", "impacts_left")
+_TOUCHED = [hold.HITS_RIGHT, hold.HITS_LEFT, hold.FORCE_RIGHT, hold.FORCE_LEFT]
+"""What is above 0 where a stop is touched; as `in_contact` of `response.swept`."""
+DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
+
+
+class Curves(NamedTuple):
+    """What the sweep of one rig in both directions shows."""
+
+    both: Swept
+    uneven: Flags
+    """Whether the motion goes farther to one side than to the other."""
+    free: Array
+    """Half the excursion of free flight at each frequency (m)."""
+    most: float
+    """How far the mass goes to the right at any frequency (m)."""
+    least: float
+    """The lowest displacement at any frequency (m)."""
+
+
+class Holds(NamedTuple):
+    """Where the holds of one rig ended, forward first: what motions are followed on from."""
+
+    frequency: Array
+    """In Hz, rising."""
+    period: NDArray[np.int64]
+    """0 where the motion did not settle."""
+    section: Array
+    """`COMPONENTS` of the state at the end of each."""
+    plain: Flags
+    """Whether the motion was seen to be chaotic while it was held."""
+    contacts: Array
+    """With the right and the left stop per forcing cycle."""
+
+    def state(self, direction: Direction, i: int) -> State:
+        """The state at the end of a hold."""
+        found = dict(
+            zip(COMPONENTS, self.section[DIRECTIONS.index(direction), i].tolist(), strict=True)
+        )
+        return State(**{**found, "contact": int(found["contact"])})
+
+
+def each_curves(data: xr.Dataset) -> Iterator[Curves]:
+    """The curves of each rig of `sweeps`, one after the other.
+
+    Raises
+    ------
+    InputError
+        If the dataset has one direction only.
+    """
+    if data.sizes["direction"] != 2:
+        raise InputError(
+            f"data: the sweep went {data['direction'].values.tolist()}; one forward and backward "
+            "is accepted, for hysteresis is what tells the scenarios apart"
+        )
+    most = data["displacement_max"].max(["direction", "frequency"]).values
+    least = data["displacement_min"].min(["direction", "frequency"]).values
+    free = 0.5 * data["free_displacement_excursion"].values
+    order = ["rig", "direction", "frequency"]
+    ordered = data.sel(direction=list(DIRECTIONS)).transpose(*order, ...)
+    off, excursion = (ordered[name].values for name in ("eccentricity", "displacement_excursion"))
+    for r, both in enumerate(each_swept(data)):
+        uneven = _uneven(off[r], excursion[r])
+        yield Curves(both, uneven, free[r], float(most[r]), float(least[r]))
+
+
+def holds(data: xr.Dataset) -> Holds:
+    """Where the holds of the sweep of one rig ended."""
+    one = data.sel(direction=list(DIRECTIONS))
+    section = one["section"].sel(component=list(COMPONENTS))
+    return Holds(
+        one["frequency"].values,
+        one["period"].transpose("direction", "frequency").values,
+        section.transpose("direction", "frequency", "component").values,
+        np.zeros((2, one.sizes["frequency"]), dtype=bool),
+        np.stack(
+            [one[name].transpose("direction", "frequency").values for name in _CONTACTS], axis=-1
+        ),
+    )
+
+
+def swept_alone(
+    rig: Shaken,
+    frequencies: Array,
+    max_cycles: int,
+    window: int,
+    tally: Tally,
+    transient: float = hold.PATIENT,
+) -> tuple[Curves, Holds]:
+    """Sweep a rig on this thread, as `sweeps` does; of no use if the tally has stopped it.
+
+    A motion that is plainly chaotic behind its transient (s) is measured at once.
+    """
+    ready = prepared(*rig, frequencies)
+    patience = Patience(0.0, _TOLERANCE, max_cycles, window, _MAX_EVENTS, transient)
+    shape = (2, len(frequencies))
+    found, states = np.empty((*shape, hold.RESULTS)), []
+    for k, direction in enumerate(DIRECTIONS):
+        found[k], reached = rows(ready, direction, patience, tally)
+        states.append(reached)
+    each = found.transpose(2, 0, 1).copy()  # what was measured, one quantity behind the other
+    low, high = each[hold.U_LEAST], each[hold.U_MOST]
+    excursion = high - low
+    period = each[hold.PERIOD].astype(np.int64)
+    both = Swept(
+        frequencies,
+        DIRECTIONS,
+        (each[hold.A_MOST] - each[hold.A_LEAST]) / ready.largest[1],
+        excursion / ready.largest[0],
+        period > 0,
+        period,
+        np.any(each[_TOUCHED] > 0.0, axis=0),
+    )
+    curves = Curves(
+        both,
+        _uneven(0.5 * (high + low), excursion),
+        0.5 * ready.free[0],
+        float(np.fmax.reduce(high, axis=None)),
+        float(np.fmin.reduce(low, axis=None)),
+    )
+    section = components(np.array(states), 0.0)
+    plain = (each[hold.OUTCOME] == NOT_SETTLED) & (each[hold.CYCLES] < max_cycles)
+    contacts = found.take([hold.HITS_RIGHT, hold.HITS_LEFT], axis=-1)
+    return curves, Holds(frequencies, period, section, plain, contacts)
+
+
+def _uneven(eccentricity: Array, excursion: Array) -> Flags:
+    off: Flags = np.abs(eccentricity) > UNEVEN * excursion
+    return off

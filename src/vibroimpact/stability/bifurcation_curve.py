@@ -1,0 +1,219 @@
+"""Curves of bifurcations in two parameters, as solutions of their defining systems.
+
+An orbit with P(z; p, q) = z and one more condition φ(z; p, q) = 0 is followed by pseudo-arclength:
+
+=====================  ====================================================================
+fold                   φ = det(M − I), or det(H − I) where the orbit is its own mirror image
+symmetry breaking      φ = det(H + I)
+period doubling        φ = det(M + I)
+Neimark–Sacker         φ = log of the modulus of the complex pair
+grazing                φ = the least clearance at a turning point, or minus the least depth
+=====================  ====================================================================
+
+In (z, p, q) the curve of folds is smooth where its projection has a cusp.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.continuation import arclength
+from vibroimpact.continuation.arclength import unit_tangent
+from vibroimpact.datasets.description import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
+from vibroimpact.engine.observers import record
+from vibroimpact.engine.section_map import PARAMETER
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, Repeated
+from vibroimpact.model.count_checks import whole
+from vibroimpact.model.parameters import bounds
+from vibroimpact.model.rigs import takes_rig
+from vibroimpact.stability.bifurcation_locus import Locus, Place
+from vibroimpact.stability.bifurcations import BREAKING
+from vibroimpact.stability.branch_dataset import state_of
+from vibroimpact.stability.defining_system import SEEN, Defining, Spot, solve
+from vibroimpact.stability.initial_orbit import scales
+from vibroimpact.stability.orbit_curve import CLOSED
+from vibroimpact.stability.two_parameters import Plane, plane
+from vibroimpact.tasks.threads import Progress, counted
+
+_Array = NDArray[np.float64]
+
+_NOTHING = xr.DataArray([np.nan])
+
+
+@takes_rig
+def bifurcation_curve(
+    oscillator: Oscillator,
+    excitation: Repeated,
+    start: xr.Dataset,
+    *,
+    parameters: tuple[str, str],
+    low: tuple[float | str, float | str],
+    high: tuple[float | str, float | str],
+    most_points: int = 2000,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Follow a bifurcation in two parameters.
+
+    Parameters
+    ----------
+    oscillator, excitation
+        The rig and the forcing for which the bifurcation was found; the first parameter may have
+        any value. Or a case, its code or a study file, and a frequency.
+    start
+        One bifurcation of a dataset of `branch` or `resonance_diagram` along the first
+        parameter: ``data.isel(bifurcation=i)``.
+    parameters
+        The two parameters, by the names that `branch` takes.
+    low, high
+        Range of each.
+    most_points
+        Points in each direction after which it is given up.
+    progress
+        Called with the number of points so far as the curve is followed, and with None until it
+        has been.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dim ``point`` along the curve: both parameters by name, the ``section`` of the orbit and
+        its multipliers. Dim ``cusp_number``: the parameters ``cusp_first`` and ``cusp_second`` of
+        each cusp, where the curve turns back on itself. The attributes ``ended_low`` and
+        ``ended_high`` say why it ends.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or the start is no bifurcation of this rig.
+    """
+    if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
+        raise InputError(
+            "start: this is not one bifurcation; data.isel(bifurcation=i) of a branch is accepted"
+        )
+    if start.attrs.get("parameter") != parameters[0].replace("-", "_"):
+        raise InputError(
+            f"parameters: {parameters[0]!r} is not what the start was found along; "
+            f"{start.attrs.get('parameter')!r} is accepted first"
+        )
+    most_points = whole(most_points, "most_points")
+    kind = start["bifurcation_kind"].item()
+    phase = float(start["bifurcation_section"].sel(component="phase"))
+    over = plane(oscillator, excitation.replace(phase=phase), (parameters[0], parameters[1]))
+    spans = [
+        bounds(varied, low[i], high[i])
+        for i, varied in enumerate((over.family.parameter, over.other))
+    ]
+    if not spans[1][0] <= over.value <= spans[1][1]:
+        raise InputError(
+            f"low: {spans[1][0]:g} to {spans[1][1]:g} leaves out the rig's {parameters[1]}, "
+            f"{over.value:g}; a range that holds it is accepted"
+        )
+    if kind == BREAKING and not over.symmetric:
+        raise InputError(
+            f"parameters: {parameters[1]!r} leaves no symmetry to break; one that changes both "
+            "sides alike, such as 'gap', is accepted"
+        )
+    system, y = _start(over, kind, start, spans)
+    first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+    if first is None:
+        first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
+    if first is None:
+        raise InputError(
+            f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; one that "
+            "was found for it is accepted"
+        )
+    traces, told = [], counted(progress)
+    for sense in (-1.0, 1.0):
+        along = sense * np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 1.0])
+        begin = Place(system, first, unit_tangent(first.jacobian, along, SEEN), 0.0)
+        locus = Locus(begin, spans)
+        traces.append(arclength.follow(locus, begin, most_points, told))
+        if traces[0].ended == CLOSED:
+            break
+    cusps = [
+        spot
+        for trace in traces
+        for pair in itertools.pairwise(trace.points)
+        if (spot := locus.cusp(*pair)) is not None
+    ]
+    places = traces[0].points
+    if len(traces) == 2:
+        places = [*reversed(places), *traces[1].points[1:]]
+    ended = (traces[0].ended, traces[-1].ended)
+    if progress is not None:
+        progress(len(places), len(places))
+    return _dataset([place.spot for place in places], cusps, over, kind, spans, ended)
+
+
+def _start(
+    over: Plane, kind: str, start: xr.Dataset, spans: list[tuple[float, float]]
+) -> tuple[Defining, _Array]:
+    state = start["bifurcation_section"].values
+    p = float(start["bifurcation_value"])
+    point = np.array([*state[:4], state[6], p])
+    scale = np.append(scales(over.family, spans[0], point), spans[1][1] - spans[1][0])
+    # Its own mirror image it stays only where the second parameter keeps the symmetry.
+    own = kind == BREAKING or bool(int(start["bifurcation_antisymmetric"]))
+    mode = float(record.TOUCHING.index(state[5]))
+    period = int(start["bifurcation_period"])
+    return Defining(over, kind, period, own and over.symmetric, mode, scale), np.append(
+        point, over.value
+    )
+
+
+def _dataset(
+    spots: list[Spot],
+    cusps: list[Spot],
+    over: Plane,
+    kind: str,
+    spans: list[tuple[float, float]],
+    ended: tuple[str, str],
+) -> xr.Dataset:
+    names = (over.family.parameter.name, over.other.name)
+    values = np.array([spot.y[PARAMETER:] for spot in spots])
+    multipliers = np.array([spot.orbit.multipliers for spot in spots])
+    sections = np.array([state_of(spot.orbit) for spot in spots])
+    data = xr.Dataset(
+        {
+            "section": (("point", "component"), sections),
+            "multiplier_real": (("point", "multiplier"), multipliers.real),
+            "multiplier_imag": (("point", "multiplier"), multipliers.imag),
+            "cusp_first": ("cusp_number", np.array([c.y[PARAMETER] for c in cusps], dtype=float)),
+            "cusp_second": (
+                "cusp_number",
+                np.array([c.y[PARAMETER + 1] for c in cusps], dtype=float),
+            ),
+        },
+        coords={
+            names[0]: ("point", values[:, 0]),
+            names[1]: ("point", values[:, 1]),
+            "component": COMPONENTS,
+        },
+    )
+    data.attrs |= {
+        "kind": kind,
+        "parameter": names[0],
+        "other_parameter": names[1],
+        "ended_low": ended[0],
+        "ended_high": ended[1],
+    }
+    parameters: dict[str, Any] = {
+        "oscillator": oscillator_parameters(over.family.oscillator),
+        **excitation_parameters(over.family.excitation),
+        "frequency": over.family.excitation.frequency,
+        "phase": over.family.phase,
+        "parameters": names,
+        "low": [span[0] for span in spans],
+        "high": [span[1] for span in spans],
+    }
+    return describe(data, "vibroimpact.bifurcation_curve", parameters)

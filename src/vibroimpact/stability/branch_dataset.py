@@ -1,0 +1,187 @@
+"""Branches and their bifurcations as one labelled dataset."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.datasets.description import (
+    COMPONENTS,
+    describe,
+    excitation_parameters,
+    oscillator_parameters,
+)
+from vibroimpact.engine import hold, orbit, section_map
+from vibroimpact.engine.observers import record
+from vibroimpact.engine.status import Status
+from vibroimpact.model import Oscillator
+from vibroimpact.response import sweep_dataset
+from vibroimpact.response.analytic_free_response import reference_excursions
+from vibroimpact.response.plausibility import note_unbounded
+from vibroimpact.stability import bifurcations
+from vibroimpact.stability.bifurcations import Bifurcation
+from vibroimpact.stability.branch_styles import QUANTITIES
+from vibroimpact.stability.fixed_points import MAX_EVENTS, Orbit
+from vibroimpact.stability.orbit_curve import Station
+from vibroimpact.stability.parameter_family import Family
+
+_Array = NDArray[np.float64]
+
+
+class Followed(NamedTuple):
+    """A branch as it was followed."""
+
+    stations: list[Station]
+    bifurcations: list[Bifurcation]
+    ended: tuple[str, str]
+    """Why it was not followed further, at its beginning and at its end."""
+    closed: bool
+
+
+def as_dataset(
+    followed: list[Followed], fam: Family, span: tuple[float, float], created: str = "branch"
+) -> xr.Dataset:
+    """Branches as one labelled dataset."""
+    name = fam.parameter.name
+    stations = [
+        (i, s)
+        for i, one in enumerate(followed)
+        for s in bifurcations.with_critical(one.stations, one.bifurcations)
+    ]
+    orbits = [s.orbit for _, s in stations]
+    sizes = _sizes(fam.oscillator, orbits)
+    multipliers = np.array([one.multipliers for one in orbits])
+    values = {
+        "arclength": [s.arclength for _, s in stations],
+        **sizes,
+        "period": [one.section.period for one in orbits],
+        "antisymmetric": [one.section.mirror for one in orbits],
+        "stable": np.array(
+            [-1 if s.critical else int(s.orbit.stable) for _, s in stations], dtype=np.int64
+        ),
+        "branch": np.array([i for i, _ in stations], dtype=np.int64),
+        "piece": np.array([s.piece for _, s in stations], dtype=np.int64),
+    }
+    variables: dict[str, Any] = {
+        **{key: ("point", np.asarray(value)) for key, value in values.items()},
+        "multiplier_real": (("point", "multiplier"), multipliers.real),
+        "multiplier_imag": (("point", "multiplier"), multipliers.imag),
+        "section": (("point", "component"), np.array([state_of(one) for one in orbits])),
+        **_bifurcations(followed, fam),
+    }
+    coordinates = {name: ("point", [one.value for one in orbits]), "component": COMPONENTS}
+    data = xr.Dataset(variables, coordinates)
+    data.attrs["parameter"] = name
+    for i, one in enumerate(followed):
+        prefix = f"branch_{i}_" if created == "resonance_diagram" else ""
+        data.attrs[f"{prefix}ended_low"], data.attrs[f"{prefix}ended_high"] = one.ended
+        data.attrs[f"{prefix}closed"] = int(one.closed)
+        unexplained = bifurcations.unexplained(one.stations, one.bifurcations)
+        if unexplained:
+            data.attrs[f"{prefix}unexplained_changes"] = [v for pair in unexplained for v in pair]
+            low, high = unexplained[0]
+            warnings.warn(
+                f"stability changes {len(unexplained)} times along this branch where no "
+                f"bifurcation was found, first between {name} {low:.9g} and {high:.9g}: the list "
+                "of bifurcations is incomplete there",
+                RuntimeWarning,
+                stacklevel=4,
+            )
+    return describe(
+        data,
+        f"vibroimpact.{created}",
+        {
+            "oscillator": oscillator_parameters(fam.oscillator),
+            **excitation_parameters(fam.excitation),
+            "parameter": name,
+            "low": span[0],
+            "high": span[1],
+        },
+        note_unbounded(fam.oscillator, fam.excitation),
+    )
+
+
+def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
+    """The bifurcations as variables."""
+    found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
+    multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, fam.states)
+    sizes = _sizes(fam.oscillator, [b.orbit for _, b in found])
+    values: dict[str, Any] = {
+        "kind": np.array([b.kind for _, b in found], dtype=str),
+        "value": [b.orbit.value for _, b in found],
+        "arclength": [b.arclength for _, b in found],
+        "turns": np.array([int(b.turns) for _, b in found], dtype=np.int64),
+        "branch": np.array([i for i, _ in found], dtype=np.int64),
+        **{name: sizes[name] for name in QUANTITIES},
+        "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
+        "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
+        "contacts": np.array([_contacts(b) for _, b in found], dtype=str),
+    }
+    sections = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
+    return {
+        **{
+            f"bifurcation_{key}": ("bifurcation", np.asarray(value))
+            for key, value in values.items()
+        },
+        "bifurcation_multiplier_real": (("bifurcation", "multiplier"), multipliers.real),
+        "bifurcation_multiplier_imag": (("bifurcation", "multiplier"), multipliers.imag),
+        "bifurcation_section": (("bifurcation", "component"), sections),
+    }
+
+
+def _contacts(found: Bifurcation) -> str:
+    """Contacts per period, right (R) and left (L); at a grazing on both sides of it."""
+    before = "{}R {}L".format(*found.orbit.contacts)
+    if found.contacts_behind == found.orbit.contacts:
+        return before
+    return before + " | {}R {}L".format(*found.contacts_behind)
+
+
+def state_of(one: Orbit) -> list[float]:
+    """The state at the section as the components of a dataset's state."""
+    contact = record.TOUCHING[int(one.facts[section_map.MODE])]
+    return [*one.point[:4], one.section.family.phase, contact, one.point[4]]
+
+
+def _sizes(oscillator: Oscillator, orbits: list[Orbit]) -> dict[str, _Array]:
+    """Extremes, excursions, contacts per cycle and contact forces of orbits."""
+    measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
+    free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
+    # Neither the mass nor whether a stop is rigid changes along a branch.
+    found = sweep_dataset.sizes(oscillator, measured)
+    return {
+        **found,
+        "eta_d": found["displacement_excursion"] / free[:, 0],
+        "eta_a": found["acceleration_excursion"] / free[:, 1],
+    }
+
+
+def _measured(one: Orbit) -> _Array:
+    """Exact extremes and contacts per cycle; NaN, and a warning, where a limit is met."""
+    result = np.full(hold.RESULTS, np.nan)
+    outcome = orbit.measure_orbit(
+        one.section.family.system(one.value),
+        one.section.family.phase,
+        one.point,
+        one.facts,
+        one.section.period,
+        2 * MAX_EVENTS,
+        result,
+    )
+    if outcome != Status.DONE:
+        result[:] = np.nan
+        warnings.warn(
+            f"the orbit at {one.value:.9g} has no extremes: {Status(outcome).advice}",
+            RuntimeWarning,
+            stacklevel=6,
+        )
+    return result
+
+
+def _reference(one: Orbit) -> tuple[float, float]:
+    """Excursions of displacement and absolute acceleration that η is taken over."""
+    return reference_excursions(*one.setting)

@@ -1,0 +1,148 @@
+"""Motions that come to rest on a rigid stop: their chatter has infinitely many impacts.
+
+Some are followed one by one (`engine.linear.stops`). Where another one is followed before the
+chatter is completed, the count of contacts changes though the motion does not: no grazing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import batch, section_map
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.motion import LEFT, RIGHT
+from vibroimpact.engine.observers import record
+from vibroimpact.engine.status import Status
+from vibroimpact.stability.fixed_points import (
+    MAX_EVENTS,
+    SEEN,
+    Orbit,
+    at_phase,
+    corrected,
+    evaluated,
+    vector_of,
+)
+from vibroimpact.stability.impact_grazing import has_rigid_stop
+
+_Array = NDArray[np.float64]
+
+_APART = 1e-7
+"""Share of a forcing cycle by which impacts of two neighbouring orbits that are one may differ."""
+_SPEED = 1e-10
+"""Scaled speed of an impact up to which it is the beginning of a flight, rounded."""
+_FIXED = 1e-9
+"""Scaled distance from its image at which a mass placed on its stop is the orbit."""
+
+
+def rests(found: Orbit) -> bool:
+    """Whether the mass comes to rest on a rigid stop: there all disturbances of it end."""
+    return has_rigid_stop(found) and not found.carried[:2, :2].any()
+
+
+@dataclass
+class Rested:
+    """The last orbit of a branch at which the mass rests, and whether the branch has left them."""
+
+    last: Orbit | None = None
+    left: bool = False
+
+    def comes_again(self, here: Orbit) -> bool:
+        """Whether a branch that has left these orbits follows them again.
+
+        A chatter that is not completed any more ends in a cascade of grazings, in which a branch
+        may turn back.
+        """
+        if not rests(here):
+            self.left = self.last is not None
+            return False
+        last, left = self.last, self.left
+        self.last, self.left = here, False
+        if last is None or not left:
+            return False
+        point = last.point.copy()
+        point[section_map.PARAMETER] = here.value
+        status, there = corrected(last.section, point, float(last.facts[section_map.MODE]))
+        seen = at_phase(there, here.section.family.phase) if status is Status.DONE else None
+        if seen is None or seen.section.period != here.section.period or not rests(seen):
+            return False
+        away = (seen.point - here.point) / here.section.scale * SEEN
+        return bool(np.abs(away).max() <= _FIXED)
+
+
+def placed_at_rest(found: Orbit) -> Orbit:
+    """The same orbit with the mass at rest on its stop at the section, if it rests there.
+
+    A state beside it, without velocity but in flight, would have a contact more.
+    """
+    mode = int(found.facts[section_map.MODE])
+    if not mode:
+        return found
+    system = found.section.family.system(found.value)
+    for side, sign in ((RIGHT, 1.0), (LEFT, -1.0)):
+        at = par.BUMPER + par.WIDTH * (side - 1)
+        if not (mode & side and system[at + par.KIND] == par.RIGID):
+            continue
+        point = found.point.copy()
+        point[:2] = sign * system[at + par.GAP], 0.0
+        status, there, _ = evaluated(found.section, point, float(mode))
+        fewer = sum(there.contacts) < sum(found.contacts)
+        if status is Status.DONE and fewer and there.facts[section_map.RESIDUAL] <= _FIXED:
+            return there
+    return found
+
+
+def completed_elsewhere(one: Orbit, other: Orbit) -> bool:
+    """Whether two neighbouring orbits differ only in how many impacts of a chatter are followed."""
+    if not (rests(one) and rests(other)):
+        return False
+    first, second = _chatters(one), _chatters(other)
+    if first is None or second is None or len(first) != len(second):
+        return False
+    return all(_same(*pair) for pair in zip(first, second, strict=True))
+
+
+def _same(one: _Array, other: _Array) -> bool:
+    """Whether two lists of events up to a rest are one but for impacts at the end of the longer."""
+    shorter, longer = sorted((one[:-1], other[:-1]), key=len)
+    if (one[-1, 1:] != other[-1, 1:]).any():
+        return False
+    extra, common = longer[len(shorter) :], longer[: len(shorter)]
+    if (extra[:, 1] != record.IMPACT).any() or (extra[:, 2] != one[-1, 2]).any():
+        return False
+    apart = np.abs(common[:, 0] - shorter[:, 0])
+    return bool((common[:, 1:] == shorter[:, 1:]).all() and (apart <= _APART).all())
+
+
+def _chatters(found: Orbit) -> list[_Array] | None:
+    """Return the events of a period (time in cycles, kind, side), cut where each rest begins."""
+    section = found.section
+    system = section.family.system(found.value)
+    phase, frequency = section.family.phase, float(system[section_map.FREQUENCY])
+    events = np.empty(((section.period + 1) * MAX_EVENTS + 2, record.EVENT))
+    _, count, outcome = batch.trajectory(
+        system,
+        float(system[section_map.AMPLITUDE]),
+        frequency,
+        phase,
+        vector_of(found),
+        0.0,
+        float(section.period),
+        0,
+        MAX_EVENTS,
+        np.empty((record.SAMPLE, 0)),
+        events,
+    )
+    if outcome != Status.DONE:
+        return None
+    seen = events[:count]
+    time = seen[:, record.E_CYCLE] + seen[:, record.E_TIME] * frequency
+    rows = np.column_stack([time, seen[:, record.E_KIND], seen[:, record.E_SIDE]])
+    # A release may fall on the section itself, and be followed by an impact without speed.
+    met = np.abs(seen[:, record.E_V]) > _SPEED * section.scale[1]
+    rests_there = rows[:, 1] == record.CONTACT_BEGINS
+    rows = rows[(rows[:, 1] != record.DETACHMENT) & (met | rests_there)]
+    ends = np.flatnonzero(rows[:, 1] == record.CONTACT_BEGINS) + 1
+    return [part for part in np.split(rows, ends) if len(part)]

@@ -1,0 +1,140 @@
+"""What is seen at one value of a bifurcation diagram: its section, its kind, its exponents."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import batch, lyapunov
+from vibroimpact.engine.observers import record
+from vibroimpact.engine.status import Status
+from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.propagate import grown
+from vibroimpact.stability.exponents import DISCARD
+from vibroimpact.stability.motion_exponents import judge_orbit
+from vibroimpact.stability.motion_type import Judgement, judge
+from vibroimpact.stability.parameter_sweep import Held
+from vibroimpact.stability.settle import Settled
+from vibroimpact.stability.steady import approached
+
+_Array = NDArray[np.float64]
+
+Kind = Literal["stroboscopic", "impacts"]
+"""Once a forcing cycle, or at the beginning of every contact."""
+
+POINT: dict[Kind, tuple[str, ...]] = {
+    "stroboscopic": (
+        "section_displacement",
+        "section_velocity",
+        "section_right_bumper",
+        "section_left_bumper",
+    ),
+    "impacts": ("contact_side", "contact_start_phase", "contact_start_velocity"),
+}
+"""What the columns of points hold."""
+
+_ROOM = 4096  # contacts that are written between two looks at the clock
+
+
+class Look(NamedTuple):
+    """How a motion is looked at."""
+
+    section: Kind
+    points: int
+    """Cycles of a motion that does not settle whose sections are kept."""
+    exponent_cycles: int
+    max_events: int
+
+
+class Seen(NamedTuple):
+    """What is seen at one value."""
+
+    held: Held
+    kind: Judgement
+    """Exponents per cycle."""
+    points: _Array
+    """Points of the section, a row each; of a periodic motion those of one period."""
+    status: Status
+
+
+def look_at(held: Held, look: Look) -> Seen:
+    """Name a motion, and take its section."""
+    found = held.found
+    if found.status not in (Status.DONE, Status.NOT_SETTLED):
+        return _nothing(held, look, found.status)
+    rows = np.empty((0, lyapunov.GROWTH))
+    if not found.period:
+        kind, rows, status = _wandering(found, look)
+        if kind.returns and (orbit := approached(found, kind.returns)) is not None:
+            found = orbit  # on which it settles slowly
+    if found.period:
+        kind, _, _, status = judge_orbit(found, look.max_events)
+        rows = rows[:0]
+    if status is not Status.DONE:
+        return _nothing(held, look, status)
+    cycles = kind.period or look.points
+    if look.section == "impacts":
+        points, status = _impacts(found, cycles, look.max_events)
+    else:
+        if not len(rows):
+            status, rows = _followed(found, cycles, look.max_events)
+        points = rows[:cycles, lyapunov.SECTION :][:, : len(POINT["stroboscopic"])]
+    if status is not Status.DONE:
+        return _nothing(held, look, status)
+    named = Status.NOT_SETTLED if kind.motion == "undecided" else Status.DONE
+    return Seen(held._replace(found=found), kind, points, named)
+
+
+def _wandering(found: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
+    """As `growth.judge_wandering`, with what it has seen of the section."""
+    cycles = max(look.exponent_cycles, look.points)
+    status, rows = _followed(found, cycles, look.max_events, DISCARD)
+    size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0, 1.0])
+    lost = rows[:, lyapunov.DISSIPATION]
+    kind = judge(rows[:, : lyapunov.DISSIPATION], rows[:, lyapunov.SECTION :] / size, lost)
+    return kind, rows, status
+
+
+def _followed(
+    found: Settled, cycles: int, max_events: int, discard: int = 0
+) -> tuple[Status, _Array]:
+    rig = engine_rig(found.oscillator, found.excitation)
+    state = found.state.copy()
+    return grown(rig, found.excitation, state, cycles, max_events, discard=discard)
+
+
+def _impacts(found: Settled, cycles: int, max_events: int) -> tuple[_Array, Status]:
+    """Side, phase of the forcing and velocity of each contact, as it begins."""
+    shaken = found.excitation
+    state, number, parts = found.state.copy(), 0, []
+    outcome = 0
+    while number < cycles and not outcome:
+        events = np.empty((max_events + _ROOM, record.EVENT))
+        number, count, outcome = batch.trajectory(
+            engine_rig(found.oscillator, shaken),
+            shaken.amplitude,
+            shaken.frequency,
+            shaken.phase,
+            state,
+            float(number),
+            float(cycles),
+            0,
+            max_events,
+            np.empty((record.SAMPLE, 0)),
+            events,
+        )
+        parts.append(events[:count][events[:count, record.E_KIND] != record.DETACHMENT])
+    rows = np.concatenate(parts)
+    turned = shaken.phase + shaken.angular_frequency * rows[:, record.E_TIME]
+    columns = [rows[:, record.E_SIDE], turned % (2.0 * math.pi), rows[:, record.E_V]]
+    return np.column_stack(columns), Status(outcome)
+
+
+def _nothing(held: Held, look: Look, status: Status) -> Seen:
+    """Of a motion that was given up."""
+    empty = np.full(2, np.nan)
+    kind = Judgement("undecided", 0, empty, empty, status.advice)
+    return Seen(held, kind, np.empty((0, len(POINT[look.section]))), status)

@@ -1,0 +1,230 @@
+"""The first orbit of a branch: near a state, or where the motion from rest settles."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine import section_map
+from vibroimpact.engine.observers import record
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import State, equilibrium
+from vibroimpact.response.engine_input import as_state, engine_state
+from vibroimpact.stability.bifurcations import own_mirror
+from vibroimpact.stability.chatter import placed_at_rest
+from vibroimpact.stability.fixed_points import (
+    Orbit,
+    Section,
+    corrected,
+    is_fixed,
+    vector_of,
+)
+from vibroimpact.stability.parameter_family import Family
+from vibroimpact.stability.settle import Settled, apart, approach, later, reach, reach_at_rest
+
+_Array = NDArray[np.float64]
+
+_SAME = 1e-6
+"""Distance, over the motion's size, from the motion from rest of an orbit that is it."""
+_SINGULAR = 1e-7
+"""A singular value of P' - 1, scaled, below which it counts as singular."""
+_RETURNS = 400
+"""Forcing cycles over which the motion from rest is watched for close returns."""
+_LARGER = (1e3, 1e6)
+"""How much larger motions are sought that begin at rest."""
+_TRIES = 16
+"""Close returns from which Newton's method is tried."""
+
+
+def first_orbit(
+    fam: Family,
+    span: tuple[float, float],
+    start: State | xr.DataArray | xr.Dataset | None,
+    period: int | None,
+    symmetric: bool = True,
+) -> Orbit:
+    """The orbit near a state; if `symmetric`, as its own mirror image where it is one.
+
+    Raises
+    ------
+    InputError
+        If Newton's method finds none.
+    """
+    if start is None and not fam.oscillator.stops:
+        start = equilibrium(fam.oscillator)  # there is one orbit, however long motions take to it
+    if start is None:
+        found = _from_rest(fam, span, period)
+    else:
+        state = as_state(start)
+        if state.phase is not None:
+            fam = fam._replace(excitation=fam.excitation.replace(phase=state.phase))
+        bumpers = (state.right_bumper or 0.0, state.left_bumper or 0.0)
+        point = np.array([state.displacement, state.velocity, *bumpers, state.isolator, fam.value])
+        mode = float(record.TOUCHING.index(state.contact or 0))
+        status, found = _least(fam, span, period or 1, point, mode)
+        if status is not Status.DONE:
+            raise _no_orbit(period or 1, status, found)
+    found = placed_at_rest(found)
+    return symmetric_if_so(found) if symmetric else found
+
+
+def _no_orbit(period: int, status: Status, failed: Orbit | None) -> InputError:
+    if failed is not None and status is Status.NOT_SETTLED and _neutral(failed):
+        return InputError(
+            f"start: the orbits of period {period} near it are not isolated, or a fold is near (a "
+            "multiplier of 1), so that Newton's method does not converge to one of them; some "
+            "isolator damping, or another start, is accepted"
+        )
+    return InputError(
+        f"start: Newton's method finds no orbit of period {period} near it "
+        f"({told(status)}); a state nearer to one is accepted"
+    )
+
+
+def _neutral(found: Orbit) -> bool:
+    """Whether P' - 1 is singular at a point: a disturbance of state stays as it is."""
+    values = np.linalg.svd(found.jacobian[:2, :2], compute_uv=False)
+    return bool(values[-1] <= _SINGULAR)
+
+
+def _least(
+    fam: Family, span: tuple[float, float], period: int, point: _Array, mode: float
+) -> tuple[Status, Orbit]:
+    """Newton's method from a point; the orbit with its least period."""
+    scale = scales(fam, span, point)
+    status, found = corrected(Section(fam, period, False, scale), point, mode)
+    told_by_none = scale[0] == _least_size(fam) or not fam.oscillator.stops
+    if status is Status.NOT_SETTLED and told_by_none:
+        # Neither the start nor a gap tells the motion's size, which bounds a step; without stops
+        # the map is linear, and a step of any length is right.
+        for factor in _LARGER:
+            wide = scale * [factor, factor, factor, factor, factor, 1.0]
+            status, found = corrected(Section(fam, period, False, wide), point, mode)
+            if status is Status.DONE:
+                section = Section(fam, period, False, scales(fam, span, found.point))
+                status, found = corrected(section, found.point, found.facts[section_map.MODE])
+                break
+    return status, reduced(found) if status is Status.DONE else found
+
+
+def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Orbit:
+    """The orbit on which the motion from rest settles, or one of a given period close to it."""
+    begin = engine_state(fam.oscillator, equilibrium(fam.oscillator))
+    rest = approach(fam.oscillator, fam.excitation, begin)
+    if rest.status not in (Status.DONE, Status.NOT_SETTLED):
+        raise InputError(f"start: the motion from rest is given up: {rest.status.advice}")
+    if period is None and not rest.period:
+        raise InputError(
+            f"start: the motion from rest does not settle at {fam.excitation.frequency:g} Hz; "
+            "a state near an orbit, and its period, are accepted"
+        )
+    period = period or rest.period
+    repeats = rest.period and period % rest.period == 0
+    least, failed, status = None, None, Status.NOT_SETTLED
+    for vector in [rest.state] if repeats else _returns(rest, begin, period):
+        point = np.array([vector[2], vector[3], vector[4], -vector[5], vector[6], fam.value])
+        outcome, found = _least(fam, span, period, point, float(vector[layout.MODE]))
+        if outcome is not Status.DONE:
+            status, failed = outcome, found
+            continue
+        # A close return over several cycles may be due to an orbit of fewer.
+        if least is None or found.section.period == period:
+            least = found
+        if repeats or found.section.period == period:
+            break
+    if least is None:
+        raise _no_orbit(period, status, failed)
+    _tell_another(rest, least)
+    return least
+
+
+def _returns(rest: Settled, begin: _Array, period: int) -> list[_Array]:
+    """Where the motion from rest comes back to itself most closely after so many cycles.
+
+    A motion that does not settle passes near every orbit in its reach again and again, and is
+    then nearest to itself a period later.
+    """
+    sections = [begin]
+    for _ in range(_RETURNS + period):
+        status, vector = later(rest, sections[-1], 1.0)
+        if status is not Status.DONE:
+            break
+        sections.append(vector)
+    size = reach(rest, rest.state)
+    missed = [apart(rest, *pair, size) for pair in zip(sections, sections[period:], strict=False)]
+    best: list[int] = []
+    for i in np.argsort(missed, kind="stable"):
+        # Its neighbours belong to the same passage.
+        if all(abs(i - other) > period for other in best):
+            best.append(int(i))
+        if len(best) == _TRIES:
+            break
+    return [sections[i] for i in best]
+
+
+def _tell_another(rest: Settled, found: Orbit) -> None:
+    """Warn if an orbit that was sought where the motion from rest goes is another motion."""
+    there = vector_of(found)
+    if (
+        rest.period == found.section.period
+        and apart(rest, there, rest.state, reach(rest, rest.state)) <= _SAME
+    ):
+        return
+    it = f"has period {rest.period}" if rest.period else "does not settle"
+    warnings.warn(
+        f"this orbit of period {found.section.period} is not the motion from rest, which {it}",
+        RuntimeWarning,
+        stacklevel=5,
+    )
+
+
+def told(status: Status) -> str:
+    """Why a correction failed, in words."""
+    if status is Status.NOT_SETTLED:
+        return "it does not converge"
+    return status.advice
+
+
+def reduced(found: Orbit) -> Orbit:
+    """The orbit with its least period."""
+    section = found.section
+    for count in range(1, section.count):
+        simpler = section.simpler(count, mirror=False)
+        if section.count % count == 0 and is_fixed(simpler, found, 1e-9):
+            status, simple = corrected(simpler, found.point, found.facts[section_map.MODE])
+            return simple if status is Status.DONE else found
+    return found
+
+
+def symmetric_if_so(found: Orbit) -> Orbit:
+    """The orbit as a fixed point of the mirrored map, if it is its own mirror image."""
+    section = found.section
+    if not own_mirror(found, 1e-9):
+        return found
+    half = section.simpler(section.count, mirror=True)
+    status, mirrored = corrected(half, found.point, found.facts[section_map.MODE])
+    return mirrored if status is Status.DONE else found
+
+
+def _least_size(fam: Family) -> float:
+    """Of a displacement where nothing else tells one."""
+    return 1e-3 * reach_at_rest(fam.oscillator, fam.excitation)
+
+
+def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
+    """Sizes of displacement, velocity, deformations and parameter."""
+    rig, omega = fam.oscillator, fam.excitation.angular_frequency
+    # The nearer bumper: the other may be far out of reach.
+    gap = min((b.gap for b in (rig.right, rig.left) if b is not None), default=0.0)
+    size = max(
+        gap,
+        abs(float(point[0])),
+        abs(float(point[1])) / omega,
+        _least_size(fam),
+    )
+    return np.array([size, size * omega, size, size, size, span[1] - span[0]])

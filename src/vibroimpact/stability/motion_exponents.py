@@ -1,0 +1,129 @@
+"""What the growth of disturbances says of a motion that was followed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import lyapunov
+from vibroimpact.engine.section_map import PARAMETER
+from vibroimpact.engine.status import Status
+from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.propagate import grown
+from vibroimpact.stability.exponents import DISCARD
+from vibroimpact.stability.motion_type import Judgement, judge, repeats
+from vibroimpact.stability.settle import Settled
+from vibroimpact.tasks.threads import Progress
+
+_Array = NDArray[np.float64]
+
+_TINY = 1e-10
+"""A multiplier smaller than this times the largest one is lost in its rounding."""
+_TURNING = 8
+"""Periods in which disturbances turn into their directions, where the second one is lost."""
+
+
+def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int, Status]:
+    """Exponents of a periodic motion from its monodromy matrix; the rest as `judge_wandering`."""
+    carried = np.empty((PARAMETER, PARAMETER))
+    damping = np.empty(1)
+    state = found.state.copy()
+    rates = []
+    for _ in range(2):  # the second time tells how far rounding and the rest of a transient go
+        outcome = lyapunov.monodromy(
+            engine_rig(found.oscillator, found.excitation),
+            found.excitation.amplitude,
+            found.excitation.frequency,
+            found.excitation.phase,
+            state,
+            found.period,
+            max_events,
+            carried,
+            damping,
+        )
+        if outcome != Status.DONE:
+            nothing = np.full(2, np.nan)
+            told = Judgement("undecided", 0, nothing, nothing, Status(outcome).advice)
+            return told, math.nan, 0, Status(outcome)
+        rates.append(_rates(carried) / found.period)
+    first, second = rates
+    if np.isnan(first[1]) or np.isnan(second[1]):
+        first[1] = second[1] = _second(found, state, max_events)
+    finite = np.isfinite(first) & np.isfinite(second)
+    spread = np.abs(np.subtract(first, second, where=finite, out=np.zeros(2)))
+    largest = math.exp(min(first[0] * found.period, 700.0))
+    kind = Judgement(
+        "periodic",
+        found.period,
+        first,
+        spread,
+        f"{repeats(found.period)}; largest multiplier {largest:.6g} in modulus",
+    )
+    return kind, float(damping[0]) / found.period, 2 * found.period, Status.DONE
+
+
+def _rates(carried: _Array) -> _Array:
+    """Logarithms of the two largest multipliers of an orbit; NaN if the second is lost in rounding.
+
+    A bumper that is never touched only relaxes; it is left out.
+    """
+    touched = [j for j in (2, 3, 4) if carried[:2, j].any() or carried[j, :2].any()]
+    kept = [0, 1, *touched]
+    moduli = np.sort(np.abs(np.linalg.eigvals(carried[np.ix_(kept, kept)])))[::-1]
+    with np.errstate(divide="ignore"):
+        logarithms: _Array = np.log(moduli[:2])
+    if moduli[0] > 0.0 and moduli[1] <= _TINY * moduli[0]:  # a rest leaves nothing of either
+        logarithms[1] = np.nan
+    return logarithms
+
+
+def _second(found: Settled, state: _Array, max_events: int) -> float:
+    """Second exponent per cycle of an orbit whose second multiplier is lost in rounding.
+
+    It is followed cycle by cycle, as for a motion that is not periodic: strong damping leaves a
+    number, and a mass that sticks, or comes to rest, minus infinity.
+    """
+    status, rows = grown(
+        engine_rig(found.oscillator, found.excitation),
+        found.excitation,
+        state.copy(),
+        found.period,
+        max_events,
+        discard=_TURNING * found.period,
+    )
+    return float(rows[:, lyapunov.SECOND].mean()) if status == Status.DONE else math.nan
+
+
+def judge_wandering(
+    found: Settled,
+    state: _Array,
+    cycles: int,
+    max_events: int,
+    progress: Progress | None = None,
+) -> tuple[Judgement, float, int, Status]:
+    """Judge a motion that did not settle; the state is carried on, and progress counts cycles.
+
+    Returns
+    -------
+    judgement, damping, cycles, status
+        The damping per unit mass is the integral over a cycle, on average.
+    """
+    status, rows = grown(
+        engine_rig(found.oscillator, found.excitation),
+        found.excitation,
+        state,
+        cycles,
+        max_events,
+        discard=DISCARD,
+        progress=progress,
+    )
+    size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0, 1.0])
+    kind = judge(
+        rows[:, : lyapunov.DISSIPATION],
+        rows[:, lyapunov.SECTION :] / size,
+        rows[:, lyapunov.DISSIPATION],
+    )
+    damping = float(rows[:, lyapunov.DISSIPATION].mean()) if len(rows) else math.nan
+    return kind, damping, len(rows), status

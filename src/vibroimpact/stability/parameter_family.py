@@ -1,0 +1,131 @@
+"""A rig and its forcing along one parameter: what a branch of orbits is followed in.
+
+Nearly each parameter moves the rig's numbers along a straight line, so that the engine needs only
+where the line begins and where it goes; of the others, such as a yield force, it is given the line
+that touches where it is.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.section_map import PARAMETER
+from vibroimpact.model import Oscillator, Repeated
+from vibroimpact.model.access import Setting
+from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.response.engine_input import system_vector
+
+_Array = NDArray[np.float64]
+
+_BUMPERS = (par.BUMPER, par.BUMPER + par.WIDTH)
+RATES = [at + par.RATE for at in _BUMPERS]
+"""Where the bumpers' rates of relaxation stand in the engine's vector."""
+
+_TOUCH = 0.01
+"""Of the step to a neighbouring value, by which a touching line is made."""
+
+
+class Family(NamedTuple):
+    """A rig and its forcing along one parameter."""
+
+    parameter: Parameter
+    oscillator: Oscillator
+    excitation: Repeated
+    value: float
+    """The parameter where the family was made."""
+    base: _Array
+    direction: _Array
+    """The engine's system vector is base + p · direction, here at least."""
+    straight: bool = True
+    """Whether it is so at any p."""
+
+    def near(self, value: float) -> Family:
+        """The same family with the line that touches at a value of the parameter."""
+        if self.straight:
+            return self
+        step = _TOUCH * (self.parameter.beside(value) - value)
+        here, on, back = (_vector(self, value + way * step) for way in (0, 1, -1))
+        moves = on != back  # what does not may be infinite
+        direction = np.subtract(on, back, out=np.zeros_like(here), where=moves) / (2.0 * step)
+        base = np.subtract(here, value * direction, out=here.copy(), where=moves)
+        return self._replace(base=base, direction=direction)
+
+    @property
+    def one_flow(self) -> bool:
+        """Whether the engine's numbers move in proportion, and one flow carries all rigs."""
+        return self.straight and not any(self.direction[at + par.GAP] for at in _BUMPERS)
+
+    @property
+    def states(self) -> int:
+        """Components of a state: the isolator's memory is one only where it has any."""
+        remembers = self.base[par.HYSTERETIC] or self.direction[par.HYSTERETIC]
+        return PARAMETER if remembers else PARAMETER - 1
+
+    @property
+    def phase(self) -> float:
+        """Forcing phase of the section, rad."""
+        return self.excitation.phase
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether each motion's mirror image is a motion, all along."""
+        here = self.oscillator.symmetric and self.excitation.half_wave
+        return here and not self.parameter.name.startswith(("right_", "left_", "force"))
+
+    def at(self, value: float) -> Setting:
+        """The rig and its forcing at a value of the parameter."""
+        return self.parameter.write(self.oscillator, self.excitation, value)
+
+    def system(self, value: float) -> _Array:
+        """The engine's vector at a value of the parameter."""
+        if not self.straight:
+            return system_vector(*self.at(value))
+        vector = self.base.copy()
+        moving = self.direction != 0.0
+        vector[moving] += value * self.direction[moving]
+        for at in _BUMPERS:
+            if vector[at + par.KIND] == par.KELVIN_VOIGT and vector[at + par.BUMPER_DAMPING] > 0.0:
+                rate = vector[at + par.BUMPER_STIFFNESS] / vector[at + par.BUMPER_DAMPING]
+                vector[at + par.RATE] = rate
+        return vector
+
+
+def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
+    """Prepare a rig for being followed along a parameter.
+
+    Raises
+    ------
+    InputError
+        If there is no such parameter, or the rig has none.
+    """
+    varied = parameter(name, of=excitation.of).of(oscillator)
+    value = varied.read(oscillator, excitation)
+    step = varied.beside(value) - value
+    here = system_vector(oscillator, excitation)
+    there = system_vector(*varied.write(oscillator, excitation, value + step))
+    # A rate follows from stiffness and damping, and is infinite without damping.
+    here[RATES] = there[RATES] = np.inf
+    same = here == there
+    difference = np.subtract(there, here, out=np.zeros_like(here), where=~same)
+    direction = difference / step
+    base = np.subtract(here, value * direction, out=here.copy(), where=~same)
+    made = Family(varied, oscillator, excitation, value, base, direction)
+    straight = varied.straight and (not here[par.CURVED] or _straight(made, step))
+    return made._replace(straight=straight)
+
+
+def _straight(made: Family, step: float) -> bool:
+    """Whether the engine's numbers move in proportion to the parameter."""
+    middle = made.value + 0.5 * step
+    return np.allclose(_vector(made, middle), made.base + middle * made.direction, 1e-9, 0.0)
+
+
+def _vector(made: Family, value: float) -> _Array:
+    """The engine's vector; rates follow from stiffness and damping, and move along no line."""
+    vector = system_vector(*made.at(value))
+    vector[RATES] = made.base[RATES]
+    return vector

@@ -1,0 +1,203 @@
+"""The full resonance diagram: every branch of orbits that sweeps and bifurcations lead to."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine import section_map
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator, Periodic
+from vibroimpact.model.count_checks import whole
+from vibroimpact.model.parameters import bounds
+from vibroimpact.model.rigs import AnyShaking, as_shaking, takes_rig
+from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
+from vibroimpact.stability.branch import follow_both_ways
+from vibroimpact.stability.branch_dataset import Followed, as_dataset
+from vibroimpact.stability.fixed_points import SEEN, Orbit, at_phase, corrected, images
+from vibroimpact.stability.parameter_family import family
+from vibroimpact.stability.starting_orbits import free, in_basins, settled, values
+from vibroimpact.tasks.threads import Progress
+
+_Array = NDArray[np.float64]
+
+_SAME = 1e-6
+_CLOSE = 0.1
+
+
+@takes_rig
+def resonance_diagram(
+    oscillator: Oscillator,
+    amplitude: AnyShaking,
+    low: float | str,
+    high: float | str,
+    *,
+    parameter: str = "frequency",
+    frequency: float | str | None = None,
+    phase: float = 0.0,
+    longest: int = 4,
+    most_branches: int = 30,
+    most_points: int = 5000,
+    starts: int = 40,
+    random: int = 8,
+    seed: int = 0,
+    basins: xr.Dataset | Sequence[xr.Dataset] = (),
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Follow all branches of periodic orbits over a range of the frequency or another parameter.
+
+    Branches are begun from where motions settle that are carried on up and down the range, from
+    free flight, and from every symmetry breaking and period doubling that is found on the way. A
+    branch that none of these leads to is isolated: ``random`` starts at each value find it where
+    some of its orbits are stable, and the more surely `basins`, however small theirs are.
+
+    Parameters
+    ----------
+    oscillator
+        What vibrates; or a case, its code or a study file, and then the amplitude may be left out.
+    amplitude
+        As in `sweep`, the same all along.
+    low, high
+        Range of the parameter, in SI units or as text.
+    parameter
+        What is varied, as of `branch`.
+    frequency
+        Excitation frequency in Hz where another parameter is varied; that of a `Harmonic` or a
+        `Periodic` may be left out.
+    phase
+        Forcing phase of the sections, rad.
+    longest
+        Longest period, in forcing cycles, of a branch that is followed.
+    most_branches, most_points
+        Branches, and orbits in each direction of one, after which it is given up.
+    starts
+        Values at which motions are held.
+    random, seed
+        Random starts at each of these, as of `bifurcation_diagram`.
+    basins
+        Datasets of `basins` at values of the parameter, whose motions are followed as well.
+    progress
+        Called with the branches done and those known.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `branch`, with the number of the ``branch`` of each point. Of a mirrored pair of
+        branches one is followed. The attribute ``complete`` is 0 if ``most_branches`` was reached.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    shaken, several = as_shaking(amplitude, "amplitude")
+    if several:
+        raise InputError("amplitude: a list; one amplitude all along is accepted")
+    if parameter == "frequency":
+        if frequency is not None:
+            raise InputError(
+                f"frequency: {frequency!r}, but it is varied; it is accepted beside another one"
+            )
+        frequency = high
+    elif frequency is None:
+        if not isinstance(amplitude, Harmonic | Periodic):
+            raise InputError(
+                "frequency: missing; one is accepted where another parameter is varied"
+            )
+        frequency = shaken.frequency
+    fam = family(oscillator, shaken.replace(frequency=frequency, phase=phase), parameter)
+    span = bounds(fam.parameter, low, high)
+    longest, starts = whole(longest, "longest"), whole(starts, "starts")
+    most_branches = whole(most_branches, "most_branches")
+    most_points = whole(most_points, "most_points")
+    random, seed = whole(random, "random", 0), whole(seed, "seed", 0)
+    given = [basins] if isinstance(basins, xr.Dataset) else list(basins)
+    begin = values(fam, span, starts)
+    followed: list[Followed] = []
+    waiting: list[tuple[Orbit, Bifurcation | None]] = [
+        (first, None)
+        for first in itertools.chain(
+            free(begin),
+            settled(begin, longest, random, seed),
+            in_basins(fam, span, given, longest),
+        )
+    ]
+    complete = True
+    while waiting:
+        first, origin = waiting.pop(0)
+        if any(on_branch(first, one) for one in followed) or _used(origin, followed, span):
+            continue
+        if len(followed) >= most_branches:
+            complete = False
+            break
+        done = follow_both_ways(first, span, most_points)
+        followed.append(done)
+        for found in done.bifurcations:
+            if found.turns or found.kind not in (BREAKING, DOUBLING):
+                continue
+            for station in born(found):
+                inside = span[0] <= station.orbit.value <= span[1]
+                if station.orbit.section.period <= longest and inside:
+                    waiting.append((station.orbit, found))
+        if progress:
+            progress(len(followed), len(followed) + len(waiting))
+    if progress:  # what still waited was on branches that had been followed
+        progress(len(followed), len(followed))
+    data = as_dataset(followed, fam, span, "resonance_diagram")
+    data.attrs["complete"] = int(complete)
+    return data
+
+
+def _used(origin: Bifurcation | None, followed: list[Followed], span: tuple[float, float]) -> bool:
+    """Whether a branch that was followed has already turned in a bifurcation."""
+    if origin is None:
+        return False
+    return any(
+        other.turns
+        and other.kind == origin.kind
+        and abs(other.orbit.value - origin.orbit.value) <= _SAME * (span[1] - span[0])
+        for one in followed
+        for other in one.bifurcations
+    )
+
+
+def on_branch(orbit: Orbit, one: Followed) -> bool:
+    """Whether an orbit lies on a branch, up to whole cycles and the mirror."""
+    section = one.stations[0].orbit.section
+    if section.period != orbit.section.period or section.mirror != orbit.section.mirror:
+        return False
+    seen_there: dict[float, list[_Array]] = {}
+    scale = section.scale
+    for here, there in itertools.pairwise(one.stations):
+        phase = here.orbit.section.family.phase
+        if here.piece != there.piece or there.orbit.section.family.phase != phase:
+            continue
+        low, high = sorted([here.orbit.value, there.orbit.value])
+        if not low <= orbit.value <= high:
+            continue
+        share = (
+            0.5
+            if high == low
+            else (orbit.value - here.orbit.value) / (there.orbit.value - here.orbit.value)
+        )
+        guess = here.orbit.point + share * (there.orbit.point - here.orbit.point)
+        reach = _CLOSE + np.linalg.norm((there.orbit.point - here.orbit.point) / scale * SEEN)
+        if phase not in seen_there:
+            seen = at_phase(orbit, phase)
+            mirrored = orbit.section.family.symmetric
+            there_too = () if seen is None else images(seen, mirrored=mirrored)
+            seen_there[phase] = [point for point, _ in there_too]
+        near = [z for z in seen_there[phase] if np.linalg.norm((z - guess) / scale * SEEN) <= reach]
+        if not near:
+            continue
+        status, found = corrected(here.orbit.section, guess, here.orbit.facts[section_map.MODE])
+        if status is Status.DONE and any(
+            np.linalg.norm((found.point - z) / scale * SEEN) <= _SAME for z in near
+        ):
+            return True
+    return False

@@ -1,0 +1,130 @@
+"""Where a motion goes: it is followed until it repeats itself, and compared with others."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import hold
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.status import Status
+from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model.count_checks import share
+from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.propagate import hold_once, moved_on
+from vibroimpact.response.softening_limit import judged
+from vibroimpact.stability.fixed_points import Orbit, vector_of
+from vibroimpact.tasks.threads import Progress
+
+_Array = NDArray[np.float64]
+
+
+class Settled(NamedTuple):
+    """Where a motion went."""
+
+    oscillator: Oscillator
+    excitation: Repeated
+    """Its phase is that of the section."""
+    state: _Array
+    """At the section behind the last cycle, as the engine's vector."""
+    period: int
+    """In forcing cycles; 0 if it did not settle."""
+    cycles: int
+    """Forcing cycles used."""
+    status: Status
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether its mirror image, half a cycle later, is a motion as well."""
+        return self.oscillator.symmetric and self.excitation.half_wave
+
+
+def approach(
+    oscillator: Oscillator,
+    excitation: Repeated,
+    start: State | _Array,
+    tolerance: float = 1e-12,
+    max_cycles: int = 2000,
+    max_events: int = 10_000,
+    progress: Progress | None = None,
+) -> Settled:
+    """Follow a motion until its stroboscopic state repeats, or for `max_cycles`.
+
+    The start may be the engine's vector at the excitation's phase. Progress counts the cycles.
+
+    Raises
+    ------
+    InputError
+        If the start cannot be, or an undamped mass that no bumper stops is at resonance.
+    """
+    tolerance = share(tolerance, "tolerance")
+    check_bounded(oscillator, excitation)
+    if isinstance(start, State):
+        if start.phase is not None:
+            excitation = excitation.replace(phase=start.phase)
+        start = engine_state(oscillator, start)
+    rig = engine_rig(oscillator, excitation)
+    result, reached = hold_once(
+        rig, excitation, start, tolerance, max_cycles, 1, max_events, progress
+    )
+    outcome = Status(int(judged(oscillator, result[hold.OUTCOME], np.nan)))
+    return Settled(
+        oscillator,
+        excitation,
+        reached if np.isfinite(reached).all() else start,
+        int(result[hold.PERIOD]),
+        int(result[hold.CYCLES]),
+        outcome,
+    )
+
+
+def later(
+    found: Settled, state: _Array, cycles: float, max_events: int = 10_000
+) -> tuple[Status, _Array]:
+    """The state some forcing cycles later; of use only if `Status.DONE`."""
+    rig = engine_rig(found.oscillator, found.excitation)
+    return moved_on(rig, found.excitation, state, cycles, max_events)
+
+
+def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:
+    """Largest difference of two states of the engine, as a displacement over `size`."""
+    difference = np.abs(one - other)
+    difference[layout.V] /= found.excitation.angular_frequency
+    return float(
+        difference[
+            [
+                layout.U,
+                layout.V,
+                layout.RIGHT_BUMPER,
+                layout.LEFT_BUMPER,
+                layout.ISOLATOR,
+            ]
+        ].max()
+        / size
+    )
+
+
+def reach(found: Settled, state: _Array) -> float:
+    """Size of a motion near a state, as a displacement (m); never zero."""
+    speed = abs(float(state[layout.V])) / found.excitation.angular_frequency
+    size = max(abs(float(state[layout.U])), speed)
+    return max(size, 1e-3 * reach_at_rest(found.oscillator, found.excitation), 1e-300)
+
+
+def reach_at_rest(oscillator: Oscillator, excitation: Repeated) -> float:
+    """Displacement (m) of a mass that the peak of the shaking moves against the isolator alone.
+
+    Without a spring, against its inertia.
+    """
+    omega = excitation.angular_frequency
+    peak = float(np.sum(excitation.acceleration(oscillator.mass, omega)))
+    return peak / (oscillator.angular_frequency or omega) ** 2
+
+
+def settled_on(found: Orbit) -> Settled:
+    """An orbit as a motion that has settled on it."""
+    rig, shaken = found.setting
+    return Settled(rig, shaken, vector_of(found), found.section.period, 0, Status.DONE)

@@ -1,0 +1,81 @@
+"""A rig and its forcing over two parameters."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Oscillator, Repeated
+from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.response.engine_input import system_vector
+from vibroimpact.stability.parameter_family import RATES, Family, family
+
+_Array = NDArray[np.float64]
+
+_AGREE = 1e-9
+
+
+class Plane(NamedTuple):
+    """A rig over two parameters p and q, each of which moves it along its own straight line."""
+
+    family: Family
+    """Along p, at the q where the plane was made."""
+    other: Parameter
+    value: float
+    """q where the plane was made."""
+    second: _Array
+    """How the engine's system vector moves with q."""
+    symmetric: bool
+    """Whether each motion's mirror image is a motion, whatever p and q."""
+
+    def at_vectors(self, q: float) -> Family:
+        """The family along p at a value of q, as the engine sees it: its rig is still the old."""
+        change = (q - self.value) * self.second
+        base = self.family.base
+        return self.family._replace(base=np.where(change != 0.0, base + change, base))
+
+
+def plane(oscillator: Oscillator, excitation: Repeated, names: tuple[str, str]) -> Plane:
+    """Prepare a rig for being followed over two parameters.
+
+    Raises
+    ------
+    InputError
+        If there is no such parameter, the rig has none, or the two do not go together.
+    """
+    first = family(oscillator, excitation, names[0])
+    other = parameter(names[1], "parameters", excitation.of).of(oscillator)
+    if other.name == first.parameter.name:
+        raise InputError(f"parameters: {names[0]!r} twice; two different ones are accepted")
+    second = family(oscillator, excitation, names[1])
+    for one in (first, second):
+        if not one.straight:
+            raise InputError(
+                f"parameters: {one.parameter.name!r} does not count in proportion under this law, "
+                "and no curve follows it; the frequency, the amplitude, a gap, a force or another "
+                "stiffness or damping is accepted (a branch follows any)"
+            )
+    both = first.symmetric and second.symmetric
+    made = Plane(first, other, second.value, second.direction, both)
+    p, q = first.parameter.beside(first.value, 3.0), other.beside(second.value, 6.0)
+    guess = made.at_vectors(q).system(p)
+    writes = [(first.parameter, p), (other, q)]
+    straight = np.ones(len(guess), dtype=bool)
+    for order in (writes, writes[::-1]):
+        setting = (oscillator, excitation)
+        for varied, value in order:
+            setting = varied.write(*setting, value)
+        true = system_vector(*setting)
+        with np.errstate(invalid="ignore"):
+            error = np.abs(guess - true)
+        straight &= (guess == true) | (error <= _AGREE * np.maximum(np.abs(true), np.abs(guess)))
+    straight[RATES] = True  # they follow from stiffness and damping
+    if not straight.all():
+        raise InputError(
+            f"parameters: {names[0]!r} and {names[1]!r} are not independent of each other; a pair "
+            "such as 'frequency' and 'gap', or 'stiffness_ratio' and 'gap_ratio', is accepted"
+        )
+    return made

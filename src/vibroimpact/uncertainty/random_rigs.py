@@ -1,0 +1,185 @@
+"""Rigs whose parameters are drawn: shares from 0 to 1 in, rigs out."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from vibroimpact.datasets.description import excitation_parameters, oscillator_parameters
+from vibroimpact.errors import InputError
+from vibroimpact.model import Harmonic, Oscillator, Repeated
+from vibroimpact.model.count_checks import whole
+from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.rigs import AnyRig, as_rig, as_shaking
+from vibroimpact.model.varied import written
+from vibroimpact.uncertainty.distributions import (
+    Distribution,
+    check_names,
+    check_values,
+    distribution,
+    told,
+)
+
+_Array = NDArray[np.float64]
+
+Method = Literal["sobol", "latin", "random"]
+METHODS: tuple[Method, ...] = ("sobol", "latin", "random")
+
+Drawn: TypeAlias = Oscillator | tuple[Oscillator, Repeated]
+"""A rig, with what shakes it unless that is left open."""
+
+_ANY = Harmonic(1.0, 1.0)
+"""What the registry of parameters asks for beside a rig without one."""
+
+_ROUNDING = 1e-9
+
+
+class Uncertain(NamedTuple):
+    """A rig and the distributions of some of its parameters."""
+
+    oscillator: Oscillator
+    shaken: Repeated | None
+    parameters: tuple[Parameter, ...]
+    distributions: tuple[Distribution, ...]
+    texts: dict[str, str]
+
+    @property
+    def names(self) -> list[str]:
+        """Of the parameters."""
+        return [one.name for one in self.parameters]
+
+    def values(self, shares: _Array) -> _Array:
+        """Values of the parameters, a column each, where their distributions reach these shares.
+
+        Raises
+        ------
+        InputError
+            If a parameter cannot have one.
+        """
+        # A share of 0 or 1 may lie at infinity.
+        inside = np.clip(shares, 2.0**-53, 1.0 - 2.0**-53)
+        columns = [one.ppf(inside[:, i]) for i, one in enumerate(self.distributions)]
+        for column, varied in zip(columns, self.parameters, strict=True):
+            check_values(column, varied, f"distributions[{varied.name!r}]")
+        return np.column_stack(columns)
+
+    def rig(self, values: _Array) -> Drawn:
+        """The rig at one value of each parameter.
+
+        Raises
+        ------
+        InputError
+            If it cannot have these values together.
+        """
+        pairs = [
+            (varied, float(value)) for varied, value in zip(self.parameters, values, strict=True)
+        ]
+        rig, shaken = written(self.oscillator, self.shaken or _ANY, pairs)
+        return rig if self.shaken is None else (rig, shaken)
+
+    def rigs(self, values: _Array) -> list[Drawn]:
+        """A rig for each row of values.
+
+        Raises
+        ------
+        InputError
+            If one cannot be, or two parameters are one.
+        """
+        found = [self.rig(row) for row in values]
+        first = found[0]
+        rig, shaken = (first, _ANY) if isinstance(first, Oscillator) else first
+        for varied, value in zip(self.parameters, values[0], strict=True):
+            if not math.isclose(varied.read(rig, shaken), value, rel_tol=_ROUNDING, abs_tol=1e-300):
+                raise InputError(
+                    f"distributions: {varied.name!r} and another one set the same number of the "
+                    "rig; one of them is accepted"
+                )
+        return found
+
+    def about(self) -> dict[str, Any]:
+        """What a dataset says of it."""
+        shaking = {} if self.shaken is None else excitation_parameters(self.shaken)
+        return {
+            "oscillator": oscillator_parameters(self.oscillator),
+            **shaking,
+            "distributions": self.texts,
+        }
+
+
+def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
+    """Read a rig and the distributions of its parameters.
+
+    Raises
+    ------
+    InputError
+        If one cannot be used, or the rig has no such parameter.
+    """
+    if isinstance(rig, Oscillator):
+        oscillator, shaken = rig, None
+    else:
+        oscillator, amplitude = as_rig(rig, "rig", "an oscillator, ")
+        shaken, several = as_shaking(amplitude, "rig[1]")
+        if several:
+            raise InputError("rig[1]: a list of amplitudes; one amplitude is accepted")
+    given = check_names(distributions)
+    parameters, made = [], []
+    for name, one in given.items():
+        field = f"distributions[{name!r}]"
+        varied = parameter(name, "distributions", of=shaken.of if shaken else "acceleration")
+        varied = varied.of(oscillator)
+        if shaken is None and varied.name in ("frequency", "amplitude", "gap_ratio"):
+            raise InputError(
+                f"{field}: {varied.name} is that of a sine, and the rig has none; a pair "
+                "(oscillator, amplitude) is accepted as the rig"
+            )
+
+        def own(varied: Parameter = varied) -> float:
+            return varied.read(oscillator, shaken or _ANY)
+
+        own()  # refuses what the rig does not have
+        parameters.append(varied)
+        made.append(distribution(one, varied, own, field))
+    texts = {varied.name: told(one) for varied, one in zip(parameters, given.values(), strict=True)}
+    if len(texts) < len(parameters):
+        raise InputError("distributions: a parameter is given twice; one of each is accepted")
+    return Uncertain(oscillator, shaken, tuple(parameters), tuple(made), texts)
+
+
+def shares(count: object, columns: int, method: str, seed: int) -> _Array:
+    """Points that fill the unit cube: a row a sample, a column a parameter.
+
+    Raises
+    ------
+    InputError
+        If there is no such method, or the count is no power of 2 for Sobol's points.
+    """
+    n = whole(count, "samples")
+    if method not in METHODS:
+        raise InputError(f"method: {method!r}; one of {', '.join(METHODS)} is accepted")
+    if method == "sobol":
+        check_power(n, "samples", "Sobol's points")
+        found: _Array = qmc.Sobol(columns, rng=seed).random(n)
+    elif method == "latin":
+        found = qmc.LatinHypercube(columns, rng=seed).random(n)
+    else:
+        found = np.random.default_rng(seed).random((n, columns))
+    return found
+
+
+def check_power(number: int, field: str, what: str) -> None:
+    """Refuse what is no power of 2.
+
+    Raises
+    ------
+    InputError
+        With the next one.
+    """
+    if number & (number - 1):
+        following = 1 << number.bit_length()
+        raise InputError(
+            f"{field}: {number}; of {what} a power of 2 is accepted, such as {following}"
+        )

@@ -1,0 +1,58 @@
+"""Numbers as people write them."""
+
+from __future__ import annotations
+
+import io
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from rich.console import Console
+
+from vibroimpact.facts import motions as verdict
+from vibroimpact.facts.number_format import ENERGIES, FORCES, LENGTHS, fitting, plain
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [
+        (79200.0, 3, "79200"),
+        (123456.0, 4, "123500"),
+        (1e6, 6, "1000000"),
+        (2.7362, 4, "2.736"),
+        (0.000012345, 3, "0.0000123"),
+        (-0.00001, 4, "-0.00001"),
+        (0.0, 4, "0"),
+        (7.5, 4, "7.5"),
+        (1.5e12, 4, "1.5e+12"),
+        (math.nan, 4, "nan"),
+    ],
+)
+def test_without_powers(value, digits, text):
+    assert plain(value, digits) == text
+
+
+def test_units_of_fitting_size():
+    assert fitting([1.0, -79.2e6], FORCES).symbol == "MN"
+    assert fitting([1470.0, 71.0], FORCES).symbol == "kN"
+    assert fitting([3.0, math.nan], FORCES).symbol == "N"
+    assert fitting([0.0], LENGTHS).symbol == fitting([], LENGTHS).symbol == "m"
+    assert fitting([0.0], ENERGIES).symbol == "J"
+    assert fitting([0.237, 1e-3], ENERGIES).symbol == "J"
+
+
+def test_a_heavy_building_in_meganewtons():
+    row = {name: [1.0] for name in ("contact_duration_share", "contact_start_phase")}
+    row |= {"contact_start_velocity": [0.35], "contact_end_velocity": [-0.21]}
+    row |= {"contact_peak_force": [79.2e6], "contact_impulse": [4.1e6]}
+    row |= {"contact_penetration": [0.031], "contact_dissipated": [8.1e5]}
+    row |= {"contact_restitution": [0.6], "contact_side": [1], "contact_grazing": [False]}
+    data = xr.Dataset({name: ("contact_number", np.array(v)) for name, v in row.items()})
+    console = Console(record=True, width=100, file=io.StringIO())
+    for part in verdict.contact_tables(data):
+        console.print(part)
+    told = console.export_text()
+    assert "force (MN)" in told
+    assert "79.2" in told
+    assert "e+" not in told

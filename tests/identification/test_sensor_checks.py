@@ -1,0 +1,95 @@
+"""Sensors that are turned round or have an offset: suggested as the cause, and fitted if asked."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from identification.test_history import LEFT, RIG, RIGHT, START, motion, record
+
+import vibroimpact as vi
+from identification.twins import PEAKS, curves
+from samples import sample
+from vibroimpact.identification import fit_inputs
+from vibroimpact.identification.sensor_channel import corrected, sensed
+from vibroimpact.measurements.read import as_measured
+
+FREE = sample("right_gap,left_gap,stiffness", "right_gap,left_gap")
+QUICK = {"tried": 0, "starts": 1, "profiles": False}
+CHANGES = {
+    "displacement": (lambda d: -d, "the sign of the displacement reversed"),
+    "base_acceleration": (lambda d: -d, "the sign of the base acceleration reversed"),
+    "acceleration": (lambda d: -d, "the sign of the acceleration reversed"),
+}
+
+
+@pytest.fixture(scope="module")
+def data():
+    return record(motion(1.5, 11, skip=6, samples=40), 0.01)
+
+
+@pytest.mark.parametrize("channel", sample(list(CHANGES), ["displacement"]))
+def test_a_reversed_sensor_is_suggested_as_the_cause(data, channel):
+    change, told = CHANGES[channel]
+    turned = data.assign({channel: change(data[channel])})
+    found = vi.identify(turned, START, FREE, **QUICK)
+    (line,) = [line for line in found.findings.splitlines() if "reversed" in line]
+    assert told in line
+    assert "sign changed in the data" in line
+
+
+def test_a_right_sensor_is_not_suspected(data):
+    found = vi.identify(data, START, FREE, **QUICK)
+    assert "reversed" not in found.findings
+
+
+def test_an_offset_is_suggested_as_the_cause(data):
+    moved = data.assign(displacement=data.displacement + 2e-3)
+    found = vi.identify(moved, RIG, "right_gap,left_gap", **QUICK)
+    (line,) = [line for line in found.findings.splitlines() if "offset" in line]
+    assert "displacement_offset 2" in line or "displacement_offset 1.99" in line
+    assert "its offset free" in line
+    free = ["right_gap", "left_gap", "displacement_offset"]
+    again = vi.identify(moved, RIG, free, **QUICK)
+    assert again.fitted_value.values == pytest.approx([9e-3, 6e-3, 2e-3], rel=0.02)
+    assert "check this sensor" not in again.findings
+
+
+def test_a_scale_below_zero_is_that_of_a_sensor_turned_round(data):
+    turned = data.assign(displacement=-1.02 * data.displacement)
+    free = {"right_gap": None, "displacement_scale": {"start": -1}}
+    rig = RIG.replace(right=RIGHT.replace(gap="8.5 mm"))
+    found = vi.identify(turned, rig, free, **QUICK)
+    assert found.fitted_value.values == pytest.approx([9e-3, -1.02], rel=0.01)
+
+
+def test_maxima_of_a_sensor_turned_round_are_minima():
+    rig = RIG.replace(right=RIGHT, left=LEFT)
+    data = curves(rig, "0.05 g", names=PEAKS, frequencies=np.arange(1.0, 2.5, 0.1))
+    turned = data.assign(
+        displacement_max=-1.03 * data.displacement_min,
+        displacement_min=-1.03 * data.displacement_max,
+    )
+    start = rig.replace(right=RIGHT.replace(gap="8.7 mm"))
+    found = vi.identify(
+        turned, start, {"right_gap": None, "displacement_scale": {"start": "-1"}}, **QUICK
+    )
+    assert found.fitted_value.values == pytest.approx([9e-3, -1.03], rel=1e-4)
+
+
+def test_a_velocity_has_no_offset_of_a_displacement():
+    sensors = {"displacement_scale": 2.0, "acceleration_scale": 3.0,
+               "displacement_offset": 0.1, "acceleration_offset": 0.2}  # fmt: skip
+    values = np.array([1.0, -2.0])
+    assert sensed("velocity", values, sensors).tolist() == [1.0, -2.0]
+    for name in ("displacement", "velocity", "acceleration"):
+        assert corrected(name, sensed(name, values, sensors), sensors) == pytest.approx(values)
+
+
+def test_a_free_vibration_has_the_size_of_its_motion():
+    time = np.linspace(0.0, 4.0, 401)
+    u = 0.02 * np.exp(-0.5 * time) * np.cos(7.0 * time)
+    data = as_measured(
+        xr.Dataset({"displacement": ("time", u), "base_acceleration": ("time", 0.0 * u)},
+                   {"time": time})
+    )  # fmt: skip
+    (test,) = fit_inputs.tests_of(data, RIG, None, None, None, False)
+    assert 0.01 < test.swing < 0.02

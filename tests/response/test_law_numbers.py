@@ -1,0 +1,56 @@
+"""The laws of the model as the engine's numbers: the same static forces, the same rates."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+import vibroimpact as vi
+from engine.taylor.rigs import ISOLATORS, STOPS
+from vibroimpact.engine.parameters import Law, PowerLaw
+from vibroimpact.response.law_numbers import isolator_numbers, stop_numbers
+
+
+@pytest.mark.parametrize("isolator", ISOLATORS)
+def test_the_stiffness_of_small_motions(isolator: str) -> None:
+    """K u and the rest of the law, all memory at rest, behind a small step."""
+    given = ISOLATORS[isolator]
+    stiffness, damping, law = isolator_numbers(given)
+    u = 1e-6
+    force = stiffness * u + law.cubic * u**3 + law.hysteretic * law.slope * u + law.friction
+    force += 2.0 * law.sinh * math.sinh(law.sinh_rate * u)
+    assert force == pytest.approx(given.static_force(u), rel=1e-4)
+    assert (damping, law.drag) == (given.damping, given.damping_exponent)
+
+
+@pytest.mark.parametrize("isolator", ["bilinear", "bouc-wen", "bouc-wen of 2", "exponential"])
+def test_the_force_far_out(isolator: str) -> None:
+    """The memory at its bound, where z′ = 0 or it yields."""
+    given = ISOLATORS[isolator]
+    stiffness, _, law = isolator_numbers(given)
+    bound = min(law.limit, math.inf)
+    if math.isinf(bound):
+        bound = (law.slope / (law.turning + law.knee)) ** (1.0 / law.sharpness)
+    u = 20.0
+    force = stiffness * u + law.hysteretic * bound
+    force += 2.0 * law.sinh * math.sinh(law.sinh_rate * u)
+    assert force == pytest.approx(given.static_force(u), rel=1e-9)
+
+
+def test_a_linear_isolator_has_no_law() -> None:
+    assert isolator_numbers(vi.Isolator(3.0, 0.2)) == (3.0, 0.2, Law())
+    assert isolator_numbers(vi.PolynomialIsolator(3.0, 0.2, 0.0)) == (3.0, 0.2, Law())
+
+
+def test_stops() -> None:
+    assert stop_numbers(None) is None
+    assert stop_numbers(STOPS["rigid"]) == (0.7, 0.5)
+    assert stop_numbers(STOPS["bumper"]) == (30.0, 0.6, 0.5)
+    assert stop_numbers(STOPS["hunt-crossley"]) == PowerLaw(40.0, 1.5, 0.3, 0.0, 0.5)
+    d = 8.0 * 0.4 / (5.0 * 0.6)
+    flores = stop_numbers(STOPS["flores"])
+    assert flores[2] == pytest.approx(-d, rel=1e-14)
+    pounding = STOPS["pounding"]
+    viscous = stop_numbers(pounding)[3]
+    assert viscous == pytest.approx(2.0 * pounding.damping_ratio * math.sqrt(40.0), rel=1e-14)

@@ -1,0 +1,44 @@
+"""The evidence in words: what tells the scenario is said, and first."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from scenarios.made import GRID, RIG, bump, inside, made, primary, slope
+from vibroimpact.scenarios.evidence import evidence
+from vibroimpact.scenarios.evidence_text import in_words
+from vibroimpact.scenarios.thresholds import Thresholds
+
+
+def told(data, oscillator=RIG.oscillator) -> str:
+    return in_words(evidence(oscillator, RIG.shaken, data, 0.01), Thresholds())
+
+
+def test_a_hysteresis_and_where_it_is():
+    words = told(made(*primary()))
+    assert words.startswith("right hysteresis 1.6")
+    assert "no jumps" not in words
+
+
+def test_a_regular_secondary_resonance():
+    peak = bump(0.7, 0.05, 0.5)
+    forward, backward = primary()
+    assert "secondary resonance at 0.7 Hz" in told(made(forward + peak, backward + peak))
+
+
+def test_motions_that_are_not_regular():
+    forward, backward = primary()
+    peak = np.where(inside(0.6, 0.8), 0.4, 0.0) + bump(0.7, 0.04, 0.4)
+    data = made(forward + peak, backward + peak, period=np.where(inside(0.6, 0.8), 3, 1))
+    assert "subharmonic resonance 0.6–0.8 Hz" in told(data)
+
+
+def test_no_contact_and_no_bumper():
+    free = 0.1 + bump(1.0, 0.3, 0.1)
+    assert told(made(free)).startswith("no contact from 0.4–3 Hz; the gap is 0.3 times")
+    assert told(made(free), RIG.oscillator.without_bumpers()).endswith("there is no bumper")
+
+
+def test_a_resonance_beyond_the_frequencies():
+    rising = slope(GRID[-1])
+    assert "the primary resonance lies beyond the frequencies swept" in told(made(rising))

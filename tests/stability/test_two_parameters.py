@@ -1,0 +1,44 @@
+"""A rig over two parameters."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.response.engine_input import system_vector
+from vibroimpact.stability.parameter_family import RATES
+from vibroimpact.stability.two_parameters import plane
+
+CASE = vi.laboratory.case("B2-G1-A3")
+
+
+@pytest.mark.parametrize(
+    ("pair", "independent"),
+    [
+        (("frequency", "gap"), True),
+        (("stiffness_ratio", "gap_ratio"), True),
+        (("amplitude", "damping"), True),
+        (("gap", "gap_ratio"), False),
+        (("amplitude", "gap_ratio"), False),
+        (("stiffness", "stiffness_ratio"), False),
+        (("bumper_damping", "stiffness_ratio"), False),
+        (("gap", "right_gap"), False),
+    ],
+)
+def test_pairs_of_parameters(pair, independent):
+    """Each writes its own numbers of the rig, and its line does not bend with the other."""
+    for names in (pair, pair[::-1]):
+        if not independent:
+            with pytest.raises(vi.InputError, match="not independent"):
+                plane(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), names)
+            continue
+        made = plane(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), names)
+        p, q = 1.3 * made.family.value, 0.8 * made.value
+        setting = made.other.write(
+            *made.family.parameter.write(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), p),
+            q,
+        )
+        found, expected = made.at_vectors(q).system(p), system_vector(*setting)
+        kept = [i for i in range(len(found)) if i not in RATES]
+        np.testing.assert_allclose(found[kept], expected[kept], rtol=1e-12)
