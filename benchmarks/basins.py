@@ -26,9 +26,9 @@ _MOST = 200
 def basins() -> Table:
     """Measure `vi.basins` of a million states, and a loop by hand of a few of a hundredth."""
     table = targets("Basins of attraction")
-    vi.basins(_CODE, _HERTZ, *_WINDOW, nodes=20)
+    vi.basins(vi.Rig(_CODE, _HERTZ), *_WINDOW, nodes=20)
     begin = time.perf_counter()
-    data = vi.basins(_CODE, _HERTZ, *_WINDOW, nodes=_SIDE, threads=_THREADS)
+    data = vi.basins(vi.Rig(_CODE, _HERTZ), *_WINDOW, nodes=_SIDE, threads=_THREADS)
     taken = time.perf_counter() - begin
     states = data["basin"].size
     table.add(

@@ -22,10 +22,10 @@ def branches() -> Table:
     case = vi.laboratory.case("B3-10mm-A3")
 
     def branch() -> object:
-        return vi.branch(rig, excitation, low=1.0 / _TURN, high=2.5 / _TURN)
+        return vi.branch(vi.Rig(rig, excitation), span=(1.0 / _TURN, 2.5 / _TURN))
 
     def diagram() -> object:
-        return vi.resonance_diagram(case.oscillator, case.amplitude, 0.3, 4.0)
+        return vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (0.3, 4.0))
 
     table = targets("Branches of orbits, warm")
     seconds = interleave({"branch": branch, "diagram": diagram}, _ROUNDS)

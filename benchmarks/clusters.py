@@ -25,7 +25,7 @@ def _map(**how: Any) -> object:
         ("stiffness_ratio", np.geomspace(2.0, 60.0, _SIDE)),
         ("gap_ratio", np.linspace(0, 1, _SIDE)),
     )
-    return vi.scenario_map(*axes, **how)
+    return vi.scenario_map(None, *axes, **how)
 
 
 def _demands(**how: Any) -> object:
@@ -38,7 +38,9 @@ def _ensemble(**how: Any) -> object:
     case = vi.laboratory.case("B2-G1-A3")
     response = partial(vi.sweeps, frequencies=np.linspace(0.5, 5.0, 100), **how)
     spread = {"gap": "normal:5%", "bumper_stiffness": "lognormal:0.2"}
-    return vi.ensemble((case.oscillator, vi.Harmonic(case.amplitude, 1.0)), spread, response, 2048)
+    return vi.ensemble(
+        vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.0)), spread, response, 2048
+    )
 
 
 def _work() -> dict[str, Callable[..., object]]:

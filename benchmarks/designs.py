@@ -22,7 +22,7 @@ def charted(nodes: int, threads: int = 2) -> tuple[float, int]:
     }
     begin = time.perf_counter()
     data = vi.design_chart(
-        building, "0.15 g", vary, frequencies=("0.15 Hz", "1.2 Hz"), threads=threads
+        vi.Rig(building, "0.15 g"), vary, frequency_span=("0.15 Hz", "1.2 Hz"), threads=threads
     )
     return time.perf_counter() - begin, int(data["unsettled_count"].sum())
 

@@ -39,7 +39,9 @@ def _diagram(table: Table) -> None:
     low, high = 0.2, 1.5
 
     def diagram(steps: int) -> object:
-        return vi.bifurcation_diagram(*_rig(), "gap", low, high, steps, points=_POINTS, threads=2)
+        return vi.bifurcation_diagram(
+            vi.Rig(*_rig()), "gap", (low, high), steps, points=_POINTS, threads=2
+        )
 
     diagram(3)
     seconds, data = _timed(lambda: diagram(_VALUES))
@@ -75,7 +77,7 @@ def _ensemble(table: Table) -> None:
 
     def ensemble(count: int) -> object:
         response = partial(vi.sweeps, frequencies=frequencies, threads=2)
-        return vi.ensemble((rig, shaken), spread, response, count, method="latin")
+        return vi.ensemble(vi.Rig(rig, shaken), spread, response, count, method="latin")
 
     ensemble(2)
     seconds, data = _timed(lambda: ensemble(_RIGS))

@@ -46,7 +46,7 @@ class Orbit:
 def orbit() -> Orbit:
     """Find the steady orbit of problem P."""
     shaking = vi.Harmonic(P.amplitude, ours.frequency(), ours.PHASE)
-    data = vi.simulate(ours.oscillator(), shaking, cycles=_SETTLED)
+    data = vi.simulate(vi.Rig(ours.oscillator(), shaking), cycles=_SETTLED)
     at = data["event_time"].values
     events = int(np.sum(data["event_cycle"].values == _SETTLED - 1))
     last = slice(-events - 1, None)

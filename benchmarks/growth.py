@@ -7,7 +7,7 @@ import numpy as np
 import vibroimpact as vi
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import interleave
-from vibroimpact.response.sweep import named_rigs
+from vibroimpact.response.sweep import periodic_rigs
 from vibroimpact.tasks.threads import each
 
 _MOST = 1.2
@@ -20,7 +20,7 @@ Call = Callable[[], object]
 
 def _of_motion(function: Callable[..., object]) -> Callable[[int], Call]:
     def call(cycles: int) -> Call:
-        motion = vi.simulate("B2-G1-A3", "1.2 Hz", cycles, samples=8)
+        motion = vi.simulate("B2-G1-A3", cycles, frequency="1.2 Hz", samples=8)
         return lambda: function(motion)
 
     return call
@@ -28,7 +28,7 @@ def _of_motion(function: Callable[..., object]) -> Callable[[int], Call]:
 
 def _of_names(count: int) -> Call:
     rigs = ["B2-G1-A3"] * count
-    return lambda: named_rigs(rigs)
+    return lambda: periodic_rigs(rigs)
 
 
 def _of_tasks(count: int) -> Call:

@@ -70,13 +70,14 @@ def identification() -> Table:
 
     table = targets("Fits of two curves of 46 points")
     begin = time.perf_counter()
-    fit = vi.identify(data, start, _FREE, profiles=False, threads=2)
+    fit = vi.identify(start, data, _FREE, profiles=False, threads=2)
     seconds = time.perf_counter() - begin
     table.add("global fit of 5 parameters, 2 threads, s", f"{seconds:.1f}", f"under {_FIT:g} s",
               met(seconds < _FIT))  # fmt: skip
     begin = time.perf_counter()
-    vi.identify(data, vi.fitted(fit), _FREE, profiles=False, tried=0, starts=1, draws=_DRAWS,
-                threads=2)  # fmt: skip
+    vi.identify(
+        vi.fitted_rig(fit), data, _FREE, profiles=False, tried=0, starts=1, draws=_DRAWS, threads=2
+    )
     seconds = time.perf_counter() - begin
     table.add(f"{_DRAWS:,} bootstrap refits, 2 threads, s", f"{seconds:.1f}",
               f"under {_BOOTSTRAP:g} s", met(seconds < _BOOTSTRAP))  # fmt: skip

@@ -39,7 +39,7 @@ def simulate_growth() -> tuple[float, float]:
     shaking = vi.Harmonic(P.amplitude, ours.frequency(), ours.PHASE)
 
     def follow(cycles: int) -> None:
-        vi.simulate(rig, shaking, cycles=cycles, samples=0)
+        vi.simulate(vi.Rig(rig, shaking), cycles=cycles, samples=0)
 
     return _growth(follow)
 
@@ -52,7 +52,7 @@ def hold_growth() -> tuple[float, float]:
     def follow(cycles: int) -> None:
         half = cycles // 2
         data = vi.sweep(
-            rig, restless.amplitude, frequencies, "forward", max_cycles=half, window=half
+            vi.Rig(rig, restless.amplitude), frequencies, "forward", max_cycles=half, window=half
         )
         if int(data["cycles"].item()) != cycles:
             raise RuntimeError("the motion has settled; find another that does not")

@@ -21,7 +21,7 @@ def motions() -> Table:
     case = vi.laboratory.case("B3-10mm-A3")
 
     def steady(frequency: float) -> object:
-        return vi.steady(case.oscillator, vi.Harmonic(case.amplitude, frequency))
+        return vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, frequency)))
 
     table = targets("Motions and their kinds, warm")
     seconds = interleave(

@@ -142,7 +142,7 @@ def simulate(
     shaking = vi.Harmonic(problem.amplitude, frequency(problem), PHASE)
 
     def call() -> tuple[float, float]:
-        data = vi.simulate(rig, shaking, cycles=periods, samples=samples)
+        data = vi.simulate(vi.Rig(rig, shaking), cycles=periods, samples=samples)
         x, v = data["final_state"].values[:2].tolist()
         return x, v
 

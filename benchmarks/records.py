@@ -31,12 +31,12 @@ def records() -> Table:
     """Time the motion of B3-G3-A3 through it, and what OpenSees needs for the same peak."""
     rig, shaking = vi.laboratory.case("B3-G3-A3").oscillator, record()
     table = targets(f"A record of {_COUNT:,} samples at {_STEP:g} s on B3-G3-A3, warm")
-    fine = vi.simulate(rig, shaking, samples=200)
+    fine = vi.simulate(vi.Rig(rig, shaking), samples=200)
     peak = float(np.abs(fine["displacement"]).max())
     seconds = interleave(
         {
-            "samples": lambda: vi.simulate(rig, shaking),
-            "end": lambda: vi.simulate(rig, shaking, samples=0),
+            "samples": lambda: vi.simulate(vi.Rig(rig, shaking)),
+            "end": lambda: vi.simulate(vi.Rig(rig, shaking), samples=0),
         },
         _ROUNDS,
         clock=time.thread_time,
@@ -59,7 +59,7 @@ def records() -> Table:
     except ImportError as error:
         table.notes.append(f"OpenSeesPy is not installed ({error}).")
         return table
-    exact = vi.simulate(rig, shaking)["displacement"].values
+    exact = vi.simulate(vi.Rig(rig, shaking))["displacement"].values
     for divisions in _DIVISIONS:
         begin = time.thread_time()
         found = peer.follow(rig, shaking, divisions)

@@ -22,6 +22,7 @@ def mapped(nodes: int, **how: Any) -> float:
     """Seconds for a map over λ and δ0, swept in both directions by hundredths."""
     begin = time.perf_counter()
     vi.scenario_map(
+        None,
         ("stiffness_ratio", np.geomspace(*_RATIO, nodes)),
         ("gap_ratio", np.linspace(*_GAP, nodes)),
         threads=2,

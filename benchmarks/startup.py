@@ -37,9 +37,9 @@ vi.sweep(rig, amplitude, case.frequencies)
 vi.sweeps([case], case.frequencies)
 vi.simulate(rig, shaken, 10)
 motion = vi.steady(rig, shaken)
-vi.contacts(motion), vi.spectrum(motion)
+vi.contacts(motion), vi.fourier_spectrum(motion)
 vi.stroboscopic_section(motion), vi.impact_section(motion)
-vi.coexisting(rig, shaken)
+vi.coexisting_motions(rig, shaken)
 vi.lyapunov_exponents([case], [1.2], 100)
 vi.orbit(rig, shaken)
 vi.branch(rig, shaken, low=1.1, high=1.3)
@@ -53,7 +53,7 @@ vi.bifurcation_curve(
     low=(1.0, 0.5 * amplitude),
     high=(4.0, amplitude),
 )
-vi.classify(rig, amplitude)
+vi.classify_scenario(rig, amplitude)
 vi.scenario_map(("stiffness_ratio", [5.0, 10.0]), ("gap_ratio", [0.2, 0.4]))
 """
 _PREPARE = """

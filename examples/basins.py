@@ -20,7 +20,7 @@ folder.mkdir(parents=True, exist_ok=True)
 wall = vi.RigidStop(restitution=0.9, gap=0.0)
 isolator = vi.Isolator(stiffness=1.0, damping=0.02)
 rig = vi.Oscillator(mass=1.0, isolator=isolator, right=wall, left=None)
-found = vi.basins(rig, vi.Harmonic(1.0, 0.5252), (-1.05, 0.0), (-1.25, 1.25), nodes=nodes)
+found = vi.basins(vi.Rig(rig, vi.Harmonic(1.0, 0.5252)), (-1.05, 0.0), (-1.25, 1.25), nodes=nodes)
 vi.save(found, folder / "basins.nc")
 save_figure(basin_portrait(found), folder / "basins.png")
 for number in found["attractor"].values:
@@ -31,6 +31,6 @@ for number in found["attractor"].values:
 # A softer stop: the borders are the stable curves of a saddle.
 soft = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), vi.Bumper(30.0, 0.6, 0.5), None)
 shaking = vi.Harmonic(1.0, 0.5411)
-curves = vi.manifolds(soft, shaking, longest=40.0)
-softly = vi.basins(soft, shaking, nodes=nodes)
+curves = vi.manifolds(vi.Rig(soft, shaking), longest=40.0)
+softly = vi.basins(vi.Rig(soft, shaking), nodes=nodes)
 save_figure(basin_portrait(softly, manifolds=curves), folder / "manifolds.png")

@@ -15,7 +15,7 @@ folder.mkdir(parents=True, exist_ok=True)
 
 case = vi.laboratory.case("B2-G1-A3", parameters="identified")
 frequencies = [k / 100 for k in range(50, 501)]  # 0.5 to 5 Hz by 0.01 Hz
-data = vi.sweep(case.oscillator, case.amplitude, frequencies)
+data = vi.sweep(vi.Rig(case.oscillator, case.amplitude), frequencies)
 
 # The dataset has labelled dimensions: this is η_a at 2 Hz on the way up and on the way down.
 up, down = data["eta_a"].sel(frequency=2.0)

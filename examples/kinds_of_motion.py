@@ -16,7 +16,7 @@ columns = {}
 for code, frequency in (("B2-G1-A3", 2.6), ("B3-10mm-A3", 1.06)):
     case = vi.laboratory.case(code)
     shaking = vi.Harmonic(case.amplitude, frequency)
-    for number, motion in enumerate(vi.coexisting(case.oscillator, shaking), 1):
+    for number, motion in enumerate(vi.coexisting_motions(vi.Rig(case.oscillator, shaking)), 1):
         kind = motion["motion"].item()
         columns[f"{code}, {frequency:g} Hz, motion {number}:\n{kind}"] = motion
         print(f"{code} at {frequency:g} Hz, motion {number}: {kind}")

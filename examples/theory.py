@@ -126,11 +126,13 @@ def growth():
     case = vi.laboratory.case("B3-10mm-A3")
     for hertz, colour, dashes in ((1.12, BLUE, "--"), (1.06, RED, "-")):
         shaking = vi.Harmonic(case.amplitude, hertz, phase=0.3 * np.pi)
-        begun = vi.simulate(case.oscillator, shaking, 1000, samples=0)["final_state"]
+        begun = vi.simulate(vi.Rig(case.oscillator, shaking), 1000, samples=0)["final_state"]
         pushed = begun.copy()
         pushed.loc[{"component": "displacement"}] += 1e-11
         one, other = (
-            vi.simulate(case.oscillator, shaking, 60, start=start, samples=1)["displacement"]
+            vi.simulate(vi.Rig(case.oscillator, shaking), 60, start=start, samples=1)[
+                "displacement"
+            ]
             for start in (begun, pushed)
         )
         apart = np.maximum(abs((one - other).values), 1e-16)
@@ -147,7 +149,7 @@ def branches():
     """Orbits along a branch, through both folds."""
     case = vi.laboratory.case("B2-G1-A3")
     shaking = vi.Harmonic(case.amplitude, "4 Hz")
-    branch = vi.branch(case.oscillator, shaking, low="1 Hz", high="4 Hz")
+    branch = vi.branch(vi.Rig(case.oscillator, shaking), span=("1 Hz", "4 Hz"))
     ax = branch_diagram(branch, quantity="eta_a")
     inside = branch["frequency"] < 4.0
     ax.plot(branch["frequency"][inside], branch["eta_a"][inside], "|", color=BLUE, markersize=9)
@@ -159,7 +161,7 @@ def chatter():
     """A mass that bounces on a wall ever less, and rests on it."""
     wall = vi.RigidStop(restitution=0.6, gap=0.0)
     rig = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.05), right=wall, left=None)
-    motion = vi.steady(rig, vi.Harmonic(1.0, 0.05), samples=2048)
+    motion = vi.steady(vi.Rig(rig, vi.Harmonic(1.0, 0.05)), samples=2048)
     return time_history(motion, cycles=1.0)
 
 
@@ -173,7 +175,7 @@ def record():
     above.plot(time, samples, "o-", color="black")
     above.set_ylabel("$A_t$ (m/s²)")
     rig = vi.Oscillator(1.0, vi.Isolator((2 * np.pi / 0.6) ** 2, 1.0), None, None)
-    motion = vi.simulate(rig, vi.Record(samples, step), samples=64, tail=0.0)
+    motion = vi.simulate(vi.Rig(rig, vi.Record(samples, step)), samples=64, tail=0.0)
     at = motion["time"].values
     swing = 1e3 * motion["displacement"].values
     below.plot(at, swing, color="black")

@@ -18,12 +18,12 @@ folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
 folder.mkdir(parents=True, exist_ok=True)
 
 case = vi.laboratory.case("B2-G1-A3")
-curves = vi.sweep(case.oscillator, case.amplitude, [k / 100 for k in range(60, 361, 6)])
-orbits = vi.resonance_diagram(case.oscillator, case.amplitude, "0.6 Hz", "3.6 Hz")
+curves = vi.sweep(vi.Rig(case.oscillator, case.amplitude), [k / 100 for k in range(60, 361, 6)])
+orbits = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), ("0.6 Hz", "3.6 Hz"))
 shaking = vi.Harmonic(case.amplitude, "2 Hz")
 motions = {
     ("forward" if motion["impacts_right"] else "backward"): motion
-    for motion in vi.coexisting(case.oscillator, shaking, samples=1024)
+    for motion in vi.coexisting_motions(vi.Rig(case.oscillator, shaking), samples=1024)
 }
 
 figure = Figure(figsize=(10.0, 4.2), layout="constrained")

@@ -33,6 +33,7 @@ bands = {
 }
 for name, (stiffness, gap) in bands.items():
     data = vi.scenario_map(
+        None,
         ("stiffness_ratio", stiffness),
         ("gap_ratio", gap),
         store=folder / f"{name}-{nodes}.zarr",

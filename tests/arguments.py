@@ -85,12 +85,12 @@ def record() -> vi.Record:
 
 @cache
 def motion() -> xr.Dataset:
-    return vi.simulate(rig(), shaken(), 20, samples=32)
+    return vi.simulate(vi.Rig(rig(), shaken()), 20, samples=32)
 
 
 @cache
 def orbit() -> xr.Dataset:
-    return vi.orbit(rig(), shaken())
+    return vi.orbit(vi.Rig(rig(), shaken()))
 
 
 @cache
@@ -100,8 +100,8 @@ def demanded() -> xr.Dataset:
 
 @cache
 def fit() -> xr.Dataset:
-    data = [vi.simulate(rig(), vi.Harmonic(2.0, f), 3, samples=24) for f in (1.2, 1.6)]
-    return vi.identify(data, rig(), {"stiffness": "90 N/m"}, starts=1, tried=1, profiles=False)
+    data = [vi.simulate(vi.Rig(rig(), vi.Harmonic(2.0, f)), 3, samples=24) for f in (1.2, 1.6)]
+    return vi.identify(rig(), data, {"stiffness": "90 N/m"}, starts=1, tried=1, profiles=False)
 
 
 _SMALL: dict[str, Any] = {"max_cycles": 50, "max_events": 200}
@@ -589,4 +589,4 @@ def _response(drawn: Any) -> xr.Dataset:
 
 @cache
 def _shaken_by_record() -> xr.Dataset:
-    return vi.simulate(rig(), record(), samples=4)
+    return vi.simulate(vi.Rig(rig(), record()), samples=4)

@@ -118,13 +118,19 @@ SHAKING = vi.Harmonic(1.0, 1.0)
         ("vary", lambda v: vi.demands(OSCILLATOR, [vi.Record([0.0, 1.0], 0.01)], vary=v)),
         (
             "limits",
-            lambda v: vi.least_acceleration(OSCILLATOR, SHAKING, {"gap": (0.01, 0.05)}, limits=v),
+            lambda v: vi.least_acceleration(
+                OSCILLATOR, {"gap": (0.01, 0.05)}, records=SHAKING, limits=v
+            ),
         ),
-        ("starts", lambda v: vi.coexisting(OSCILLATOR, SHAKING, starts=v)),
+        ("starts", lambda v: vi.coexisting_motions(vi.Rig(OSCILLATOR, SHAKING), starts=v)),
         (
             "starts",
             lambda v: vi.bifurcation_diagram(
-                OSCILLATOR, SHAKING, parameter="frequency", low=1.0, high=1.1, steps=2, starts=v
+                vi.Rig(OSCILLATOR, SHAKING),
+                span=(1.0, 1.1),
+                parameter="frequency",
+                steps=2,
+                starts=v,
             ),
         ),
     ],
@@ -136,6 +142,6 @@ def test_what_is_no_mapping_is_one_line(field, call, wrong):
 
 def test_what_is_no_list_of_saddles_and_no_fit_is_one_line(tmp_path):
     with pytest.raises(vi.InputError, match=r"^saddles: 5 is not a list"):
-        vi.manifolds(OSCILLATOR, SHAKING, saddles=5, displacement=(-1, 1), velocity=(-1, 1))
+        vi.manifolds(vi.Rig(OSCILLATOR, SHAKING), saddles=5, displacement=(-1, 1), velocity=(-1, 1))
     with pytest.raises(vi.InputError, match=r"^result: this is no fit"):
         vi.fit_report(5, tmp_path)

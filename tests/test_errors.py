@@ -52,7 +52,7 @@ def _many_columns(path):
 
 
 def _many_groups(path):
-    one = vi.simulate("B2-G1-A3", "2 Hz", 1, samples=0)
+    one = vi.simulate("B2-G1-A3", 1, frequency="2 Hz", samples=0)
     return vi.save(dict.fromkeys(NAMES[:40], one), path)
 
 
@@ -71,7 +71,7 @@ READERS = {
     "names": lambda _: vi.save(
         dict.fromkeys([*NAMES, "channel_0"], xr.Dataset({"a": 1})), "never.nc"
     ),
-    "parameter": lambda _: vi.branch("B2-G1-A3", "2 Hz", parameter="x", low=1, high=2),
+    "parameter": lambda _: vi.branch("B2-G1-A3", frequency="2 Hz", span=(1, 2), parameter="x"),
     "oscillator": lambda _: vi.Oscillator.model_validate(dict.fromkeys(NAMES, 1)),
     "rigs": lambda _: resonance_family(
         vi.sweeps(["B2-G1-A3"] * 99, np.array([2.0, 2.1])), labels={"x": "y"}

@@ -11,6 +11,6 @@ import vibroimpact as vi
 from vibroimpact.figures import branch_diagram
 
 case = vi.laboratory.case("B2-G1-A3")
-orbits = vi.resonance_diagram(case.oscillator, case.amplitude, "0.8 Hz", "3.4 Hz")
+orbits = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), ("0.8 Hz", "3.4 Hz"))
 swept = vi.sweep(case, [k / 20 for k in range(16, 69)])
 branch_diagram(orbits, quantity="eta_a", sweep=swept)

@@ -11,5 +11,7 @@ import vibroimpact as vi
 from vibroimpact.figures import time_history
 
 case = vi.laboratory.case("B2-G1-A3")
-first, second = vi.coexisting(case.oscillator, vi.Harmonic(case.amplitude, "2 Hz"), samples=512)
+first, second = vi.coexisting_motions(
+    vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, "2 Hz")), samples=512
+)
 time_history({"forward": first, "backward": second})

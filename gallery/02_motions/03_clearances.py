@@ -11,5 +11,5 @@ import vibroimpact as vi
 from vibroimpact.figures import clearances
 
 case = vi.laboratory.case("B3-10mm-A3")
-motion = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, "1.12 Hz"), samples=2048)
+motion = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, "1.12 Hz")), samples=2048)
 clearances(motion)

@@ -11,7 +11,9 @@ from vibroimpact.figures import spectrum_lines
 
 case = vi.laboratory.case("B3-10mm-A3")
 spectra = {
-    f"{hertz} Hz": vi.spectrum(vi.steady(case.oscillator, vi.Harmonic(case.amplitude, hertz)))
+    f"{hertz} Hz": vi.fourier_spectrum(
+        vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, hertz)))
+    )
     for hertz in (1.12, 2.0)
 }
 spectrum_lines(spectra)

@@ -11,7 +11,7 @@ from vibroimpact.figures import motion_page
 
 case = vi.laboratory.case("B3-10mm-A3")
 motions = {
-    f"{hertz} Hz": vi.steady(case.oscillator, vi.Harmonic(case.amplitude, hertz))
+    f"{hertz} Hz": vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, hertz)))
     for hertz in (1.3, 1.107, 1.06)
 }
 motion_page(motions)

@@ -13,7 +13,7 @@ import vibroimpact as vi
 
 wall = vi.RigidStop(restitution=0.8, gap=0.0)
 rig = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.05), right=wall, left=None)
-motion = vi.steady(rig, vi.Harmonic(1.0, 0.445))
+motion = vi.steady(vi.Rig(rig, vi.Harmonic(1.0, 0.445)))
 print(motion["motion"].item(), f"largest exponent {float(motion['exponents'][0]):+.3f} 1/s")
 points = vi.stroboscopic_section(motion, phase=1.0, cycles=40_000)
 

@@ -12,5 +12,7 @@ from vibroimpact.figures import section_diagram
 
 case = vi.laboratory.case("B3-10mm-A3")
 shaking = vi.Harmonic(case.amplitude, "1.12 Hz")
-diagram = vi.bifurcation_diagram(case.oscillator, shaking, "gap", 0.0034, 0.0054, 321, points=100)
+diagram = vi.bifurcation_diagram(
+    vi.Rig(case.oscillator, shaking), "gap", (0.0034, 0.0054), 321, points=100
+)
 section_diagram(diagram)

@@ -13,6 +13,11 @@ from vibroimpact.figures import section_diagram
 wall = vi.RigidStop(restitution=0.8, gap=0.0)
 rig = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.02), right=wall, left=None)
 diagram = vi.bifurcation_diagram(
-    rig, vi.Harmonic(1.0, 0.6), "frequency", 0.415, 0.545, 261, section="impacts", points=100
+    vi.Rig(rig, vi.Harmonic(1.0, 0.6)),
+    "frequency",
+    (0.415, 0.545),
+    261,
+    section="impacts",
+    points=100,
 )
 section_diagram(diagram)

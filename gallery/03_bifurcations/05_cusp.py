@@ -11,16 +11,14 @@ from vibroimpact.figures import bifurcation_curves
 
 case = vi.laboratory.case("B2-G1-A3")
 rig, shaking = case.oscillator, vi.Harmonic(case.amplitude, "2 Hz")
-found = vi.resonance_diagram(rig, case.amplitude, "1 Hz", "4 Hz")
+found = vi.resonance_diagram(vi.Rig(rig, case.amplitude), ("1 Hz", "4 Hz"))
 kinds = list(found["bifurcation_kind"].values)
 curves = {
     kind: vi.bifurcation_curve(
-        rig,
-        shaking,
+        vi.Rig(rig, shaking),
         found.isel(bifurcation=kinds.index(kind)),
+        spans=(("0.3 Hz", "5 Hz"), ("1 mm", "40 mm")),
         parameters=("frequency", "gap"),
-        low=("0.3 Hz", "1 mm"),
-        high=("5 Hz", "40 mm"),
     )
     for kind in ("fold", "grazing")
 }

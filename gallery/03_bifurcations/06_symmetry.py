@@ -11,5 +11,7 @@ import vibroimpact as vi
 from vibroimpact.figures import branch_diagram
 
 case = vi.laboratory.case("B3-10mm-A3")
-orbits = vi.resonance_diagram(case.oscillator, case.amplitude, "0.95 Hz", "1.3 Hz", random=0)
+orbits = vi.resonance_diagram(
+    vi.Rig(case.oscillator, case.amplitude), ("0.95 Hz", "1.3 Hz"), random=0
+)
 branch_diagram(orbits, quantity="eccentricity")

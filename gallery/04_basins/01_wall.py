@@ -12,6 +12,6 @@ from vibroimpact.figures import basin_portrait
 
 wall = vi.RigidStop(restitution=0.9, gap=0.0)
 rig = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.02), right=wall, left=None)
-found = vi.basins(rig, vi.Harmonic(1.0, 0.5252), (-1.05, 0.0), (-1.25, 1.25), nodes=300)
+found = vi.basins(vi.Rig(rig, vi.Harmonic(1.0, 0.5252)), (-1.05, 0.0), (-1.25, 1.25), nodes=300)
 print(f"uncertainty exponent {found['uncertainty_exponent'].item():.2f}, of 1 for a smooth border")
 basin_portrait(found)

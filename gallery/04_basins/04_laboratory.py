@@ -10,5 +10,5 @@ cycles until it is sure where a start leads.
 import vibroimpact as vi
 from vibroimpact.figures import basin_portrait
 
-found = vi.basins("B3-10mm-A3", "0.7 Hz", nodes=300)
+found = vi.basins("B3-10mm-A3", frequency="0.7 Hz", nodes=300)
 basin_portrait(found)

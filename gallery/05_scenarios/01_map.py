@@ -14,6 +14,7 @@ from vibroimpact.figures import Mark, scenario_map
 from vibroimpact.scenarios.borders import jump_border
 
 data = vi.scenario_map(
+    None,
     ("stiffness_ratio", np.geomspace(0.5, 100.0, 17)),
     ("gap_ratio", np.linspace(0.0, 1.1, 17)),
     step=0.03,

@@ -15,9 +15,9 @@ import vibroimpact as vi
 from vibroimpact.figures import save_figure, scenario_map
 
 data = vi.scenario_map(
+    "B2-G1-A3",
     ("gap", np.linspace(2e-3, 36e-3, 15)),
     ("proportional_stiffness", np.geomspace(2e4, 2e6, 13)),
-    base="B2-G1-A3",
     step=0.03,
 )
 drawn = scenario_map(data)

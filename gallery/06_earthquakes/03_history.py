@@ -25,5 +25,5 @@ bumper = vi.Bumper("40 MN/m", "200 kN s/m", "90 mm")
 isolator = vi.BilinearIsolator("8 MN/m", "1 MN/m", "120 kN", "60 kN s/m")
 building = vi.Oscillator("200 t", isolator, right=bumper, left=bumper)
 
-motion = vi.simulate(building, quake(1, "0.35 g"), tail="5 s", samples=4)
+motion = vi.simulate(vi.Rig(building, quake(1, "0.35 g")), tail="5 s", samples=4)
 record_history(motion)

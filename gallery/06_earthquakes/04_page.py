@@ -27,7 +27,7 @@ isolator = vi.BilinearIsolator("8 MN/m", "1 MN/m", "120 kN", "60 kN s/m")
 building = vi.Oscillator("200 t", isolator, right=bumper, left=bumper)
 
 record = quake(1, "0.4 g")
-motion = vi.simulate(building, record, tail="5 s", samples=8)
+motion = vi.simulate(vi.Rig(building, record), tail="5 s", samples=8)
 periods = np.geomspace(0.02, 5.0, 100)
 spectra = {
     "ground": vi.response_spectrum(record, periods, damping=0.05),

@@ -25,5 +25,5 @@ bumper = vi.Bumper("400 kN/m", "0.5 kN s/m", "10 mm")
 guess = vi.Oscillator("550 kg", vi.Isolator("25 kN/m", "1.5 kN s/m"), bumper, bumper)
 
 free = "stiffness,damping,bumper_stiffness,bumper_damping"
-fit = vi.identify(test, guess, free, amplitude="0.04 g", starts=2)
+fit = vi.identify(vi.Rig(guess, "0.04 g"), test, free, starts=2)
 fit_profiles(fit)

@@ -26,6 +26,6 @@ guess = vi.Oscillator("550 kg", vi.Isolator("25 kN/m", "1.5 kN s/m"), bumper, bu
 
 contact = hertzian(guess, depth=0.002)
 free = "stiffness,damping,bumper_stiffness,dissipation"
-fit = vi.identify(test, contact, free, amplitude="0.04 g", starts=1, tried=0, profiles=False)
+fit = vi.identify(vi.Rig(contact, "0.04 g"), test, free, starts=1, tried=0, profiles=False)
 print(fit.attrs["findings"])
 fit_residuals(fit)

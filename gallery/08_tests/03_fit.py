@@ -13,7 +13,7 @@ from vibroimpact.figures import fit_history
 from vibroimpact.measurements.read import as_measured
 
 case = vi.laboratory.case("B2-G1-A3")
-motion = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, "2 Hz"), 12, samples=48)
+motion = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, "2 Hz")), 12, samples=48)
 noise = np.random.default_rng(3).normal(size=(2, motion.sizes["time"]))
 test = as_measured(
     motion[["base_acceleration"]].assign(
@@ -24,5 +24,5 @@ test = as_measured(
 
 bumper = vi.Bumper("700 kN/m", "0.5 kN s/m", "7.5 mm")
 guess = vi.Oscillator("550 kg", case.oscillator.isolator, bumper, bumper)
-fit = vi.identify(test, guess, "bumper_stiffness,bumper_damping,gap", starts=1, profiles=False)
+fit = vi.identify(guess, test, "bumper_stiffness,bumper_damping,gap", starts=1, profiles=False)
 fit_history(fit)

@@ -16,6 +16,6 @@ What the page says in words is what Python says:
 
 import vibroimpact as vi
 
-print(vi.classify("B2-G1-A3"))
+print(vi.classify_scenario("B2-G1-A3"))
 
 # vi.explore("B2-G1-A3") opens the page, in a notebook too.

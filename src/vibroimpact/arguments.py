@@ -149,6 +149,7 @@ def check_list(
 
 def is_list(value: object) -> bool:
     """Whether a value has items that are read one by one: a text, bytes and mappings do not."""
+    value = getattr(value, "magnitude", value)  # of a quantity
     is_scalar = isinstance(value, str | bytes | Mapping) or getattr(value, "ndim", 1) == 0
     return isinstance(value, Iterable) and not is_scalar
 

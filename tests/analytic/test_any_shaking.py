@@ -115,7 +115,7 @@ SETUPS = {
 def test_sections_and_events_agree_with_fifty_digits(name: str) -> None:
     setup = SETUPS[name]
     rig, shaken = setup.rig, setup.shaken
-    data = vi.simulate(rig, shaken, CYCLES, setup.start, samples=1)
+    data = vi.simulate(vi.Rig(rig, shaken), CYCLES, setup.start, samples=1)
     run = fifty_digits.follow(
         reference_rig(rig),
         reference_shaking(rig, shaken),
@@ -166,7 +166,7 @@ RECORDS: dict[str, tuple[vi.Oscillator, vi.Record]] = {
 @pytest.mark.parametrize("name", RECORDS)
 def test_a_record_agrees_with_fifty_digits(name: str) -> None:
     rig, record = RECORDS[name]
-    data = vi.simulate(rig, record)
+    data = vi.simulate(vi.Rig(rig, record))
     spans = len(record.acceleration) - 1
     assert record.duration == pytest.approx(SECONDS)
     run = fifty_digits.follow(

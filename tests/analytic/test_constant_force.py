@@ -45,8 +45,8 @@ STOPS = {"bumpers": BUMPERS, "walls": WALLS, "one": (BUMPERS[0], None)}
 @pytest.mark.parametrize("shaken", [SHAKEN, vi.Periodic(0.3, (1.0, 0.4), (0.0, 1.0))])
 def test_it_shifts_the_gaps(name: str, shaken) -> None:
     forced, shifted = pair(STOPS[name])
-    one = vi.simulate(forced, shaken, 6, samples=16)
-    other = vi.simulate(shifted, shaken, 6, samples=16)
+    one = vi.simulate(vi.Rig(forced, shaken), 6, samples=16)
+    other = vi.simulate(vi.Rig(shifted, shaken), 6, samples=16)
     assert one.sizes["event"] == other.sizes["event"] > 5
     size, speed = (float(np.abs(other[n]).max()) for n in ("displacement", "velocity"))
     np.testing.assert_allclose(
@@ -63,7 +63,7 @@ def test_it_shifts_the_gaps(name: str, shaken) -> None:
 
 def test_a_record_sees_it_likewise() -> None:
     record = vi.Record(np.random.default_rng(2).uniform(-6.0, 6.0, 80), 0.1)
-    one, other = (vi.simulate(rig, record) for rig in pair(WALLS))
+    one, other = (vi.simulate(vi.Rig(rig, record)) for rig in pair(WALLS))
     np.testing.assert_allclose(one["displacement"] - SHIFT, other["displacement"], atol=1e-13)
     assert one.sizes["event"] == other.sizes["event"] > 5
 
@@ -71,13 +71,13 @@ def test_a_record_sees_it_likewise() -> None:
 def test_a_sweep_and_orbits_see_it_likewise() -> None:
     forced, shifted = pair(BUMPERS)
     grid = np.linspace(0.25, 0.55, 7)
-    one, other = (vi.sweep(rig, 1.2, grid) for rig in (forced, shifted))
+    one, other = (vi.sweep(vi.Rig(rig, 1.2), grid) for rig in (forced, shifted))
     assert float(one["impacts_right"].max()) >= 1
     for name in ("displacement_excursion", "acceleration_excursion", "eta_d", "eta_a"):
         np.testing.assert_allclose(one[name], other[name], rtol=1e-11)
     np.testing.assert_allclose(one["eccentricity"] - SHIFT, other["eccentricity"], atol=1e-11)
     np.testing.assert_array_equal(one["motion"], other["motion"])
-    found = [vi.orbit(rig, SHAKEN) for rig in (forced, shifted)]
+    found = [vi.orbit(vi.Rig(rig, SHAKEN)) for rig in (forced, shifted)]
     for part in ("real", "imag"):
         np.testing.assert_allclose(*(one[f"multiplier_{part}"] for one in found), atol=1e-11)
     np.testing.assert_allclose(
@@ -92,9 +92,9 @@ def test_a_branch_over_the_force_is_one_over_the_gap() -> None:
     rig = vi.Oscillator(MASS, vi.Isolator(STIFFNESS, 0.4), vi.Bumper(160.0, 3.0, 0.5), force=-0.4)
     turn = SHAKEN.angular_frequency
     swing = SHAKEN.amplitude / abs(complex(STIFFNESS / MASS - turn**2, 0.2 * turn))
-    free = vi.simulate(rig.without_bumpers(), SHAKEN, 400, samples=0)["final_state"].values
+    free = vi.simulate(vi.Rig(rig.without_bumpers(), SHAKEN), 400, samples=0)["final_state"].values
     start = vi.State(free[0], free[1], phase=free[4])
-    over = vi.branch(rig, SHAKEN, start, parameter="force", low=-0.8, high=1.2)
+    over = vi.branch(vi.Rig(rig, SHAKEN), start, span=(-0.8, 1.2), parameter="force")
     kinds = over["bifurcation_kind"].values
     grazings = over["bifurcation_value"].values[kinds == "grazing"]
     assert np.abs(grazings - STIFFNESS * (0.5 - swing)).min() < 1e-11
@@ -103,7 +103,7 @@ def test_a_branch_over_the_force_is_one_over_the_gap() -> None:
     bare = rig.replace(force=0.0, right=rig.right.replace(gap=0.5 + 0.4 / STIFFNESS))
     moved = vi.State(u + 0.4 / STIFFNESS, v, phase=phase)
     low, high = 0.5 - 1.2 / STIFFNESS, 0.5 + 0.8 / STIFFNESS
-    gap = vi.branch(bare, SHAKEN, moved, parameter="gap", low=low, high=high)
+    gap = vi.branch(vi.Rig(bare, SHAKEN), moved, span=(low, high), parameter="gap")
     for kind in set(kinds.tolist()):
         values = np.sort(over["bifurcation_value"].values[kinds == kind])
         same = gap["bifurcation_value"].values[gap["bifurcation_kind"].values == kind]
@@ -116,7 +116,7 @@ def test_a_branch_over_the_force_is_one_over_the_gap() -> None:
         here = rig.replace(force=float(over["force"][i]))
         section = over["section"].values[i]
         begin = vi.State(*section[:4], phase=section[4], contact=int(section[5]))
-        end = vi.simulate(here, SHAKEN, 1, begin, samples=0)["final_state"].values
+        end = vi.simulate(vi.Rig(here, SHAKEN), 1, begin, samples=0)["final_state"].values
         np.testing.assert_allclose(end[:4], section[:4], atol=1e-10)
 
 
@@ -129,7 +129,9 @@ def test_a_dropped_mass_bounces_to_rest(e: float) -> None:
     rig, h = FLOOR.replace(left=vi.RigidStop(e, 0.0)), 1.3
     first, v = math.sqrt(2 * h / G), math.sqrt(2 * h * G)
     total = first + 2 * e * v / (G * (1 - e))
-    data = vi.simulate(rig, vi.Harmonic(0.0, 1 / (1.5 * total)), 1, vi.State(h), samples=1000)
+    data = vi.simulate(
+        vi.Rig(rig, vi.Harmonic(0.0, 1 / (1.5 * total))), 1, vi.State(h), samples=1000
+    )
     seen = events(data)
     assert [one.kind for one in seen[:-1]] == ["impact_left"] * (len(seen) - 1)
     assert seen[-1].kind == "contact_left"
@@ -172,7 +174,7 @@ def test_a_mass_bounces_once_a_cycle_on_a_shaken_floor(of: str) -> None:
         u -= amplitude * math.cos(angle) / omega * t
         return u, up - G * t + amplitude * (cosine - math.cos(angle)) / omega
 
-    data = vi.simulate(FLOOR, shaken, 10, vi.State(0.0, up), samples=50)
+    data = vi.simulate(vi.Rig(FLOOR, shaken), 10, vi.State(0.0, up), samples=50)
     impacts = events(data)
     assert [one.kind for one in impacts[:9]] == ["impact_left"] * 9
     np.testing.assert_allclose(
@@ -185,7 +187,7 @@ def test_a_mass_bounces_once_a_cycle_on_a_shaken_floor(of: str) -> None:
     # As a fixed point of the map, seen a third of a cycle behind the impact.
     u, v = flight(period / 3)
     later = shaken.replace(phase=shaken.phase + math.tau / 3)
-    found = vi.orbit(FLOOR, later, vi.State(u, v))
+    found = vi.orbit(vi.Rig(FLOOR, later), vi.State(u, v))
     np.testing.assert_allclose(found["final_state"].values[:2], [u, v], atol=1e-12)
     moduli = np.hypot(found["multiplier_real"], found["multiplier_imag"]).values[:2]
     assert moduli.prod() == pytest.approx(e**2, rel=1e-10)
@@ -202,6 +204,6 @@ def test_a_fall_through_a_thick_fluid_on_a_weak_spring_keeps_its_digits():
     slow = k / fast
     expected = -g * (-math.expm1(-slow * t) / k - math.exp(-slow * t) / (fast * (fast - slow)))
     rig = vi.Oscillator(1.0, vi.Isolator(k, c), force=-g)
-    fallen = vi.simulate(rig, vi.Harmonic(0.0, 1.0 / t), 1, vi.State(0.0), samples=0)
+    fallen = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0 / t)), 1, vi.State(0.0), samples=0)
     found = float(fallen["final_state"].sel(component="displacement"))
     assert found == pytest.approx(expected, rel=1e-13)

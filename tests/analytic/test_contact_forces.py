@@ -28,7 +28,7 @@ def test_bumpers_that_are_never_left(frequency: float) -> None:
     stiffness = STIFFNESS + right[0] + left[0]
     damping = DAMPING + right[1] + left[1]
     swing = MASS * amplitude / abs(stiffness - MASS * omega**2 + 1j * omega * damping)
-    held = vi.sweep(rig, amplitude, [frequency], "forward").isel(direction=0, frequency=0)
+    held = vi.sweep(vi.Rig(rig, amplitude), [frequency], "forward").isel(direction=0, frequency=0)
     assert float(held["peak_displacement"]) == pytest.approx(swing, rel=1e-10)
     for side, (k, c), preload in (("right", right, preloads[0]), ("left", left, preloads[1])):
         force = k * preload + abs(k + 1j * omega * c) * swing
@@ -40,7 +40,7 @@ def test_a_mass_pressed_by_its_weight_and_hardly_shaken() -> None:
     """The bumper bears what the isolator does not, and K/M-th of the shaking comes on top."""
     k, weight = 5.1e5, -3000.0
     rig = vi.Oscillator(MASS, vi.Isolator(STIFFNESS, DAMPING), None, vi.Bumper(k, 900, 0.0), weight)
-    held = vi.sweep(rig, 1e-9, [0.01], "forward").isel(direction=0, frequency=0)
+    held = vi.sweep(vi.Rig(rig, 1e-9), [0.01], "forward").isel(direction=0, frequency=0)
     share = k / (k + STIFFNESS)
     assert float(held["peak_force_left"]) == pytest.approx(-weight * share, rel=1e-8)
     assert float(held["peak_force_right"]) == 0.0
@@ -52,7 +52,7 @@ def test_a_mass_at_rest_on_a_wall() -> None:
     wall = vi.RigidStop(0.5, 0.0)
     for side, sign in (("right", 1.0), ("left", -1.0)):
         rig = vi.Oscillator(MASS, vi.Isolator(STIFFNESS, DAMPING), force=sign * weight)
-        held = vi.sweep(rig.replace(**{side: wall}), amplitude, [1.3], "forward")
+        held = vi.sweep(vi.Rig(rig.replace(**{side: wall}), amplitude), [1.3], "forward")
         force = float(held[f"peak_force_{side}"].item())
         assert force == pytest.approx(weight + MASS * amplitude, rel=1e-12)
         assert held[f"peak_impulse_{side}"].item() == 0.0

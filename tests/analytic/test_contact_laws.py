@@ -32,7 +32,7 @@ def flown(stop, speed: float, side: int = 1, mass: float = 1.0, reach: float = 1
     rig = vi.Oscillator(mass, vi.Isolator(SPRING * mass, 0.0), *sides)
     time = (GAP + 20.0 * reach) / speed
     start = vi.State(0.0, side * speed)
-    return vi.simulate(rig, vi.Harmonic(1e-300, 1.0 / time), 1, start, samples=64)
+    return vi.simulate(vi.Rig(rig, vi.Harmonic(1e-300, 1.0 / time)), 1, start, samples=64)
 
 
 def returned(stop, speed: float, side: int = 1, mass: float = 1.0) -> float:
@@ -93,7 +93,7 @@ def test_a_stop_does_not_pull() -> None:
     """1 + χ δ′ is held at 0: pressed and let go faster than −1/χ, it follows without a force."""
     stop = vi.PowerBumper(2.0, GAP, dissipation=3.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop)
-    data = vi.simulate(rig, vi.Harmonic(0.6, 0.9 / math.tau), 20, samples=256)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.6, 0.9 / math.tau)), 20, samples=256)
     u, v = data["displacement"].values, data["velocity"].values
     a = data["acceleration"].values + u + 0.1 * v  # what stops do, seen from the ground
     right, left = u - GAP, -u - GAP
@@ -119,7 +119,7 @@ def test_a_mass_that_is_pushed_from_rest_where_it_touches(exponent: float) -> No
     exact = solve_ivp(
         slope, (0.0, 1.0), [0.0, 0.0], method="DOP853", rtol=1e-12, atol=1e-14, max_step=1e-3
     ).y[:, -1]
-    found = vi.simulate(rig, shaken, 0.06, samples=0)["final_state"].values[:2]
+    found = vi.simulate(vi.Rig(rig, shaken), 0.06, samples=0)["final_state"].values[:2]
     np.testing.assert_allclose(found, exact, atol=1e-9)
 
 
@@ -132,7 +132,7 @@ def test_a_contact_that_is_looked_at_just_before_it_ends(
     stop = vi.PowerBumper(2e7 * 2e-3 ** (1.5 - exponent), 6e-3, exponent, dissipation=dissipation)
     rig = vi.Oscillator(550.0, vi.Isolator(26e3, 1.1e3), stop)
     shaken, start = vi.Harmonic(1e-9, 1.0), vi.State(7.8e-3, -0.06)
-    parts = float(vi.simulate(rig, shaken, 0.5, start)["event_time"][0])
+    parts = float(vi.simulate(vi.Rig(rig, shaken), 0.5, start)["event_time"][0])
 
     def slope(_: float, state: np.ndarray) -> list[float]:
         u, v = state
@@ -146,5 +146,5 @@ def test_a_contact_that_is_looked_at_just_before_it_ends(
         slope, (0.0, parts), begin, "DOP853", times, rtol=1e-12, atol=1e-15, max_step=1e-4
     ).y.T
     for time, state in zip(times, exact, strict=True):
-        found = vi.simulate(rig, shaken, time, start, samples=0)["final_state"].values[:2]
+        found = vi.simulate(vi.Rig(rig, shaken), time, start, samples=0)["final_state"].values[:2]
         np.testing.assert_allclose(found, state, atol=1e-9)

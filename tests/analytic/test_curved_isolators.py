@@ -18,20 +18,20 @@ LARGE = SHAKEN.replace(amplitude=1.5)
 def held(isolator, shaken=SHAKEN, cycles=1.0, start=None) -> np.ndarray:
     """Displacement, velocity and the isolator's memory after so many cycles."""
     rig = vi.Oscillator(1.0, isolator)
-    state = vi.simulate(rig, shaken, cycles, start, samples=0)["final_state"]
+    state = vi.simulate(vi.Rig(rig, shaken), cycles, start, samples=0)["final_state"]
     return state.sel(component=["displacement", "velocity", "isolator"]).values
 
 
 def settled(isolator, shaken):
     rig = vi.Oscillator(1.0, isolator)
-    return rig, vi.simulate(rig, shaken, 300, samples=0)["final_state"]
+    return rig, vi.simulate(vi.Rig(rig, shaken), 300, samples=0)["final_state"]
 
 
 def test_area_of_a_bilinear_loop() -> None:
     """4 (k_e − k_p) u_y (X − u_y) a cycle, which is what the base works on the mass."""
     law = vi.BilinearIsolator(3.5, 0.5, 0.7, 0.0)
     rig, state = settled(law, LARGE)
-    data = vi.simulate(rig, LARGE, 1, state, samples=2**13)
+    data = vi.simulate(vi.Rig(rig, LARGE), 1, state, samples=2**13)
     v, t = data["velocity"].values[:-1], data["time"].values[:-1]
     work = float(np.mean(-1.5 * np.sin(0.9 * t + 0.3) * v)) * LARGE.period
     swing = np.abs(data["displacement"].values).max()
@@ -44,7 +44,7 @@ def test_masing() -> None:
     """From a reversal on, the force follows the first loading's curve at twice the scale."""
     law = vi.BilinearIsolator(3.5, 0.5, 0.7, 0.0)
     rig, state = settled(law, LARGE)
-    data = vi.simulate(rig, LARGE, 1, state, samples=4000)
+    data = vi.simulate(vi.Rig(rig, LARGE), 1, state, samples=4000)
     u = data["displacement"].values
     top = int(np.argmax(u[:2500]))
     swing = u[top]

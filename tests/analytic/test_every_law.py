@@ -24,10 +24,10 @@ def error(one: Case, stored: States) -> float:
     rig, shaken = one
     at = marks(one)
     cycles = None if isinstance(shaken, vi.Record) else at[-1]
-    data = vi.simulate(rig, shaken, cycles, samples=1)
+    data = vi.simulate(vi.Rig(rig, shaken), cycles, samples=1)
     assert data.sizes["time"] == at[-1] + 1, data.attrs["status"]
     columns = [data[which].values for which in ("displacement", "velocity")]
-    last = vi.simulate(rig, shaken, cycles, samples=0)["final_state"].values
+    last = vi.simulate(vi.Rig(rig, shaken), cycles, samples=0)["final_state"].values
     worst = 0.0
     with mp.workdps(40):
         size = float(abs(columns[0]).max())

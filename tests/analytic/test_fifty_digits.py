@@ -96,8 +96,8 @@ def follow(setup: Setup) -> tuple[NDArray[np.float64], list[str], NDArray[np.flo
     """Sections (u, v, u_R, u_L); kinds of the events; their (time in cycles, u, v, u_R, u_L)."""
     oscillator, _ = oscillator_and_reference_rig(setup)
     shaken = vi.Harmonic(AMPLITUDE, setup.frequency, setup.phase)
-    data = vi.simulate(oscillator, shaken, CYCLES, setup.start, samples=1)
-    last = vi.simulate(oscillator, shaken, CYCLES, setup.start, samples=0)["final_state"]
+    data = vi.simulate(vi.Rig(oscillator, shaken), CYCLES, setup.start, samples=1)
+    last = vi.simulate(vi.Rig(oscillator, shaken), CYCLES, setup.start, samples=0)["final_state"]
     sampled = ("displacement", "velocity", "right_bumper", "left_bumper")
     sections = np.stack([data[name].values for name in sampled], axis=-1)
     np.testing.assert_array_equal(sections[-1], last.values[:4])

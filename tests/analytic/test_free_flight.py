@@ -73,7 +73,7 @@ def test_amplification_curve(damping_ratio: float) -> None:
     """Measured: 4e-14 at worst; the closed form that η is based on, 5e-16."""
     oscillator = rig(damping_ratio)
     grid = [r * oscillator.natural_frequency for r in RATIOS]
-    data = vi.sweep(oscillator, AMPLITUDE, grid, tolerance=1e-14)
+    data = vi.sweep(vi.Rig(oscillator, AMPLITUDE), grid, tolerance=1e-14)
     assert (data["motion"] == "periodic").all()
     assert (data["period"] == 1).all()
     exact = np.array([excursions(oscillator, f) for f in grid]).T
@@ -94,7 +94,7 @@ def test_amplification_curve(damping_ratio: float) -> None:
 def test_the_default_tolerance_is_good_enough_for_a_damped_rig() -> None:
     oscillator = rig(0.15)
     grid = [r * oscillator.natural_frequency for r in RATIOS]
-    data = vi.sweep(oscillator, AMPLITUDE, grid)
+    data = vi.sweep(vi.Rig(oscillator, AMPLITUDE), grid)
     curve = [excursions(oscillator, f)[0] for f in grid]
     for direction in data["direction"]:
         swept = data["displacement_excursion"].sel(direction=direction)
@@ -105,7 +105,7 @@ def test_the_default_tolerance_is_good_enough_for_a_damped_rig() -> None:
 def test_a_slow_transient_is_waited_for(damping_ratio: float, ratio: float) -> None:
     oscillator = rig(damping_ratio)
     frequency = ratio * oscillator.natural_frequency
-    data = vi.sweep(oscillator, AMPLITUDE, [frequency], tolerance=1e-14, max_cycles=50_000)
+    data = vi.sweep(vi.Rig(oscillator, AMPLITUDE), [frequency], tolerance=1e-14, max_cycles=50_000)
     assert (data["period"] == 1).all()
     curve, _ = excursions(oscillator, frequency)
     np.testing.assert_allclose(data["displacement_excursion"], curve, rtol=1e-12)
@@ -113,7 +113,7 @@ def test_a_slow_transient_is_waited_for(damping_ratio: float, ratio: float) -> N
 
 def error(oscillator: vi.Oscillator, shaken: vi.Harmonic, start: vi.State, cycles: int) -> float:
     """Largest error of displacement or velocity over a run, as a share of their sizes in it."""
-    data = vi.simulate(oscillator, shaken, cycles, start, samples=7)
+    data = vi.simulate(vi.Rig(oscillator, shaken), cycles, start, samples=7)
     exact = vibration(oscillator, shaken, start, data["cycle"].values)
     found = np.stack([data["displacement"], data["velocity"]])
     return float((np.abs(found - exact).max(axis=1) / np.abs(exact).max(axis=1)).max())
@@ -143,15 +143,15 @@ def test_undamped_resonance_is_refused(scale: float) -> None:
     free = rig(0.0)
     frequency = free.natural_frequency * scale
     with pytest.raises(vi.InputError, match=r"^frequency: .* grows without bound; .*accepted$"):
-        vi.simulate(free, vi.Harmonic(AMPLITUDE, frequency), 10)
+        vi.simulate(vi.Rig(free, vi.Harmonic(AMPLITUDE, frequency)), 10)
     for oscillator in (free, free.replace(right=vi.Bumper(1e5, 1e3, 0.01))):
         # With bumpers the motion is bounded, but not the reference of η.
         with pytest.raises(vi.InputError, match=r"^frequencies\[1\]: .* grows without bound; "):
-            vi.sweep(oscillator, AMPLITUDE, [0.5 * frequency, frequency])
+            vi.sweep(vi.Rig(oscillator, AMPLITUDE), [0.5 * frequency, frequency])
 
 
 def test_a_bumper_bounds_undamped_resonance() -> None:
     oscillator = rig(0.0).replace(right=vi.Bumper(1e5, 1e3, 0.01))
     shaken = vi.Harmonic(AMPLITUDE, oscillator.natural_frequency)
-    data = vi.simulate(oscillator, shaken, 1000)
+    data = vi.simulate(vi.Rig(oscillator, shaken), 1000)
     assert np.abs(data["displacement"]).max() < 0.1

@@ -34,9 +34,11 @@ def test_den_hartog(ratio: float, friction: float) -> None:
     shaken = vi.Harmonic(1.0, ratio / math.tau, phase)
     start = vi.State(amplitude, 0.0)
     for cycles, sign in ((0.5, -1.0), (1.0, 1.0), (3.0, 1.0)):
-        end = vi.simulate(rig(friction), shaken, cycles, start, samples=0)["final_state"].values
+        end = vi.simulate(vi.Rig(rig(friction), shaken), cycles, start, samples=0)[
+            "final_state"
+        ].values
         np.testing.assert_allclose(end[:2], [sign * amplitude, 0.0], atol=2e-13 * amplitude)
-    data = vi.simulate(rig(friction), shaken, 1, start, samples=500)
+    data = vi.simulate(vi.Rig(rig(friction), shaken), 1, start, samples=500)
     assert abs(data["displacement"]).max() == pytest.approx(amplitude, rel=1e-12)
 
 
@@ -44,7 +46,7 @@ def test_den_hartog(ratio: float, friction: float) -> None:
 def test_it_is_where_a_motion_from_rest_goes(ratio: float) -> None:
     amplitude, phase = den_hartog(ratio, 0.4)
     shaken = vi.Harmonic(1.0, ratio / math.tau, phase)
-    end = vi.simulate(rig(0.4), shaken, 1000, samples=0)["final_state"].values
+    end = vi.simulate(vi.Rig(rig(0.4), shaken), 1000, samples=0)["final_state"].values
     np.testing.assert_allclose(end[:2], [amplitude, 0.0], atol=1e-11 * amplitude)
 
 
@@ -52,7 +54,7 @@ def test_held_until_the_force_exceeds_friction() -> None:
     """At rest up to sin θ = F/A to the last bit, and then as a free oscillator from there."""
     ratio, friction = 0.3, 0.5
     shaken = vi.Harmonic(1.0, ratio / math.tau)
-    data = vi.simulate(rig(friction), shaken, 0.25, samples=3000)
+    data = vi.simulate(vi.Rig(rig(friction), shaken), 0.25, samples=3000)
     t, u = data["time"].values, data["displacement"].values
     release = math.asin(friction) / ratio
     held = t < release
@@ -74,10 +76,14 @@ def test_what_is_held_never_moves() -> None:
     """Nowhere between where the spring and the shaking together exceed friction."""
     shaken = vi.Harmonic(0.3, 0.2)
     start = vi.State(0.19)
-    end = vi.simulate(rig(0.5), shaken, 50, start, samples=0)["final_state"].values
+    end = vi.simulate(vi.Rig(rig(0.5), shaken), 50, start, samples=0)["final_state"].values
     assert list(end[:2]) == [0.19, 0.0]
     ends = [
-        float(vi.simulate(rig(0.5), shaken, cycles, vi.State(0.25), samples=0)["final_state"][0])
+        float(
+            vi.simulate(vi.Rig(rig(0.5), shaken), cycles, vi.State(0.25), samples=0)["final_state"][
+                0
+            ]
+        )
         for cycles in (1, 10, 100, 1000)
     ]
     assert ends == sorted(ends, reverse=True)  # to where the two are friction, ever slower
@@ -88,8 +94,8 @@ def test_no_creep() -> None:
     """A motion of slips and stops is the same after many cycles."""
     shaken = vi.Harmonic(1.0, 0.3 / math.tau, 0.7)
     cycles = sample(100_000, 10_000)
-    short = vi.simulate(rig(0.75), shaken, 100, samples=0)["final_state"]
-    long = vi.simulate(rig(0.75), shaken, cycles, samples=0)["final_state"]
+    short = vi.simulate(vi.Rig(rig(0.75), shaken), 100, samples=0)["final_state"]
+    long = vi.simulate(vi.Rig(rig(0.75), shaken), cycles, samples=0)["final_state"]
     np.testing.assert_allclose(long.values[:2], short.values[:2], atol=1e-14)
-    data = vi.simulate(rig(0.75), shaken, 1, short, samples=400)
+    data = vi.simulate(vi.Rig(rig(0.75), shaken), 1, short, samples=400)
     assert 20 < (data["velocity"] == 0.0).sum() < 380

@@ -84,8 +84,7 @@ def touches(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Phases of the base at the events, counted on from the start's, and the events' sides."""
     data = vi.simulate(
-        oscillator,
-        vi.Harmonic(AMPLITUDE, flight.frequency, phase),
+        vi.Rig(oscillator, vi.Harmonic(AMPLITUDE, flight.frequency, phase)),
         cycles,
         flight.state(phase),
         samples=1,
@@ -186,7 +185,7 @@ def test_grazing_a_relaxing_bumper(
         assume(gap > 0.0)
         assume(gap + ahead(np.zeros(1))[0] > 1e-3 * flight.swing)
         rig = vi.Oscillator(MASS, flight.isolator, stop.replace(gap=gap))
-        data = vi.simulate(rig, shaken, 1.0, start, samples=1)
+        data = vi.simulate(vi.Rig(rig, shaken), 1.0, start, samples=1)
         if share < 0.0:
             assert not data.sizes["event"]
             continue

@@ -50,7 +50,7 @@ def test_orbit_and_multipliers(name: str) -> None:
         for orbit in found:
             shaken, start = section(orbit)
             near = start.replace(velocity=start.velocity * (1 + 1e-4))
-            data = vi.orbit(rig(one), shaken, near, one.cycles)
+            data = vi.orbit(vi.Rig(rig(one), shaken), near, one.cycles)
             state = data["final_state"]
             assert float(state[0]) == pytest.approx(start.displacement, abs=1e-11)
             assert float(state[1]) == pytest.approx(start.velocity, abs=1e-11)
@@ -77,7 +77,7 @@ def test_a_stable_orbit_is_settled_on(name: str, side: str) -> None:
     sign = 1 if side == "right" else -1
     shaken = shaken.replace(phase=shaken.phase + (0.0 if sign == 1 else math.pi))
     near = vi.State(sign * start.displacement, sign * start.velocity * 1.001)
-    data = vi.steady(rig(one, side), shaken, near)
+    data = vi.steady(vi.Rig(rig(one, side), shaken), near)
     assert int(data["period"]) == one.cycles
     assert str(data["motion"].values) == "periodic"
     assert float(data["final_state"][1]) == pytest.approx(sign * start.velocity, abs=1e-9)
@@ -90,7 +90,7 @@ def test_a_stable_orbit_is_settled_on(name: str, side: str) -> None:
 def test_exponents_sum_to_damping_and_impacts() -> None:
     """Each impact takes the area times e², the isolator exp(-C/M t)."""
     one = CASES["resonant"]
-    data = vi.lyapunov_exponents([(rig(one), 1.0)], [one.frequency], 3000)
+    data = vi.lyapunov_exponents([vi.Rig(rig(one), 1.0)], [one.frequency], 3000)
     total = float(data["exponents"].sum())
     assert total == pytest.approx(2 * math.log(one.restitution) * one.frequency - 0.1, abs=1e-6)
 
@@ -101,7 +101,7 @@ def test_a_branch_turns_back_at_the_fold() -> None:
         (orbit,) = [o for o in possible_orbits(one) if max(map(abs, o.multipliers)) < 1]
         shaken, start = section(orbit)
         fold = float(one.fold)
-    data = vi.branch(rig(one), shaken, start, parameter="gap", low=0.1, high=0.6)
+    data = vi.branch(vi.Rig(rig(one), shaken), start, span=(0.1, 0.6), parameter="gap")
     kinds = data["bifurcation_kind"].values
     at = data["bifurcation_value"].values[kinds == "fold"]
     assert np.abs(at - fold).min() < 1e-10
@@ -130,7 +130,7 @@ def test_the_period_doubles_where_a_multiplier_is_minus_one() -> None:
         doubling = float(findroot(margin, (mpf("0.2"), mpf("0.25")), solver="anderson"))
         (orbit,) = possible_orbits(one)
         shaken, start = section(orbit)
-    data = vi.branch(rig(one), shaken, start, parameter="gap", low=0.05, high=0.25)
+    data = vi.branch(vi.Rig(rig(one), shaken), start, span=(0.05, 0.25), parameter="gap")
     kinds = data["bifurcation_kind"].values
     at = data["bifurcation_value"].values[kinds == "period doubling"]
     assert np.abs(at - doubling).min() < 1e-10
@@ -138,5 +138,5 @@ def test_the_period_doubles_where_a_multiplier_is_minus_one() -> None:
         with mp.workdps(30):
             (orbit,) = possible_orbits(one._replace(gap=gap))
             shaken, start = section(orbit)
-        beside = vi.orbit(rig(one._replace(gap=gap)), shaken, start)
+        beside = vi.orbit(vi.Rig(rig(one._replace(gap=gap)), shaken), start)
         assert int(beside["stable"]) == stable

@@ -30,7 +30,7 @@ def test_the_end_of_a_chatter_is_that_of_the_geometric_series(e: float, side: in
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), **{name: vi.RigidStop(e, -1.0)})
     w = 1e-4
     start = vi.State(-side, -side * w)
-    data = vi.simulate(rig, vi.Harmonic(0.0, 1.0), 1, start, samples=1)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0)), 1, start, samples=1)
     seen = events(data)
     (rest,) = [one for one in seen if one.kind.startswith("contact")]
     assert rest.kind == f"contact_{name}"
@@ -52,7 +52,9 @@ def test_an_impact_may_return_all_of_its_energy_ten_thousand_times(
 ) -> None:
     rig = vi.Oscillator(2.0, vi.Isolator(3.0, 0.0), vi.RigidStop(1.0, 0.25), left)
     start = vi.State(0.2, 1.0)
-    data = vi.simulate(rig, vi.Harmonic(0.0, rig.natural_frequency), cycles, start, samples=1)
+    data = vi.simulate(
+        vi.Rig(rig, vi.Harmonic(0.0, rig.natural_frequency)), cycles, start, samples=1
+    )
     assert data.sizes["event"] > 10_000
     energy = 2.0 * data["velocity"] ** 2 + 3.0 * data["displacement"] ** 2
     assert float(np.abs(energy / energy[0] - 1.0).max()) < 1e-12
@@ -63,7 +65,7 @@ def test_what_loses_nothing_keeps_its_energy_over_ten_thousand_cycles(
     right: vi.Bumper | None,
 ) -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), right)
-    data = vi.simulate(rig, vi.Harmonic(0.0, 0.16), 10_000, vi.State(0.2, 1.0), samples=1)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 0.16)), 10_000, vi.State(0.2, 1.0), samples=1)
     energy = data["velocity"] ** 2 + data["displacement"] ** 2
     if right is not None:
         energy = energy + right.stiffness * data["right_bumper"] ** 2
@@ -76,7 +78,7 @@ def test_rest_ends_exactly_when_nothing_presses(e: float) -> None:
     gap, amplitude = -0.4, 0.9
     rig = vi.Oscillator(1.0, ISOLATOR, vi.RigidStop(e, gap))
     shaken = vi.Harmonic(amplitude, 0.02, -math.pi / 2)
-    data = vi.simulate(rig, shaken, 1, samples=400)
+    data = vi.simulate(vi.Rig(rig, shaken), 1, samples=400)
     left = events(data)[0]
     assert left.kind == "detach_right"
     # The base acts towards the wall while its acceleration is negative: -(K G + M A sin θ) >= 0.
@@ -90,7 +92,7 @@ def test_rest_ends_exactly_when_nothing_presses(e: float) -> None:
 
 def test_rest_that_is_never_shaken_off_lasts() -> None:
     rig = vi.Oscillator(1.0, ISOLATOR, vi.RigidStop(0.5, -0.4), vi.Bumper(3.0, 0.1, -0.2))
-    data = vi.simulate(rig, vi.Harmonic(0.99, 0.1), 50, samples=64)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.99, 0.1)), 50, samples=64)
     assert data.sizes["event"] == 0
     assert (data["displacement"] == -0.4).all()
     assert (data["contact"] == 2).all()
@@ -102,7 +104,7 @@ def test_rest_that_is_never_shaken_off_lasts() -> None:
 def test_a_contact_record_of_an_impact(e: float) -> None:
     mass, v = 3.0, 2.0
     rig = vi.Oscillator(mass, vi.Isolator(1.0, 0.0), None, vi.RigidStop(e, 0.5))
-    data = vi.simulate(rig, vi.Harmonic(0.0, 1.0), 1, vi.State(0.0, -v), samples=64)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0)), 1, vi.State(0.0, -v), samples=64)
     row = vi.contacts(data).isel(contact_number=0)
     struck = math.sqrt(v**2 - 0.5**2 / mass)
     assert int(row["contact_side"]) == -1
@@ -120,7 +122,7 @@ def central(rig: vi.Oscillator, shaken: vi.Harmonic, start: vi.State, cycles: in
         ends = []
         for h in (-2e-4, -1e-4, 1e-4, 2e-4):
             moved = vi.State(start.displacement + h * du, start.velocity + h * dv)
-            end = vi.simulate(rig, shaken, cycles, moved, samples=0)["final_state"]
+            end = vi.simulate(vi.Rig(rig, shaken), cycles, moved, samples=0)["final_state"]
             ends.append(end.values[:2])
         columns.append((ends[0] - 8 * ends[1] + 8 * ends[2] - ends[3]) / (12 * 1e-4))
     return np.array(columns).T
@@ -138,7 +140,7 @@ def central(rig: vi.Oscillator, shaken: vi.Harmonic, start: vi.State, cycles: in
 def test_multipliers_are_the_derivative_of_the_motion(right, left, amplitude, frequency) -> None:
     rig = vi.Oscillator(1.0, ISOLATOR, right, left)
     shaken = vi.Harmonic(amplitude, frequency)
-    settled = vi.steady(rig, shaken, samples=64)
+    settled = vi.steady(vi.Rig(rig, shaken), samples=64)
     # A section at which (u, v) is the whole state: bumpers with a dashpot are back at rest.
     memory = np.zeros(settled.sizes["time"])
     for stop, name in ((right, "right_bumper"), (left, "left_bumper")):
@@ -148,7 +150,7 @@ def test_multipliers_are_the_derivative_of_the_motion(right, left, amplitude, fr
     assert memory[i] < 1e-13
     shaken = shaken.replace(phase=math.tau * float(settled["cycle"][i]))
     start = vi.State(float(settled["displacement"][i]), float(settled["velocity"][i]))
-    found = vi.orbit(rig, shaken, start, int(settled["period"]))
+    found = vi.orbit(vi.Rig(rig, shaken), start, int(settled["period"]))
     monodromy = found["monodromy"].values[:2, :2]
     numeric = central(rig, shaken, start, int(found["period"]))
     np.testing.assert_allclose(numeric, monodromy, atol=1e-7 * max(1.0, np.abs(monodromy).max()))
@@ -158,12 +160,12 @@ def test_a_chatter_into_rest_forgets_all() -> None:
     """Whatever the mass did before, it leaves the wall at the same time: all multipliers are 0."""
     rig = vi.Oscillator(1.0, ISOLATOR, vi.RigidStop(0.5, -0.4))
     shaken = vi.Harmonic(1.0, 0.08)
-    found = vi.orbit(rig, shaken)
+    found = vi.orbit(vi.Rig(rig, shaken))
     moduli = np.hypot(found["multiplier_real"].values, found["multiplier_imag"].values)
     assert moduli.max() < 1e-12
     assert int(found["stable"]) == 1
     ends = [
-        vi.simulate(rig, shaken, 3, vi.State(-1.0, v), samples=0)["final_state"].values
+        vi.simulate(vi.Rig(rig, shaken), 3, vi.State(-1.0, v), samples=0)["final_state"].values
         for v in (0.0, 1e-3, 0.1)
     ]
     assert np.ptp([end[0] for end in ends]) < 1e-13
@@ -188,14 +190,16 @@ def test_beside_grazing_the_response_is_a_square_root(e: float, depth: float) ->
     start = vi.State(swing * math.cos(-back * omega), -swing * omega * math.sin(-back * omega))
     shaken = vi.Harmonic(1.0, frequency, peak - back * omega)
     assert _free(rig, shaken, start, back) == pytest.approx((swing, 0.0), abs=1e-12)
-    end = vi.simulate(rig, shaken, back * frequency, start, samples=0)["final_state"].values
+    end = vi.simulate(vi.Rig(rig, shaken), back * frequency, start, samples=0)["final_state"].values
     v = math.sqrt(2 * swing * omega**2 * d)
     assert end[1] / v == pytest.approx(-(1 + e), rel=20 * math.sqrt(depth))
 
 
 def _free(rig: vi.Oscillator, shaken: vi.Harmonic, start: vi.State, time: float) -> tuple:
     free = rig.without_bumpers()
-    end = vi.simulate(free, shaken, time * shaken.frequency, start, samples=0)["final_state"]
+    end = vi.simulate(vi.Rig(free, shaken), time * shaken.frequency, start, samples=0)[
+        "final_state"
+    ]
     return tuple(end.values[:2])
 
 
@@ -212,13 +216,13 @@ def _free(rig: vi.Oscillator, shaken: vi.Harmonic, start: vi.State, time: float)
 )
 def test_a_rig_that_is_not_shaken_stays_in_equilibrium(right, left) -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(2.0, 0.3), right, left)
-    data = vi.simulate(rig, vi.Harmonic(0.0, 1.0), 20, samples=16)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0)), 20, samples=16)
     u = equilibrium(rig).displacement
     np.testing.assert_allclose(data["displacement"], u, rtol=1e-14)
     assert float(np.abs(data["velocity"]).max()) < 1e-14
     # From elsewhere it comes back there.
     far = vi.State(u - 0.05) if isinstance(right, vi.RigidStop) else vi.State(u + 0.05)
-    end = vi.simulate(rig, vi.Harmonic(0.0, 1.0), 400, far, samples=0)["final_state"]
+    end = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0)), 400, far, samples=0)["final_state"]
     assert float(end[0]) == pytest.approx(u, abs=1e-12)
 
 
@@ -230,7 +234,7 @@ def test_bumpers_from_restitution_return_it(e: float, ratio: float, mass: float)
     bumper = vi.Bumper.from_restitution(mass, ratio * stiffness, e, 0.0)
     rig = vi.Oscillator(mass, vi.Isolator(stiffness, 0.0), bumper)
     quick = 0.5 / rig.natural_frequency
-    data = vi.simulate(rig, vi.Harmonic(0.0, 1.0 / quick), 1, vi.State(0.0, 2.0), samples=1)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0 / quick)), 1, vi.State(0.0, 2.0), samples=1)
     left = next(one for one in events(data) if one.kind == "detach_right")
     assert -left.v == pytest.approx(2.0 * e, rel=10.0 / ratio / min(e, 1.0))
 
@@ -239,5 +243,5 @@ def test_a_mass_at_rest_on_a_wall_is_seen_exactly_there() -> None:
     """Whatever the sum of a preloaded bumper's gap and deformation rounds to."""
     wall = vi.RigidStop(0.5, -1.5482546511515751)
     rig = vi.Oscillator(1.0, ISOLATOR, vi.Bumper(1.0, 0.0, -2.5), wall)
-    data = vi.simulate(rig, vi.Harmonic(1.0, 0.16), 2, vi.State(-wall.gap), samples=8)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 0.16)), 2, vi.State(-wall.gap), samples=8)
     assert (data["displacement"] == -wall.gap).all()

@@ -40,7 +40,7 @@ def test_bouc_wens_memory_while_it_loads(n: int) -> None:
     isolator = vi.BoucWenIsolator(1.0, 0.1, 0.1, 0.05, exponent=n)
     limit = isolator.yield_displacement
     for seconds in LONG:
-        end = vi.simulate(vi.Oscillator(1.0, isolator), pushed(0.1, seconds))
+        end = vi.simulate(vi.Rig(vi.Oscillator(1.0, isolator), pushed(0.1, seconds)))
         u, v, *_, z = end["final_state"].values.tolist()
         assert v > 0.0
         if z < limit:
@@ -58,7 +58,7 @@ def test_a_dashpot_of_any_power_from_rest(alpha: float) -> None:
     far = vi.RigidStop(0.5, 1e3)
     rig = vi.Oscillator(1.0, vi.Isolator(0.0, damping, alpha), far, far)
     for seconds in LONG:
-        end = vi.simulate(rig, pushed(g, seconds * fastest / g), start=vi.State())
+        end = vi.simulate(vi.Rig(rig, pushed(g, seconds * fastest / g)), start=vi.State())
         speed = float(end["velocity"][-1]) / fastest
         assert speed <= 1.0 + TOLERANCE
         if speed < 1.0:
@@ -74,7 +74,7 @@ def test_a_stop_pressed_from_rest_keeps_the_energy(exponent: float, side: int) -
     g = 0.5
     most = (g * (exponent + 1.0)) ** (1.0 / exponent)
     record = vi.Record([-side * g] * 5, 1.0)
-    motion = vi.simulate(rig, record, samples=40, start=vi.State())
+    motion = vi.simulate(vi.Rig(rig, record), samples=40, start=vi.State())
     u, v = side * motion["displacement"].values, motion["velocity"].values
     pressed = np.maximum(u, 0.0)
     energy = 0.5 * v**2 + pressed ** (exponent + 1.0) / (exponent + 1.0) - g * u
@@ -92,7 +92,7 @@ def test_cubic_and_quintic_springs_from_rest_keep_the_energy(
     """A spring that has no stiffness at rest, under a record that is a straight line."""
     g = 1.0
     rig = vi.Oscillator(1.0, vi.PolynomialIsolator(stiffness, 0.0, cubic, quintic))
-    motion = vi.simulate(rig, vi.Record([-g] * 4, 1.5), samples=50)
+    motion = vi.simulate(vi.Rig(rig, vi.Record([-g] * 4, 1.5)), samples=50)
     u, v = motion["displacement"].values, motion["velocity"].values
     energy = 0.5 * v**2 + cubic * u**4 / 4.0 + quintic * u**6 / 6.0 + stiffness * u**2 / 2.0 - g * u
     np.testing.assert_allclose(energy, 0.0, atol=TOLERANCE)

@@ -96,7 +96,7 @@ def test_the_force_dips_to_zero(
             faces = {"right_bumper" if side == 1 else "left_bumper": side * x}
             start = vi.State(side * (gap + x), side * v, contact=side, phase=phase, **faces)
             shaken = vi.Harmonic(AMPLITUDE, FREQUENCY)
-            data = vi.simulate(rig, shaken, fall * FREQUENCY, start, samples=1)
+            data = vi.simulate(vi.Rig(rig, shaken), fall * FREQUENCY, start, samples=1)
             if value > 0.0:
                 assert not data.sizes["event"]
                 continue

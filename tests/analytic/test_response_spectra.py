@@ -199,7 +199,7 @@ def test_as_a_rig_without_stops(kind: str, period: float, ratio: float) -> None:
     record, omega = made(kind), math.tau / period
     rig = vi.Oscillator(3.0, vi.Isolator(3.0 * omega**2, 6.0 * ratio * omega))
     found = vi.response_spectrum(record, period, ratio)
-    totals = vi.totals(vi.simulate(rig, record, tail=1.5 * period))
+    totals = vi.totals(vi.simulate(vi.Rig(rig, record), tail=1.5 * period))
     for name, of in (("displacement", "displacement"), ("acceleration", "acceleration")):
         peak = max(abs(float(totals[f"{of}_max"])), abs(float(totals[f"{of}_min"])))
         assert float(found[f"spectral_{name}"]) == pytest.approx(peak, rel=EXACT)

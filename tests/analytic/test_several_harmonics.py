@@ -19,13 +19,16 @@ FREQUENCY, SIZES, ANGLES = 0.41, (1.0, 0.5, 0.0, 0.8), (0.3, 1.0, 0.0, -2.0)
 def test_free_flight_is_the_sum_of_the_single_ones(of: str, isolator: str) -> None:
     rig = vi.Oscillator(2.0, ISOLATORS[isolator])
     whole = vi.simulate(
-        rig, vi.Periodic(FREQUENCY, SIZES, ANGLES, 0.7, of=of), 5, vi.State(0.1, -0.2), samples=12
+        vi.Rig(rig, vi.Periodic(FREQUENCY, SIZES, ANGLES, 0.7, of=of)),
+        5,
+        vi.State(0.1, -0.2),
+        samples=12,
     )
     single = vi.Harmonic(0.0, FREQUENCY, of=of)
-    parts = [vi.simulate(rig, single, 5, vi.State(0.1, -0.2), samples=12)]
+    parts = [vi.simulate(vi.Rig(rig, single), 5, vi.State(0.1, -0.2), samples=12)]
     for n, (size, angle) in enumerate(zip(SIZES, ANGLES, strict=True), start=1):
         shaken = vi.Harmonic(size, n * FREQUENCY, n * 0.7 + angle, of=of)
-        parts.append(vi.simulate(rig, shaken, 5 * n, samples=12 // n))
+        parts.append(vi.simulate(vi.Rig(rig, shaken), 5 * n, samples=12 // n))
     shaking = "applied_force" if of == "force" else "base_acceleration"
     for name in ("displacement", "velocity", "acceleration", shaking):
         total = sum(part[name].values for part in parts)
@@ -38,13 +41,13 @@ def test_one_harmonic_is_a_harmonic() -> None:
     rig = vi.Oscillator(
         2.0, ISOLATORS["spring"], vi.Bumper(160.0, 3.0, 0.1), vi.RigidStop(0.5, 0.1)
     )
-    plain = vi.simulate(rig, vi.Harmonic(1.5, 0.6, 0.4), 8, samples=4)
+    plain = vi.simulate(vi.Rig(rig, vi.Harmonic(1.5, 0.6, 0.4)), 8, samples=4)
     for shaken, cycles, samples in (
         (vi.Periodic(0.6, (1.5,), phase=0.4), 8, 4),
         (vi.Periodic(0.3, (0.0, 1.5), (0.0, 0.4)), 4, 8),
         (vi.Periodic(0.3, (0.0, 1.5), phase=0.2), 4, 8),
     ):
-        other = vi.simulate(rig, shaken, cycles, samples=samples)
+        other = vi.simulate(vi.Rig(rig, shaken), cycles, samples=samples)
         np.testing.assert_allclose(other["displacement"], plain["displacement"], atol=1e-13)
         np.testing.assert_allclose(other["velocity"], plain["velocity"], atol=1e-12)
         np.testing.assert_allclose(other["event_time"], plain["event_time"], atol=1e-12)
@@ -71,7 +74,7 @@ def differences(rig: vi.Oscillator, shaken, state: np.ndarray, steps: float) -> 
 
     def after(change: np.ndarray) -> np.ndarray:
         start = vi.State(*(state[:4] + change), phase=state[4])
-        return vi.simulate(rig, shaken, 1, start, samples=0)["final_state"].values[:4]
+        return vi.simulate(vi.Rig(rig, shaken), 1, start, samples=0)["final_state"].values[:4]
 
     columns = []
     for i in (0, 1):
@@ -95,7 +98,7 @@ def test_multipliers_are_those_of_central_differences(stop, kind: dict, of: str)
         0.45, sizes, kind["phases"], 0.25 + (of != "acceleration") * math.pi, of=of
     )
     rig = between(stop)
-    found = vi.orbit(rig, shaken, GUESS, 1, samples=16)
+    found = vi.orbit(vi.Rig(rig, shaken), GUESS, 1, samples=16)
     assert len(found.attrs["contacts"]) >= 2
     state = found["final_state"].values
     assert int(state[5]) == 0
@@ -112,7 +115,7 @@ def test_multipliers_are_those_of_central_differences(stop, kind: dict, of: str)
 @pytest.mark.parametrize("stop", [DULL, WALL])
 def test_the_mirror_holds_without_even_harmonics_only(stop) -> None:
     def half_a_period_later(shaken, rig) -> tuple[bool, float]:
-        found = vi.orbit(rig, shaken, GUESS, 1, samples=64)
+        found = vi.orbit(vi.Rig(rig, shaken), GUESS, 1, samples=64)
         u = found["displacement"].values[:64]
         return bool(found["antisymmetric"]), float(np.abs(u + np.roll(u, 32)).max())
 
@@ -135,7 +138,7 @@ def test_the_mirror_holds_without_even_harmonics_only(stop) -> None:
 def test_a_branch_of_orbits(kind: dict) -> None:
     """Each closes, and its multipliers are those of central differences."""
     rig, shaken = between(WALL), vi.Periodic(0.45, **kind, phase=0.25)
-    data = vi.branch(rig, shaken, GUESS, low=0.43, high=0.48)
+    data = vi.branch(vi.Rig(rig, shaken), GUESS, span=(0.43, 0.48))
     assert (data["antisymmetric"].values == (kind is ODD)).all()
     assert data["frequency"].values.min() == pytest.approx(0.43)
     assert data["frequency"].values.max() == pytest.approx(0.48)
@@ -144,7 +147,7 @@ def test_a_branch_of_orbits(kind: dict) -> None:
         section = data["section"].values[i]
         here = shaken.replace(frequency=float(data["frequency"][i]))
         start = vi.State(*section[:4], phase=section[4], contact=int(section[5]))
-        motion = vi.simulate(rig, here, 1, start, samples=400)
+        motion = vi.simulate(vi.Rig(rig, here), 1, start, samples=400)
         np.testing.assert_allclose(motion["final_state"].values[:4], section[:4], atol=1e-10)
         seen = np.ptp(motion["displacement"].values)
         assert float(data["displacement_excursion"][i]) == pytest.approx(seen, rel=5e-2)

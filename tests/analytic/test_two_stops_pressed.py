@@ -46,7 +46,7 @@ def held(rig: vi.Oscillator, shaking: float, v: float = 0.0) -> float:
 def test_a_mass_held_fast_follows_the_shaking(damping: float, exponent: float) -> None:
     """From its equilibrium, where the rounding of u is a force on the mass."""
     rig = pressed(damping, exponent)
-    motion = vi.simulate(rig, SHAKEN, 2, samples=32)
+    motion = vi.simulate(vi.Rig(rig, SHAKEN), 2, samples=32)
     assert motion.attrs["status"] == "done"
     for side in ("right_bumper", "left_bumper"):
         assert (abs(motion[side]) > 0.0).all()

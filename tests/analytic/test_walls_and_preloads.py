@@ -81,7 +81,7 @@ def test_sections_and_events_agree_with_fifty_digits(name: str) -> None:
     setup = SETUPS[name]
     shaken = vi.Harmonic(*setup.shaken)
     start = vi.State(*setup.start) if setup.start else None
-    data = vi.simulate(setup.rig, shaken, CYCLES, start, samples=1)
+    data = vi.simulate(vi.Rig(setup.rig, shaken), CYCLES, start, samples=1)
     run = fifty_digits.integrate(
         reference_rig(setup.rig), *setup.shaken, reference_start(setup.rig, start), CYCLES
     )
@@ -92,7 +92,7 @@ def test_sections_and_events_agree_with_fifty_digits(name: str) -> None:
 def test_nothing_is_entered(name: str) -> None:
     """Looked at 300 times a cycle, the mass is never behind a wall or a bumper's face."""
     setup = SETUPS[name]
-    data = vi.simulate(setup.rig, vi.Harmonic(*setup.shaken), CYCLES, samples=300)
+    data = vi.simulate(vi.Rig(setup.rig, vi.Harmonic(*setup.shaken)), CYCLES, samples=300)
     u = data["displacement"].values
     size = np.abs(u).max()
     for sign, stop, face in ((1, setup.right, "right"), (-1, setup.left, "left")):
@@ -106,7 +106,7 @@ def test_nothing_is_entered(name: str) -> None:
 def test_rest_is_rest() -> None:
     """While it rests the mass stands on the wall, and moves with the base."""
     setup = SETUPS["chatter and rest"]
-    data = vi.simulate(setup.rig, vi.Harmonic(*setup.shaken), CYCLES, samples=500)
+    data = vi.simulate(vi.Rig(setup.rig, vi.Harmonic(*setup.shaken)), CYCLES, samples=500)
     resting = data["contact"].values == 1
     assert 0.2 < resting.mean() < 0.9
     assert (data["displacement"].values[resting] == setup.right.gap).all()
@@ -121,7 +121,7 @@ def test_rest_is_rest() -> None:
 
 def test_both_bumpers_may_be_in_contact_at_once() -> None:
     setup = SETUPS["elastic preloads"]
-    data = vi.simulate(setup.rig, vi.Harmonic(*setup.shaken), CYCLES, samples=500)
+    data = vi.simulate(vi.Rig(setup.rig, vi.Harmonic(*setup.shaken)), CYCLES, samples=500)
     both = (data["right_bumper"] > 0) & (data["left_bumper"] < 0)
     assert both.any()
     u = data["displacement"]
@@ -133,7 +133,7 @@ def test_both_bumpers_may_be_in_contact_at_once() -> None:
 def test_a_rest_may_end_at_a_section(e: float) -> None:
     """Without a gap and a phase it ends where sin θ = 0, with the cycle: once, not twice."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(e, 0.0))
-    data = vi.simulate(rig, vi.Harmonic(1.0, 0.16), CYCLES, vi.State(-1.0), samples=1)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 0.16)), CYCLES, vi.State(-1.0), samples=1)
     run = fifty_digits.integrate(reference_rig(rig), 1.0, 0.16, 0.0, (-1.0, 0.0, 0.0, 0.0), CYCLES)
     speed = max(abs(float(event.v)) for event in run.events)
     for u, v, exact in zip(

@@ -15,8 +15,8 @@ CODE = "B3-10mm-A3"
 
 
 def test_shares_hold_those_of_a_grid():
-    grid = vi.basins(CODE, 0.7, *WINDOW, nodes=sample(400, 120))
-    drawn = vi.basin_stability(CODE, 0.7, *WINDOW, states=sample(5000, 800))
+    grid = vi.basins(CODE, *WINDOW, frequency=0.7, nodes=sample(400, 120))
+    drawn = vi.basin_stability(CODE, *WINDOW, frequency=0.7, states=sample(5000, 800))
     assert list(drawn["motion"].values) == ["periodic", "periodic"]
     np.testing.assert_allclose(
         drawn["displacement_excursion"], grid["displacement_excursion"], rtol=1e-9
@@ -30,7 +30,8 @@ def test_shares_hold_those_of_a_grid():
 
 def test_a_seed_draws_the_same_states():
     one, same, other = (
-        vi.basin_stability(CODE, 0.7, *WINDOW, states=100, seed=seed) for seed in (3, 3, 4)
+        vi.basin_stability(CODE, *WINDOW, frequency=0.7, states=100, seed=seed)
+        for seed in (3, 3, 4)
     )
     np.testing.assert_array_equal(one["states"], same["states"])
     assert (one["states"].values != other["states"].values).any()
@@ -38,7 +39,9 @@ def test_a_seed_draws_the_same_states():
 
 def test_motions_keep_their_numbers_along_a_parameter():
     frequencies = [1.6, 1.8, 2.2, 2.6, 2.75]
-    data = vi.basin_stability("B2-G1-A3", 2.0, parameter="frequency", values=frequencies, states=80)
+    data = vi.basin_stability(
+        "B2-G1-A3", frequency=2.0, parameter="frequency", values=frequencies, states=80
+    )
     assert data["share"].dims == ("frequency", "attractor")
     np.testing.assert_array_equal(data["frequency"], frequencies)
     sizes = data["displacement_excursion"].values
@@ -83,5 +86,5 @@ def test_points_tell_which_motion_goes_on():
 )
 def test_what_is_refused(words, named):
     with pytest.raises(vi.InputError) as caught:
-        vi.basin_stability(CODE, 0.7, **words)
+        vi.basin_stability(CODE, frequency=0.7, **words)
     assert str(caught.value).startswith(named)

@@ -19,7 +19,7 @@ WINDOW = (-0.012, 0.012), (-0.1, 0.1)
 
 @cache
 def two(nodes: int = 60) -> xr.Dataset:
-    return vi.basins(CODE, HERTZ, *WINDOW, nodes=nodes)
+    return vi.basins(CODE, *WINDOW, frequency=HERTZ, nodes=nodes)
 
 
 def test_as_each_state_followed_to_the_end_by_steady():
@@ -31,7 +31,7 @@ def test_as_each_state_followed_to_the_end_by_steady():
     assert len(sizes) == 2
     for v in data["velocity"].values:
         for u in data["displacement"].values:
-            alone = vi.steady(case.oscillator, excitation, vi.State(u, v), 1)
+            alone = vi.steady(vi.Rig(case.oscillator, excitation), vi.State(u, v), 1)
             number = int(data["basin"].sel(displacement=u, velocity=v))
             assert float(alone["displacement_excursion"]) == pytest.approx(sizes[number], rel=1e-9)
 
@@ -82,7 +82,9 @@ def test_the_mirror_image_is_that_of_half_a_cycle_later():
     case = vi.laboratory.case(CODE)
     nodes = sample(200, 60)
     pair = [
-        vi.basins(case.oscillator, vi.Harmonic(case.amplitude, 1.06, phase), *WINDOW, nodes=nodes)
+        vi.basins(
+            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.06, phase)), *WINDOW, nodes=nodes
+        )
         for phase in (0.0, np.pi)
     ]
     kinds = [list(data["motion"].values) for data in pair]
@@ -97,13 +99,13 @@ def test_the_mirror_image_is_that_of_half_a_cycle_later():
 
 
 def test_no_thread_changes_a_state():
-    one = vi.basins(CODE, HERTZ, *WINDOW, nodes=60, threads=1)
+    one = vi.basins(CODE, *WINDOW, frequency=HERTZ, nodes=60, threads=1)
     xr.testing.assert_identical(one, two())
 
 
 def test_refined_beside_borders():
     full = two(61)
-    refined = vi.basins(CODE, HERTZ, *WINDOW, nodes=16, refine=2)
+    refined = vi.basins(CODE, *WINDOW, frequency=HERTZ, nodes=16, refine=2)
     assert refined["basin"].shape == (61, 61)
     followed = refined["level"].values >= 0
     assert 0.1 < followed.mean() < 0.6
@@ -114,7 +116,7 @@ def test_refined_beside_borders():
 
 
 def test_a_window_of_its_own_holds_the_motions():
-    data = vi.basins(CODE, HERTZ, nodes=20)
+    data = vi.basins(CODE, frequency=HERTZ, nodes=20)
     for name in ("displacement", "velocity"):
         at = data[f"section_{name}"].values
         assert (data[name].values[0] < at).all()
@@ -124,7 +126,7 @@ def test_a_window_of_its_own_holds_the_motions():
 def test_nothing_behind_a_wall():
     wall = vi.RigidStop(0.8, 0.5)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), wall, None)
-    data = vi.basins(rig, vi.Harmonic(1.0, 0.3), (-1.0, 1.0), (-1.0, 1.0), nodes=21)
+    data = vi.basins(vi.Rig(rig, vi.Harmonic(1.0, 0.3)), (-1.0, 1.0), (-1.0, 1.0), nodes=21)
     behind = data["displacement"].values > 0.5
     assert (data["basin"].values[:, behind] == -2).all()
     assert (data["basin"].values[:, ~behind] >= 0).all()
@@ -136,11 +138,11 @@ def test_bumpers_that_remember():
     case = vi.laboratory.case(CODE)
     rig = vi.Oscillator(550.0, case.oscillator.isolator, slow, slow)
     excitation = vi.Harmonic(case.amplitude, HERTZ)
-    data = vi.basins(rig, excitation, *WINDOW, nodes=4, right_bumper="2 mm")
+    data = vi.basins(vi.Rig(rig, excitation), *WINDOW, nodes=4, right_bumper="2 mm")
     for v in data["velocity"].values:
         for u in data["displacement"].values:
             given = max(u - 0.005, 0.002)
-            alone = vi.steady(rig, excitation, vi.State(u, v, right_bumper=given), 1)
+            alone = vi.steady(vi.Rig(rig, excitation), vi.State(u, v, right_bumper=given), 1)
             number = int(data["basin"].sel(displacement=u, velocity=v))
             size = float(data["displacement_excursion"][number])
             assert float(alone["displacement_excursion"]) == pytest.approx(size, rel=1e-8)
@@ -150,7 +152,7 @@ def test_where_nothing_dies_out_it_is_said():
     spring = vi.Bumper(680e3, 0.0, 0.005)
     rig = vi.Oscillator(550.0, vi.Isolator(26e3, 0.0), spring, spring)
     with pytest.raises(vi.InputError, match="nothing dies out"):
-        vi.basins(rig, vi.Harmonic(0.5, HERTZ), *WINDOW, nodes=10)
+        vi.basins(vi.Rig(rig, vi.Harmonic(0.5, HERTZ)), *WINDOW, nodes=10)
 
 
 @pytest.mark.parametrize(
@@ -169,5 +171,5 @@ def test_where_nothing_dies_out_it_is_said():
 )
 def test_what_is_refused(words, named):
     with pytest.raises(vi.InputError) as caught:
-        vi.basins(CODE, HERTZ, **words)
+        vi.basins(CODE, frequency=HERTZ, **words)
     assert str(caught.value).startswith(named)

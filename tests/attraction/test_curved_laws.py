@@ -28,12 +28,12 @@ def test_as_each_state_followed_to_the_end_by_steady(law):
     isolator, right, left, amplitude, omega, periods = LAWS[law]
     rig = vi.Oscillator(1.0, isolator, right, left)
     shaking = vi.Harmonic(amplitude, omega / (2.0 * np.pi))
-    data = vi.basins(rig, shaking, (-3.0, 3.0), (-3.0, 3.0), nodes=sample(10, 6))
+    data = vi.basins(vi.Rig(rig, shaking), (-3.0, 3.0), (-3.0, 3.0), nodes=sample(10, 6))
     assert list(data["period"].values) == periods
     assert (data["share"] > 0.0).all()
     for v in data["velocity"].values:
         for u in data["displacement"].values:
             number = int(data["basin"].sel(displacement=u, velocity=v))
-            alone = vi.steady(rig, shaking, vi.State(u, v), 1)
+            alone = vi.steady(vi.Rig(rig, shaking), vi.State(u, v), 1)
             size = float(data["displacement_excursion"][number])
             assert float(alone["displacement_excursion"]) == pytest.approx(size, rel=1e-6)

@@ -32,7 +32,7 @@ def found() -> xr.Dataset:
     def tell(done: int, total: int | None) -> None:
         TOLD.append((done, total))
 
-    return vi.manifolds(CASE.oscillator, EXCITATION, None, *WINDOW, progress=tell)
+    return vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION), None, *WINDOW, progress=tell)
 
 
 def test_progress_counts_states_and_then_curves():
@@ -75,8 +75,7 @@ def test_what_is_found():
     assert list(data["curve_kind"].values) == ["stable", "stable", "unstable", "unstable"]
     assert list(data["saddle_period"].values) == [1]
     alone = vi.orbit(
-        CASE.oscillator,
-        EXCITATION,
+        vi.Rig(CASE.oscillator, EXCITATION),
         vi.State(float(data["saddle_displacement"][0]), float(data["saddle_velocity"][0])),
     )
     sizes = np.abs(alone["multiplier_real"].values)
@@ -104,7 +103,7 @@ def test_beside_a_stable_curve_states_part():
 
 
 def test_the_border_of_a_grid_lies_on_stable_curves():
-    data = vi.basins(CASE.oscillator, EXCITATION, *WINDOW, nodes=sample(300, 80))
+    data = vi.basins(vi.Rig(CASE.oscillator, EXCITATION), *WINDOW, nodes=sample(300, 80))
     labels = data["basin"].values
     u, v = data["displacement"].values / SIDES[0], data["velocity"].values / SIDES[1]
     tree = KDTree(np.vstack(curves("stable")))
@@ -116,7 +115,7 @@ def test_the_border_of_a_grid_lies_on_stable_curves():
 
 
 def test_unstable_curves_end_on_the_motions():
-    data = vi.basins(CASE.oscillator, EXCITATION, *WINDOW, nodes=20)
+    data = vi.basins(vi.Rig(CASE.oscillator, EXCITATION), *WINDOW, nodes=20)
     motions = np.column_stack([data["section_displacement"], data["section_velocity"]]) / SIDES
     ends = np.array([points[-1] for points in curves("unstable")])
     away = np.linalg.norm(ends[:, None] - motions[None], axis=2)
@@ -153,9 +152,9 @@ def test_states_on_a_stable_curve_come_to_the_saddle():
 
 def test_given_saddles_are_those_that_borders_lead_to():
     first = vi.State(0.0053, 0.002)
-    orbit = vi.orbit(CASE.oscillator, EXCITATION, first)
+    orbit = vi.orbit(vi.Rig(CASE.oscillator, EXCITATION), first)
     for saddles in (first, orbit, [orbit]):
-        data = vi.manifolds(CASE.oscillator, EXCITATION, saddles, *WINDOW, longest=0.5)
+        data = vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION), saddles, *WINDOW, longest=0.5)
         assert float(data["saddle_velocity"][0]) == pytest.approx(
             float(found()["saddle_velocity"][0]), rel=1e-7
         )
@@ -169,7 +168,7 @@ def test_tangles_are_found_where_curves_cross():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), vi.Bumper(30.0, 0.6, 0.5), None)
     shaking, sides = vi.Harmonic(1.0, 3.3 / (2.0 * np.pi)), np.array([2.1, 3.6])
     window, start = ((-1.1, 1.0), (-1.8, 1.8)), vi.State(0.4624, 0.4448)
-    data = vi.manifolds(rig, shaking, start, *window, period=3, spacing=0.01, longest=3.0)
+    data = vi.manifolds(vi.Rig(rig, shaking), start, *window, period=3, spacing=0.01, longest=3.0)
     kinds = data["curve_kind"].values
     assert data.sizes["crossing"] > 10
     assert (kinds[data["crossing_stable"].values] == "stable").all()
@@ -213,21 +212,21 @@ def test_crossings_of_lines_that_are_known():
 )
 def test_what_is_refused(saddles, words, named):
     with pytest.raises(vi.InputError) as caught:
-        vi.manifolds(CASE.oscillator, EXCITATION, saddles, **words)
+        vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION), saddles, **words)
     assert str(caught.value).startswith(named)
 
 
 def test_an_orbit_at_another_phase_is_refused():
-    orbit = vi.orbit(CASE.oscillator, EXCITATION, vi.State(0.0053, 0.002))
+    orbit = vi.orbit(vi.Rig(CASE.oscillator, EXCITATION), vi.State(0.0053, 0.002))
     with pytest.raises(vi.InputError, match="its phase is 0, that of the excitation 1"):
-        vi.manifolds(CASE.oscillator, EXCITATION.replace(phase=1.0), orbit, *WINDOW)
+        vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION.replace(phase=1.0)), orbit, *WINDOW)
 
 
 def test_what_remembers_has_no_curves_in_the_plane():
     slow = vi.Bumper(680e3, 4e5, 0.005)
     rig = vi.Oscillator(550.0, CASE.oscillator.isolator, slow, slow)
     with pytest.raises(vi.InputError, match="remembers more than a cycle"):
-        vi.manifolds(rig, EXCITATION)
+        vi.manifolds(vi.Rig(rig, EXCITATION))
 
 
 def test_a_saddle_that_presses_a_stop_with_a_restitution_is_refused_at_that_phase():
@@ -235,16 +234,16 @@ def test_a_saddle_that_presses_a_stop_with_a_restitution_is_refused_at_that_phas
     rig = CASE.oscillator.replace(right=stop, left=stop)
     shaking = vi.Harmonic("0.05 g", "2.5 Hz")
     with pytest.raises(vi.InputError, match="a phase at which it flies"):
-        vi.manifolds(rig, shaking)
-    data = vi.manifolds(rig, shaking.replace(phase=1.6), longest=1.0)
+        vi.manifolds(vi.Rig(rig, shaking))
+    data = vi.manifolds(vi.Rig(rig, shaking.replace(phase=1.6)), longest=1.0)
     near = vi.State(
         float(data["saddle_displacement"][0]), float(data["saddle_velocity"][0]), phase=1.6
     )
-    saddle = vi.orbit(rig, shaking, near)
+    saddle = vi.orbit(vi.Rig(rig, shaking), near)
     first = saddle["multiplier_real"].values[:2]
     both = [float(data["multiplier_growing"][0]), float(data["multiplier_dying"][0])]
     np.testing.assert_allclose(both, first, rtol=1e-6)
     # The same orbit where it presses the stop, given.
-    there = vi.simulate(rig, shaking, 1.0 - 1.6 / (2.0 * np.pi), saddle)
+    there = vi.simulate(vi.Rig(rig, shaking), 1.0 - 1.6 / (2.0 * np.pi), saddle)
     with pytest.raises(vi.InputError, match="presses a stop whose force depends on the speed"):
-        vi.manifolds(rig, shaking, vi.orbit(rig, shaking, there))
+        vi.manifolds(vi.Rig(rig, shaking), vi.orbit(vi.Rig(rig, shaking), there))

@@ -28,7 +28,7 @@ def test_over_the_gap(tmp_path, told):
     ]
     data = vi.load(tmp_path / "out" / "B3-10mm-A3-gap-diagram.nc")
     case = vi.laboratory.case("B3-10mm-A3")
-    same = vi.bifurcation_diagram(case, 1.12, "gap", 4.8e-3, 5e-3, 5, random=1)
+    same = vi.bifurcation_diagram(case, "gap", (4.8e-3, 5e-3), 5, frequency=1.12, random=1)
     assert data.attrs["created_by"] == CREATED_BY
     for name in ("section_displacement", "exponents", "period"):
         np.testing.assert_array_equal(data[name], same[name])

@@ -91,7 +91,7 @@ def test_summary(whole):
 def test_the_file_holds_the_diagram(whole):
     data = vi.load(whole[0] / "out/B2-G1-A3-frequency-branches.nc")
     assert data.attrs.pop("title") == "B2-G1-A3"
-    made = vi.resonance_diagram(CASE.oscillator, CASE.amplitude, 0.3, 5.0)
+    made = vi.resonance_diagram(vi.Rig(CASE.oscillator, CASE.amplitude), (0.3, 5.0))
     assert {k: str(v) for k, v in data.attrs.items()} == {k: str(v) for k, v in made.attrs.items()}
     assert set(data.variables) == set(made.variables)
     for name in made.variables:
@@ -110,7 +110,7 @@ def test_folds_are_where_sweeps_jump(whole):
         on = fold + np.arange(-5, 6) * step
         to, behind = np.arange(1.5, on[0], 0.03), np.arange(2.9, on[-1], -0.03)
         grid = np.unique([*(to if direction == "forward" else on), *on, *behind])
-        swept = vi.sweep(CASE.oscillator, CASE.amplitude, grid, direction)
+        swept = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), grid, direction)
         frequency = swept["frequency"].values
         high = swept["displacement_excursion"].isel(direction=0).values > 16e-3
         (jump,) = np.flatnonzero(np.diff(high))
@@ -153,11 +153,9 @@ def test_along_the_gap(gaps):
     assert facts["files"]["data"] == "out/B2-G1-A3-gap-branches.nc"
     data = vi.load(folder / facts["files"]["data"])
     alone = vi.resonance_diagram(
-        CASE.oscillator,
-        vi.Harmonic(CASE.amplitude, 2.0),
+        vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)),
+        span=("1 mm", "20 mm"),
         parameter="gap",
-        low="1 mm",
-        high="20 mm",
     )
     for name in alone.variables:
         np.testing.assert_array_equal(data[name].values, alone[name].values, err_msg=name)
@@ -184,10 +182,10 @@ def test_the_fold_over_the_gap_is_where_the_motion_with_contacts_ends(gaps):
         rig = CASE.oscillator
         rig = rig.replace(left=rig.left.replace(gap=gap), right=rig.right.replace(gap=gap))
         # A whole number of cycles and a quarter: there the mass is off the bumpers.
-        motion = vi.simulate(rig, shaken, 40 if motion else 40.25, motion, samples=4)
+        motion = vi.simulate(vi.Rig(rig, shaken), 40 if motion else 40.25, motion, samples=4)
         if gap < fold:
             assert (motion["event_time"] > motion["time"][-1] - 0.5).sum() == 4
-    motion = vi.simulate(rig, shaken, 400, motion, samples=4)
+    motion = vi.simulate(vi.Rig(rig, shaken), 400, motion, samples=4)
     assert not (motion["event_time"] > motion["time"][-1] - 50.0).any()
 
 

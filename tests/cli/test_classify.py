@@ -33,7 +33,9 @@ def test_json(run, tmp_path):
     assert code == 0
     facts = json.loads(out)
     case = vi.laboratory.case("B2-G1-A3")
-    alone = vi.classify(case.oscillator, case.amplitude, [k / 100 for k in range(50, 501)])
+    alone = vi.classify_scenario(
+        vi.Rig(case.oscillator, case.amplitude), [k / 100 for k in range(50, 501)]
+    )
     assert facts["scenario"] == alone.scenario == "S3"
     assert "; ".join(facts["evidence"]) == alone.evidence
     assert facts["confidence"] == alone.confidence

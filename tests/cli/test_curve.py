@@ -92,7 +92,7 @@ def test_sweeps_jump_above_the_cusp_and_not_below(ratios):
     ((_, ratio),) = ratios[0]["curves"][0]["cusps"]
     for factor, apart in ((0.9, False), (1.5, True)):
         rig = with_ratio(factor * ratio)
-        swept = vi.sweep(rig, CASE.amplitude, np.arange(1.5, 1.8, 0.004))
+        swept = vi.sweep(vi.Rig(rig, CASE.amplitude), np.arange(1.5, 1.8, 0.004))
         up, down = swept["displacement_excursion"].transpose("direction", "frequency").values
         assert (np.abs(up - down).max() > 1e-4) == apart
 

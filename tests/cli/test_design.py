@@ -60,13 +60,15 @@ def test_a_study_with_records(run, study):
     }
     records = {name: vi.Record.read(study / name) for name in RECORDS}
     vary = {"gap": np.linspace(0.02, 0.2, 3), "bumper_stiffness": np.geomspace(5e7, 1e9, 4)}
-    direct = vi.design_chart(_rig(), records, vary, fractile=0.5, limits={"penetration": 0.04})
+    direct = vi.design_chart(
+        _rig(), vary, records=records, fractile=0.5, limits={"penetration": 0.04}
+    )
     held = vi.load(out / "building-design.nc")
     for name in SIZES:
         np.testing.assert_allclose(held[name], direct[name], rtol=1e-12)
-    need = vi.required_gap(_rig(), records, fractile=0.5)
+    need = vi.required_gap(_rig(), records=records, fractile=0.5)
     words = " ".join(told.split())
-    every = vi.required_gap(_rig(), records)
+    every = vi.required_gap(_rig(), records=records)
     gap, right, left = (
         1e3 * float(need[f"required_gap{side}"]) for side in ("", "_right", "_left")
     )
@@ -106,7 +108,7 @@ def test_of_all_records_no_fractile_is_told(run, study):
 def test_a_gap_that_is_enough_for_a_fractile_is_hit_under_the_others(run, study):
     """Between the two records: one reaches it. Each side's fractile alone would not tell."""
     records = {name: vi.Record.read(study / name) for name in RECORDS}
-    every = vi.required_gap(_rig(), records)
+    every = vi.required_gap(_rig(), records=records)
     sides = np.array([every[f"peak_displacement_{side}"].values for side in ("right", "left")])
     less, more = sorted(1e3 * sides.max(axis=0))
     middle = 0.5 * (less + more)
@@ -129,9 +131,9 @@ def test_a_gap_that_is_enough_for_a_fractile_is_hit_under_the_others(run, study)
 
 def test_where_no_gap_is_enough_for_all_it_is_told():
     """As of a spring that lets go of the mass under the stronger of two records."""
-    gap = vi.required_gap(_rig(), RECORDS, fractile=0.0)
+    gap = vi.required_gap(_rig(), records=RECORDS, fractile=0.0)
     gap["peak_displacement_left"][1] = np.inf
-    data = vi.design_chart(_rig(), RECORDS, {"gap": [0.02, 0.06]}, fractile=0.0)
+    data = vi.design_chart(_rig(), {"gap": [0.02, 0.06]}, records=RECORDS, fractile=0.0)
     told = " ".join(str(line) for line in design.text(_rig(), gap, data, None, list(RECORDS)))
     assert "; no gap is enough for all of them. " in told
     assert "the mass hits a stop under 1 of the 2 records." in told
@@ -199,12 +201,12 @@ def test_sines_best_and_json(run, study):
     facts = json.loads(told)
     rig = _rig()
     rig = rig.replace(**{side: getattr(rig, side).replace(gap=0.2) for side in ("right", "left")})
-    need = vi.required_gap(rig, "0.1 g", frequencies=(0.3, 0.5))
+    need = vi.required_gap(vi.Rig(rig, "0.1 g"), frequency_span=(0.3, 0.5))
     assert facts["required_gap"] == float(need["required_gap"])
     assert facts["designs"] == 3
     assert facts["best"]["penetration"] <= 0.06
     limits = {"penetration": 0.06}
-    best = vi.least_acceleration(rig, "0.1 g", limits=limits, frequencies=(0.3, 0.5))
+    best = vi.least_acceleration(vi.Rig(rig, "0.1 g"), frequency_span=(0.3, 0.5), limits=limits)
     assert facts["best"]["bumper_damping"] == pytest.approx(float(best["bumper_damping"]))
     assert facts["best"]["notes"] == best.attrs.get("notes", "").splitlines()
     for path in facts["files"].values():
@@ -217,7 +219,7 @@ def test_the_usual_chart_of_records_on_the_command_line(run, study):
     assert code == 0
     assert "Designs: 14 × 13, over gap and bumper stiffness" in " ".join(told.split())
     half = RECORDS["a.csv"].scaled(0.5)
-    need = 1e3 * float(vi.required_gap(_rig(), half)["required_gap"])
+    need = 1e3 * float(vi.required_gap(_rig(), records=half)["required_gap"])
     assert f"Required gap: {need:.4g} mm to hit nothing under a.csv" in " ".join(told.split())
 
 

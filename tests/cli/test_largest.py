@@ -65,7 +65,7 @@ def test_as_json_in_si_units(run, tmp_path):
 
 def test_of_what_is_the_same_to_rounding_the_forward_sweep_is_named():
     rig = vi.Oscillator(550, vi.Isolator(26.8e3, 1.1e3))
-    data = vi.sweep(rig, 0.5, [0.9, 1.1, 1.5])
+    data = vi.sweep(vi.Rig(rig, 0.5), [0.9, 1.1, 1.5])
     more = xr.where(data["direction"] == "backward", 1.0 + 1e-12, 1.0)
     for name in ("displacement_max", "peak_acceleration"):
         data[name] = data[name] * more

@@ -39,7 +39,7 @@ def two(tmp_path_factory, told):
 @pytest.fixture(scope="module")
 def settled():
     """The motion that rest leads to, from a plain simulation: its last cycle of 200."""
-    return vi.simulate(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), 200, samples=1024)
+    return vi.simulate(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)), 200, samples=1024)
 
 
 def test_summary_and_files(run, tmp_path):
@@ -80,7 +80,7 @@ def test_json_says_which_motions_there_are(two, settled):
         assert motion["mirror_pair"] is False
         assert motion["status"] == "done"
     # The same as a sweep on its way up and down.
-    swept = vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(0.5, 4.0, 0.05))
+    swept = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), np.arange(0.5, 4.0, 0.05))
     there = swept.sel(frequency=2.0, method="nearest")
     for motion, direction in ((forward, "forward"), (backward, "backward")):
         assert motion["name"] == f"{direction} branch"
@@ -171,7 +171,7 @@ def test_files_load_by_group(two):
         # With its section and its spectrum.
         assert data.sizes["section_point"] == 1
         assert float(data["section_displacement"][0]) == float(data["displacement"][0])
-        lines = vi.spectrum(data)
+        lines = vi.fourier_spectrum(data)
         np.testing.assert_array_equal(data["order"], lines["order"])
         np.testing.assert_allclose(
             data["acceleration_amplitude"], lines["acceleration_amplitude"], rtol=1e-12
@@ -182,7 +182,7 @@ def test_files_load_by_group(two):
         vi.load(path)
     # It is a motion to go on from.
     assert motion["name"] == "backward branch"
-    on = vi.simulate(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), 10, data)
+    on = vi.simulate(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)), 10, data)
     assert on.sizes["event"] == 0
 
 
@@ -248,7 +248,7 @@ def test_chaotic_motion(run, tmp_path):
     assert f"{first:+.4g} ± {spread:.1g} and {second:+.4g} ± " in out
     assert data.sizes["time"] == 7 * 16 + 1
     assert data.sizes["section_point"] == 5000
-    np.testing.assert_array_equal(data["order"], vi.spectrum(data)["order"])
+    np.testing.assert_array_equal(data["order"], vi.fourier_spectrum(data)["order"])
     svg = (tmp_path / "out/B3-10mm-A3-1.06Hz-motion.svg").read_text()
     assert svg.startswith("<?xml")
     # Of many contacts some are printed; the file has them all.
@@ -285,8 +285,8 @@ def test_rig_with_one_bumper(run):
     code, out, _ = run("B2-G1-A3", *words)
     assert code == 0
     rig = CASE.oscillator.replace(left=None, right=CASE.oscillator.right.replace(gap=2e-3))
-    long = vi.simulate(rig, vi.Harmonic(CASE.amplitude, 2.8), 400, samples=0)
-    on = vi.simulate(rig, vi.Harmonic(CASE.amplitude, 2.8), 20, long, samples=16)
+    long = vi.simulate(vi.Rig(rig, vi.Harmonic(CASE.amplitude, 2.8)), 400, samples=0)
+    on = vi.simulate(vi.Rig(rig, vi.Harmonic(CASE.amplitude, 2.8)), 20, long, samples=16)
     hits = int((on["event_contact"] == 1).sum())
     motions = json.loads(out)["motions"]
     (motion,) = [motion for motion in motions if "rest" in motion["starts"]]
@@ -324,7 +324,7 @@ def test_phase_of_a_study(run, tmp_path):
     assert float(data["base_acceleration"][0]) == pytest.approx(CASE.amplitude)
     assert float(data["section_displacement"][0]) == float(data["displacement"][0])
     # A quarter of a cycle later than the record of a sine.
-    sine = vi.steady(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0))
+    sine = vi.steady(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)))
     np.testing.assert_allclose(data["displacement"][0], sine["displacement"][64], rtol=1e-7)
     (tmp_path / "short.toml").write_text('case = "B2-G1-A3"\n')
     code, _, errors = run("short.toml")
@@ -410,7 +410,7 @@ def test_a_motion_without_dissipation_is_neutral():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0))
     shaken = vi.Harmonic(1.0, 2.0 / math.tau)
     with pytest.warns(RuntimeWarning, match="not isolated"):
-        flight = vi.steady(rig, shaken, vi.State(0.0, 2.0 / 3.0), samples=8)
+        flight = vi.steady(vi.Rig(rig, shaken), vi.State(0.0, 2.0 / 3.0), samples=8)
     assert int(flight["stable"]) == -1
     console = Console(width=100, file=io.StringIO())
     console.print(verdict.text({shaken.frequency: {"rest": flight}}))

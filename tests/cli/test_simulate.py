@@ -22,7 +22,7 @@ def test_summary_and_files(run, tmp_path):
     assert {p.name for p in (tmp_path / "out").iterdir()} == {f"{stem}.nc", f"{stem}.png"}
     data = vi.load(tmp_path / f"out/{stem}.nc")
     case = vi.laboratory.case("B2-G1-A3")
-    direct = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 0.58), 100)
+    direct = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 0.58)), 100)
     np.testing.assert_array_equal(data["displacement"], direct["displacement"])
     np.testing.assert_array_equal(data["event_time"], direct["event_time"])
 
@@ -36,7 +36,7 @@ def test_json_and_options(run, tmp_path):
     facts = json.loads(told)
     case = vi.laboratory.case("B2-G1-A3")
     data = vi.simulate(
-        case.oscillator, vi.Harmonic(case.amplitude, 2.5), 300, vi.State(5e-3, -0.05), 16
+        vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.5)), 300, vi.State(5e-3, -0.05), 16
     )
     assert facts["final_state"]["displacement"] == float(data["final_state"][0])
     assert facts["cycles"] == 300.0

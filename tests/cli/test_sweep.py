@@ -37,7 +37,7 @@ def test_summary_and_files(run, tmp_path):
     )
     data = vi.load(tmp_path / "out/B2-G1-A3-identified-sweep.nc")
     case = vi.laboratory.case("B2-G1-A3", "identified")
-    direct = vi.sweep(case.oscillator, case.amplitude, data["frequency"].values)
+    direct = vi.sweep(vi.Rig(case.oscillator, case.amplitude), data["frequency"].values)
     np.testing.assert_array_equal(data["eta_a"], direct["eta_a"])
     assert data.attrs["title"] == "B2-G1-A3, identified parameters"
 

@@ -22,17 +22,17 @@ def made(kind: str) -> xr.Dataset:
     shaken = vi.Harmonic(CASE.amplitude, 1.1)
     match kind:
         case "sweep":
-            return vi.sweep(CASE.oscillator, CASE.amplitude, [0.6, 1.0, 2.5])
+            return vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), [0.6, 1.0, 2.5])
         case "sweeps":
             return vi.sweeps([CASE, vi.laboratory.case("B1-G1-A1")], [0.6, 1.0])
         case "simulation":
-            return vi.simulate(CASE.oscillator, shaken, 3)
+            return vi.simulate(vi.Rig(CASE.oscillator, shaken), 3)
         case "one-sided":
-            return vi.simulate(CASE.oscillator.replace(left=None), shaken, 3)
+            return vi.simulate(vi.Rig(CASE.oscillator.replace(left=None), shaken), 3)
         case "no event":
-            return vi.simulate(CASE.oscillator.without_bumpers(), shaken, 1)
+            return vi.simulate(vi.Rig(CASE.oscillator.without_bumpers(), shaken), 1)
         case _:
-            return vi.simulate(CASE.oscillator, shaken, 3, samples=0)
+            return vi.simulate(vi.Rig(CASE.oscillator, shaken), 3, samples=0)
 
 
 @pytest.mark.parametrize(
@@ -55,7 +55,7 @@ def test_a_loaded_simulation_goes_on(tmp_path: Path) -> None:
     data = made("simulation")
     shaken = vi.Harmonic(CASE.amplitude, 1.1)
     ends = [
-        vi.simulate(CASE.oscillator, shaken, 2, start)["final_state"]
+        vi.simulate(vi.Rig(CASE.oscillator, shaken), 2, start)["final_state"]
         for start in (data, vi.load(vi.save(data, tmp_path / "data.nc")))
     ]
     np.testing.assert_array_equal(*ends)
@@ -227,7 +227,7 @@ def test_a_motion_from_a_group_goes_on(tmp_path: Path) -> None:
     path = vi.save(several(), tmp_path / "data.nc")
     shaken = vi.Harmonic(CASE.amplitude, 1.1)
     ends = [
-        vi.simulate(CASE.oscillator, shaken, 2, start)["final_state"]
+        vi.simulate(vi.Rig(CASE.oscillator, shaken), 2, start)["final_state"]
         for start in (made("simulation"), vi.load(path, group="forward_branch"))
     ]
     np.testing.assert_array_equal(*ends)
@@ -292,25 +292,27 @@ SHAKEN = {
 def test_any_shaking_comes_back(kind: str, tmp_path: Path) -> None:
     """What is worked out of a loaded motion is what it is of the motion itself."""
     rig = CASE.oscillator.replace(force=100.0)
-    for data in (vi.simulate(rig, SHAKEN[kind], 6), vi.orbit(rig, SHAKEN[kind])):
+    for data in (vi.simulate(vi.Rig(rig, SHAKEN[kind]), 6), vi.orbit(vi.Rig(rig, SHAKEN[kind]))):
         back = vi.load(vi.save(data, tmp_path / "data.nc"))
         xr.testing.assert_equal(back, data)
         assert int(back.sizes["event"]) > 0
-        for worked_out in (vi.contacts, vi.spectrum, vi.stroboscopic_section):
+        for worked_out in (vi.contacts, vi.fourier_spectrum, vi.stroboscopic_section):
             xr.testing.assert_equal(worked_out(back), worked_out(data))
-        ends = [vi.simulate(rig, SHAKEN[kind], 2, one, 0)["final_state"] for one in (data, back)]
+        ends = [
+            vi.simulate(vi.Rig(rig, SHAKEN[kind]), 2, one, 0)["final_state"] for one in (data, back)
+        ]
         np.testing.assert_array_equal(*ends)
 
 
 def test_a_motion_through_a_record_comes_back(tmp_path: Path) -> None:
     record = vi.Record(2.0 * np.sin(0.1 * np.arange(400)), 0.02)
-    data = vi.simulate(CASE.oscillator, record, tail=1.0)
+    data = vi.simulate(vi.Rig(CASE.oscillator, record), tail=1.0)
     back = vi.load(vi.save(data, tmp_path / "data.nc"))
     xr.testing.assert_equal(back, data)
     assert back.attrs == data.attrs
     assert int(back.sizes["event"]) > 2
     ends = [
-        vi.simulate(CASE.oscillator, record, start=one, samples=0)["final_state"]
+        vi.simulate(vi.Rig(CASE.oscillator, record), start=one, samples=0)["final_state"]
         for one in (data, back)
     ]
     np.testing.assert_array_equal(*ends)

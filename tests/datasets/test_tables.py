@@ -23,7 +23,7 @@ def sweep():
 
 @pytest.fixture(scope="module")
 def motion():
-    return vi.simulate(CODE, "2 Hz", 3, samples=32)
+    return vi.simulate(CODE, 3, frequency="2 Hz", samples=32)
 
 
 def test_a_sweep(sweep):
@@ -62,14 +62,14 @@ def test_times_and_events_are_not_crossed(motion):
 
 
 def test_other_datasets():
-    steady = vi.steady(CODE, "2 Hz")
+    steady = vi.steady(CODE, frequency="2 Hz")
     assert len(vi.to_table(steady)) == steady.sizes["time"]
     assert len(vi.to_table(steady, rows="contact_number")) == steady.sizes["contact_number"]
-    branch = vi.branch(CODE, "2 Hz", low=1.98, high=2.02)
+    branch = vi.branch(CODE, frequency="2 Hz", span=(1.98, 2.02))
     table = vi.to_table(branch)
     assert len(table) == branch.sizes["point"]
     assert {"frequency", "eta_d", "multiplier_real_0", "section_displacement"} <= set(table)
-    state = vi.to_table(vi.simulate(CODE, "2 Hz", 3, samples=0))
+    state = vi.to_table(vi.simulate(CODE, 3, frequency="2 Hz", samples=0))
     assert list(state["component"]) == list(steady["component"].values)
 
 

@@ -27,7 +27,7 @@ def test_without_stops_it_is_the_closed_form() -> None:
     """u = A/(2ξ√(1−ξ²) ω0²); |ü + A_t| is largest at r² = (√(1 + 8ξ²) − 1)/(4ξ²)."""
     free = BUILDING.without_bumpers()
     periods, ratios = [1.5, 2.5], [0.05, 0.15, 0.4]
-    data = vi.design_chart(free, 0.4, {"isolator_period": periods, "damping_ratio": ratios})
+    data = vi.design_chart(vi.Rig(free, 0.4), {"isolator_period": periods, "damping_ratio": ratios})
     assert data["peak_displacement"].dims == ("isolator_period", "damping_ratio")
     for period in periods:
         for xi in ratios:
@@ -53,10 +53,12 @@ def test_without_stops_it_is_the_closed_form() -> None:
 def test_sines_against_a_fine_sweep(ratio: float, gap: float) -> None:
     """A sweep of steps 20 times as fine over the whole range finds no more, and no less."""
     rig = vi.from_dimensionless(ratio, gap, 0.02, 0.15)
-    data = vi.design_chart(rig, rig.amplitude, {"damping_ratio": [0.15]}).isel(damping_ratio=0)
+    data = vi.design_chart(vi.Rig(rig, rig.amplitude), {"damping_ratio": [0.15]}).isel(
+        damping_ratio=0
+    )
     natural = rig.oscillator.natural_frequency
     grid = natural * np.arange(0.4, 4.0, sample(0.001, 0.004))
-    fine = vi.sweep(rig, grid)
+    fine = vi.sweep(vi.Rig(rig, grid))
     for name, high, low in (
         ("peak_displacement", "displacement_max", "displacement_min"),
         ("peak_acceleration", "acceleration_max", "acceleration_min"),
@@ -74,7 +76,7 @@ def test_sines_against_a_fine_sweep(ratio: float, gap: float) -> None:
         for direction in ("forward", "backward"):
             start = fine["section"].isel(frequency=k).sel(direction=direction)
             shaken = vi.Harmonic(rig.amplitude, float(grid[k]))
-            motion = vi.simulate(rig.oscillator, shaken, 4, start=start, samples=1)
+            motion = vi.simulate(vi.Rig(rig.oscillator, shaken), 4, start=start, samples=1)
             peaks = vi.contacts(motion)["contact_peak_force"].values
             force = max(force, *peaks[np.isfinite(peaks)], 0.0)
     assert float(data["peak_force"]) == pytest.approx(force, rel=5e-3)
@@ -85,12 +87,12 @@ def test_sines_against_a_fine_sweep(ratio: float, gap: float) -> None:
 def test_records_against_responses_one_by_one(name: str) -> None:
     rig = RIGS[name]
     gaps = [0.02, 0.05]
-    data = vi.design_chart(rig, RECORDS, {"gap": gaps}, fractile=0.5)
+    data = vi.design_chart(rig, {"gap": gaps}, records=RECORDS, fractile=0.5)
     for gap in gaps:
         moved = rig.replace(
             **{side: getattr(rig, side).replace(gap=gap) for side in ("right", "left")}
         )
-        found = [vi.seismic_response(moved, record) for record in RECORDS.values()]
+        found = [vi.seismic_response(vi.Rig(moved, record)) for record in RECORDS.values()]
         for peak in PEAKS:
             middle = sorted(float(one[peak]) for one in found)[1]
             assert float(data[peak].sel(gap=gap)) == pytest.approx(middle, rel=1e-10)
@@ -98,15 +100,15 @@ def test_records_against_responses_one_by_one(name: str) -> None:
         assert float(data["penetration"].sel(gap=gap)) == pytest.approx(deep, rel=1e-9)
         hits = sum(float(one["impact_count"]) > 0 for one in found) / 3.0
         assert float(data["hitting"].sel(gap=gap)) == pytest.approx(hits)
-    largest = vi.design_chart(rig, RECORDS, {"gap": gaps})
+    largest = vi.design_chart(rig, {"gap": gaps}, records=RECORDS)
     assert (largest["peak_displacement"] >= data["peak_displacement"]).all()
 
 
 def test_what_no_other_beats_on_the_whole_grid() -> None:
     data = vi.design_chart(
         BUILDING,
-        RECORDS,
         {"gap": np.linspace(0.01, 0.3, 8), "bumper_stiffness": np.geomspace(1e7, 1e9, 6)},
+        records=RECORDS,
     )
     u, a = (data[name].values.ravel() for name in PEAKS[:2])
     by_hand = [
@@ -120,9 +122,9 @@ def test_what_no_other_beats_on_the_whole_grid() -> None:
 
 def test_what_exceeds_a_limit_beats_nobody() -> None:
     vary = {"gap": np.linspace(0.01, 0.3, 8), "bumper_stiffness": np.geomspace(1e7, 1e9, 6)}
-    every = vi.design_chart(BUILDING, RECORDS, vary)
+    every = vi.design_chart(BUILDING, vary, records=RECORDS)
     limits = {"penetration": "10 mm", "peak-force": 2e7}
-    data = vi.design_chart(BUILDING, RECORDS, vary, limits=limits)
+    data = vi.design_chart(BUILDING, vary, records=RECORDS, limits=limits)
     within = ((every["penetration"] <= 0.01) & (every["peak_force"] <= 2e7)).values
     assert 0 < within.sum() < within.size
     np.testing.assert_array_equal(data["within_limits"], within)
@@ -136,20 +138,26 @@ def test_what_exceeds_a_limit_beats_nobody() -> None:
         "penetration": 0.01,
         "peak_force": 2e7,
     }
-    none = vi.design_chart(BUILDING, RECORDS, {"gap": [0.01]}, limits={"peak_displacement": 1e-6})
+    none = vi.design_chart(
+        BUILDING, {"gap": [0.01]}, records=RECORDS, limits={"peak_displacement": 1e-6}
+    )
     assert not none["pareto"].any()
 
 
 def test_designs_that_hit_nothing_count_once() -> None:
-    data = vi.design_chart(BUILDING, RECORDS, {"gap": [2.0, 3.0], "bumper_stiffness": [1e7, 1e8]})
+    data = vi.design_chart(
+        BUILDING, {"gap": [2.0, 3.0], "bumper_stiffness": [1e7, 1e8]}, records=RECORDS
+    )
     assert not data["hitting"].any()
     assert data["pareto"].values.tolist() == [[True, False], [False, False]]
 
 
 def test_threads_change_no_bit_and_it_is_saved(tmp_path) -> None:
     vary = {"gap": ["100 mm", "200 mm"], "bumper_damping": [1e6, 1e7]}
-    one = vi.design_chart(BUILDING, "0.05 g", vary, frequencies=("0.2 Hz", "0.8 Hz"), threads=1)
-    two = vi.design_chart(BUILDING, "0.05 g", vary, frequencies=(0.2, 0.8), threads=2)
+    one = vi.design_chart(
+        vi.Rig(BUILDING, "0.05 g"), vary, frequency_span=("0.2 Hz", "0.8 Hz"), threads=1
+    )
+    two = vi.design_chart(vi.Rig(BUILDING, "0.05 g"), vary, frequency_span=(0.2, 0.8), threads=2)
     assert one.identical(two)
     assert one["gap"].attrs["units"] == "m"
     assert json.loads(one.attrs["parameters"])["frequencies"] == [0.2, 0.8]
@@ -160,7 +168,7 @@ def test_threads_change_no_bit_and_it_is_saved(tmp_path) -> None:
 def test_what_has_no_bound_is_infinite() -> None:
     soft = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 0.5, -50.0, 0.0))
     with pytest.warns(RuntimeWarning, match=r"design: 1 of 2 designs were given up: "):
-        data = vi.design_chart(soft, 3.0, {"damping": [1.0, 40.0]})
+        data = vi.design_chart(vi.Rig(soft, 3.0), {"damping": [1.0, 40.0]})
     assert np.isinf(data["peak_acceleration"].values[0])
     assert np.isfinite(data["peak_acceleration"].values[1])
     assert data["pareto"].values.tolist() == [False, True]
@@ -193,4 +201,6 @@ def test_what_has_no_bound_is_infinite() -> None:
 def test_wrong_input(arguments: dict, line: str) -> None:
     given = {"oscillator": BUILDING, "shaking": "0.1 g", "vary": {"gap": [0.1]}, **arguments}
     with pytest.raises(vi.InputError, match=f"^{line}"):
-        vi.design_chart(given.pop("oscillator"), given.pop("shaking"), given.pop("vary"), **given)
+        vi.design_chart(
+            given.pop("oscillator"), given.pop("vary"), records=given.pop("shaking"), **given
+        )

@@ -23,14 +23,14 @@ NODES = sample(30, 14)
 
 def _grid(shaking):
     return vi.design_chart(
-        RIG, shaking, {name: np.geomspace(*ends, NODES) for name, ends in RANGES.items()}
+        RIG, {name: np.geomspace(*ends, NODES) for name, ends in RANGES.items()}, records=shaking
     )
 
 
 @pytest.mark.parametrize("limits", [{}, {"peak_force": "900 N"}, {"penetration": "8 mm"}])
 def test_no_node_of_a_grid_is_better(limits: dict) -> None:
     grid = _grid(RECORDS)
-    found = vi.least_acceleration(RIG, RECORDS, RANGES, limits=limits)
+    found = vi.least_acceleration(RIG, RANGES, records=RECORDS, limits=limits)
     kept = grid["peak_acceleration"]
     for name, limit in {"peak_force": 900.0, "penetration": 8e-3}.items():
         if name in limits:
@@ -40,9 +40,7 @@ def test_no_node_of_a_grid_is_better(limits: dict) -> None:
     assert float(found["peak_acceleration"]) <= best * (1.0 + 1e-3)
     # What is said of the design is what it does.
     there = vi.design_chart(
-        RIG,
-        RECORDS,
-        {name: [float(found[name])] for name in RANGES},
+        RIG, {name: [float(found[name])] for name in RANGES}, records=RECORDS
     ).squeeze(drop=True)
     for name in ("peak_acceleration", "peak_displacement", "peak_force", "penetration"):
         assert float(there[name]) == pytest.approx(float(found[name]), rel=1e-12)
@@ -52,8 +50,8 @@ def test_of_sines() -> None:
     """One parameter, whose valley a grid shows."""
     ranges = {"bumper_damping": RANGES["bumper_damping"]}
     values = np.geomspace(*RANGES["bumper_damping"], 41)
-    grid = vi.design_chart(RIG, "0.05 g", {"bumper_damping": values})["peak_acceleration"]
-    found = vi.least_acceleration(RIG, "0.05 g", ranges)
+    grid = vi.design_chart(vi.Rig(RIG, "0.05 g"), {"bumper_damping": values})["peak_acceleration"]
+    found = vi.least_acceleration(vi.Rig(RIG, "0.05 g"), ranges)
     least = int(grid.values.argmin())
     assert 0 < least < 40
     assert float(found["peak_acceleration"]) == pytest.approx(float(grid.min()), rel=2e-3)
@@ -61,16 +59,18 @@ def test_of_sines() -> None:
 
 
 def test_a_wide_gap_leaves_nothing_to_choose() -> None:
-    need = float(vi.required_gap(RIG, RECORDS)["required_gap"])
+    need = float(vi.required_gap(RIG, records=RECORDS)["required_gap"])
     untouched = (
         "the best design touches no stop, so what the stops are like plays no part; the limit of "
         "peak force does not bind: 0 N of 1 MN"
     )
     with pytest.warns(vi.InputWarning, match=f"^least_acceleration: {untouched}"):
-        found = vi.least_acceleration(RIG, RECORDS, gap=need + 1e-9, limits={"peak_force": "1 MN"})
+        found = vi.least_acceleration(
+            RIG, records=RECORDS, gap=need + 1e-9, limits={"peak_force": "1 MN"}
+        )
     assert found.attrs["notes"].splitlines()[:2] == untouched.split("; ")
     free = max(
-        float(vi.seismic_response(RIG.without_bumpers(), one)["peak_acceleration"])
+        float(vi.seismic_response(vi.Rig(RIG.without_bumpers(), one))["peak_acceleration"])
         for one in RECORDS
     )
     assert float(found["hitting"]) == 0.0
@@ -80,18 +80,18 @@ def test_a_wide_gap_leaves_nothing_to_choose() -> None:
 def test_what_binds_and_what_does_not_is_noted() -> None:
     """A limit that is reached is not noted, one that is not is, and so is the end of a range."""
     limits = {"penetration": "2 mm", "peak_force": "1 MN"}
-    found = vi.least_acceleration(RIG, RECORDS, RANGES, limits=limits)
+    found = vi.least_acceleration(RIG, RANGES, records=RECORDS, limits=limits)
     assert float(found["penetration"]) == pytest.approx(2e-3, rel=1e-2)
     (note,) = found.attrs["notes"].splitlines()
     assert note.startswith("the limit of peak force does not bind: ")
     assert note.endswith(" N of 1 MN")
     stiff = {"bumper_stiffness": (2e6, 3e6)}
-    ended = vi.least_acceleration(RIG, RECORDS, stiff, gap="10 mm")
+    ended = vi.least_acceleration(RIG, stiff, records=RECORDS, gap="10 mm")
     assert ended.attrs["notes"] == "bumper_stiffness ended at the lower end of its range, 2000 kN/m"
 
 
 def test_it_is_repeatable() -> None:
-    first, again = (vi.least_acceleration(RIG, RECORDS, gap="10 mm") for _ in range(2))
+    first, again = (vi.least_acceleration(RIG, records=RECORDS, gap="10 mm") for _ in range(2))
     assert first.identical(again)
     assert first["bumper_damping"].attrs["units"] == "N s m-1"
     assert float(first["evaluations"]) > 24
@@ -117,4 +117,4 @@ def test_it_is_repeatable() -> None:
 def test_wrong_input(arguments: dict, line: str) -> None:
     given = {"oscillator": RIG, "shaking": RECORDS[0], **arguments}
     with pytest.raises(vi.InputError, match=f"^{line}"):
-        vi.least_acceleration(given.pop("oscillator"), given.pop("shaking"), **given)
+        vi.least_acceleration(given.pop("oscillator"), records=given.pop("shaking"), **given)

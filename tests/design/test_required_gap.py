@@ -28,13 +28,13 @@ def _bisected(hits) -> float:
 def test_of_a_record_by_bisection(name: str) -> None:
     record = noise(5, count=200)
     rig = RIGS[name]
-    found = vi.required_gap(rig, record)
+    found = vi.required_gap(rig, records=record)
     for side in ("right", "left"):
 
         def hits(gap: float, side: str = side) -> bool:
             wall = vi.Bumper(500.0, 3.0, gap)
             one = rig.without_bumpers().replace(**{side: wall})
-            motion = vi.simulate(one, record, samples=1, tail="4 s")
+            motion = vi.simulate(vi.Rig(one, record), samples=1, tail="4 s")
             return bool(motion.sizes["event"])
 
         assert float(found[f"required_gap_{side}"]) == pytest.approx(_bisected(hits), rel=1e-6)
@@ -45,7 +45,7 @@ def test_of_a_record_by_bisection(name: str) -> None:
 def test_of_sines_by_bisection() -> None:
     """Steady motion at the worst frequency, shifted by a constant force."""
     rig = RIG.replace(force=1.5)
-    found = vi.required_gap(rig, "0.1 g")
+    found = vi.required_gap(vi.Rig(rig, "0.1 g"))
     at = float(found["displacement_frequency"])
     xi, natural = rig.damping_ratio, rig.natural_frequency
     assert at == pytest.approx(natural * math.sqrt(1.0 - 2.0 * xi**2))
@@ -53,7 +53,7 @@ def test_of_sines_by_bisection() -> None:
 
         def hits(gap: float, side: str = side) -> bool:
             one = rig.without_bumpers().replace(**{side: vi.Bumper(500.0, 3.0, gap)})
-            motion = vi.simulate(one, vi.Harmonic("0.1 g", at), 200, samples=1)
+            motion = vi.simulate(vi.Rig(one, vi.Harmonic("0.1 g", at)), 200, samples=1)
             return bool((motion["event_cycle"] > 190).any())
 
         assert float(found[f"required_gap_{side}"]) == pytest.approx(_bisected(hits), rel=1e-6)
@@ -65,9 +65,9 @@ def test_of_sines_by_bisection() -> None:
 def test_no_frequency_needs_more(amplitude: str, ratio: float, ends) -> None:
     """Against the excursions of free flight on a fine grid of the range."""
     rig = vi.Oscillator(2.0, vi.Isolator.from_period(2.0, 1.4, ratio))
-    found = vi.required_gap(rig, amplitude, frequencies=ends)
+    found = vi.required_gap(vi.Rig(rig, amplitude), frequency_span=ends)
     grid = np.geomspace(*(ends or (0.02, 60.0)), 4001)
-    sweep = vi.sweep(rig, amplitude, grid[::4], "forward", max_cycles=1, window=1)
+    sweep = vi.sweep(vi.Rig(rig, amplitude), grid[::4], "forward", max_cycles=1, window=1)
     most = 0.5 * float(sweep["free_displacement_excursion"].max())
     assert float(found["required_gap"]) >= most * (1.0 - 1e-12)
     assert float(found["required_gap"]) == pytest.approx(most, rel=2e-2)
@@ -77,31 +77,33 @@ def test_of_curved_isolators_by_sweeps() -> None:
     """A weakly curved one is all but linear."""
     linear = vi.Oscillator(2.0, vi.Isolator(50.0, 1.5))
     curved = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 1.5, 1e-6, 0.0))
-    one, other = (vi.required_gap(rig, 0.5) for rig in (linear, curved))
+    one, other = (vi.required_gap(vi.Rig(rig, 0.5)) for rig in (linear, curved))
     assert float(one["required_gap"]) == pytest.approx(float(other["required_gap"]), rel=1e-5)
 
 
 def test_fractiles_of_records() -> None:
     records = [noise(seed, count=150) for seed in range(5)]
-    every = vi.required_gap(RIG, records)
+    every = vi.required_gap(RIG, records=records)
     right, left = (every[f"peak_displacement_{side}"].values for side in ("right", "left"))
     wide = np.maximum(right, left)
     assert every["record"].values.tolist() == ["0", "1", "2", "3", "4"]
     assert float(every["required_gap"]) == wide.max()
-    middle = vi.required_gap(RIG, records, fractile=0.5)
+    middle = vi.required_gap(RIG, records=records, fractile=0.5)
     assert float(middle["required_gap"]) == pytest.approx(np.sort(wide)[2])
     assert float(middle["required_gap_left"]) == pytest.approx(np.sort(left)[2])
     assert float(middle["required_gap_right"]) == pytest.approx(np.sort(right)[2])
     # Nothing is hit from there on, and something is below.
     for share, gap in ((0.0, float(every["required_gap"])), (0.2, np.sort(wide)[-1] - 1e-6)):
-        data = vi.design_chart(RIG, records, {"gap": [gap + (1e-12 if share == 0.0 else 0.0)]})
+        data = vi.design_chart(
+            RIG, {"gap": [gap + (1e-12 if share == 0.0 else 0.0)]}, records=records
+        )
         assert float(data["hitting"][0]) == share
 
 
 def test_refused() -> None:
     undamped = vi.Oscillator(2.0, vi.Isolator(50.0, 0.0))
     with pytest.raises(vi.InputError, match=r"natural frequency of an undamped"):
-        vi.required_gap(undamped, 0.1)
+        vi.required_gap(vi.Rig(undamped, 0.1))
     away = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 0.5, -50.0, 0.0))
     with pytest.raises(vi.InputError, match=r"^shaking: the mass moves without bound"):
-        vi.required_gap(away, 8.0)
+        vi.required_gap(vi.Rig(away, 8.0))

@@ -45,7 +45,7 @@ def test_every_run_is_the_response_by_itself() -> None:
                     )
                     here = {"scale": scale, "gap": gap, "bumper_stiffness": stiffness}
                     one = data.sel(record=name, **here)
-                    direct = vi.seismic_response(rig, record.scaled(scale))
+                    direct = vi.seismic_response(vi.Rig(rig, record.scaled(scale)))
                     for peak in PEAKS:
                         assert float(one[peak]) == pytest.approx(
                             float(direct[peak]), rel=1e-11, abs=1e-14
@@ -58,7 +58,7 @@ def test_rigs_by_name_with_other_laws_and_stops() -> None:
     assert data["record"].values.tolist() == ["0", "1", "2"]
     assert data["rig"].values.tolist() == list(RIGS)
     for name, rig in RIGS.items():
-        direct = vi.seismic_response(rig, RECORDS["b"])
+        direct = vi.seismic_response(vi.Rig(rig, RECORDS["b"]))
         one = data.isel(record=1, scale=0).sel(rig=name)
         assert float(one["peak_acceleration"]) == float(direct["peak_acceleration"]) or float(
             one["peak_acceleration"]
@@ -85,7 +85,7 @@ def test_scales_in_an_intensity_measure(intensity, of) -> None:
         assert float(one["intensity"]) == pytest.approx(of(record))
         scaled = record.scaled(3.0 / of(record))
         assert of(scaled) == pytest.approx(3.0)
-        direct = vi.seismic_response(RIGS["bumpers"], scaled, tail=1.0)
+        direct = vi.seismic_response(vi.Rig(RIGS["bumpers"], scaled), tail=1.0)
         assert float(one["peak_displacement"][1]) == pytest.approx(
             float(direct["peak_displacement"]), rel=1e-10
         )

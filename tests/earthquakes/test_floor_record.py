@@ -15,7 +15,7 @@ RECORD = noise(8)
 def test_all_of_an_impulse_is_in_it(name: str) -> None:
     """The sum of its samples is the change of the absolute velocity, impacts and all."""
     rig = RIGS[name]
-    motion = vi.simulate(rig, RECORD, tail=2.0, samples=4)
+    motion = vi.simulate(vi.Rig(rig, RECORD), tail=2.0, samples=4)
     floor = vi.floor_record(motion)
     time = np.arange(len(floor.acceleration) + 1) * floor.step
     ground = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(time) * _sums(RECORD.at(time)))])
@@ -37,7 +37,7 @@ def test_the_spectrum_converges_to_the_second_order(name: str) -> None:
     periods = [0.3, 0.8, 1.7]
     found = []
     for samples in (4, 8, 16, 128):
-        motion = vi.simulate(rig, RECORD, tail=2.0, samples=samples)
+        motion = vi.simulate(vi.Rig(rig, RECORD), tail=2.0, samples=samples)
         spectrum = vi.response_spectrum(vi.floor_record(motion), periods, 0.05)
         found.append(spectrum["spectral_displacement"].values)
     *coarse, fine = found
@@ -48,7 +48,7 @@ def test_the_spectrum_converges_to_the_second_order(name: str) -> None:
 
 def test_the_floor_of_a_stiff_rig_is_the_ground() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1e7, 300.0))
-    floor = vi.floor_record(vi.simulate(rig, RECORD, samples=1)).acceleration
+    floor = vi.floor_record(vi.simulate(vi.Rig(rig, RECORD), samples=1)).acceleration
     ground = RECORD.acceleration
     weighted = (ground[:-2] + 4.0 * ground[1:-1] + ground[2:]) / 6.0
     assert np.abs(weighted - ground[1:-1]).max() > 0.1
@@ -59,7 +59,7 @@ def test_the_base_may_stop_at_once() -> None:
     """A record that ends with its largest value: the mean at its end has half of it."""
     rig = vi.Oscillator(1.0, vi.Isolator(1e9, 3e3))
     record = vi.Record(np.append(np.zeros(10), np.ones(11)), 0.1)
-    floor = vi.floor_record(vi.simulate(rig, record, tail=1.0, samples=1))
+    floor = vi.floor_record(vi.simulate(vi.Rig(rig, record), tail=1.0, samples=1))
     assert floor.acceleration[20] == pytest.approx(0.5, abs=1e-3)
     assert floor.acceleration[15] == pytest.approx(1.0, abs=1e-3)
     assert floor.acceleration[25] == pytest.approx(0.0, abs=1e-3)
@@ -68,8 +68,8 @@ def test_the_base_may_stop_at_once() -> None:
 def test_wrong_input() -> None:
     rig = RIGS["bumpers"]
     with pytest.raises(vi.InputError, match=r"^motion: it repeats itself; one through a Record"):
-        vi.floor_record(vi.simulate(rig, vi.Harmonic(1.0, 1.0), 3))
+        vi.floor_record(vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 1.0)), 3))
     with pytest.raises(vi.InputError, match=r"^motion: 3 samples; at least 4"):
-        vi.floor_record(vi.simulate(rig, RECORD.cut(0.0, 0.04)))
+        vi.floor_record(vi.simulate(vi.Rig(rig, RECORD.cut(0.0, 0.04))))
     with pytest.raises(vi.InputError, match=r"^motion: this is no recorded motion"):
-        vi.floor_record(vi.simulate(rig, RECORD, samples=0))
+        vi.floor_record(vi.simulate(vi.Rig(rig, RECORD), samples=0))

@@ -19,10 +19,10 @@ SIDES = {"right": 1, "left": -1}
 def test_every_number_is_that_of_the_whole_motion(name: str) -> None:
     """The engine's one pass against samples, events, contacts and totals of a time history."""
     rig = RIGS[name]
-    found = vi.seismic_response(rig, RECORD, tail=3.0)
+    found = vi.seismic_response(vi.Rig(rig, RECORD), tail=3.0)
     assert found.attrs["status"] == "done"
     assert int(found["status"]) == 0
-    motion = vi.simulate(rig, RECORD, tail=3.0, samples=50)
+    motion = vi.simulate(vi.Rig(rig, RECORD), tail=3.0, samples=50)
     whole = vi.totals(motion)
     u, a = motion["displacement"].values, motion["acceleration"].values
     for side, sign in SIDES.items():
@@ -54,8 +54,8 @@ def test_every_number_is_that_of_the_whole_motion(name: str) -> None:
 @pytest.mark.parametrize("name", ["bumpers", "elastic", "bilinear", "curved"])
 def test_forces_and_impulses_are_those_of_the_contacts(name: str) -> None:
     rig = RIGS[name]
-    found = vi.seismic_response(rig, RECORD, tail=3.0)
-    log = vi.contacts(vi.simulate(rig, RECORD, tail=3.0))
+    found = vi.seismic_response(vi.Rig(rig, RECORD), tail=3.0)
+    log = vi.contacts(vi.simulate(vi.Rig(rig, RECORD), tail=3.0))
     for side, sign in SIDES.items():
         mine = log["contact_side"].values == sign
         force = log["contact_peak_force"].values[mine].max(initial=0.0)
@@ -67,14 +67,14 @@ def test_forces_and_impulses_are_those_of_the_contacts(name: str) -> None:
 
 def test_a_rigid_stop_has_an_impulse_and_an_infinite_force() -> None:
     rig = RIGS["walls"]
-    found = vi.seismic_response(rig, RECORD, tail=3.0)
-    log = vi.contacts(vi.simulate(rig, RECORD, tail=3.0))
+    found = vi.seismic_response(vi.Rig(rig, RECORD), tail=3.0)
+    log = vi.contacts(vi.simulate(vi.Rig(rig, RECORD), tail=3.0))
     for side, sign in SIDES.items():
         impulse = log["contact_impulse"].values[log["contact_side"].values == sign].sum()
         assert float(found[f"impulse_{side}"]) == pytest.approx(impulse, rel=1e-9)
         assert math.isinf(found[f"peak_force_{side}"])
     # What never touches it presses nothing.
-    quiet = vi.seismic_response(rig, RECORD.scaled(1e-3))
+    quiet = vi.seismic_response(vi.Rig(rig, RECORD.scaled(1e-3)))
     assert float(quiet["peak_force"]) == 0.0
     assert float(quiet["impulse"]) == 0.0
     assert int(quiet["impact_count"]) == 0
@@ -83,7 +83,7 @@ def test_a_rigid_stop_has_an_impulse_and_an_infinite_force() -> None:
 def test_a_contact_that_was_there_before_counts() -> None:
     """A preloaded stop is pressed from the beginning on, which `contacts` leaves out."""
     rig = RIGS["preloaded"]
-    still = vi.seismic_response(rig, vi.Record([0.0, 0.0], 0.5), tail=0.5)
+    still = vi.seismic_response(vi.Rig(rig, vi.Record([0.0, 0.0], 0.5)), tail=0.5)
     rest = float(still["residual_displacement"])
     force = 500.0 * (rest + 0.02)
     assert force > 1.0
@@ -101,7 +101,7 @@ def test_a_linear_rig_without_stops_is_an_oscillator_of_the_response_spectrum(
     omega = math.tau / period
     rig = vi.Oscillator(3.0, vi.Isolator(3.0 * omega**2, 6.0 * damping * omega))
     cut = RECORD.cut(0.0, 3.0)  # which ends in the middle of the strongest shaking
-    found = vi.seismic_response(rig, cut)
+    found = vi.seismic_response(vi.Rig(rig, cut))
     spectrum = vi.response_spectrum(cut, period, damping)
     for key, name in (
         ("peak_displacement", "spectral_displacement"),
@@ -117,14 +117,14 @@ def test_a_scale_is_a_record_that_was_scaled() -> None:
     for rig in RIGS.values():
         together = peaks([Shaken(rig, RECORD, factors)], residuals=True)
         for k, factor in enumerate(factors.tolist()):
-            alone = vi.seismic_response(rig, RECORD.scaled(factor))
+            alone = vi.seismic_response(vi.Rig(rig, RECORD.scaled(factor)))
             for name, values in together.items():
                 np.testing.assert_allclose(values[0, k], alone[name], rtol=1e-11, atol=1e-13)
 
 
 def test_where_an_elastic_isolator_rests() -> None:
     rig = RIGS["walls"]
-    found = vi.seismic_response(rig, RECORD)
+    found = vi.seismic_response(vi.Rig(rig, RECORD))
     assert float(found["residual_displacement"]) == pytest.approx(0.2 / 50.0, rel=1e-14)
     assert float(found["residual_swing"]) == 0.0
 
@@ -132,8 +132,8 @@ def test_where_an_elastic_isolator_rests() -> None:
 def test_where_an_undamped_bilinear_isolator_rests() -> None:
     """It swings elastically for ever, about where its yielded element and its spring agree."""
     rig = vi.Oscillator(2.0, vi.BilinearIsolator(80.0, 8.0, 1.0, 0.0))
-    found = vi.seismic_response(rig, RECORD)
-    motion = vi.simulate(rig, RECORD, tail=60.0, samples=1)
+    found = vi.seismic_response(vi.Rig(rig, RECORD))
+    motion = vi.simulate(vi.Rig(rig, RECORD), tail=60.0, samples=1)
     u, z = motion["displacement"].values[-1], motion["isolator_memory"].values[-1]
     # 8 r + 72 (z + r - u) = 0: at rest both pull equally, z moving as u does.
     assert abs(u - 72.0 * (u - z) / 80.0) > 1e-4
@@ -144,8 +144,8 @@ def test_where_an_undamped_bilinear_isolator_rests() -> None:
 @pytest.mark.parametrize("name", ["bilinear", "friction", "curved"])
 def test_where_a_damped_hysteretic_isolator_rests(name: str) -> None:
     rig = RIGS[name]
-    found = vi.seismic_response(rig, RECORD)
-    long = vi.simulate(rig, RECORD, tail=300.0, samples=0)["final_state"].values
+    found = vi.seismic_response(vi.Rig(rig, RECORD))
+    long = vi.simulate(vi.Rig(rig, RECORD), tail=300.0, samples=0)["final_state"].values
     size = float(found["peak_displacement"])
     assert abs(long[1]) < 1e-6
     assert float(found["residual_swing"]) <= 1e-6 * size
@@ -164,14 +164,14 @@ def test_the_tail_is_two_periods_of_the_softest_spring() -> None:
 
 def test_a_case_is_a_rig() -> None:
     case = vi.laboratory.case("B2-G1-A3")
-    direct = vi.seismic_response(case.oscillator, RECORD)
+    direct = vi.seismic_response(vi.Rig(case.oscillator, RECORD))
     for given in (case, "B2-G1-A3"):
-        assert vi.seismic_response(given, RECORD).identical(direct)
+        assert vi.seismic_response(vi.Rig(given, RECORD)).identical(direct)
 
 
 def test_what_is_given_up_is_told() -> None:
     with pytest.warns(RuntimeWarning, match="seismic_response: more contacts and detachments"):
-        found = vi.seismic_response(RIGS["walls"], noise(8, step=0.5), max_events=1)
+        found = vi.seismic_response(vi.Rig(RIGS["walls"], noise(8, step=0.5)), max_events=1)
     assert int(found["status"]) != 0
     assert "max_events" in found.attrs["status"]
     assert np.isnan(found["peak_displacement"])

@@ -15,7 +15,7 @@ from vibroimpact.engine import fixed_point, pursuit
 
 
 def held(rig: vi.Oscillator, frequencies, **options):
-    return vi.sweep(rig, 1.0, frequencies, **options)
+    return vi.sweep(vi.Rig(rig, 1.0), frequencies, **options)
 
 
 @pytest.mark.parametrize("code", ["B1-G4-A1", "B2-G1-A3", "B3-G2-A2", "B4-G1-A3"])
@@ -30,7 +30,7 @@ def test_it_comes_where_following_comes(code: str) -> None:
             if one["motion"] != "periodic":
                 continue
             shaken = vi.Harmonic(case.amplitude, float(frequency))
-            later = vi.simulate(case.oscillator, shaken, 300, one["section"], samples=0)
+            later = vi.simulate(vi.Rig(case.oscillator, shaken), 300, one["section"], samples=0)
             size = abs(one["section"].values[:2]).max()
             np.testing.assert_allclose(
                 later["final_state"][:2], one["section"][:2], atol=1e-11 * size, rtol=0.0
@@ -47,7 +47,7 @@ def test_it_takes_a_fraction_of_the_cycles() -> None:
 
 def told(rig: vi.Oscillator, shaken: vi.Harmonic):
     with pytest.warns(RuntimeWarning, match="is not the motion from rest"):
-        return vi.orbit(rig, shaken, period=1)
+        return vi.orbit(vi.Rig(rig, shaken), period=1)
 
 
 def test_what_does_not_attract_is_not_reached() -> None:
@@ -55,7 +55,9 @@ def test_what_does_not_attract_is_not_reached() -> None:
     rig = vi.Oscillator(
         1.0, vi.Isolator(1.0, 0.054322474523786496), None, vi.Bumper(4.422971066385286, 0.0, 0.0)
     )
-    swept = vi.sweep(rig, 0.054322474523786496, np.linspace(0.32, 0.41, 10), max_cycles=1000)
+    swept = vi.sweep(
+        vi.Rig(rig, 0.054322474523786496), np.linspace(0.32, 0.41, 10), max_cycles=1000
+    )
     orbits = [
         told(rig, vi.Harmonic(0.054322474523786496, float(f)))
         for f, n in zip(swept.frequency.values, swept["period"].values[0], strict=True)
@@ -85,7 +87,7 @@ def test_random_rigs_stay_where_they_are_said_to_be(
         return
     shaken = vi.Harmonic(1.0, frequency)
     cycles = 40 * int(one["period"])
-    later = vi.simulate(rig, shaken, cycles, one["section"], samples=0)["final_state"]
+    later = vi.simulate(vi.Rig(rig, shaken), cycles, one["section"], samples=0)["final_state"]
     size = abs(one["section"].values[:2]).max()
     np.testing.assert_allclose(later[:2], one["section"][:2], atol=1e-10 * size, rtol=0.0)
 

@@ -34,7 +34,9 @@ TOUCHING = [
 def test_no_chatter_at_the_start(damping, right, left, frequency, phase, at) -> None:
     bumpers = [None if b is None else vi.Bumper(*b) for b in (right, left)]
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, damping), *bumpers)
-    motion = vi.simulate(rig, vi.Harmonic(1.0, frequency, phase), 3, vi.State(at), samples=8)
+    motion = vi.simulate(
+        vi.Rig(rig, vi.Harmonic(1.0, frequency, phase)), 3, vi.State(at), samples=8
+    )
     assert motion.attrs["status"] == "done"
     assert motion.sizes["event"] < 100
 
@@ -52,5 +54,5 @@ def test_random_rest_starts_without_gaps() -> None:
         ]
         rig = vi.Oscillator(1.0, vi.Isolator(1.0, 10.0 ** rng.uniform(-2, 0.5)), *bumpers)
         shaken = vi.Harmonic(1.0, 10.0 ** rng.uniform(-1.5, 0.3), rng.choice([0.0, math.pi]))
-        motion = vi.simulate(rig, shaken, 1, samples=0, max_events=2000)
+        motion = vi.simulate(vi.Rig(rig, shaken), 1, samples=0, max_events=2000)
         assert motion.attrs["status"] == "done", (i, rig, shaken)

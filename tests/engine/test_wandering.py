@@ -63,7 +63,7 @@ def test_it_is_asked_behind_the_transient() -> None:
 
 def test_what_is_plain_is_chaotic() -> None:
     """The growth of disturbances agrees, over twenty times as many cycles."""
-    rig = one_sine(CASE.oscillator, CASE.amplitude, "rig")
+    rig = one_sine(CASE.rig)
     grid = np.arange(1.0, 1.12, sample(0.002, 0.01))
     _, ended = swept_alone(rig, grid, 300, 100, np.zeros(2, dtype=np.int64), SOON)
     places = np.flatnonzero(ended.plain[0])

@@ -60,7 +60,7 @@ def test_pictures_are_those_of_the_public_functions(session):
     )
     assert "periodic, period 1, stable" in motion["words"]
     assert "one motion found" not in motion["table"]  # the other curve may lead to another
-    alone = vi.classify(case)
+    alone = vi.classify_scenario(case)
     assert (scenario["scenario"], "; ".join(scenario["evidence"])) == (
         alone.scenario,
         alone.evidence,

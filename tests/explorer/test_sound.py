@@ -78,7 +78,7 @@ def test_impacts_are_heard_when_they_are_seen(opened):
 
     # Two impacts a cycle, one harder than the other, a quarter as fast as they are.
     case = vi.laboratory.case("B3-10mm-A3")
-    motion = vi.steady(case, frequency := 1.2, exponent_cycles=100)
+    motion = vi.steady(case, frequency=(frequency := 1.2), exponent_cycles=100)
     speed, start = motion.contact_closing_speed.values, motion.contact_start.values
     hard, fastest = int(np.argmax(speed)), float(np.abs(motion.velocity).max())
     (when, loud, side), seen = listened(page, 10)

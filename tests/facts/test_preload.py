@@ -15,7 +15,7 @@ RIG = vi.Oscillator(550.0, vi.Isolator("26.8 kN/m", "1.1 kN s/m"), right=PRESSED
 
 def test_a_sweep_says_that_its_bumpers_are_touched():
     """Its page said "force of the right stop 1.8 kN" and "Contact with a bumper: nowhere"."""
-    data = vi.sweep(RIG, "0.05 g", [1.0, 1.5, 2.0])
+    data = vi.sweep(vi.Rig(RIG, "0.05 g"), [1.0, 1.5, 2.0])
     assert not data["impacts_right"].any()
     # At rest each bumper is pressed by 10 mm.
     assert (data["peak_force_right"] > 500.0).all()
@@ -26,11 +26,11 @@ def test_a_sweep_says_that_its_bumpers_are_touched():
 
 
 def test_a_motion_says_which_stops_stay_pressed():
-    both = vi.steady(RIG, vi.Harmonic(0.2, 1.0))
+    both = vi.steady(vi.Rig(RIG, vi.Harmonic(0.2, 1.0)))
     assert "0 right, 0 left per cycle; both stops stay pressed" in _said(both)
-    one = vi.steady(RIG.replace(left=PRESSED.replace(gap=0.1)), vi.Harmonic(0.2, 1.0))
+    one = vi.steady(vi.Rig(RIG.replace(left=PRESSED.replace(gap=0.1)), vi.Harmonic(0.2, 1.0)))
     assert "0 right, 0 left per cycle; the right stop stays pressed" in _said(one)
-    free = vi.steady(RIG.without_bumpers(), vi.Harmonic(0.2, 1.0))
+    free = vi.steady(vi.Rig(RIG.without_bumpers(), vi.Harmonic(0.2, 1.0)))
     assert "pressed" not in _said(free)
 
 
@@ -43,11 +43,11 @@ def test_an_earthquake_does_not_say_that_pressed_stops_are_not_hit(sides):
     """It hits no stop: -12 mm of the -10 mm gap are left."""
     rig = RIG if len(sides) == 2 else RIG.replace(left=None)
     record = vi.Record(0.1 * np.sin(np.arange(50.0)), 0.02)
-    response = vi.seismic_response(rig, record)
+    response = vi.seismic_response(vi.Rig(rig, record))
     told = sentence(response, rig, None)
     assert told.startswith("It presses the right stop with ")
     assert told.endswith("at most, from the start on; no impact follows.")
     assert ("left" in told) == (len(sides) == 2)
     near = rig.replace(right=PRESSED.replace(gap=1e-5), left=None)
-    hits = vi.seismic_response(near, record)
+    hits = vi.seismic_response(vi.Rig(near, record))
     assert sentence(hits, near, None).startswith("It hits the right stop ")

@@ -17,7 +17,7 @@ from vibroimpact.figures.basins import COLOURS
 
 @cache
 def made() -> xr.Dataset:
-    return vi.basins("B3-10mm-A3", 0.7, (-0.012, 0.012), (-0.1, 0.1), nodes=40)
+    return vi.basins("B3-10mm-A3", (-0.012, 0.012), (-0.1, 0.1), frequency=0.7, nodes=40)
 
 
 def brightness(colour: object) -> float:
@@ -80,7 +80,9 @@ def test_axes_of_ones_own_and_a_file(tmp_path):
 
 
 def test_curves_of_saddles_are_drawn_over_basins():
-    curves = vi.manifolds("B3-10mm-A3", 0.7, None, (-0.012, 0.012), (-0.1, 0.1), longest=2.0)
+    curves = vi.manifolds(
+        "B3-10mm-A3", None, (-0.012, 0.012), (-0.1, 0.1), frequency=0.7, longest=2.0
+    )
     ax = basin_portrait(made(), manifolds=curves)
     legend = [text.get_text() for text in ax.get_legend().get_texts()]
     assert legend[2:] == ["stable curves of saddles", "unstable curves of saddles", "saddles"]

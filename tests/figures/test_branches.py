@@ -22,24 +22,24 @@ FREQUENCY = "excitation frequency (Hz)"
 
 @cache
 def diagram() -> xr.Dataset:
-    return vi.resonance_diagram(CASE.oscillator, CASE.amplitude, 1.0, 4.0)
+    return vi.resonance_diagram(vi.Rig(CASE.oscillator, CASE.amplitude), (1.0, 4.0))
 
 
 @cache
 def several() -> xr.Dataset:
     """Symmetry breaking, period doubling, and the branches that are born there."""
     case = vi.laboratory.case("B3-10mm-A3")
-    return vi.resonance_diagram(case.oscillator, case.amplitude, 0.9, 1.4, longest=2)
+    return vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (0.9, 1.4), longest=2)
 
 
 @cache
 def gaps() -> xr.Dataset:
-    return vi.branch(CASE.oscillator, SHAKEN, parameter="gap", low=1e-3, high=20e-3)
+    return vi.branch(vi.Rig(CASE.oscillator, SHAKEN), span=(1e-3, 20e-3), parameter="gap")
 
 
 @cache
 def swept() -> xr.Dataset:
-    return vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(1.0, 4.0, 0.05))
+    return vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), np.arange(1.0, 4.0, 0.05))
 
 
 @cache
@@ -47,12 +47,10 @@ def curve(kind: str, other: str = "stiffness_ratio") -> xr.Dataset:
     row = int(np.flatnonzero(diagram()["bifurcation_kind"].values == kind)[0])
     low, high = {"stiffness_ratio": (0.5, 100.0), "gap": (4e-3, 20e-3)}[other]
     return vi.bifurcation_curve(
-        CASE.oscillator,
-        SHAKEN,
+        vi.Rig(CASE.oscillator, SHAKEN),
         diagram().isel(bifurcation=row),
+        spans=((1.0, 4.0), (low, high)),
         parameters=("frequency", other),
-        low=(1.0, low),
-        high=(4.0, high),
     )
 
 
@@ -194,7 +192,7 @@ def test_branches_are_named_under_a_sweep_too():
 
 
 def test_a_dense_sweep_leaves_the_branches_to_be_seen():
-    dense = vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(1.0, 4.0, 0.01))
+    dense = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), np.arange(1.0, 4.0, 0.01))
     line = marks(branch_diagram(diagram(), sweep=dense))["forward sweep"]
     assert len(line.get_xdata()) / line.get_markevery() < 100
     assert marks(branch_diagram(diagram(), sweep=swept()))["forward sweep"].get_markevery() == 1
@@ -218,7 +216,9 @@ def test_names_stand_clear_of_marks_and_of_each_other_inside_the_panel(made):
 
 def test_other_parameters_are_named_with_their_units():
     assert branch_diagram(gaps()).get_xlabel().startswith("gap of each side (")
-    data = vi.branch(CASE.oscillator, SHAKEN, parameter="stiffness_ratio", low=10.0, high=30.0)
+    data = vi.branch(
+        vi.Rig(CASE.oscillator, SHAKEN), span=(10.0, 30.0), parameter="stiffness_ratio"
+    )
     label = branch_diagram(data).get_xlabel()
     assert label.startswith("stiffness ratio")
     assert label.endswith(" (–)")
@@ -270,7 +270,7 @@ def test_a_sweep_falls_on_the_solid_lines():
 )
 def test_a_sweep_is_at_the_scale_of_the_branches(quantity, low):
     """Over the largest free flight at any frequency, though the sweep has not been there."""
-    data = vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(low, 4.0, 0.05), "backward")
+    data = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), np.arange(low, 4.0, 0.05), "backward")
     ax = branch_diagram(diagram(), quantity=quantity, sweep=data)
     x, y = points(marks(ax)["backward sweep"]).T
     free = np.flatnonzero(x > 2.9)
@@ -377,7 +377,9 @@ def test_what_is_no_branch_is_refused():
 
 
 def test_sections_are_sent_to_their_own_figure():
-    data = vi.bifurcation_diagram("B3-10mm-A3", 1.12, "gap", 4.9e-3, 5e-3, 2, directions="up")
+    data = vi.bifurcation_diagram(
+        "B3-10mm-A3", "gap", (4.9e-3, 5e-3), 2, frequency=1.12, directions="up"
+    )
     refused(lambda: branch_diagram(data), "data: ", "figures.section_diagram", "resonance_diagram")
 
 

@@ -19,7 +19,7 @@ GAPS, STIFFNESSES = np.linspace(0.01, 0.3, 5), np.geomspace(100.0, 2000.0, 4)
 @pytest.fixture(scope="module")
 def data():
     vary = {"gap": GAPS, "bumper_stiffness": STIFFNESSES}
-    return vi.design_chart(RIGS["bumpers"], noise(8, count=120), vary)
+    return vi.design_chart(RIGS["bumpers"], vary, records=noise(8, count=120))
 
 
 def test_contours_over_two_parameters(data) -> None:
@@ -87,7 +87,7 @@ def test_the_front(data) -> None:
 
 def test_of_a_long_front_some_are_numbered() -> None:
     long = vi.design_chart(
-        RIGS["bumpers"], noise(8, count=120), {"gap": np.linspace(0.01, 0.3, 25)}
+        RIGS["bumpers"], {"gap": np.linspace(0.01, 0.3, 25)}, records=noise(8, count=120)
     )
     count = int(long["pareto"].sum())
     assert count > 5
@@ -98,8 +98,8 @@ def test_of_a_long_front_some_are_numbered() -> None:
 def test_what_exceeds_a_limit_is_marked(data) -> None:
     limited = vi.design_chart(
         RIGS["bumpers"],
-        noise(8, count=120),
         {"gap": GAPS, "bumper_stiffness": STIFFNESSES},
+        records=noise(8, count=120),
         limits={"peak_displacement": float(data["peak_displacement"].median())},
     )
     beyond = ~limited["within_limits"].values
@@ -258,7 +258,7 @@ def test_a_front_within_limits_is_named_so(data) -> None:
 def test_a_fractile_over_the_records_is_named() -> None:
     vary = {"gap": GAPS}
     records = [noise(8, count=120), noise(9, count=120)]
-    some = vi.design_chart(RIGS["bumpers"], records, vary, fractile=0.84)
+    some = vi.design_chart(RIGS["bumpers"], vary, records=records, fractile=0.84)
     words = "\n84 % fractile over the records"
     (ax,) = design_chart(some, quantities=("peak_force",))
     assert ax.get_ylabel() == "largest contact force (kN)" + words
@@ -266,12 +266,12 @@ def test_a_fractile_over_the_records_is_named() -> None:
     assert front.get_xlabel().endswith(words)
     assert front.get_ylabel().endswith(words)
     both = vi.design_chart(
-        RIGS["bumpers"], records, {**vary, "bumper_stiffness": STIFFNESSES}, fractile=0
+        RIGS["bumpers"], {**vary, "bumper_stiffness": STIFFNESSES}, records=records, fractile=0
     )
     assert design_chart(both)[0].get_title().endswith("\n0 % fractile over the records")
     for one in (
-        vi.design_chart(RIGS["bumpers"], records, vary),
-        vi.design_chart(RIGS["bumpers"], records[0], vary, fractile=0.5),
+        vi.design_chart(RIGS["bumpers"], vary, records=records),
+        vi.design_chart(RIGS["bumpers"], vary, records=records[0], fractile=0.5),
     ):
         assert "fractile" not in pareto_front(one).get_xlabel()
 

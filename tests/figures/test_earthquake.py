@@ -14,7 +14,7 @@ RECORD = noise(8)
 
 def test_what_is_drawn() -> None:
     rig = RIGS["bumpers"]
-    motion = vi.simulate(rig, RECORD, tail=1.0, samples=4)
+    motion = vi.simulate(vi.Rig(rig, RECORD), tail=1.0, samples=4)
     periods = np.geomspace(0.05, 2.0, 20)
     spectra = {
         "ground": vi.response_spectrum(RECORD, periods),
@@ -49,7 +49,7 @@ def test_what_is_drawn() -> None:
 
 def test_without_spectra_and_stops() -> None:
     rig = RIGS["bumpers"].without_bumpers()
-    page = earthquake_page(vi.simulate(rig, RECORD))
+    page = earthquake_page(vi.simulate(vi.Rig(rig, RECORD)))
     assert len(page) == 4
     assert page[1].get_legend() is None
 
@@ -57,7 +57,7 @@ def test_without_spectra_and_stops() -> None:
 def test_wrong_input() -> None:
     rig = RIGS["bumpers"]
     with pytest.raises(vi.InputError, match=r"^motion: this is no motion through a record; "):
-        earthquake_page(vi.simulate(rig, vi.Harmonic(1.0, 1.0), 3))
+        earthquake_page(vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 1.0)), 3))
     several = vi.response_spectrum(RECORD, [0.1, 0.2], [0.02, 0.05])
     with pytest.raises(vi.InputError, match=r"^spectra\['ground'\]: this is no response spectrum"):
-        earthquake_page(vi.simulate(rig, RECORD), {"ground": several})
+        earthquake_page(vi.simulate(vi.Rig(rig, RECORD)), {"ground": several})

@@ -33,34 +33,34 @@ GAP = 7.5  # mm, on both sides
 @cache
 def hitting() -> xr.Dataset:
     """One contact a side in each cycle."""
-    return vi.steady(CASE.oscillator, SHAKEN, samples=64)
+    return vi.steady(vi.Rig(CASE.oscillator, SHAKEN), samples=64)
 
 
 @cache
 def free() -> xr.Dataset:
     """The motion without contact that coexists with it."""
-    return vi.steady(CASE.oscillator, SHAKEN, vi.State(0.001, 0.053), samples=64)
+    return vi.steady(vi.Rig(CASE.oscillator, SHAKEN), vi.State(0.001, 0.053), samples=64)
 
 
 @cache
 def across() -> xr.Dataset:
     """The same orbit as `hitting`, cut where the mass presses the right bumper."""
-    begin = vi.simulate(CASE.oscillator, SHAKEN, 0.83, hitting(), samples=0)
-    data = vi.steady(CASE.oscillator, SHAKEN, begin, samples=64)
+    begin = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 0.83, hitting(), samples=0)
+    data = vi.steady(vi.Rig(CASE.oscillator, SHAKEN), begin, samples=64)
     assert list(data["contact"].values[[0, -1]]) == [1, 1]
     return data
 
 
 @cache
 def bare() -> xr.Dataset:
-    return vi.steady(CASE.oscillator.without_bumpers(), SHAKEN, samples=64)
+    return vi.steady(vi.Rig(CASE.oscillator.without_bumpers(), SHAKEN), samples=64)
 
 
 @cache
 def chatter() -> xr.Dataset:
     """Five contacts a side, the flights between them ever shorter."""
     case = vi.laboratory.case("B3-10mm-A3")
-    data = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, 0.3), samples=64)
+    data = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 0.3)), samples=64)
     assert data.sizes["event"] == 20
     return data
 
@@ -70,7 +70,7 @@ def doubled() -> xr.Dataset:
     """Period two, of a rig with the right bumper alone."""
     right = CASE.oscillator.right.replace(gap=0.0)
     rig = CASE.oscillator.replace(left=None, right=right)
-    data = vi.steady(rig, vi.Harmonic(CASE.amplitude, 2.8), samples=64)
+    data = vi.steady(vi.Rig(rig, vi.Harmonic(CASE.amplitude, 2.8)), samples=64)
     assert int(data["period"]) == 2
     return data
 
@@ -79,14 +79,14 @@ def doubled() -> xr.Dataset:
 def chaotic() -> xr.Dataset:
     case = vi.laboratory.case("B3-10mm-A3")
     shaken = vi.Harmonic(case.amplitude, 1.06)
-    data = vi.steady(case.oscillator, shaken, samples=16, window=30, exponent_cycles=500)
+    data = vi.steady(vi.Rig(case.oscillator, shaken), samples=16, window=30, exponent_cycles=500)
     assert data["motion"].item() == "chaotic"
     return data
 
 
 @cache
 def transient() -> xr.Dataset:
-    return vi.simulate(CASE.oscillator, SHAKEN, 5.3, samples=64)
+    return vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 5.3, samples=64)
 
 
 def both() -> dict[str, xr.Dataset]:
@@ -143,7 +143,7 @@ def test_labels_with_units():
     assert "magnified" in near.get_ylabel()
     assert "t/T" in near.get_xlabel()
     assert whole.figure.get_suptitle() == "a title"
-    lines = vi.spectrum(hitting())
+    lines = vi.fourier_spectrum(hitting())
     for quantity, unit in (
         ("displacement", "$u$ (mm)"),
         ("velocity", "(m/s)"),
@@ -162,7 +162,7 @@ def test_gaps_are_lines_at_their_place(draw):
     assert gaps(draw(doubled()), 0) == [0.0]
     assert gaps(draw(bare()), 0) == []
     uneven = CASE.oscillator.replace(left=CASE.oscillator.left.replace(gap="9 mm"))
-    data = vi.simulate(uneven, SHAKEN, 2, samples=16)
+    data = vi.simulate(vi.Rig(uneven, SHAKEN), 2, samples=16)
     assert gaps(draw(data), 0) == pytest.approx([-9.0, 7.5])
     # Those of several rigs together, each once.
     assert gaps(draw({"a": data, "b": hitting()}), 0) == pytest.approx([-9.0, -7.5, 7.5])
@@ -216,7 +216,7 @@ def test_portrait_and_cycle_pass_through_the_samples_and_events():
 def test_the_area_of_the_cycle_is_the_energy_lost():
     """∮ F du over a period: what is taken by the isolator and the bumpers."""
     for motion in (hitting(), free()):
-        fine = vi.steady(CASE.oscillator, SHAKEN, motion, samples=4096)
+        fine = vi.steady(vi.Rig(CASE.oscillator, SHAKEN), motion, samples=4096)
         (line,) = curves(hysteresis_cycle(fine))
         u, a = points(line).T
         area = np.sum(0.5 * (a[1:] + a[:-1]) * np.diff(1e-3 * u))
@@ -267,7 +267,7 @@ def test_a_repeated_period_is_the_motion_going_on(name):
         phase=phase,
     )
     rig = vi.Oscillator(**parameter(motion, "oscillator"))
-    on = vi.simulate(rig, vi.Harmonic(CASE.amplitude, frequency), 5, start, samples=64)
+    on = vi.simulate(vi.Rig(rig, vi.Harmonic(CASE.amplitude, frequency)), 5, start, samples=64)
     axes = time_history(motion, cycles=5.0)
     assert axes[0].get_xlim() == (0.0, 5.0)
     for ax, quantity, factor in zip(
@@ -440,7 +440,7 @@ def stems(ax) -> list[tuple[np.ndarray, np.ndarray]]:
 )
 def test_stems_are_the_amplitudes(quantity, factor):
     for motion, per_cycle in ((hitting(), 1), (doubled(), 2)):
-        lines = vi.spectrum(motion)
+        lines = vi.fourier_spectrum(motion)
         ax = spectrum_lines(lines, quantity=quantity, highest=9.0)
         ((at, height),) = stems(ax)
         assert len(at) == 9 * per_cycle + 1
@@ -459,17 +459,17 @@ def test_stems_are_the_amplitudes(quantity, factor):
 
 
 def test_orders_are_frequencies_above():
-    ax = spectrum_lines(vi.spectrum(doubled()), highest=12.0)
+    ax = spectrum_lines(vi.fourier_spectrum(doubled()), highest=12.0)
     ax.figure.draw_without_rendering()
     (above,) = ax.child_axes
     assert above.get_xlim() == pytest.approx([2.8 * x for x in ax.get_xlim()])
     assert ax.get_xlim()[0] < 0.0 < 12.0 < ax.get_xlim()[1]
-    mixed = {"2 Hz": vi.spectrum(hitting()), "2.8 Hz": vi.spectrum(doubled())}
+    mixed = {"2 Hz": vi.fourier_spectrum(hitting()), "2.8 Hz": vi.fourier_spectrum(doubled())}
     assert spectrum_lines(mixed).child_axes == []  # two frequencies, no scale for both
 
 
 def test_spectra_side_by_side():
-    ax = spectrum_lines({name: vi.spectrum(data) for name, data in both().items()})
+    ax = spectrum_lines({name: vi.fourier_spectrum(data) for name, data in both().items()})
     (at, _), (other, low) = stems(ax)
     assert np.allclose(other - at, (other - at)[0])
     assert 0.0 < (other - at)[0] < 0.5
@@ -485,8 +485,8 @@ def test_spectra_side_by_side():
 
 def test_a_dense_spectrum_is_a_line():
     case = vi.laboratory.case("B3-10mm-A3")
-    long = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 1.06), 60, samples=32)
-    lines = vi.spectrum(long)
+    long = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.06)), 60, samples=32)
+    lines = vi.fourier_spectrum(long)
     ax = spectrum_lines(lines, highest=5.0)
     assert list(ax.collections) == []
     (line,) = ax.lines
@@ -532,7 +532,7 @@ def test_page_shows_what_the_single_figures_show():
             np.testing.assert_array_equal(points(mine), points(its))
             assert mine.get_color() == its.get_color()
         for (at, height), motion in zip(stems(made[1, column]), motions.values(), strict=True):
-            exact = vi.spectrum(motion, 12.0)["acceleration_amplitude"].values
+            exact = vi.fourier_spectrum(motion, 12.0)["acceleration_amplitude"].values
             assert len(at) == 12 * int(motion["period"]) + 1
             np.testing.assert_allclose(height, exact, rtol=1e-12, atol=1e-15)
         for ax, its in zip(made[2:, column], time_history(motions, cycles=2.0), strict=True):
@@ -561,7 +561,7 @@ def test_page_has_one_legend_below():
 
 def tripled() -> xr.Dataset:
     """Three cycles of a motion of period one, called a motion of period three."""
-    data = vi.simulate(CASE.oscillator, SHAKEN, 3, hitting(), samples=64)
+    data = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 3, hitting(), samples=64)
     return vi.contacts(data).merge(data.assign(period=3), combine_attrs="override")
 
 
@@ -622,7 +622,7 @@ def test_given_axes_are_drawn_on():
         assert draw(hitting(), ax) is ax
         assert len(curves(ax)) == 1
     ax = Figure().subplots()
-    assert spectrum_lines(vi.spectrum(hitting()), ax) is ax
+    assert spectrum_lines(vi.fourier_spectrum(hitting()), ax) is ax
     pair = Figure().subplots(2, 1)
     assert clearances(hitting(), pair) == tuple(pair)
     assert len(curves(pair[1])) == 2
@@ -642,7 +642,7 @@ def test_pyplot_settings_and_data_are_left_alone():
     settings = {key: matplotlib.rcParams[key] for key in matplotlib.rcParams}
     for draw in (phase_portrait, hysteresis_cycle, clearances, time_history):
         draw({"forward": hitting(), "b": doubled()})
-    spectrum_lines(vi.spectrum(hitting()))
+    spectrum_lines(vi.fourier_spectrum(hitting()))
     motion_page({"2.8 Hz": doubled()})
     assert plt.get_fignums() == []
     assert {key: matplotlib.rcParams[key] for key in matplotlib.rcParams} == settings
@@ -667,9 +667,9 @@ def refused(call, begins: str, *holds: str) -> None:
 @pytest.mark.parametrize("draw", [phase_portrait, hysteresis_cycle, clearances, time_history])
 def test_what_is_no_recorded_motion_is_refused(draw):
     steadily = "a dataset of steady, or of simulate with samples"
-    unsampled = vi.simulate(CASE.oscillator, SHAKEN, 2, samples=0)
-    swept = vi.sweep(CASE.oscillator, CASE.amplitude, [1.0, 2.0])
-    for wrong in (xr.Dataset(), unsampled, swept, vi.spectrum(hitting())):
+    unsampled = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 2, samples=0)
+    swept = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), [1.0, 2.0])
+    for wrong in (xr.Dataset(), unsampled, swept, vi.fourier_spectrum(hitting())):
         refused(lambda wrong=wrong: draw(wrong), "motion: ", steadily)
         refused(lambda wrong=wrong: draw({"a": hitting(), "b": wrong}), "motion: ", steadily)
     refused(lambda: draw({}), "motions: ", "at least one")
@@ -694,7 +694,7 @@ def test_a_history_of_no_length_is_refused(cycles):
 
 
 def test_other_quantities_and_datasets_are_no_spectrum():
-    lines = vi.spectrum(hitting())
+    lines = vi.fourier_spectrum(hitting())
     refused(
         lambda: spectrum_lines(lines, quantity="jerk"),
         "quantity: 'jerk'; ",
@@ -717,7 +717,7 @@ def test_wrong_numbers_of_axes_or_columns_are_refused():
 
 def test_a_long_portrait_is_a_small_file(tmp_path):
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 1e-4))
-    long = vi.simulate(rig, vi.Harmonic(0.1, 0.3), 300, samples=256)
+    long = vi.simulate(vi.Rig(rig, vi.Harmonic(0.1, 0.3)), 300, samples=256)
     path = save_figure(phase_portrait(long), tmp_path / "long.svg")
     assert "<image" in path.read_text(encoding="utf-8")
     assert path.stat().st_size < 1_000_000  # 76,801 samples as lines have more

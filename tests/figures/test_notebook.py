@@ -18,11 +18,11 @@ CASE = vi.laboratory.case("B2-G1-A3")
 
 
 def steady():
-    return vi.steady(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), samples=32)
+    return vi.steady(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)), samples=32)
 
 
 def swept():
-    return vi.sweep(CASE.oscillator, CASE.amplitude, np.arange(1.0, 3.0, 0.1))
+    return vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), np.arange(1.0, 3.0, 0.1))
 
 
 def rigs():
@@ -36,7 +36,7 @@ DRAWN: dict[str, Callable[..., object]] = {
     "clearances": lambda **on: figures.clearances(steady(), **on),
     "phase_portrait": lambda **on: figures.phase_portrait(steady(), **on),
     "hysteresis_cycle": lambda **on: figures.hysteresis_cycle(steady(), **on),
-    "spectrum_lines": lambda **on: figures.spectrum_lines(vi.spectrum(steady()), **on),
+    "spectrum_lines": lambda **on: figures.spectrum_lines(vi.fourier_spectrum(steady()), **on),
     "motion_page": lambda **on: figures.motion_page({"2 Hz": steady()}, **on),
     "scenario_cases": lambda **on: figures.scenario_cases({"B2-G1-A3": "S3"}, **on),
 }

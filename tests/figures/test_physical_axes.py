@@ -20,7 +20,7 @@ RIGID = BUILDING.replace(right=vi.RigidStop(0.5, 0.3), left=None, force=1e6)
 
 @cache
 def swept(rig: vi.Oscillator) -> xr.Dataset:
-    return vi.sweep(rig, "0.12 g", np.arange(0.2, 0.9, 0.05))
+    return vi.sweep(vi.Rig(rig, "0.12 g"), np.arange(0.2, 0.9, 0.05))
 
 
 def drawn(ax, label: str) -> np.ndarray:
@@ -54,7 +54,7 @@ def test_curves_in_g_millimetres_and_meganewtons() -> None:
 def test_free_flight_and_the_gap() -> None:
     data = swept(BUILDING)
     acceleration, displacement, force = resonance_curves(data, physical=True)
-    free = vi.sweep(BUILDING.without_bumpers(), "0.12 g", data["frequency"].values)
+    free = vi.sweep(vi.Rig(BUILDING.without_bumpers(), "0.12 g"), data["frequency"].values)
     for ax, name, factor in (
         (acceleration, "peak_acceleration", 1.0 / GRAVITY),
         (displacement, "peak_displacement", 1e3),
@@ -73,7 +73,7 @@ def test_a_rigid_stop_has_impulses_and_free_flight_is_shifted_by_a_force() -> No
     found = drawn(axes[2], "forward sweep")
     values = 1e-6 * data["peak_impulse_right"].sel(direction="forward").values
     np.testing.assert_allclose(np.sort(found), np.sort(values), rtol=1e-12)
-    free = vi.sweep(RIGID.without_bumpers(), "0.12 g", data["frequency"].values)
+    free = vi.sweep(vi.Rig(RIGID.without_bumpers(), "0.12 g"), data["frequency"].values)
     expected = 1e3 * free["peak_displacement"].sel(direction="forward").values
     np.testing.assert_allclose(drawn(axes[1], "free flight"), expected, rtol=1e-9)
     assert drawn(axes[1], "right gap, 300 mm").tolist() == [300.0, 300.0]
@@ -88,7 +88,7 @@ def test_without_contact_there_is_no_panel_of_forces() -> None:
 def test_a_branch_in_engineers_units() -> None:
     start = swept(BUILDING)["section"].sel(direction="forward").isel(frequency=4)
     shaken = vi.Harmonic("0.12 g", 0.4)
-    data = vi.branch(BUILDING, shaken, start, low=0.38, high=0.42)
+    data = vi.branch(vi.Rig(BUILDING, shaken), start, span=(0.38, 0.42))
     for quantity, unit, factor in (
         ("peak_acceleration", "(g)", 1.0 / GRAVITY),
         ("peak_displacement", "(mm)", 1e3),
@@ -98,5 +98,5 @@ def test_a_branch_in_engineers_units() -> None:
         assert ax.get_ylabel().endswith(unit)
         most = max(line.get_ydata().max() for line in ax.lines if len(line.get_ydata()) > 1)
         assert most == pytest.approx(factor * float(data[quantity].max()), rel=1e-12)
-    stiff = vi.branch(BUILDING, shaken, start, parameter="stiffness", low=31e6, high=32e6)
+    stiff = vi.branch(vi.Rig(BUILDING, shaken), start, span=(31e6, 32e6), parameter="stiffness")
     assert branch_diagram(stiff).get_xlabel().endswith("(MN/m)")

@@ -13,7 +13,7 @@ RECORD = vi.Record(3.0 * np.sin(0.3 * np.arange(100)), 0.1)
 
 
 def test_the_record_lies_above_the_response() -> None:
-    data = vi.simulate(RIG, RECORD, tail=2.0)
+    data = vi.simulate(vi.Rig(RIG, RECORD), tail=2.0)
     axes = record_history(data)
     assert len(axes) == 4
     lines = [max(ax.get_lines(), key=lambda line: len(line.get_xdata())) for ax in axes]
@@ -34,8 +34,8 @@ def test_the_record_lies_above_the_response() -> None:
 
 def test_other_motions_are_refused() -> None:
     for data in (
-        vi.simulate(RIG, vi.Harmonic(1.0, 0.5), 2),
-        vi.simulate(RIG, RECORD, samples=0),
+        vi.simulate(vi.Rig(RIG, vi.Harmonic(1.0, 0.5)), 2),
+        vi.simulate(vi.Rig(RIG, RECORD), samples=0),
     ):
         with pytest.raises(vi.InputError, match=r"^motion: this is no motion through a record; "):
             record_history(data)
@@ -47,7 +47,7 @@ def test_portrait_and_force_loop_of_a_record() -> None:
         2.0, vi.Isolator(5.0, 0.3), vi.Bumper(60.0, 0.9, 0.1), vi.RigidStop(0.4, 0.1)
     )
     values = np.random.default_rng(5).uniform(-4.0, 4.0, 65)
-    motion = vi.simulate(rig, vi.Record(values, 0.125), samples=8)
+    motion = vi.simulate(vi.Rig(rig, vi.Record(values, 0.125)), samples=8)
     impact = int(np.flatnonzero(motion["event_contact"].values == 2)[0])
     arrival = float(motion["event_velocity"][impact])
     for draw in (phase_portrait, hysteresis_cycle):

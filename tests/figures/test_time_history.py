@@ -21,7 +21,7 @@ MARKS = ["contact begins", "contact ends", "peak in contact"]
 def motion(code="B2-G1-A3", frequency=0.58, cycles=20.0, samples=64) -> xr.Dataset:
     case = vi.laboratory.case(code)
     excitation = vi.Harmonic(case.amplitude, frequency)
-    return vi.simulate(case.oscillator, excitation, cycles, samples=samples)
+    return vi.simulate(vi.Rig(case.oscillator, excitation), cycles, samples=samples)
 
 
 def bands(ax) -> dict[str, list[tuple[float, float]]]:
@@ -71,12 +71,12 @@ def test_bands_between_the_exact_events():
 def test_band_of_a_contact_that_was_there_from_the_start_or_is_there_at_the_end():
     case = vi.laboratory.case("B2-G1-A3")
     data = vi.simulate(
-        case.oscillator, vi.Harmonic(case.amplitude, 1.0), 0.05, vi.State(0.009, 0.1)
+        vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.0)), 0.05, vi.State(0.009, 0.1)
     )
     assert data["contact"].values[0] == 1
     (band,) = bands(time_history(data)[0])["right contact"]
     assert band[0] == 0.0
-    inside = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 0.58), 19.7)
+    inside = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 0.58)), 19.7)
     assert inside["contact"].values[-1] != 0
     name = "right contact" if inside["contact"].values[-1] == 1 else "left contact"
     assert bands(time_history(inside)[0])[name][-1][1] == pytest.approx(19.7)
@@ -94,7 +94,7 @@ def test_the_jump_of_acceleration_is_drawn_upright():
 def test_gaps_are_lines_at_their_place():
     case = vi.laboratory.case("B2-G1-A3")
     one_sided = case.oscillator.replace(left=None, right=case.oscillator.right.replace(gap=0.004))
-    data = vi.simulate(one_sided, vi.Harmonic(case.amplitude, 0.58), 5)
+    data = vi.simulate(vi.Rig(one_sided, vi.Harmonic(case.amplitude, 0.58)), 5)
     ax = time_history(data)[0]
     dashed = [line.get_ydata()[0] for line in ax.lines if line.get_linestyle() == "--"]
     assert dashed == pytest.approx([4.0])

@@ -55,7 +55,7 @@ def test_a_csv_of_a_noisy_history_with_uneven_gaps(tmp_path):
     free = "stiffness,damping,right_stiffness,right_gap,left_stiffness,left_gap"
     with pytest.warns(vi.InputWarning, match="the mass's displacement"):
         found = vi.identify(
-            path, guess, f"{free},right_damping,left_damping", profiles=False, tried=0, starts=1
+            guess, path, f"{free},right_damping,left_damping", profiles=False, tried=0, starts=1
         )
     values, errors = found.fitted_value.values, found.standard_error.values
     assert values[:6] == pytest.approx(TRUE, rel=0.03)
@@ -79,8 +79,12 @@ def test_frequencies_that_were_held_twice_count_twice(tmp_path):
     path = tmp_path / "twice.csv"
     path.write_text("\n".join(rows))
     found = vi.identify(
-        path, case.oscillator, "stiffness,gap", amplitude=case.amplitude, tried=0, starts=1,
+        vi.Rig(case.oscillator, case.amplitude),
+        path,
+        "stiffness,gap",
+        tried=0,
+        starts=1,
         profiles=False,
-    )  # fmt: skip
+    )
     assert found.sizes["point"] == 2 * (2 * 14 - 1)
     assert found.fitted_value.values == pytest.approx([31.9e3, 0.01], rel=0.01)

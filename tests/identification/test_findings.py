@@ -20,7 +20,7 @@ GRID = np.arange(0.8, 3.0, 0.1)
 def test_right_and_left_exchanged_fit_excursions_as_well_and_are_reported():
     data = curves(UNEVEN, "0.04 g", 0.01, frequencies=GRID)
     start = UNEVEN.replace(right=FAR, left=NEAR)
-    found = vi.identify(data, start, "right_gap,left_gap", **QUICK)
+    found = vi.identify(start, data, "right_gap,left_gap", **QUICK)
     # The fit keeps to the sides of the start: the truth lies outside both intervals.
     low, high = found.interval.values.T
     assert ((np.array([0.009, 0.012]) < low) | (np.array([0.009, 0.012]) > high)).all()
@@ -33,14 +33,14 @@ def test_right_and_left_exchanged_fit_excursions_as_well_and_are_reported():
 
 def test_maxima_and_minima_tell_the_sides():
     data = curves(UNEVEN, "0.04 g", 0.01, names=PEAKS, frequencies=GRID)
-    found = vi.identify(data, UNEVEN, "right_gap,left_gap", **QUICK)
+    found = vi.identify(UNEVEN, data, "right_gap,left_gap", **QUICK)
     assert "exchanged" not in found.findings
     assert "alternative_value" not in found
 
 
 def test_sides_that_only_the_given_values_tell_are_reported():
     data = curves(UNEVEN, "0.04 g", 0.01, frequencies=GRID)
-    found = vi.identify(data, UNEVEN, "right_gap", **QUICK)
+    found = vi.identify(UNEVEN, data, "right_gap", **QUICK)
     assert "which side is the right one rests on the values given" in found.findings
 
 
@@ -54,9 +54,9 @@ def undamped():
 def test_a_damping_at_its_bound_is_zero_and_as_uncertain_from_there(undamped, start):
     bumper = CASE.oscillator.right.replace(damping=start)
     rig = CASE.oscillator.replace(right=bumper, left=bumper)
-    found = vi.identify(undamped, rig, "bumper_damping", tried=0, starts=1)
+    found = vi.identify(rig, undamped, "bumper_damping", tried=0, starts=1)
     assert found.fitted_value.values[0] == 0.0
-    assert vi.fitted(found).oscillator.right.damping == 0.0
+    assert vi.fitted_rig(found).oscillator.right.damping == 0.0
     assert 100.0 < found.standard_error.values[0] < 300.0
     low, high = found.interval.values[0]
     assert (low, list(found.interval_open.values[0])) == (0.0, [1, 0])
@@ -67,7 +67,7 @@ def test_a_contact_of_hertz_inherits_no_certainty(undamped):
     bumper = CASE.oscillator.right.replace(damping=3.4e-26)
     contact = hertzian(CASE.oscillator.replace(right=bumper, left=bumper), 2e-3)
     few = undamped.sel(frequency=[1.5, 1.7, 1.9], method="nearest")
-    found = vi.identify(few, contact, "dissipation", **QUICK)
+    found = vi.identify(contact, few, "dissipation", **QUICK)
     # That of the dashpot, over the force of the spring at that depth.
     assert 0.01 < found.standard_error.values[0] < 10.0
 
@@ -102,9 +102,9 @@ def test_of_a_bumper_that_is_never_touched_only_the_least_gap_is_known():
     wide = CASE.oscillator.right.replace(gap="45 mm")
     rig = CASE.oscillator.replace(right=wide, left=wide)
     data = curves(rig, "0.04 g", 0.02, frequencies=grid)
-    farthest = 0.5 * float(vi.sweep(rig, "0.04 g", grid).displacement_excursion.max())
+    farthest = 0.5 * float(vi.sweep(vi.Rig(rig, "0.04 g"), grid).displacement_excursion.max())
     free = "stiffness,bumper_stiffness,bumper_damping,gap"
-    found = vi.identify(data, rig, free, tried=0, starts=1)
+    found = vi.identify(rig, data, free, tried=0, starts=1)
     low = float(found.interval.sel(parameter="gap", bound="low"))
     assert 0.9 * farthest < low < farthest
     assert found.interval_open.sel(parameter="gap").values.tolist() == [0, 1]
@@ -118,22 +118,22 @@ def test_of_a_bumper_that_is_never_touched_only_the_least_gap_is_known():
     assert any(line.startswith(known) for line in lines)
     untold = "is not determined: in these tests the mass does not touch the stop"
     assert sum(untold in line for line in lines) == 2
-    quick = vi.identify(data, rig, free, **QUICK)
+    quick = vi.identify(rig, data, free, **QUICK)
     assert quick.interval.sel(parameter="gap", bound="low") == pytest.approx(farthest, rel=0.02)
     assert np.isinf(quick.interval.sel(parameter="gap", bound="high"))
 
 
 def test_the_cost_tells_a_right_fit_from_a_wrong_one():
     data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
-    right = vi.identify(data, CASE.oscillator, "stiffness", **QUICK)
-    wrong = vi.identify(data, CASE.oscillator, "stiffness", amplitude="0.06 g", **QUICK)
+    right = vi.identify(CASE.oscillator, data, "stiffness", **QUICK)
+    wrong = vi.identify(vi.Rig(CASE.oscillator, "0.06 g"), data, "stiffness", **QUICK)
     assert wrong.attrs["cost"] > 100.0 * right.attrs["cost"]
     assert right.attrs["cost"] == pytest.approx(0.5 * 0.01**2 * data[EXCURSIONS[0]].size * 2, 0.5)
 
 
 def test_the_table_of_a_fit_has_its_intervals(tmp_path):
     data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
-    found = vi.identify(data, CASE.oscillator, "stiffness,gap", tried=0, starts=1)
+    found = vi.identify(CASE.oscillator, data, "stiffness,gap", tried=0, starts=1)
     table = vi.to_table(found)
     assert list(table["interval_low"]) == found.interval.sel(bound="low").values.tolist()
     assert list(table["interval_high"]) == found.interval.sel(bound="high").values.tolist()
@@ -150,7 +150,7 @@ def test_nonsense_is_refused_in_one_line(field, nonsense):
         return
     data = curves(CASE.oscillator, "0.04 g", frequencies=GRID[:3])
     with pytest.raises(vi.InputError) as error:
-        vi.identify(data, CASE.oscillator, **{"free": "gap", **QUICK, field: nonsense})
+        vi.identify(CASE.oscillator, data, **{"free": "gap", **QUICK, field: nonsense})
     assert str(error.value).startswith(field)
     assert "\n" not in str(error.value)
 
@@ -174,7 +174,7 @@ def test_nonsense_is_refused_in_one_line(field, nonsense):
 def test_what_is_nearly_right_is_refused_with_what_is_accepted(asked, told):
     data = curves(CASE.oscillator, "0.04 g", frequencies=GRID[:3])
     with pytest.raises(vi.InputError) as error:
-        vi.identify(data, CASE.oscillator, **{"free": "gap", **QUICK, **asked})
+        vi.identify(CASE.oscillator, data, **{"free": "gap", **QUICK, **asked})
     assert told in str(error.value)
 
 

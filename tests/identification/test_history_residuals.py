@@ -31,7 +31,7 @@ def record(motion, noise, names=CHANNELS, seed=1):
 
 
 def motion(frequency, cycles, skip=0, samples=60):
-    made = vi.simulate(RIG, vi.Harmonic("0.05 g", frequency, 0.7), cycles, samples=samples)
+    made = vi.simulate(vi.Rig(RIG, vi.Harmonic("0.05 g", frequency, 0.7)), cycles, samples=samples)
     return made.isel(time=slice(skip * samples, None))
 
 
@@ -41,7 +41,7 @@ def away(found):
 
 def test_unequal_gaps_and_bumpers_from_a_motion_that_hits_both():
     data = record(motion(1.5, 24, skip=8), 0.01)
-    found = vi.identify(data, START, FREE, profiles=False, tried=0, starts=1)
+    found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
     assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.02
     assert np.abs(away(found)).max() < 3.5
     assert float(found.noise[0]) == pytest.approx(1.0, rel=0.25)
@@ -50,7 +50,7 @@ def test_unequal_gaps_and_bumpers_from_a_motion_that_hits_both():
 
 def test_without_noise():
     data = record(motion(1.5, 12, skip=6, samples=100), 0.0)
-    found = vi.identify(data, START, FREE, profiles=False, tried=0, starts=1)
+    found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
     # Between two of its samples a contact's acceleration is a straight line.
     assert found.fitted_value.values == pytest.approx(TRUE, rel=2e-3)
 
@@ -58,16 +58,14 @@ def test_without_noise():
 def test_displacement_alone_without_the_base():
     data = record(motion(1.5, 16, skip=8), 0.005, ("displacement",))
     with pytest.raises(vi.InputError, match="amplitude: missing"):
-        vi.identify(data, START, FREE)
-    found = vi.identify(
-        data, START, FREE, amplitude="0.05 g", profiles=False, tried=0, starts=1
-    )  # fmt: skip
+        vi.identify(START, data, FREE)
+    found = vi.identify(vi.Rig(START, "0.05 g"), data, FREE, profiles=False, tried=0, starts=1)
     assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.05
 
 
 def test_steady_motions_need_no_initial_states():
     data = record(motion(1.5, 30, skip=24), 0.01)
-    found = vi.identify(data, START, FREE, steady=True, profiles=False, tried=0, starts=1)
+    found = vi.identify(START, data, FREE, steady=True, profiles=False, tried=0, starts=1)
     assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.05
 
 
@@ -78,12 +76,12 @@ def test_a_base_that_is_no_sine_is_followed_as_it_was_measured():
         a * np.sin(2.0 * np.pi * f * time + p)
         for f, a, p in zip((1.1, 1.7, 2.6), (0.5, 0.5, 0.4), draw.uniform(0, 6, 3), strict=True)
     )
-    moved = vi.simulate(RIG, vi.Record(shaken, 0.01))
+    moved = vi.simulate(vi.Rig(RIG, vi.Record(shaken, 0.01)))
     data = record(moved, 0.005)
     data["base_acceleration"] = ("time", shaken)
     (test,) = fit_inputs.tests_of(data, START, None, None, None, False)
     assert isinstance(test.shaking, vi.Record)
-    found = vi.identify(data, START, FREE, profiles=False, tried=0, starts=1)
+    found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
     assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.03
 
 
@@ -91,8 +89,9 @@ def test_a_sensor_with_an_offset_and_a_wrong_scale():
     data = record(motion(1.5, 16, skip=8), 0.002)
     data["displacement"] = 1.04 * data.displacement + 5e-4
     free = ["left_gap", "displacement_scale", "displacement_offset"]
-    found = vi.identify(data, RIG.replace(left=LEFT.replace(gap="7 mm")), free, profiles=False,
-                        tried=0, starts=1)  # fmt: skip
+    found = vi.identify(
+        RIG.replace(left=LEFT.replace(gap="7 mm")), data, free, profiles=False, tried=0, starts=1
+    )
     assert found.fitted_value.values == pytest.approx([6e-3, 1.04, 5e-4], rel=0.02)
 
 
@@ -116,7 +115,7 @@ def test_each_windows_state_moves_its_own_residuals():
 def test_what_has_nothing_to_fit_is_refused():
     data = record(motion(1.5, 2), 0.0, ("base_acceleration",))
     with pytest.raises(vi.InputError, match="neither displacement nor velocity"):
-        vi.identify(data, RIG, "gap")
+        vi.identify(RIG, data, "gap")
 
 
 def test_each_channel_is_weighed_by_its_own_noise():
@@ -125,6 +124,6 @@ def test_each_channel_is_weighed_by_its_own_noise():
     draw = np.random.default_rng(3)
     clean = made["acceleration"].values
     data["acceleration"] = ("time", clean + 0.06 * clean.std() * draw.normal(size=len(clean)))
-    found = vi.identify(data, START, FREE, profiles=False, tried=0, starts=1)
+    found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
     assert np.abs(away(found)).max() < 3.0
     assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.01

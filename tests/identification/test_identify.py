@@ -21,9 +21,14 @@ def test_without_noise_to_rounding_from_half_as_much_again(code):
     case = vi.laboratory.case(code, "identified")
     start = off(case.oscillator, (1.5, 0.5, 1.5, 0.5, 1.5))
     found = vi.identify(
-        curves(case.oscillator, case.amplitude), start, FREE, profiles=False, tried=16, starts=3,
+        start,
+        curves(case.oscillator, case.amplitude),
+        FREE,
+        profiles=False,
+        tried=16,
+        starts=3,
         threads=2,
-    )  # fmt: skip
+    )
     assert np.abs(errors(found, case.oscillator)).max() < 1e-6
     assert found.attrs["starts_alike"] >= 1
 
@@ -33,13 +38,13 @@ def test_with_noise_within_its_own_errors(code):
     case = vi.laboratory.case(code, "identified")
     start = off(case.oscillator, (0.5, 1.5, 0.5, 1.5, 1.2))
     data = curves(case.oscillator, case.amplitude, 0.02, seed=4)
-    found = vi.identify(data, start, FREE, profiles=False, tried=8, starts=2, threads=2)
+    found = vi.identify(start, data, FREE, profiles=False, tried=8, starts=2, threads=2)
     away = (found.fitted_value.values - truth(case.oscillator)) / found.standard_error.values
     assert np.abs(away).max() < 3.0
     assert float(found.noise[0]) == pytest.approx(0.02, rel=0.25)
     # Two of the bound of Cramér and Rao; of the bumper's damping that is 15 %.
     assert (np.abs(errors(found, case.oscillator)) < [0.011, 0.019, 0.038, 0.3, 0.009]).all()
-    rig = vi.fitted(found)
+    rig = vi.fitted_rig(found)
     assert rig.oscillator.right.gap == pytest.approx(found.fitted_value.values[4])
     assert rig.amplitude == case.amplitude
 
@@ -52,7 +57,7 @@ def test_what_a_test_records_of_each_hold_tells_a_bumper_to_a_hundredth(code):
     for seed in range(sample(20, 1)):
         data = curves(case.oscillator, case.amplitude, 0.02, seed, PEAKS, cycles=10)
         start = off(case.oscillator, np.random.default_rng(seed).choice([0.5, 1.5], 5))
-        found = vi.identify(data, start, FREE, profiles=False, tried=8, starts=2, threads=2)
+        found = vi.identify(start, data, FREE, profiles=False, tried=8, starts=2, threads=2)
         away = errors(found, case.oscillator)
         kept.append((np.abs(away[:4]) < [0.01, 0.01, 0.01, 0.1]).all())
         deviation = found.standard_error.values / truth(case.oscillator)
@@ -65,13 +70,13 @@ def test_what_a_test_records_of_each_hold_tells_a_bumper_to_a_hundredth(code):
 def test_profiles_and_bootstrap_agree_with_the_covariance_where_it_is_normal(tmp_path):
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, seed=5)
-    found = vi.identify(data, case.oscillator, FREE[:3], draws=60, tried=0, starts=1, threads=2)
+    found = vi.identify(case.oscillator, data, FREE[:3], draws=60, tried=0, starts=1, threads=2)
     half = 0.5 * np.diff(found.interval.values, axis=1)[:, 0]
     assert half == pytest.approx(1.97 * found.standard_error.values, rel=0.1)
     drawn = found.bootstrap_value.std("bootstrap_draw").values
     assert drawn == pytest.approx(found.standard_error.values, rel=0.35)
     vi.save(found, tmp_path / "fit.nc")
-    assert vi.fitted(vi.load(tmp_path / "fit.nc")) == vi.fitted(found)
+    assert vi.fitted_rig(vi.load(tmp_path / "fit.nc")) == vi.fitted_rig(found)
 
 
 def test_two_tests_share_a_bumper_and_have_their_own_isolator():
@@ -83,12 +88,12 @@ def test_two_tests_share_a_bumper_and_have_their_own_isolator():
     }
     free = {"stiffness": "29 kN/m", "bumper_stiffness": "450 kN/m"}
     rigs = {"A3": one.oscillator, "A2": other.oscillator}
-    found = vi.identify(tests, rigs, free, each=["stiffness"], tried=0, starts=1, profiles=False)
+    found = vi.identify(rigs, tests, free, each=["stiffness"], tried=0, starts=1, profiles=False)
     assert found.parameter.values.tolist() == ["stiffness[A3]", "stiffness[A2]", "bumper_stiffness"]
     assert found.fitted_value.values == pytest.approx([26800.0, 31900.0, 510000.0], rel=0.02)
-    assert vi.fitted(found, "A2").oscillator.isolator.stiffness == found.fitted_value.values[1]
+    assert vi.fitted_rig(found, "A2").oscillator.isolator.stiffness == found.fitted_value.values[1]
     with pytest.raises(vi.InputError, match="test: missing"):
-        vi.fitted(found)
+        vi.fitted_rig(found)
 
 
 def test_an_outlier_does_little():
@@ -99,9 +104,14 @@ def test_an_outlier_does_little():
     shift = []
     for robust in (True, False):
         found = vi.identify(
-            data, case.oscillator, "stiffness,damping,gap", robust=robust, tried=0, starts=1,
+            case.oscillator,
+            data,
+            "stiffness,damping,gap",
+            robust=robust,
+            tried=0,
+            starts=1,
             profiles=False,
-        )  # fmt: skip
+        )
         true = truth(case.oscillator)[[0, 1, 4]]
         shift.append(np.abs(found.fitted_value.values / true - 1.0).max())
     assert shift[0] < 0.01 < 0.02 < shift[1] + 0.012
@@ -110,21 +120,28 @@ def test_an_outlier_does_little():
 def test_priors_ties_and_bounds():
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, seed=7)
-    wide = vi.identify(data, case.oscillator, "bumper_damping", tried=0, starts=1)
+    wide = vi.identify(case.oscillator, data, "bumper_damping", tried=0, starts=1)
     tight = vi.identify(
-        data, case.oscillator, "bumper_damping", tried=0, starts=1,
+        case.oscillator,
+        data,
+        "bumper_damping",
+        tried=0,
+        starts=1,
         priors={"bumper_damping": ("0.9 kN s/m", 20.0)},
-    )  # fmt: skip
+    )
     assert float(tight.standard_error[0]) < 20.0 < float(wide.standard_error[0])
     tied = vi.identify(
-        data, case.oscillator, "right_gap", ties={"left_gap": "right_gap"}, tried=0, starts=1,
+        case.oscillator,
+        data,
+        "right_gap",
+        ties={"left_gap": "right_gap"},
+        tried=0,
+        starts=1,
         profiles=False,
-    )  # fmt: skip
-    rig = vi.fitted(tied).oscillator
+    )
+    rig = vi.fitted_rig(tied).oscillator
     assert rig.left.gap == rig.right.gap == tied.fitted_value.values[0]
-    held = vi.identify(
-        data, case.oscillator, {"bumper_damping": (0, 800)}, tried=0, starts=1
-    )  # fmt: skip
+    held = vi.identify(case.oscillator, data, {"bumper_damping": (0, 800)}, tried=0, starts=1)
     low, high = held.interval.values[0]
     assert 0.0 <= low < high <= 800.0
     assert held.interval_open.values[0].any()
@@ -140,7 +157,7 @@ def test_maxima_minima_and_eta_with_a_sensor_that_is_off():
     data["displacement_min"] = 1.03 * data.displacement_min + 4e-4
     start = rig.replace(right=stiff.replace(gap="10 mm"), left=soft.replace(gap="10 mm"))
     free = ["right_gap", "left_gap", "displacement_scale", "displacement_offset"]
-    found = vi.identify(data, start, free, tried=0, starts=1, profiles=False)
+    found = vi.identify(start, data, free, tried=0, starts=1, profiles=False)
     assert found.fitted_value.values == pytest.approx([0.009, 0.012, 1.03, 4e-4], rel=1e-6)
 
 
@@ -157,7 +174,7 @@ def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
     start = off(case.oscillator, (1.02, 1.0, 0.97, 1.0, 1.01))
     for one in (data, turned):
         found = vi.identify(
-            one, start, "stiffness,bumper_stiffness,gap", tried=0, starts=1, profiles=False
+            start, one, "stiffness,bumper_stiffness,gap", tried=0, starts=1, profiles=False
         )
         away = found.fitted_value.values / truth(case.oscillator)[[0, 2, 4]] - 1.0
         assert np.abs(away).max() < 1e-6
@@ -182,7 +199,7 @@ def test_what_cannot_be_fitted_is_refused(change, told):
     case = vi.laboratory.case("B2-G2-A2", "identified")
     asked = {"data": curves(case.oscillator, case.amplitude), "free": "gap", **change}
     with pytest.raises(vi.InputError) as error:
-        vi.identify(asked.pop("data"), case.oscillator, asked.pop("free"), **asked)
+        vi.identify(case.oscillator, asked.pop("data"), asked.pop("free"), **asked)
     assert told in str(error.value)
 
 
@@ -191,19 +208,19 @@ def test_millimetres_taken_as_metres_are_noticed():
     data = curves(case.oscillator, case.amplitude)
     data["displacement_excursion"] = 1e3 * data.displacement_excursion
     with pytest.raises(vi.InputError, match="units wrong"):
-        vi.identify(data, case.oscillator, "gap")
+        vi.identify(case.oscillator, data, "gap")
 
 
 def test_too_few_points_and_no_amplitude():
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude).isel(frequency=[3], direction=[0])
     with pytest.raises(vi.InputError, match="5 unknowns"):
-        vi.identify(data, case.oscillator, FREE)
-    found = vi.identify(data, case.oscillator, "gap", tried=0, starts=1, profiles=False)
+        vi.identify(case.oscillator, data, FREE)
+    found = vi.identify(case.oscillator, data, "gap", tried=0, starts=1, profiles=False)
     assert found.fitted_value.values[0] == pytest.approx(0.01, rel=1e-5)
     del data.attrs["amplitude"]
     with pytest.raises(vi.InputError, match="amplitude: missing"):
-        vi.identify(data, case.oscillator, "gap")
+        vi.identify(case.oscillator, data, "gap")
 
 
 @pytest.mark.parametrize(
@@ -236,5 +253,5 @@ def test_a_column_that_was_not_understood_is_named(tmp_path):
     path = tmp_path / "own.csv"
     path.write_text("\n".join(["f (Hz),Ed (mm),Kanal 7", *rows]), encoding="utf-8")
     with pytest.warns(vi.InputWarning, match="not understood, and left out: Kanal 7"):
-        fit = vi.identify(path, rig, "stiffness", tried=0, starts=1, profiles=False)
+        fit = vi.identify(rig, path, "stiffness", tried=0, starts=1, profiles=False)
     assert "own: 'Kanal 7' of the file not understood, and not used" in fit.attrs["findings"]

@@ -17,13 +17,17 @@ def test_a_hertzian_bumper_fitted_by_a_linear_one_is_noticed():
     rig = hertzian(CASE.oscillator, 3e-3)
     data = curves(rig, CASE.amplitude, 0.02, seed=0, frequencies=np.arange(1.0, 4.01, 0.1))
     start = CASE.oscillator
-    linear = vi.identify(data, start, FREE, profiles=False, tried=0, starts=1)
+    linear = vi.identify(start, data, FREE, profiles=False, tried=0, starts=1)
     assert "the residuals are not noise" in linear.attrs["findings"]
     right = CASE.oscillator.replace(right=rig.right, left=rig.left)
     again = vi.identify(
-        data, right, "stiffness,damping,bumper_stiffness,dissipation,gap", profiles=False,
-        tried=0, starts=1,
-    )  # fmt: skip
+        right,
+        data,
+        "stiffness,damping,bumper_stiffness,dissipation,gap",
+        profiles=False,
+        tried=0,
+        starts=1,
+    )
     assert "the residuals are not noise" not in again.attrs["findings"]
     found = vi.compare_fits({"linear": linear, "Hertz": again})
     assert found.model.values.tolist() == ["Hertz", "linear"]
@@ -33,7 +37,7 @@ def test_a_hertzian_bumper_fitted_by_a_linear_one_is_noticed():
 def test_a_bumper_that_is_never_touched_is_not_determined():
     grid = np.arange(3.0, 5.0, 0.1)
     data = curves(CASE.oscillator, CASE.amplitude, 0.02, frequencies=grid)
-    found = vi.identify(data, CASE.oscillator, "stiffness,bumper_damping", tried=0, starts=1)
+    found = vi.identify(CASE.oscillator, data, "stiffness,bumper_damping", tried=0, starts=1)
     assert "bumper_damping (damping of both bumpers) is" in found.attrs["findings"]
     assert found.interval_open.sel(parameter="bumper_damping").values.any()
     assert not found.interval_open.sel(parameter="stiffness").values.any()
@@ -44,8 +48,8 @@ def test_the_posterior_is_as_wide_as_the_covariance():
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, seed=1)
     found = vi.identify(
-        data, case.oscillator, "stiffness,gap", tried=0, starts=1, posterior=600, profiles=False
-    )  # fmt: skip
+        case.oscillator, data, "stiffness,gap", tried=0, starts=1, posterior=600, profiles=False
+    )
     drawn = found.posterior_value.std("posterior_draw").values
     assert drawn == pytest.approx(found.standard_error.values, rel=0.3)
 
@@ -60,9 +64,13 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
         noisy = {n: clean[n] * (1.0 + 0.02 * draw.normal(size=(2, 46))) for n in EXCURSIONS}
         data = as_measured(xr.Dataset(noisy).assign_attrs(amplitude=case.amplitude))
         found = vi.identify(
-            data, case.oscillator, "stiffness,damping,bumper_stiffness,gap", tried=0, starts=1,
+            case.oscillator,
+            data,
+            "stiffness,damping,bumper_stiffness,gap",
+            tried=0,
+            starts=1,
             profiles=False,
-        )  # fmt: skip
+        )
         low, high = found.interval.values.T
         held.append((low <= true) & (true <= high))
     share = np.mean(held)

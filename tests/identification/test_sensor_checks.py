@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
-from identification.test_history import LEFT, RIG, RIGHT, START, motion, record
 
 import vibroimpact as vi
+from identification.test_history_residuals import LEFT, RIG, RIGHT, START, motion, record
 from identification.twins import PEAKS, curves
 from samples import sample
 from vibroimpact.identification import fit_inputs
@@ -30,25 +30,25 @@ def data():
 def test_a_reversed_sensor_is_suggested_as_the_cause(data, channel):
     change, told = CHANGES[channel]
     turned = data.assign({channel: change(data[channel])})
-    found = vi.identify(turned, START, FREE, **QUICK)
+    found = vi.identify(START, turned, FREE, **QUICK)
     (line,) = [line for line in found.findings.splitlines() if "reversed" in line]
     assert told in line
     assert "sign changed in the data" in line
 
 
 def test_a_right_sensor_is_not_suspected(data):
-    found = vi.identify(data, START, FREE, **QUICK)
+    found = vi.identify(START, data, FREE, **QUICK)
     assert "reversed" not in found.findings
 
 
 def test_an_offset_is_suggested_as_the_cause(data):
     moved = data.assign(displacement=data.displacement + 2e-3)
-    found = vi.identify(moved, RIG, "right_gap,left_gap", **QUICK)
+    found = vi.identify(RIG, moved, "right_gap,left_gap", **QUICK)
     (line,) = [line for line in found.findings.splitlines() if "offset" in line]
     assert "displacement_offset 2" in line or "displacement_offset 1.99" in line
     assert "its offset free" in line
     free = ["right_gap", "left_gap", "displacement_offset"]
-    again = vi.identify(moved, RIG, free, **QUICK)
+    again = vi.identify(RIG, moved, free, **QUICK)
     assert again.fitted_value.values == pytest.approx([9e-3, 6e-3, 2e-3], rel=0.02)
     assert "check this sensor" not in again.findings
 
@@ -57,7 +57,7 @@ def test_a_scale_below_zero_is_that_of_a_sensor_turned_round(data):
     turned = data.assign(displacement=-1.02 * data.displacement)
     free = {"right_gap": None, "displacement_scale": {"start": -1}}
     rig = RIG.replace(right=RIGHT.replace(gap="8.5 mm"))
-    found = vi.identify(turned, rig, free, **QUICK)
+    found = vi.identify(rig, turned, free, **QUICK)
     assert found.fitted_value.values == pytest.approx([9e-3, -1.02], rel=0.01)
 
 
@@ -70,7 +70,7 @@ def test_maxima_of_a_sensor_turned_round_are_minima():
     )
     start = rig.replace(right=RIGHT.replace(gap="8.7 mm"))
     found = vi.identify(
-        turned, start, {"right_gap": None, "displacement_scale": {"start": "-1"}}, **QUICK
+        start, turned, {"right_gap": None, "displacement_scale": {"start": "-1"}}, **QUICK
     )
     assert found.fitted_value.values == pytest.approx([9e-3, -1.03], rel=1e-4)
 

@@ -39,7 +39,7 @@ def curves(
     cycles: int = 1,
 ) -> xr.Dataset:
     """A stepped-sine test, each value of each cycle of a hold with its own normal noise."""
-    data = vi.sweep(rig, amplitude, frequencies)
+    data = vi.sweep(vi.Rig(rig, amplitude), frequencies)
     draw = np.random.default_rng(seed)
     if cycles > 1:
         data = data[list(names)].expand_dims(repeat=cycles, axis=-1)

@@ -41,7 +41,7 @@ def test_the_resonance_curve(ratio: float) -> None:
 def test_it_is_followed_as_a_branch() -> None:
     ends = [ratio * RATE / math.tau for ratio in (0.6, 0.9)]
     start = vi.State(dead_zone_amplitude(0.75), 0.0)
-    data = vi.branch(DEAD_ZONE, dead_zone_shaken(0.75), start, low=ends[0], high=ends[1])
+    data = vi.branch(vi.Rig(DEAD_ZONE, dead_zone_shaken(0.75)), start, span=(ends[0], ends[1]))
     frequency = data["frequency"].values
     assert (frequency.min(), frequency.max()) == pytest.approx(tuple(ends))
     expected = [dead_zone_amplitude(f * math.tau / RATE) for f in frequency]
@@ -54,6 +54,6 @@ def test_without_clearance_it_is_a_linear_spring() -> None:
     rig = vi.Oscillator(MASS, vi.Isolator(0.0, 0.0), closed, closed)
     for ratio in (0.4, 0.7, 1.4):
         expected = FORCE / (STIFFNESS - MASS * (ratio * RATE) ** 2)
-        data = vi.simulate(rig, dead_zone_shaken(ratio), 3, vi.State(expected), samples=32)
+        data = vi.simulate(vi.Rig(rig, dead_zone_shaken(ratio)), 3, vi.State(expected), samples=32)
         exact = expected * np.cos(math.tau * data["cycle"].values)
         np.testing.assert_allclose(data["displacement"], exact, atol=1e-11)

@@ -93,7 +93,7 @@ def test_curves_of_folds_in_closed_form(other: str) -> None:
 def _followed(one: Oscillator, **span: float) -> tuple[vi.Oscillator, vi.Harmonic, xr.Dataset]:
     """The branch of the faster of its orbits."""
     rig, (shaken, start) = budd_dux_rig(one), budd_dux_start(fastest(one))
-    return rig, shaken, vi.branch(rig, shaken, start, **span)
+    return rig, shaken, vi.branch(vi.Rig(rig, shaken), start, **span)
 
 
 def _curve(
@@ -111,12 +111,10 @@ def _curve(
         low, high = 0.0, 0.2
     i = int(np.flatnonzero(data["bifurcation_kind"].values == kind)[0])
     found = vi.bifurcation_curve(
-        rig,
-        shaken,
+        vi.Rig(rig, shaken),
         data.isel(bifurcation=i),
+        spans=((0.1, 1.0), (low, high)),
         parameters=("frequency", other),
-        low=(0.1, low),
-        high=(1.0, high),
     )
     assert float(found[other].min()) == pytest.approx(low, abs=1e-12)
     assert float(found[other].max()) == pytest.approx(high, rel=1e-12)
@@ -134,7 +132,7 @@ def test_budd_and_dux_chatter_ends_in_rest() -> None:
     r, sigma, omega = 0.7, -0.3, 0.45
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), vi.RigidStop(r, sigma))
     shaken = vi.Harmonic(1.0, omega / math.tau, COSINE)
-    data = vi.simulate(rig, shaken, 8, samples=1)
+    data = vi.simulate(vi.Rig(rig, shaken), 8, samples=1)
     left = [one for one in events(data) if one.kind == "detach_right"]
     assert len(left) == 8
     for one in left:
@@ -150,8 +148,8 @@ def test_a_shifted_stop_is_a_constant_force(sigma: float) -> None:
     shaken = vi.Harmonic(1.0, omega / math.tau, COSINE)
     held = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(r, sigma))
     pushed = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(r, 0.0), force=-sigma)
-    one = vi.simulate(held, shaken, 12, vi.State(-1.0), samples=8)
-    other = vi.simulate(pushed, shaken, 12, vi.State(-1.0 - sigma), samples=8)
+    one = vi.simulate(vi.Rig(held, shaken), 12, vi.State(-1.0), samples=8)
+    other = vi.simulate(vi.Rig(pushed, shaken), 12, vi.State(-1.0 - sigma), samples=8)
     assert one.sizes["event"] == other.sizes["event"] > 4
     np.testing.assert_allclose(one["displacement"] - sigma, other["displacement"], atol=1e-11)
     np.testing.assert_allclose(one["event_time"], other["event_time"], atol=1e-10)

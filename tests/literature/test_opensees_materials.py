@@ -129,10 +129,10 @@ def ours(name: str) -> tuple[float, NDArray[np.float64]]:
     """The time between two looks, and the states there: every eighth of a period for two."""
     pair = PAIRS[name]
     if isinstance(pair.shaken, vi.Record):
-        data = vi.simulate(pair.rig, pair.shaken)
+        data = vi.simulate(vi.Rig(pair.rig, pair.shaken))
         span = pair.shaken.step
     else:
-        data = vi.simulate(pair.rig, pair.shaken, 2, samples=EIGHTHS)
+        data = vi.simulate(vi.Rig(pair.rig, pair.shaken), 2, samples=EIGHTHS)
         span = pair.shaken.period / EIGHTHS
     assert data.attrs["status"] == "done"
     assert set(data["event_side"].values.tolist()) == {-1, 1}

@@ -18,7 +18,7 @@ from vibroimpact.response import resonance
 @cache
 def motions(code: str, frequency: float):
     case = vi.laboratory.case(code)
-    return vi.coexisting(case.oscillator, vi.Harmonic(case.amplitude, frequency))
+    return vi.coexisting_motions(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, frequency)))
 
 
 def reached(found, direction: str):
@@ -111,13 +111,13 @@ class TestNoGap:
 
     def test_no_jump(self):
         case = vi.laboratory.case("B3-0mm-A3")
-        data = vi.sweep(case.oscillator, case.amplitude, np.arange(50, 1001) / 100)
+        data = vi.sweep(vi.Rig(case.oscillator, case.amplitude), np.arange(50, 1001) / 100)
         assert not resonance.features(data).jumps
         assert (data["motion"] == "periodic").all()
 
     def test_a_very_short_flight_in_each_half_cycle(self):
         case = vi.laboratory.case("B3-0mm-A3")
-        motion = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, 5.7), samples=4096)
+        motion = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 5.7)), samples=4096)
         assert (float(motion["impacts_right"]), float(motion["impacts_left"])) == (1.0, 1.0)
         flights = 0.5 - motion["contact_duration_share"].values
         assert ((flights > 0.001) & (flights < 0.02)).all()

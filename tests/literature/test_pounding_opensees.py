@@ -22,7 +22,7 @@ DIVISIONS = sample((4, 16, 64), (2, 8, 32))
 @pytest.mark.parametrize("name", POUNDING)
 def test_its_peaks_converge_to_ours(name: str, seed: int) -> None:
     rig, record = POUNDING[name], pounding_record(seed)
-    ours = vi.seismic_response(rig, record, tail=0.0)
+    ours = vi.seismic_response(vi.Rig(rig, record), tail=0.0)
     assert int(ours["impact_count"]) >= 2
     exact = float(ours["peak_displacement"])
     try:

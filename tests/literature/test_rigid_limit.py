@@ -68,7 +68,7 @@ def test_the_usual_formula_falls_short(nominal: float, true: float) -> None:
 @pytest.mark.parametrize("ratio", [1e4, 1e6, 1e8])
 def test_one_impact(z: float, ratio: float) -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), bumper(ratio, z))
-    data = vi.simulate(rig, vi.Harmonic(0.0, 1.0), 0.5, vi.State(0.0, 2.0), samples=1)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0)), 0.5, vi.State(0.0, 2.0), samples=1)
     assert data["event_contact"].values[0] == 0  # the start presses; then the detachment
     e = restitution(z)
     # The isolator's spring shifts z by a share of 1/λ, and e with it.
@@ -141,7 +141,7 @@ def error(
     shaken = vi.Harmonic(1.0, ratio / math.tau, orbit.phase)
     behind = vi.State(orbit.gap, -restitution(z) * orbit.velocity, 0.0, contact=0)
     start = vi.State() if from_rest else behind
-    data = vi.simulate(rig, shaken, cycles + 0.5, start, samples=1)
+    data = vi.simulate(vi.Rig(rig, shaken), cycles + 0.5, start, samples=1)
     struck = (data["event_contact"] == 1) & (data["event_side"] == 1)
     last = int(np.flatnonzero(struck)[-1])
     turn = math.tau * float(data["event_cycle_time"][last]) * shaken.frequency

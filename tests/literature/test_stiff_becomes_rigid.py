@@ -32,7 +32,7 @@ def test_motions_approach(e: float, gaps, frequency: float, cycles: int) -> None
         right, left = (gap if gap is None else stop(gap) for gap in gaps)
         rig = vi.Oscillator(1.0, isolator, right, left)
         start = vi.State(min(g for g in gaps if g is not None) - 0.05)
-        data = vi.simulate(rig, shaken, cycles, start, samples=0)
+        data = vi.simulate(vi.Rig(rig, shaken), cycles, start, samples=0)
         return data["final_state"].values[:2]
 
     rigid = end(lambda gap: vi.RigidStop(e, gap))
@@ -56,7 +56,7 @@ def test_a_chatter_is_approached_too() -> None:
         **{f"{k:g}": vi.Bumper.from_restitution(1.0, k, 0.5, -0.4) for k in (1e4, 1e6)},
     }.items():
         rig = vi.Oscillator(1.0, isolator, stop)
-        data = vi.simulate(rig, shaken, 6, vi.State(-1.0), samples=1)
+        data = vi.simulate(vi.Rig(rig, shaken), 6, vi.State(-1.0), samples=1)
         left[name] = np.array([one.time for one in events(data) if one.kind == "detach_right"])
     # The soft mass leaves in between its bounces too; one of its times is near each rigid one.
     coarse, fine = (

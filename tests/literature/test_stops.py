@@ -50,7 +50,7 @@ def test_between_the_limits_there_are_three_orbits():
 
 def test_a_stepped_sweep_jumps_at_the_limits():
     grid = np.arange(1.0, 1.8, 0.002) / TURN
-    jumps = features(vi.sweep(STOPS, 0.2, grid)).jumps
+    jumps = features(vi.sweep(vi.Rig(STOPS, 0.2), grid)).jumps
     spans = {jump.direction: sorted(TURN * f for f in (jump.before, jump.after)) for jump in jumps}
     assert spans["forward"][0] < max(elastic_limits("fold")) < spans["forward"][1]
     # Downwards the sweep falls off at the fold just beside the grazing.

@@ -33,7 +33,7 @@ def curves(computed):
 @pytest.fixture(scope="module")
 def history():
     rig = vi.laboratory.case("B2-G1-A3", "identified")
-    motion = vi.simulate(rig, "2 Hz", 40, samples=64)
+    motion = vi.simulate(rig, 40, frequency="2 Hz", samples=64)
     time = np.arange(15.0, 19.97, 0.004)
     names = ("displacement", "acceleration", "base_acceleration")
     known = {n: ("time", np.interp(time, motion.time, motion[n])) for n in names}
@@ -105,9 +105,10 @@ def test_the_velocity_is_the_slope_of_the_displacement(history):
 
 def test_the_spectrum_of_a_history(history):
     data, motion = history
-    lines = vi.spectrum(data, 5)
-    exact = vi.spectrum(vi.steady(vi.laboratory.case("B2-G1-A3", "identified"), "2 Hz",
-                                  start=motion), 5)  # fmt: skip
+    lines = vi.fourier_spectrum(data, 5)
+    exact = vi.fourier_spectrum(
+        vi.steady(vi.laboratory.case("B2-G1-A3", "identified"), frequency="2 Hz", start=motion), 5
+    )
     for order in (1, 3):
         found = float(lines.displacement_amplitude.sel(order=order, method="nearest"))
         assert found == pytest.approx(

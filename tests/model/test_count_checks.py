@@ -32,15 +32,15 @@ def test_where_they_are_used():
     """numpy's whole numbers go in, and into a file; a text for a tolerance is refused in words."""
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.0)
-    data = vi.simulate(case.oscillator, shaken, np.int64(3), samples=np.int32(8))
+    data = vi.simulate(vi.Rig(case.oscillator, shaken), np.int64(3), samples=np.int32(8))
     assert data.sizes["time"] == 25
     swept = vi.sweep(
-        case.oscillator, case.amplitude, [2.0], max_cycles=np.int64(50), threads=np.int8(1)
+        vi.Rig(case.oscillator, case.amplitude), [2.0], max_cycles=np.int64(50), threads=np.int8(1)
     )
     assert '"max_cycles": 50' in swept.attrs["parameters"]
     with pytest.raises(vi.InputError, match="tolerance: 'a'"):
-        vi.sweep(case.oscillator, case.amplitude, [2.0], tolerance="a")
+        vi.sweep(vi.Rig(case.oscillator, case.amplitude), [2.0], tolerance="a")
     with pytest.raises(vi.InputError, match="max_cycles: True"):
-        vi.sweep(case.oscillator, case.amplitude, [2.0], max_cycles=True)
+        vi.sweep(vi.Rig(case.oscillator, case.amplitude), [2.0], max_cycles=True)
     state = data["final_state"].isel(component=slice(0, 4))
-    vi.simulate(case.oscillator, shaken, 1, state)
+    vi.simulate(vi.Rig(case.oscillator, shaken), 1, state)

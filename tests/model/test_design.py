@@ -187,16 +187,16 @@ def test_the_period_as_a_parameter_keeps_the_damping_ratio():
 def test_a_branch_follows_the_period_and_a_curve_does_not():
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.0)
-    data = vi.branch(case, "2 Hz", parameter="isolator_period", low=0.6, high=1.2)
+    data = vi.branch(case, frequency="2 Hz", span=(0.6, 1.2), parameter="isolator_period")
     mass, isolator = case.oscillator.mass, case.oscillator.isolator
     ratio = isolator.damping / (2.0 * (isolator.stiffness * mass) ** 0.5)
     for k in (0, data.sizes["point"] // 2, -1):
         period = float(data["isolator_period"][k])
         here = case.oscillator.replace(isolator=vi.Isolator.from_period(mass, period, ratio))
         state = data["section"].isel(point=k)
-        after = vi.simulate(here, shaken, 1, state, samples=0)["final_state"]
+        after = vi.simulate(vi.Rig(here, shaken), 1, state, samples=0)["final_state"]
         assert after[:2].values == pytest.approx(state[:2].values, abs=1e-9)
-    data = vi.branch(case, "2 Hz", parameter="stiffness_at_restitution", low=3e5, high=1e6)
+    data = vi.branch(case, frequency="2 Hz", span=(3e5, 1e6), parameter="stiffness_at_restitution")
     begun = case.oscillator.right
     for k in (0, data.sizes["point"] // 2, -1):
         stiffness = float(data["stiffness_at_restitution"][k])
@@ -204,7 +204,7 @@ def test_a_branch_follows_the_period_and_a_curve_does_not():
         bumper = begun.replace(stiffness=stiffness, damping=damping)
         here = case.oscillator.replace(right=bumper, left=bumper)
         state = data["section"].isel(point=k)
-        after = vi.simulate(here, shaken, 1, state, samples=0)["final_state"]
+        after = vi.simulate(vi.Rig(here, shaken), 1, state, samples=0)["final_state"]
         assert after[:2].values == pytest.approx(state[:2].values, abs=1e-9)
     with pytest.raises(vi.InputError, match=r"^parameters: 'isolator_period' does not count in"):
         plane(case.oscillator, shaken, ("frequency", "isolator_period"))

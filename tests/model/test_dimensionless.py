@@ -17,13 +17,13 @@ from vibroimpact.model import (
     DimensionlessRigidStop,
     Isolator,
     Oscillator,
-    Rig,
     RigidStop,
     dimensionless,
     from_dimensionless,
     peak_displacement,
     to_dimensionless,
 )
+from vibroimpact.model.rig import Rig
 
 ROUNDING = 1e-14
 
@@ -45,7 +45,8 @@ def same_side(one, other):
 
 
 def test_definitions():
-    oscillator, amplitude = from_dimensionless(20.0, 0.5, 0.01, 0.15)
+    made = from_dimensionless(20.0, 0.5, 0.01, 0.15)
+    oscillator, amplitude = made.oscillator, made.amplitude
     assert oscillator.isolator == Isolator(1.0, 0.3)
     assert oscillator.damping_ratio == 0.15
     assert oscillator.angular_frequency == 1.0
@@ -66,7 +67,7 @@ def test_the_peak_is_the_top_of_the_free_amplification_curve():
 
 def test_sides_may_differ_or_be_absent():
     rig = from_dimensionless((20.0, 5.0), (0.5, 0.2), (0.01, 0.0), 0.15)
-    group = to_dimensionless(*rig)
+    group = to_dimensionless(Rig(*rig))
     assert same_side(group.right, DimensionlessBumper(20.0, 0.5, 0.01))
     assert same_side(group.left, DimensionlessBumper(5.0, 0.2, 0.0))
     assert from_dimensionless((None, 5.0), 0.5, 0.01, 0.15).oscillator.right is None
@@ -76,13 +77,14 @@ def test_sides_may_differ_or_be_absent():
 
 
 def test_scales_may_be_text():
-    oscillator, amplitude = from_dimensionless(
+    made = from_dimensionless(
         19.4, 0.22, 0.01, 0.15, mass="550 kg", stiffness="26.29 kN/m", amplitude="0.05 g"
     )
+    oscillator, amplitude = made.oscillator, made.amplitude
     assert oscillator.mass == 550.0
     assert oscillator.isolator.stiffness == 26290.0
     assert amplitude == 0.4903325
-    assert to_dimensionless(oscillator, "0.05 g").right.gap == near(0.22)
+    assert to_dimensionless(Rig(oscillator, "0.05 g")).right.gap == near(0.22)
 
 
 def test_a_rig_unpacks_and_prints():
@@ -110,7 +112,7 @@ def test_without_a_resonance_peak_a_gap_has_no_scale(damping_ratio):
         from_dimensionless(20.0, 0.5, 0.01, damping_ratio)
     oscillator = Oscillator(1.0, Isolator(1.0, 2.0 * damping_ratio), Bumper(1.0, 0.0, 1.0))
     with pytest.raises(InputError, match=r"^damping_ratio: "):
-        to_dimensionless(oscillator, 1.0)
+        to_dimensionless(Rig(oscillator, 1.0))
     with pytest.raises(InputError, match=r"^damping_ratio: "):
         peak_displacement(oscillator, 1.0)
 
@@ -119,7 +121,7 @@ def test_without_a_resonance_peak_a_gap_has_no_scale(damping_ratio):
 def test_a_gap_of_zero_needs_no_scale(damping_ratio):
     rig = from_dimensionless(20.0, 0.0, 0.01, damping_ratio)
     assert rig.oscillator.right.gap == 0.0
-    assert to_dimensionless(*rig).right.gap == 0.0
+    assert to_dimensionless(Rig(*rig)).right.gap == 0.0
 
 
 def test_without_excitation_a_gap_has_no_scale():
@@ -165,7 +167,7 @@ def test_bad_scales(scales, message):
 @given(peaked, sides, sides, scale, scale, scale)
 def test_dimensionless_to_physical_and_back(damping_ratio, right, left, mass, stiffness, amplitude):
     group = Dimensionless(damping_ratio, right, left)
-    back = to_dimensionless(*group.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude))
+    back = to_dimensionless(group.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude))
     assert back.damping_ratio == near(damping_ratio)
     assert same_side(back.right, right)
     assert same_side(back.left, left)
@@ -182,7 +184,7 @@ def test_dimensionless_to_physical_and_back(damping_ratio, right, left, mass, st
 def test_physical_to_dimensionless_and_back(isolator, xi, right, left, mass, amplitude):
     damping = 2.0 * xi * math.sqrt(isolator.stiffness * mass)
     oscillator = Oscillator(mass, isolator.replace(damping=damping), right, left)
-    group = to_dimensionless(oscillator, amplitude)
+    group = to_dimensionless(Rig(oscillator, amplitude))
     back = group.to_physical(mass=mass, stiffness=isolator.stiffness, amplitude=amplitude)
     assert back.amplitude == amplitude
     assert same_side(back.oscillator.isolator, oscillator.isolator)
@@ -196,12 +198,13 @@ def test_examples_of_the_docstrings():
 
 def test_rigid_stops_and_preloads():
     oscillator = Oscillator(4.0, Isolator(100.0, 2.0), RigidStop(0.7, 0.3), Bumper(50.0, 1.0, -0.1))
-    group = to_dimensionless(oscillator, 2.0)
+    group = to_dimensionless(Rig(oscillator, 2.0))
     peak = peak_displacement(oscillator, 2.0)
     assert group.right == DimensionlessRigidStop(0.7, 0.3 / peak)
     assert group.right.stiffness_ratio == math.inf
     assert group.left.gap == -0.1 / peak
-    back, amplitude = group.to_physical(mass=4.0, stiffness=100.0, amplitude=2.0)
+    made = group.to_physical(mass=4.0, stiffness=100.0, amplitude=2.0)
+    back, amplitude = made.oscillator, made.amplitude
     assert amplitude == 2.0
     assert same_side(back.right, oscillator.right)
     assert same_side(back.left, oscillator.left)

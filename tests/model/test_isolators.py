@@ -213,11 +213,11 @@ def test_no_damping_ratio_with_an_exponent():
 def test_dimensionless_parameters_are_those_of_linear_laws():
     bumper, hertz = vi.Bumper(5.0, 0.1, 0.1), vi.PowerBumper(5.0, 0.1)
     with pytest.raises(vi.InputError, match=r"^isolator: its law, friction, has no dimensionless"):
-        vi.to_dimensionless(vi.Oscillator(1, vi.FrictionIsolator(1, 0.1, 0.1), bumper), 1.0)
+        vi.to_dimensionless(vi.Rig(vi.Oscillator(1, vi.FrictionIsolator(1, 0.1, 0.1), bumper), 1.0))
     with pytest.raises(vi.InputError, match=r"^isolator: its law, a dashpot with an exponent, has"):
-        vi.to_dimensionless(vi.Oscillator(1, vi.Isolator(1, 0.1, 2)), 1.0)
+        vi.to_dimensionless(vi.Rig(vi.Oscillator(1, vi.Isolator(1, 0.1, 2)), 1.0))
     with pytest.raises(vi.InputError, match=r"^left: its law, power, has no dimensionless"):
-        vi.to_dimensionless(vi.Oscillator(1, vi.Isolator(1, 0.1), bumper, hertz), 1.0)
+        vi.to_dimensionless(vi.Rig(vi.Oscillator(1, vi.Isolator(1, 0.1), bumper, hertz), 1.0))
 
 
 def test_what_nothing_holds_is_refused():

@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.cli import main
-from vibroimpact.model.parameters import PARAMETERS, bounds, parameter
+from vibroimpact.model.parameters import PARAMETERS, parameter, read_span
 from vibroimpact.model.varied import written
 from vibroimpact.scenarios.axes import NAMES
 
@@ -111,7 +111,7 @@ def test_a_unit_may_depend_on_an_exponent():
     assert parameter("damping").of(RIG).units == "N s m-1"
     assert parameter("right_stiffness").of(fluid).units == "N/m^1.5"
     assert parameter("left_stiffness").of(fluid).units == "N m-1"
-    low, high = bounds(parameter("right_stiffness").of(fluid), "1 GN/m^1.5", "3 GN/m^1.5")
+    low, high = read_span(parameter("right_stiffness").of(fluid), ("1 GN/m^1.5", "3 GN/m^1.5"))
     assert (low, high) == (1e9, 3e9)
     with pytest.raises(vi.InputError, match=r"in N/m and N/m\^1\.5; 'right_stiffness' and"):
         parameter("bumper_stiffness").read(
@@ -136,11 +136,11 @@ def test_help_names_them_all(capsys, monkeypatch):
 @pytest.mark.parametrize("name", ["relaxation_time", "damping_ratio", "right_stiffness"])
 def test_a_branch_over_any_of_them_ends_on_the_orbit_of_that_rig(name):
     here = parameter(name).read(RIG, SHAKEN)
-    found = vi.branch(RIG, SHAKEN, parameter=name, low=0.9 * here, high=1.1 * here)
+    found = vi.branch(vi.Rig(RIG, SHAKEN), span=(0.9 * here, 1.1 * here), parameter=name)
     last = found.isel(point=-1)
     assert float(last[name]) == pytest.approx(1.1 * here)
     setting = parameter(name).write(RIG, SHAKEN, 1.1 * here)
-    direct = vi.orbit(*setting, last["section"])
+    direct = vi.orbit(vi.Rig(*setting), last["section"])
     assert float(last["displacement_max"]) == pytest.approx(float(direct["displacement_max"]), 1e-9)
 
 
@@ -155,14 +155,14 @@ def test_other_values_that_it_may_have():
 
 
 def test_ranges_that_cannot_be():
-    assert bounds(parameter("gap"), "1 mm", 0.02) == (1e-3, 0.02)
-    assert bounds(parameter("gap"), "-1 mm", 0.02) == (-1e-3, 0.02)
-    with pytest.raises(vi.InputError, match=r"^high: 1\.2"):
-        bounds(parameter("restitution"), 0.5, 1.2)
-    with pytest.raises(vi.InputError, match=r"high: .* does not lie above low"):
-        bounds(parameter("gap"), 0.02, 0.01)
-    with pytest.raises(vi.InputError, match=r"^low: "):
-        bounds(parameter("gap"), "1 kg", 0.01)
+    assert read_span(parameter("gap"), ("1 mm", 0.02)) == (1e-3, 0.02)
+    assert read_span(parameter("gap"), ("-1 mm", 0.02)) == (-1e-3, 0.02)
+    with pytest.raises(vi.InputError, match=r"^span\[1\]: 1\.2"):
+        read_span(parameter("restitution"), (0.5, 1.2))
+    with pytest.raises(vi.InputError, match=r"span\[1\]: .* does not lie above low"):
+        read_span(parameter("gap"), (0.02, 0.01))
+    with pytest.raises(vi.InputError, match=r"^span\[0\]: "):
+        read_span(parameter("gap"), ("1 kg", 0.01))
 
 
 def test_a_gap_ratio_is_over_free_flight_under_what_is_held():

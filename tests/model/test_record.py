@@ -109,8 +109,8 @@ def test_moved_by_a_displacement_as_by_its_acceleration():
     rig = vi.Oscillator(2.0, vi.Isolator(8.0, 0.8), vi.RigidStop(0.5, 0.02))
     moved = vi.Harmonic("20 mm", 0.5)
     record = vi.Record.from_displacement(0.02 * np.sin(math.pi * TIME), 0.01)
-    one = vi.simulate(rig, record, samples=0)["final_state"].values[:2]
-    other = vi.simulate(rig, moved, 2, samples=0)["final_state"].values[:2]
+    one = vi.simulate(vi.Rig(rig, record), samples=0)["final_state"].values[:2]
+    other = vi.simulate(vi.Rig(rig, moved), 2, samples=0)["final_state"].values[:2]
     np.testing.assert_allclose(one, other, atol=1e-5)
 
 

@@ -51,7 +51,7 @@ def test_a_swing_beyond_it_grows_and_one_below_does_not(law):
     rig = vi.Oscillator(MASS, law)
     swings = {}
     for share in (0.8, 1.3):
-        data = vi.simulate(rig, vi.Harmonic(share * BOUND, NATURAL), cycles=400)
+        data = vi.simulate(vi.Rig(rig, vi.Harmonic(share * BOUND, NATURAL)), cycles=400)
         u = abs(data["displacement"].values)
         swings[share] = u[len(u) // 2 :].max() / u[: len(u) // 2].max()
     assert swings[0.8] < 1.01
@@ -62,8 +62,8 @@ def test_a_swing_beyond_it_grows_and_one_below_does_not(law):
 def test_steady_refuses_it_and_gives_the_one_below(law):
     rig = vi.Oscillator(MASS, law)
     with pytest.raises(vi.InputError, match="bounded force is too small to hold it"):
-        vi.steady(rig, vi.Harmonic(1.01 * BOUND, NATURAL))
-    assert vi.steady(rig, vi.Harmonic(0.9 * BOUND, NATURAL))["motion"].item() == "periodic"
+        vi.steady(vi.Rig(rig, vi.Harmonic(1.01 * BOUND, NATURAL)))
+    assert vi.steady(vi.Rig(rig, vi.Harmonic(0.9 * BOUND, NATURAL)))["motion"].item() == "periodic"
 
 
 def test_each_harmonic_counts_by_its_own_size():
@@ -80,4 +80,4 @@ def test_a_dashpot_a_hardening_spring_and_a_stop_hold_it():
     assert not has_no_bound(vi.Oscillator(MASS, vi.PolynomialIsolator(SPRING, 0.0, 1e-3)), shaken)
     assert has_no_bound(vi.Oscillator(MASS, vi.PolynomialIsolator(SPRING, 0.0, 0.0)), shaken)
     held = vi.Oscillator(MASS, LAWS["friction"], vi.Bumper(30.0, 0.5, 0.2))
-    assert vi.steady(held, shaken)["displacement_max"] < 10.0
+    assert vi.steady(vi.Rig(held, shaken))["displacement_max"] < 10.0

@@ -106,7 +106,7 @@ def test_the_upward_jump_moves_up():
         places = []
         for parameters in ("table", "refined"):
             case = laboratory.case(code, parameters)
-            data = vi.sweep(case.oscillator, case.amplitude, grid, "backward")
+            data = vi.sweep(vi.Rig(case.oscillator, case.amplitude), grid, "backward")
             (up,) = [j for j in features(data).jumps if j.upward]
             places.append(up.frequency)
         assert places[1] > places[0] + 0.1

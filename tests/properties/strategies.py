@@ -144,7 +144,7 @@ def simulated(motion: Motion, cycles: float, samples: int = 1) -> xr.Dataset:
     """The simulation, of those motions only that are not given up for chattering."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        data = vi.simulate(*motion[:2], cycles, motion.start, samples, max_events=1000)
+        data = vi.simulate(vi.Rig(*motion[:2]), cycles, motion.start, samples, max_events=1000)
     assume(data.attrs["status"] == "done")
     return data
 

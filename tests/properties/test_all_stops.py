@@ -76,13 +76,13 @@ def test_a_run_may_be_cut_at_an_event(motion: Motion, which: int, towards: float
 def test_a_run_may_be_cut_inside_a_chatter() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(0.8, -0.4))
     shaken = vi.Harmonic(1.0, 0.08)
-    whole = vi.simulate(rig, shaken, 2, vi.State(-1.0), samples=1)
+    whole = vi.simulate(vi.Rig(rig, shaken), 2, vi.State(-1.0), samples=1)
     at = whole["event_time"].values * shaken.frequency
     # In the middle between impacts, and just beside them, down to the smallest.
     cuts = np.concatenate([0.5 * (at[:-1] + at[1:]), at * (1 - 1e-9), at * (1 + 1e-9)])
     for cut in cuts[(cuts > 0) & (cuts < 2)]:
-        half = vi.simulate(rig, shaken, cut, vi.State(-1.0), samples=0)
-        end = vi.simulate(rig, shaken, 2 - cut, half, samples=0)["final_state"].values
+        half = vi.simulate(vi.Rig(rig, shaken), cut, vi.State(-1.0), samples=0)
+        end = vi.simulate(vi.Rig(rig, shaken), 2 - cut, half, samples=0)["final_state"].values
         np.testing.assert_allclose(end[:2], whole["final_state"].values[:2], atol=1e-12)
 
 
@@ -114,8 +114,9 @@ def test_the_dimensionless_motion_has_no_units(
     # Of an impact at the start, rounding decides whether the first sample lies behind it.
     assume(not data.sizes["event"] or float(data["event_time"][0]) > 0.0)
     rig, shaken = motion.oscillator, motion.excitation
-    plain = vi.to_dimensionless(rig, shaken.amplitude)
-    other, acceleration = plain.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude)
+    plain = vi.to_dimensionless(vi.Rig(rig, shaken.amplitude))
+    made = plain.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude)
+    other, acceleration = made.oscillator, made.amplitude
     quicker = other.angular_frequency / rig.angular_frequency
     longer = acceleration / shaken.amplitude / quicker**2
     u, v = motion.start.displacement * longer, motion.start.velocity * longer * quicker

@@ -66,7 +66,11 @@ def through(rig: vi.Oscillator, record: vi.Record, start, samples: int = 1):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
         data = vi.simulate(
-            rig, record, start=start, samples=samples, tail=2.5 * record.step, max_events=1000
+            vi.Rig(rig, record),
+            start=start,
+            samples=samples,
+            tail=2.5 * record.step,
+            max_events=1000,
         )
     assume(data.attrs["status"] == "done")
     return data
@@ -129,9 +133,9 @@ def test_a_record_may_be_cut_anywhere(
         np.arange(count + 1) / parts, np.arange(count // parts + 1), record.acceleration
     )
     at = 1 + where % (count - 1)
-    first = vi.simulate(rig, vi.Record(fine[: at + 1], step), start=start, samples=0)
+    first = vi.simulate(vi.Rig(rig, vi.Record(fine[: at + 1], step)), start=start, samples=0)
     rest = vi.simulate(
-        rig, vi.Record(fine[at:], step), start=first, samples=0, tail=2.5 * record.step
+        vi.Rig(rig, vi.Record(fine[at:], step)), start=first, samples=0, tail=2.5 * record.step
     )
     assert distance(whole, rest["final_state"].values[:4]) < rounding
 

@@ -27,7 +27,7 @@ def test_every_point_comes_back_to_itself(motion: Motion, phase: float) -> None:
     shaken = motion.excitation.replace(phase=phase)
     low, high = 0.6 * shaken.frequency, 1.5 * shaken.frequency
     try:
-        data = vi.branch(rig, shaken, low=low, high=high, most_points=400)
+        data = vi.branch(vi.Rig(rig, shaken), span=(low, high), most_points=400)
     except vi.InputError:  # the motion from rest does not settle
         assume(False)
     for name in ("ended_low", "ended_high"):
@@ -39,7 +39,7 @@ def test_every_point_comes_back_to_itself(motion: Motion, phase: float) -> None:
     for i in np.linspace(0, data.sizes["point"] - 1, 5).astype(int):
         state = data["section"].isel(point=i)
         here = vi.Harmonic(shaken.amplitude, float(data["frequency"][i]), float(state[4]))
-        moved = vi.simulate(rig, here, int(data["period"][i]), state, 0)["final_state"]
+        moved = vi.simulate(vi.Rig(rig, here), int(data["period"][i]), state, 0)["final_state"]
         largest = np.hypot(*(data[f"multiplier_{part}"][i] for part in ("real", "imag"))).max()
         size = float(data["displacement_excursion"][i])
         scale = np.array([size, size * here.angular_frequency])

@@ -30,7 +30,8 @@ def test_samples_only_look(motion: Motion, samples: int, cycles: float) -> None:
 def test_a_second_run_gives_the_same_bits() -> None:
     case = vi.laboratory.case("B3-10mm-A3")
     one, other = (
-        vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 1.06), 300) for _ in range(2)
+        vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.06)), 300)
+        for _ in range(2)
     )
     xr.testing.assert_identical(one, other)
 
@@ -48,6 +49,6 @@ def test_a_sweep_among_others_is_the_same_sweep() -> None:
     grid = np.arange(0.5, 3.0, 0.25)
     together = vi.sweeps(cases, grid, threads=2)
     for i, case in enumerate(cases):
-        alone = vi.sweep(case.oscillator, case.amplitude, grid)
+        alone = vi.sweep(vi.Rig(case.oscillator, case.amplitude), grid)
         for name in alone.data_vars:
             np.testing.assert_array_equal(alone[name], together[name].isel(rig=i))

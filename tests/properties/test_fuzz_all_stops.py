@@ -76,7 +76,7 @@ def faults(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
         cycles = None if isinstance(shaken, vi.Record) else CYCLES
-        data = vi.simulate(rig, shaken, cycles, samples=SAMPLES, max_events=MAX_EVENTS)
+        data = vi.simulate(vi.Rig(rig, shaken), cycles, samples=SAMPLES, max_events=MAX_EVENTS)
     if data.attrs["status"] != "done":
         return data.attrs["status"], []
     names = ("displacement", "velocity", "acceleration", "final_state")

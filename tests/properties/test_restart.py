@@ -22,7 +22,7 @@ def end_of_cut_run(motion: Motion, cut: float) -> NDArray[np.float64]:
     """The end of a run that was stopped at `cut` cycles and taken up again."""
     rig, shaken, _ = motion
     half = simulated(motion, cut, samples=0)["final_state"]
-    end = vi.simulate(rig, shaken, CYCLES - cut, half, samples=0)["final_state"].values
+    end = vi.simulate(vi.Rig(rig, shaken), CYCLES - cut, half, samples=0)["final_state"].values
     assert math.isclose(math.cos(end[4] - shaken.phase), 1.0)
     return end[:4]
 
@@ -65,24 +65,24 @@ def test_an_elastic_contact_may_be_cut_at_its_end() -> None:
     shaken = vi.Harmonic(2.0, 0.16)
     for i in range(40):
         start = vi.State(0.0, 0.05 + 0.002 * i)
-        data = vi.simulate(rig, shaken, 1, start, samples=1)
+        data = vi.simulate(vi.Rig(rig, shaken), 1, start, samples=1)
         cut = float(data["event_cycle_time"][0]) * shaken.frequency
         for ulp in range(-2, 3):
-            half = vi.simulate(rig, shaken, cut * (1.0 + ulp * 2.0**-52), start, samples=0)
-            vi.simulate(rig, shaken, 1, half, samples=0)
+            half = vi.simulate(vi.Rig(rig, shaken), cut * (1.0 + ulp * 2.0**-52), start, samples=0)
+            vi.simulate(vi.Rig(rig, shaken), 1, half, samples=0)
 
 
 @pytest.mark.parametrize("code", ["B2-G1-A3", "B4-G3-A1", "B1-0mm-A2", "B3-10mm-A3"])
 def test_the_section_of_a_sweep_repeats_itself(code: str) -> None:
     case = vi.laboratory.case(code)
-    data = vi.sweep(case.oscillator, case.amplitude, [0.5, 0.9, 1.6, 2.4, 3.1], phase=0.3)
+    data = vi.sweep(vi.Rig(case.oscillator, case.amplitude), [0.5, 0.9, 1.6, 2.4, 3.1], phase=0.3)
     settled = data["period"].values > 0
     assert settled.sum() >= 8
     for d, f in np.argwhere(settled):
         held = data.isel(direction=d, frequency=f)
         shaken = vi.Harmonic(case.amplitude, float(held["frequency"]), 0.3)
         period = int(held["period"])
-        again = vi.simulate(case.oscillator, shaken, period, held["section"], 256)
+        again = vi.simulate(vi.Rig(case.oscillator, shaken), period, held["section"], 256)
         section = held["section"].values[:4]
         assert distance(again, section) < ROUNDING
         seen = np.ptp(again["displacement"].values) / float(held["displacement_excursion"])

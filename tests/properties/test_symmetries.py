@@ -48,8 +48,9 @@ def test_the_dimensionless_motion_has_no_units(
 ) -> None:
     data = tame(motion, CYCLES)
     rig, shaken = motion.oscillator, motion.excitation
-    plain = vi.to_dimensionless(rig, shaken.amplitude)
-    other, acceleration = plain.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude)
+    plain = vi.to_dimensionless(vi.Rig(rig, shaken.amplitude))
+    made = plain.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude)
+    other, acceleration = made.oscillator, made.amplitude
     quicker = other.angular_frequency / rig.angular_frequency
     longer = acceleration / shaken.amplitude / quicker**2
     u, v = motion.start.displacement * longer, motion.start.velocity * longer * quicker
@@ -67,11 +68,11 @@ def test_the_dimensionless_motion_has_no_units(
 @given(decades(-3, 3), decades(-3, 3), decades(-3, 3))
 def test_resonance_curves_have_no_units(mass: float, stiffness: float, amplitude: float) -> None:
     case = vi.laboratory.case("B2-G1-A3")
-    plain = vi.to_dimensionless(case.oscillator, case.amplitude)
+    plain = vi.to_dimensionless(vi.Rig(case.oscillator, case.amplitude))
     other = plain.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude)
     quicker = other.oscillator.natural_frequency / case.oscillator.natural_frequency
     grid = [0.6, 1.0, 1.7, 2.5, 3.5]
-    curves = vi.sweep(case.oscillator, case.amplitude, grid)
-    image = vi.sweep(*other, [f * quicker for f in grid])
+    curves = vi.sweep(vi.Rig(case.oscillator, case.amplitude), grid)
+    image = vi.sweep(vi.Rig(*other), [f * quicker for f in grid])
     for name in ("eta_d", "eta_a", "impacts_right", "impacts_left", "period"):
         assert image[name].values == pytest.approx(curves[name].values, rel=1e-9, abs=1e-9)

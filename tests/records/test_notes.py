@@ -158,15 +158,15 @@ def test_datasets_keep_what_was_noted(tmp_path):
     rows = "".join(f"{a!r}\n" for a in SWAY.tolist())
     record, told = noted(written(tmp_path, rows), step=0.01)
     assert told == "unit m/s², for the file says none"
-    motion = vi.simulate(RIG, record, tail=1.0)
+    motion = vi.simulate(vi.Rig(RIG, record), tail=1.0)
     demands = vi.demands(RIG, {"quake": record, "made": vi.Record(SWAY, 0.01)})
     made = {
         "simulate": motion,
         "totals": vi.totals(motion),
         "contacts": vi.contacts(motion),
-        "seismic_response": vi.seismic_response(RIG, record),
+        "seismic_response": vi.seismic_response(vi.Rig(RIG, record)),
         "response_spectrum": vi.response_spectrum(record, 1.0),
-        "required_gap": vi.required_gap(RIG, record),
+        "required_gap": vi.required_gap(RIG, records=record),
     }
     assert {name: data.attrs.get("notes") for name, data in made.items()} == dict.fromkeys(
         made, told
@@ -174,4 +174,4 @@ def test_datasets_keep_what_was_noted(tmp_path):
     assert demands.attrs["notes"] == f"quake: {told}"
     vi.save(motion, tmp_path / "motion.nc")
     assert vi.load(tmp_path / "motion.nc").attrs["notes"] == told
-    assert "notes" not in vi.seismic_response(RIG, vi.Record(SWAY, 0.01)).attrs
+    assert "notes" not in vi.seismic_response(vi.Rig(RIG, vi.Record(SWAY, 0.01))).attrs

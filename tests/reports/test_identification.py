@@ -24,7 +24,7 @@ def data(case):
 
 @pytest.fixture(scope="module")
 def fit(case, data):
-    return vi.identify(data, case.oscillator, "bumper_stiffness,bumper_damping", tried=0, starts=1)
+    return vi.identify(case.oscillator, data, "bumper_stiffness,bumper_damping", tried=0, starts=1)
 
 
 def test_the_report_and_the_rig(fit, tmp_path):
@@ -40,8 +40,8 @@ def test_the_report_and_the_rig(fit, tmp_path):
         assert (tmp_path / f"twin-{name}.png").stat().st_size > 5000
         assert f'src="twin-{name}.png"' in html
     study = read_study(files["study twin"])
-    assert study.oscillator == vi.fitted(fit).oscillator
-    assert study.excitation.amplitude == vi.fitted(fit).amplitude
+    assert study.oscillator == vi.fitted_rig(fit).oscillator
+    assert study.excitation.amplitude == vi.fitted_rig(fit).amplitude
 
 
 def test_a_study_file_of_any_law(case, tmp_path):
@@ -85,8 +85,8 @@ def test_the_next_test_reduces_every_error(case, fit):
 
 def test_the_next_test_keeps_away_from_a_jump(case, fit):
     near = np.arange(1.0, 3.6, 0.02)
-    rig = vi.fitted(fit)
-    curves = vi.sweep(rig.oscillator, rig.amplitude, near)
+    rig = vi.fitted_rig(fit)
+    curves = vi.sweep(vi.Rig(rig.oscillator, rig.amplitude), near)
     swing = np.log(curves.displacement_excursion.values)
     jump = near[np.argmin(np.diff(swing[0]))]
     last = {}
@@ -103,14 +103,14 @@ def test_the_next_test_keeps_away_from_a_jump(case, fit):
 
 def test_models_are_compared(case, data, fit):
     asked = {"tried": 0, "starts": 1, "profiles": False}
-    again = vi.identify(data, case.oscillator, "bumper_stiffness", **asked)
+    again = vi.identify(case.oscillator, data, "bumper_stiffness", **asked)
     found = vi.compare_fits({"two": fit, "one": again})
     assert float(found.akaike_weight.sum()) == pytest.approx(1.0)
     assert abs(float(found.akaike[1] - found.akaike[0])) < 10.0  # both are right
     with pytest.raises(vi.InputError, match="at least two"):
         vi.compare_fits({"one": fit})
     other = curves(case.oscillator, case.amplitude, 0.02, seed=8)
-    wrong = vi.identify(other, case.oscillator, "gap", **asked)
+    wrong = vi.identify(case.oscillator, other, "gap", **asked)
     with pytest.raises(vi.InputError, match="other data"):
         vi.compare_fits({"one": fit, "other": wrong})
 
@@ -120,7 +120,7 @@ def test_names_of_tests_are_no_markdown_and_no_html(tmp_path):
     data = curves(case.oscillator, case.amplitude, 0.02, frequencies=np.arange(1.0, 2.0, 0.1))
     names = ["<script>alert(1)</script> | x", "<script>alert(1)</script> / x", "[a](b) *c* `d`"]
     found = vi.identify(
-        dict.fromkeys(names, data), case, "stiffness", tried=0, starts=1, profiles=False
+        case, dict.fromkeys(names, data), "stiffness", tried=0, starts=1, profiles=False
     )
     files = vi.fit_report(found, tmp_path)
     text = files["markdown"].read_text()
@@ -139,4 +139,4 @@ def test_a_name_that_a_terminal_would_obey_is_refused():
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, frequencies=np.array([1.0, 1.1]))
     with pytest.raises(vi.InputError, match=r"^data: .*control character"):
-        vi.identify({"a\x1b[2J": data}, case, "stiffness")
+        vi.identify(case, {"a\x1b[2J": data}, "stiffness")

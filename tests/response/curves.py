@@ -20,7 +20,7 @@ def grid(start: float, stop: float, step: float) -> list[float]:
 @cache
 def swept(code: str, start: float, stop: float, step: float, parameters="table") -> xr.Dataset:
     case = vi.laboratory.case(code, parameters)
-    return vi.sweep(case.oscillator, case.amplitude, grid(start, stop, step))
+    return vi.sweep(vi.Rig(case.oscillator, case.amplitude), grid(start, stop, step))
 
 
 def made(frequency, forward, backward=None, *, settled=True, period=1) -> xr.Dataset:

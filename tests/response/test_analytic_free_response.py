@@ -18,7 +18,7 @@ def rig(ratio: float) -> vi.Oscillator:
 
 
 def test_it_is_where_a_simulation_settles():
-    one = vi.steady(rig(0.1), vi.Harmonic(0.7, 0.5), samples=8)
+    one = vi.steady(vi.Rig(rig(0.1), vi.Harmonic(0.7, 0.5)), samples=8)
     found = free_flight_excursions(rig(0.1), vi.Harmonic(0.7, 1.0), np.array([0.5]))
     assert float(one["displacement_excursion"]) == pytest.approx(found[0][0], rel=1e-11)
     assert float(one["acceleration_excursion"]) == pytest.approx(found[1][0], rel=1e-11)
@@ -124,7 +124,7 @@ def test_transmissibility(ratio):
             (1 + (2 * ratio * r) ** 2) / ((1 - r) ** 2 * (1 + r) ** 2 + (2 * ratio * r) ** 2)
         )
         omega = shaken.angular_frequency
-        data = vi.orbit(one, shaken, samples=64)
+        data = vi.orbit(vi.Rig(one, shaken), samples=64)
         angle = 2.0 * np.pi * data["cycle"].values[:64] + 0.4
         absolute = data["displacement"].values[:64] + 0.02 * np.sin(angle)
         line = 2.0 / 64 * np.abs(np.sum(absolute * np.exp(-1j * angle)))
@@ -142,7 +142,7 @@ def test_transmissibility(ratio):
 def test_a_sweep_takes_its_share_of_them(kind):
     one, shaken = rig(0.1), SHAKEN[kind]
     grid = np.linspace(0.15, 0.5, 6)
-    data = vi.sweep(one, shaken, grid)
+    data = vi.sweep(vi.Rig(one, shaken), grid)
     free = free_flight_excursions(one, shaken, grid)
     swing, acceleration = reference_excursions(one, shaken)
     for d in range(2):

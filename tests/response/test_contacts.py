@@ -77,7 +77,7 @@ def test_rebound_of_an_elastic_stop():
     """Against a stiff elastic stop the contact is half a sine: π/ω, F = √(k m) v, e = 1."""
     stiff = 1e10
     rig = vi.Oscillator(2.0, vi.Isolator(1.0, 0.0), vi.Bumper(stiff, 0.0, 0.0), None)
-    data = vi.simulate(rig, vi.Harmonic(1e-12, 0.5), 1.0, vi.State(-1e-6, 3.0))
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(1e-12, 0.5)), 1.0, vi.State(-1e-6, 3.0))
     (row,) = vi.contacts(data).to_dataframe().itertuples()
     omega = math.sqrt(stiff / 2.0)
     assert row.contact_duration == pytest.approx(math.pi / omega, rel=1e-9)
@@ -96,7 +96,7 @@ def test_rebound_of_a_damped_stop():
     stiff, zeta = 1e10, 0.2
     damping = 2.0 * zeta * math.sqrt(stiff)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), vi.Bumper(stiff, damping, 0.0), None)
-    data = vi.simulate(rig, vi.Harmonic(1e-12, 0.5), 1.0, vi.State(-1e-6, 1.0))
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(1e-12, 0.5)), 1.0, vi.State(-1e-6, 1.0))
     (row,) = vi.contacts(data).to_dataframe().itertuples()
     # x = e^(−ζτ) sin(wτ)/w, F ∝ x + 2ζ x′ = 0 first at wτ = π − atan2(2ζw, 1 − 2ζ²) + …
     w = math.sqrt(1.0 - zeta**2)
@@ -120,7 +120,7 @@ def test_rebound_of_a_damped_stop():
 def test_contacts_at_the_ends_of_the_record_are_left_out():
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.0)
-    data = vi.simulate(case.oscillator, shaken, 4, vi.State(9e-3, 0.0))
+    data = vi.simulate(vi.Rig(case.oscillator, shaken), 4, vi.State(9e-3, 0.0))
     assert int(data["contact"][0]) == 1
     log = vi.contacts(data)
     begins = data["event_time"].values[data["event_contact"].values == 1]
@@ -130,7 +130,7 @@ def test_contacts_at_the_ends_of_the_record_are_left_out():
 
 def test_grazing_is_flagged():
     case = vi.laboratory.case("B2-G1-A3")
-    data = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 2.0), 20)
+    data = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)), 20)
     log = vi.contacts(data)
     fastest = max(np.abs(data["velocity"]).max(), np.abs(data["event_velocity"]).max())
     speeds = np.abs(log["contact_start_velocity"].values)
@@ -143,7 +143,9 @@ def test_grazing_is_flagged():
 def test_samples_change_nothing():
     case = vi.laboratory.case("B3-10mm-A3")
     shaken = vi.Harmonic(case.amplitude, 1.06)
-    few, many = (vi.contacts(vi.simulate(case.oscillator, shaken, 30, samples=n)) for n in (1, 99))
+    few, many = (
+        vi.contacts(vi.simulate(vi.Rig(case.oscillator, shaken), 30, samples=n)) for n in (1, 99)
+    )
     for name in few:
         if name != "contact_grazing":
             np.testing.assert_allclose(few[name], many[name], rtol=1e-9, atol=1e-15)
@@ -153,18 +155,18 @@ def test_samples_change_nothing():
 def test_no_motion(wrong):
     case = vi.laboratory.case("B2-G1-A3")
     if wrong == 3:
-        wrong = vi.simulate(case.oscillator, vi.Harmonic(1.0, 2.0), 3, samples=0)
+        wrong = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(1.0, 2.0)), 3, samples=0)
     with pytest.raises(vi.InputError, match=r"motion: .* steady, or of simulate"):
         vi.contacts(wrong)
     with pytest.raises(vi.InputError, match="grazing"):
-        vi.contacts(vi.simulate(case.oscillator, vi.Harmonic(1.0, 2.0), 3), grazing=-1.0)
+        vi.contacts(vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(1.0, 2.0)), 3), grazing=-1.0)
 
 
 def test_relaxation_ends_at_a_contact_that_the_record_cuts():
     """What the spring holds after a contact less what it holds when it is pressed again."""
     bumper = vi.Bumper(1.0, 20.0, 0.1)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), bumper, None)
-    data = vi.simulate(rig, vi.Harmonic(1.0, 0.15), 20.75)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 0.15)), 20.75)
     assert int(data["contact"][-1]) == 1
     log = vi.contacts(data)
     begins = data["event_contact"].values == 1
@@ -177,7 +179,7 @@ def test_relaxation_ends_at_a_contact_that_the_record_cuts():
 def test_a_bumper_that_catches_up_with_a_receding_mass():
     bumper = vi.Bumper(1.0695, 8.9267, 0.3)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.01335), bumper, None)
-    log = vi.contacts(vi.simulate(rig, vi.Harmonic(1.0, 0.0911), 200))
+    log = vi.contacts(vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 0.0911)), 200))
     receding = log["contact_start_velocity"].values < 0.0
     assert receding.any()
     assert (log["contact_closing_speed"].values > 0.0).all()
@@ -194,7 +196,7 @@ class TestThroughARecord:
     ROUGH = vi.Record(np.random.default_rng(5).uniform(-4.0, 4.0, 65), 0.125)
 
     def test_they_are_those_that_the_motion_tells(self):
-        data = vi.simulate(self.RIG, self.ROUGH, tail=1.0, samples=2000)
+        data = vi.simulate(vi.Rig(self.RIG, self.ROUGH), tail=1.0, samples=2000)
         log = vi.contacts(data)
         kind, side = data["event_contact"].values, data["event_side"].values
         begins = data["event_time"].values[(kind == 1) & (side == 1)]
@@ -226,19 +228,22 @@ class TestThroughARecord:
     def test_the_same_lines_in_parts_have_the_same_contacts(self, parts):
         time = np.arange(64 * parts + 1) * (self.ROUGH.step / parts)
         finer = vi.Record(self.ROUGH.at(time), self.ROUGH.step / parts)
-        one, other = (vi.contacts(vi.simulate(self.RIG, r, tail=1.0)) for r in (self.ROUGH, finer))
+        one, other = (
+            vi.contacts(vi.simulate(vi.Rig(self.RIG, r), tail=1.0)) for r in (self.ROUGH, finer)
+        )
         for name in set(one) - {"contact_grazing"}:
             np.testing.assert_allclose(one[name], other[name], rtol=1e-9, atol=1e-11)
 
     def test_samples_change_nothing(self):
         few, many = (
-            vi.contacts(vi.simulate(self.RIG, self.ROUGH, tail=1.03, samples=n)) for n in (1, 30)
+            vi.contacts(vi.simulate(vi.Rig(self.RIG, self.ROUGH), tail=1.03, samples=n))
+            for n in (1, 30)
         )
         for name in set(few) - {"contact_grazing"}:
             np.testing.assert_allclose(few[name], many[name], rtol=1e-9, atol=1e-13)
 
     def test_sections_and_spectra_have_no_meaning(self):
-        data = vi.simulate(self.RIG, self.ROUGH)
-        for look in (vi.spectrum, vi.stroboscopic_section, vi.impact_section):
+        data = vi.simulate(vi.Rig(self.RIG, self.ROUGH))
+        for look in (vi.fourier_spectrum, vi.stroboscopic_section, vi.impact_section):
             with pytest.raises(vi.InputError, match=r"^motion: it goes through a Record"):
                 look(data)

@@ -14,20 +14,20 @@ SHAKEN = vi.Harmonic(1.0, 0.2)
 
 
 def history(length):
-    return vi.simulate(RIG, SHAKEN, 20 * length, samples=1)
+    return vi.simulate(vi.Rig(RIG, SHAKEN), 20 * length, samples=1)
 
 
 def through_record(length):
-    return vi.simulate(RIG, vi.Record(np.resize([1.0, -1.0], 100 * length), 0.1))
+    return vi.simulate(vi.Rig(RIG, vi.Record(np.resize([1.0, -1.0], 100 * length), 0.1)))
 
 
 def sweeps(length):
     grid = np.linspace(0.1, 0.4, length)
-    return vi.sweeps({"one": (RIG, SHAKEN), "two": (RIG, SHAKEN)}, grid, max_cycles=30)
+    return vi.sweeps({"one": vi.Rig(RIG, SHAKEN), "two": vi.Rig(RIG, SHAKEN)}, grid, max_cycles=30)
 
 
 def basins(length):
-    return vi.basins(RIG, SHAKEN, (-3.0, 3.0), (-3.0, 3.0), nodes=length)
+    return vi.basins(vi.Rig(RIG, SHAKEN), (-3.0, 3.0), (-3.0, 3.0), nodes=length)
 
 
 @pytest.mark.parametrize(

@@ -15,13 +15,13 @@ def test_a_contact_that_would_pull_is_refused() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3), vi.Bumper(20.0, 4.0, 0.0))
     start = vi.State(0.1, -0.9, contact=1)
     with pytest.raises(vi.InputError, match=r"start\.contact: 1, but the bumper would pull"):
-        vi.simulate(rig, vi.Harmonic(50.0, 0.2), 1, start)
+        vi.simulate(vi.Rig(rig, vi.Harmonic(50.0, 0.2)), 1, start)
 
 
 def test_an_elastic_bumper_cannot_lag_behind() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3), vi.Bumper(20.0, 0.0, 1.0))
     with pytest.raises(vi.InputError, match=r"start\.contact: 0, but the mass presses"):
-        vi.simulate(rig, vi.Harmonic(1.0, 0.2), 1, vi.State(1.5, 0.1, contact=0))
+        vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 0.2)), 1, vi.State(1.5, 0.1, contact=0))
 
 
 @pytest.mark.parametrize(
@@ -36,7 +36,7 @@ def test_an_elastic_bumper_cannot_lag_behind() -> None:
 )
 def test_bad_starts(start: object, message: str) -> None:
     with pytest.raises(vi.InputError) as caught:
-        vi.simulate(CASE.oscillator, SHAKEN, 1, start)
+        vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 1, start)
     assert str(caught.value).startswith(message)
     assert "is accepted" in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -45,7 +45,7 @@ def test_bad_starts(start: object, message: str) -> None:
 def test_starts_on_absent_bumpers() -> None:
     rig = CASE.oscillator.replace(right=None)
     with pytest.raises(vi.InputError, match=r"^start.right_bumper: 0.001 m, but .* no such bumper"):
-        vi.simulate(rig, SHAKEN, 1, vi.State(right_bumper=0.001))
+        vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(right_bumper=0.001))
     with pytest.raises(vi.InputError, match=r"^start.contact: 1, but .* no bumper there"):
-        vi.simulate(rig, SHAKEN, 1, vi.State(contact=1))
-    vi.simulate(rig, SHAKEN, 1, vi.State(right_bumper=0.0))
+        vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(contact=1))
+    vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(right_bumper=0.0))

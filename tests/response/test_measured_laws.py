@@ -38,8 +38,8 @@ def rig(isolator: str, stops: str) -> vi.Oscillator:
 def followed(oscillator: vi.Oscillator, shaken: object, samples: int | None = None) -> xr.Dataset:
     start = vi.State(0.0, 0.4)
     if isinstance(shaken, vi.Record):
-        return vi.simulate(oscillator, shaken, start=start, tail=0.7, samples=samples)
-    return vi.simulate(oscillator, shaken, 6.3, start, samples=samples)
+        return vi.simulate(vi.Rig(oscillator, shaken), start=start, tail=0.7, samples=samples)
+    return vi.simulate(vi.Rig(oscillator, shaken), 6.3, start, samples=samples)
 
 
 ROUGH = vi.Record(np.random.default_rng(7).uniform(-6.0, 6.0, 41), 0.125)
@@ -124,15 +124,15 @@ def pushes(stop: object, depth: np.ndarray, closing: np.ndarray, speed: float) -
 @pytest.mark.parametrize(("isolator", "stops"), [("bouc-wen", "powers"), ("polynomial", "bumpers")])
 def test_a_steady_motion_has_its_lines_and_its_balance(isolator: str, stops: str) -> None:
     oscillator = rig(isolator, stops)
-    motion = vi.steady(oscillator, SHAKEN)
+    motion = vi.steady(vi.Rig(oscillator, SHAKEN))
     assert motion["motion"] == "periodic"
     n = int(motion["period"])
     supplied, isolated, bumpers = (
         float(motion[f"energy_{one}"]) for one in ("supplied", "isolator", "bumpers")
     )
     assert supplied == pytest.approx(isolated + bumpers, rel=1e-8)
-    found = vi.spectrum(motion, 6)
-    dense = vi.simulate(oscillator, SHAKEN, n, motion["final_state"], samples=8192)
+    found = vi.fourier_spectrum(motion, 6)
+    dense = vi.simulate(vi.Rig(oscillator, SHAKEN), n, motion["final_state"], samples=8192)
     for name, near in (("displacement", 1e-6), ("velocity", 1e-5), ("acceleration", 1e-3)):
         values = dense[name].values[:-1]
         lines = 2.0 * np.fft.rfft(values)[: 6 * n + 1] / len(values)

@@ -15,7 +15,9 @@ CASE = vi.laboratory.case("B2-G1-A3")
 
 @pytest.fixture(scope="module")
 def motion():
-    return vi.simulate(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0, 0.3), 6, samples=512)
+    return vi.simulate(
+        vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0, 0.3)), 6, samples=512
+    )
 
 
 def test_they_follow_each_other(motion):

@@ -79,6 +79,6 @@ def test_what_settles_slowly_is_found_without_the_wait() -> None:
     shaken = vi.Harmonic(1.0, 0.3)
     frequency = 4.0 * rig.natural_frequency
     found = swept_flight(rig, shaken, np.array([frequency]), np.array([1.0]))
-    orbit = vi.orbit(rig, shaken.replace(frequency=frequency))
+    orbit = vi.orbit(vi.Rig(rig, shaken.replace(frequency=frequency)))
     expected = float(orbit["displacement_max"] - orbit["displacement_min"])
     assert found[0, 0] == pytest.approx(expected, rel=1e-9)

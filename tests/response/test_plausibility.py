@@ -15,11 +15,11 @@ FREE, FOUND = "displacement of free flight, 523.4 mm", r"displacement that was f
 @pytest.mark.parametrize(
     ("of", "rig", "whose"),
     [
-        (lambda rig: vi.sweep(rig, "0.1 g", [0.3, 0.4]), RIG, FREE),
-        (lambda rig: vi.sweep(rig, "0.1 g", [0.3, 0.4]), SLIDING, FOUND),
-        (lambda rig: vi.steady(rig, vi.Harmonic("0.1 g", 0.4)), RIG, FREE),
-        (lambda rig: vi.steady(rig, vi.Harmonic("0.1 g", 0.4)), SLIDING, FOUND),
-        (lambda rig: vi.seismic_response(rig, RECORD), RIG, FOUND),
+        (lambda rig: vi.sweep(vi.Rig(rig, "0.1 g"), [0.3, 0.4]), RIG, FREE),
+        (lambda rig: vi.sweep(vi.Rig(rig, "0.1 g"), [0.3, 0.4]), SLIDING, FOUND),
+        (lambda rig: vi.steady(vi.Rig(rig, vi.Harmonic("0.1 g", 0.4))), RIG, FREE),
+        (lambda rig: vi.steady(vi.Rig(rig, vi.Harmonic("0.1 g", 0.4))), SLIDING, FOUND),
+        (lambda rig: vi.seismic_response(vi.Rig(rig, RECORD)), RIG, FOUND),
     ],
     ids=["sweep", "sweep sliding", "steady", "steady sliding", "seismic_response"],
 )
@@ -40,7 +40,9 @@ def test_a_damping_ratio_of_percent_is_doubted():
     assert vi.Oscillator("5000 t", made).damping_ratio == pytest.approx(15.0)
     with pytest.warns(vi.InputWarning, match=r"^vary\['damping_ratio'\]: 10 is 10 times"):
         vi.design_chart(
-            RIG.replace(right=WALL.replace(gap=0.05)), RECORD, {"damping_ratio": [0.1, 10.0]}
+            RIG.replace(right=WALL.replace(gap=0.05)),
+            {"damping_ratio": [0.1, 10.0]},
+            records=RECORD,
         )
     vi.Isolator.from_period("5000 t", "2.5 s", 1.5)
     vi.Isolator.from_period("5000 t", "2.5 s", "15 %")

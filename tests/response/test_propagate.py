@@ -23,7 +23,7 @@ def begun():
 def test_it_is_where_the_simulation_is():
     rig, state = begun()
     status, later = moved_on(rig, SHAKEN, state, 7.25)
-    simulated = vi.simulate(CASE.oscillator, SHAKEN, 7.25, vi.State(1e-3, 0.1), samples=0)
+    simulated = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 7.25, vi.State(1e-3, 0.1), samples=0)
     assert status is Status.DONE
     found = state_from(later, SHAKEN.phase)
     assert found.displacement == float(simulated["final_state"].sel(component="displacement"))

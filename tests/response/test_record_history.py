@@ -36,8 +36,8 @@ def finer(record: vi.Record, parts: int) -> vi.Record:
 @pytest.mark.parametrize("name", RIGS)
 def test_the_same_lines_in_parts_are_the_same_motion(name: str, parts: int) -> None:
     rig = RIGS[name]
-    whole = vi.simulate(rig, ROUGH, samples=parts, tail=1.0)
-    cut = vi.simulate(rig, finer(ROUGH, parts), tail=1.0)
+    whole = vi.simulate(vi.Rig(rig, ROUGH), samples=parts, tail=1.0)
+    cut = vi.simulate(vi.Rig(rig, finer(ROUGH, parts)), tail=1.0)
     np.testing.assert_allclose(cut["time"], whole["time"], rtol=1e-14)
     for one in (*STATE, "base_acceleration"):
         size = float(np.abs(whole[one]).max())
@@ -58,12 +58,12 @@ def test_a_sine_sampled_ever_finer_becomes_a_harmonic(name: str) -> None:
     """The error of a straight line is of the second order of its length."""
     rig, shaken = RIGS[name], vi.Harmonic(2.0, 0.3, 0.4)
     cycles = 2
-    exact = vi.simulate(rig, shaken, cycles, samples=0)["final_state"].values[:2]
+    exact = vi.simulate(vi.Rig(rig, shaken), cycles, samples=0)["final_state"].values[:2]
     errors = []
     for count in (100, 200, 400, 800):
         step = cycles / shaken.frequency / count
         angles = shaken.angular_frequency * step * np.arange(count + 1) + shaken.phase
-        end = vi.simulate(rig, vi.Record(shaken.at(angles), step), samples=0)["final_state"]
+        end = vi.simulate(vi.Rig(rig, vi.Record(shaken.at(angles), step)), samples=0)["final_state"]
         errors.append(math.hypot(*(end.values[:2] - exact)))
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     assert errors[0] > 1e-7
@@ -73,7 +73,7 @@ def test_a_sine_sampled_ever_finer_becomes_a_harmonic(name: str) -> None:
 
 def test_what_the_dataset_holds() -> None:
     rig = RIGS["bumpers"]
-    data = vi.simulate(rig, ROUGH, tail="0.3 s")
+    data = vi.simulate(vi.Rig(rig, ROUGH), tail="0.3 s")
     end = ROUGH.duration + 0.3
     np.testing.assert_array_equal(data["time"][:65], STEP * np.arange(65))
     np.testing.assert_allclose(data["time"][65:], [8.125, 8.25, end])
@@ -83,7 +83,7 @@ def test_what_the_dataset_holds() -> None:
     last = [data[name].values[-1] for name in STATE]
     np.testing.assert_array_equal(data["final_state"].values[:4], last)
     # What happens between the samples is what is seen at many of them.
-    often = vi.simulate(rig, ROUGH, samples=50, tail="0.3 s")
+    often = vi.simulate(vi.Rig(rig, ROUGH), samples=50, tail="0.3 s")
     for one in data.data_vars:
         if str(one).startswith("event"):
             np.testing.assert_array_equal(data[one], often[one])
@@ -95,7 +95,7 @@ def test_what_the_dataset_holds() -> None:
 
 def test_an_event_lies_between_its_samples() -> None:
     """At its time the mass is where it meets the face of the bumper."""
-    data = vi.simulate(RIGS["walls"], ROUGH, samples=200)
+    data = vi.simulate(vi.Rig(RIGS["walls"], ROUGH), samples=200)
     time = data["time"].values
     for e in events(data):
         if e.kind.startswith("impact"):
@@ -104,9 +104,9 @@ def test_an_event_lies_between_its_samples() -> None:
             near = np.abs(time - e.time) < STEP / 100
             assert data[f"{side}_clearance"].values[near].min() < 0.02
     # Behind the record the events go on being told, in the same time.
-    tail = vi.simulate(RIGS["walls"], vi.Record([0.0, 30.0, 0.0], 0.1), tail=5.0, samples=0)
+    tail = vi.simulate(vi.Rig(RIGS["walls"], vi.Record([0.0, 30.0, 0.0], 0.1)), tail=5.0, samples=0)
     assert tail["final_state"].values[1] == pytest.approx(0.0, abs=1.0)
-    behind = vi.simulate(RIGS["walls"], vi.Record([0.0, 30.0, 0.0], 0.1), tail=5.0)
+    behind = vi.simulate(vi.Rig(RIGS["walls"], vi.Record([0.0, 30.0, 0.0], 0.1)), tail=5.0)
     assert behind["event_time"].values.max() > 0.2
     assert (np.diff(behind["event_time"].values) >= 0.0).all()
 
@@ -114,11 +114,13 @@ def test_an_event_lies_between_its_samples() -> None:
 def test_behind_the_record_it_vibrates_freely() -> None:
     """As from its last state with the base at rest."""
     rig = RIGS["bumpers"]
-    through = vi.simulate(rig, ROUGH, samples=0)
-    tail = vi.simulate(rig, ROUGH, samples=0, tail=2.9)["final_state"].values
-    still = vi.simulate(rig, vi.Harmonic(0.0, 1 / 2.9), 1, through, samples=0)["final_state"].values
+    through = vi.simulate(vi.Rig(rig, ROUGH), samples=0)
+    tail = vi.simulate(vi.Rig(rig, ROUGH), samples=0, tail=2.9)["final_state"].values
+    still = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1 / 2.9)), 1, through, samples=0)[
+        "final_state"
+    ].values
     np.testing.assert_allclose(tail[:4], still[:4], atol=1e-13)
-    long = vi.simulate(rig, ROUGH, samples=0, tail=400.0)["final_state"].values
+    long = vi.simulate(vi.Rig(rig, ROUGH), samples=0, tail=400.0)["final_state"].values
     assert np.abs(long[:4]).max() < 1e-12
 
 
@@ -126,9 +128,9 @@ def test_a_final_state_goes_on_with_the_next_record() -> None:
     rig = RIGS["bumpers"]
     values = ROUGH.acceleration
     for at in (1, 17, 40, 63):
-        first = vi.simulate(rig, vi.Record(values[: at + 1], STEP), samples=0)
-        end = vi.simulate(rig, vi.Record(values[at:], STEP), start=first, samples=0)
-        whole = vi.simulate(rig, ROUGH, samples=0)
+        first = vi.simulate(vi.Rig(rig, vi.Record(values[: at + 1], STEP)), samples=0)
+        end = vi.simulate(vi.Rig(rig, vi.Record(values[at:], STEP)), start=first, samples=0)
+        whole = vi.simulate(vi.Rig(rig, ROUGH), samples=0)
         np.testing.assert_allclose(
             end["final_state"].values[:4], whole["final_state"].values[:4], atol=1e-12
         )
@@ -139,21 +141,23 @@ def test_a_pressed_bumper_goes_on_pressed() -> None:
     for name in ("bumpers", "walls"):
         rig = RIGS[name]
         pushed = vi.Record([3.0, -6.0, -6.0, -6.0, -6.0, 3.0, 6.0, 0.0], 1.0)
-        data = vi.simulate(rig, pushed)
+        data = vi.simulate(vi.Rig(rig, pushed))
         touched = np.flatnonzero(data["contact"].values[1:-1]) + 1
         assert len(touched) >= 2
         for at in touched.tolist():
-            first = vi.simulate(rig, vi.Record(pushed.acceleration[: at + 1], 1.0))
+            first = vi.simulate(vi.Rig(rig, vi.Record(pushed.acceleration[: at + 1], 1.0)))
             assert int(first["final_state"].values[5]) == int(data["contact"].values[at])
             rest = vi.Record(pushed.acceleration[at:], 1.0)
-            end = vi.simulate(rig, rest, start=first, samples=0)["final_state"].values
+            end = vi.simulate(vi.Rig(rig, rest), start=first, samples=0)["final_state"].values
             np.testing.assert_allclose(end, data["final_state"].values, atol=1e-12)
 
 
 def test_one_line_in_flight_is_its_closed_form() -> None:
     """Without spring and dashpot a line of acceleration is a cubic of displacement."""
     rig = vi.Oscillator(3.0, vi.Isolator(0.0, 0.0), vi.RigidStop(0.5, 1e3), vi.RigidStop(0.5, 1e3))
-    data = vi.simulate(rig, vi.Record([1.0, 4.0], 2.0), start=vi.State(0.3, 0.7), samples=10)
+    data = vi.simulate(
+        vi.Rig(rig, vi.Record([1.0, 4.0], 2.0)), start=vi.State(0.3, 0.7), samples=10
+    )
     t = data["time"].values
     np.testing.assert_allclose(data["displacement"], 0.3 + 0.7 * t - t**2 / 2 - t**3 / 4)
     np.testing.assert_allclose(data["velocity"], 0.7 - t - 0.75 * t**2, atol=1e-14)
@@ -161,14 +165,14 @@ def test_one_line_in_flight_is_its_closed_form() -> None:
 
 
 def test_a_record_without_motion_leaves_the_mass_at_rest() -> None:
-    data = vi.simulate(RIGS["walls"], vi.Record([0.0, 0.0, 0.0], 0.5), tail=1.0)
+    data = vi.simulate(vi.Rig(RIGS["walls"], vi.Record([0.0, 0.0, 0.0], 0.5)), tail=1.0)
     np.testing.assert_allclose(data["displacement"], 0.2 / 5.0, rtol=1e-15)
     np.testing.assert_allclose(data["velocity"], 0.0, atol=1e-16)
 
 
 def test_a_motion_given_up_keeps_what_was_found() -> None:
     with pytest.warns(RuntimeWarning, match="simulate stopped .* s into the record: "):
-        data = vi.simulate(RIGS["walls"], ROUGH, max_events=1)
+        data = vi.simulate(vi.Rig(RIGS["walls"], ROUGH), max_events=1)
     assert data.attrs["status"] != "done"
     assert 0 < data.sizes["time"] < 65
     assert np.isfinite(data["displacement"]).all()
@@ -185,28 +189,28 @@ def test_a_motion_given_up_keeps_what_was_found() -> None:
 )
 def test_what_makes_no_sense_with_a_record_is_refused(arguments: dict, line: str) -> None:
     with pytest.raises(vi.InputError, match=f"^{line}"):
-        vi.simulate(RIGS["bumpers"], ROUGH, **arguments)
+        vi.simulate(vi.Rig(RIGS["bumpers"], ROUGH), **arguments)
 
 
 def test_a_tail_is_for_records() -> None:
     with pytest.raises(vi.InputError, match=r"^tail: 2.0 is for a Record"):
-        vi.simulate(RIGS["bumpers"], vi.Harmonic(1.0, 1.0), 3, tail=2.0)
+        vi.simulate(vi.Rig(RIGS["bumpers"], vi.Harmonic(1.0, 1.0)), 3, tail=2.0)
     with pytest.raises(vi.InputError, match=r"^cycles: missing; a number greater than 0"):
-        vi.simulate(RIGS["bumpers"], vi.Harmonic(1.0, 1.0))
+        vi.simulate(vi.Rig(RIGS["bumpers"], vi.Harmonic(1.0, 1.0)))
 
 
 @pytest.mark.parametrize(
     "ask",
     [
-        lambda rig, record: vi.orbit(rig, record),
-        lambda rig, record: vi.steady(rig, record),
-        lambda rig, record: vi.branch(rig, record),
-        lambda rig, record: vi.lyapunov_exponents([(rig, record)], [1.0]),
-        lambda rig, record: vi.sweeps([(rig, record)], [1.0]),
-        lambda rig, record: vi.sweep(rig, record, [1.0]),
-        lambda rig, record: vi.coexisting(rig, record),
-        lambda rig, record: vi.classify(rig, record),
-        lambda rig, record: vi.resonance_diagram(rig, record, [1.0, 2.0]),
+        lambda rig, record: vi.orbit(vi.Rig(rig, record)),
+        lambda rig, record: vi.steady(vi.Rig(rig, record)),
+        lambda rig, record: vi.branch(vi.Rig(rig, record)),
+        lambda rig, record: vi.lyapunov_exponents([vi.Rig(rig, record)], [1.0]),
+        lambda rig, record: vi.sweeps([vi.Rig(rig, record)], [1.0]),
+        lambda rig, record: vi.sweep(vi.Rig(rig, record), [1.0]),
+        lambda rig, record: vi.coexisting_motions(vi.Rig(rig, record)),
+        lambda rig, record: vi.classify_scenario(vi.Rig(rig, record)),
+        lambda rig, record: vi.resonance_diagram(vi.Rig(rig, record), [1.0, 2.0]),
     ],
 )
 def test_where_a_period_is_asked_a_record_is_refused(ask) -> None:

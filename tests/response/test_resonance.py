@@ -121,23 +121,26 @@ class TestPublishedRig:
     @pytest.mark.parametrize("step", [0.1, 0.03, 0.01])
     @pytest.mark.parametrize("damping_ratio", [0.003, 0.03, 0.9])
     def test_no_jump_in_free_flight_however_sharp_its_peak(self, damping_ratio, step):
-        oscillator, amplitude = vi.from_dimensionless(None, 0, 0, damping_ratio)
+        made = vi.from_dimensionless(None, 0, 0, damping_ratio)
+        oscillator, amplitude = made.oscillator, made.amplitude
         f0 = oscillator.natural_frequency
-        data = vi.sweep(oscillator, amplitude, [f0 * r for r in grid(0.3, 3, step)])
+        data = vi.sweep(vi.Rig(oscillator, amplitude), [f0 * r for r in grid(0.3, 3, step)])
         assert jumps(data) == ()
 
     def test_no_jump_where_soft_bumpers_only_bend_the_curve(self):
-        oscillator, amplitude = vi.from_dimensionless(0.1, 0.5, 0.01, 0.15)
+        made = vi.from_dimensionless(0.1, 0.5, 0.01, 0.15)
+        oscillator, amplitude = made.oscillator, made.amplitude
         f0 = oscillator.natural_frequency
-        data = vi.sweep(oscillator, amplitude, [f0 * r for r in grid(0.3, 3, 0.02)])
+        data = vi.sweep(vi.Rig(oscillator, amplitude), [f0 * r for r in grid(0.3, 3, 0.02)])
         assert features(data).contact != ()
         assert jumps(data) == ()
 
     def test_a_transient_that_outlasts_the_cycle_limit_is_no_evidence(self):
-        oscillator, amplitude = vi.from_dimensionless(None, 0, 0, 1e-4)
+        made = vi.from_dimensionless(None, 0, 0, 1e-4)
+        oscillator, amplitude = made.oscillator, made.amplitude
         f0 = oscillator.natural_frequency
         data = vi.sweep(
-            oscillator, amplitude, [f0 * r for r in grid(0.9, 1.1, 0.01)], max_cycles=300
+            vi.Rig(oscillator, amplitude), [f0 * r for r in grid(0.9, 1.1, 0.01)], max_cycles=300
         )
         found = features(data)
         assert found.unsettled != ()

@@ -15,7 +15,7 @@ NAMES = ("displacement", "velocity", "right_bumper", "left_bumper")
 
 
 def test_at_whole_cycles_it_is_the_samples():
-    motion = vi.simulate(CASE.oscillator, SHAKEN, 20, vi.State(2e-3, 0.03), samples=8)
+    motion = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 20, vi.State(2e-3, 0.03), samples=8)
     section = vi.stroboscopic_section(motion, 0.4)
     assert section.sizes["section_point"] == 20
     for name in NAMES:
@@ -27,12 +27,12 @@ def test_at_whole_cycles_it_is_the_samples():
 @pytest.mark.parametrize("phase", [0.0, 0.39, 2.0, "90 deg", -3.0, 11.0])
 def test_at_any_phase(phase):
     """Against a simulation whose samples begin at that phase: only rounding lies between."""
-    motion = vi.simulate(CASE.oscillator, SHAKEN, 6, vi.State(2e-3, 0.03), samples=64)
+    motion = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 6, vi.State(2e-3, 0.03), samples=64)
     section = vi.stroboscopic_section(motion, phase, 5)
     angle = math.pi / 2 if isinstance(phase, str) else phase
     ahead = (angle - 0.4) / (2 * math.pi) % 1.0
-    first = vi.simulate(CASE.oscillator, SHAKEN, ahead, vi.State(2e-3, 0.03), samples=0)
-    later = vi.simulate(CASE.oscillator, SHAKEN, 5, first, samples=1)
+    first = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), ahead, vi.State(2e-3, 0.03), samples=0)
+    later = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 5, first, samples=1)
     for name in NAMES:
         np.testing.assert_allclose(
             section[f"section_{name}"], later[name][:-1], rtol=1e-9, atol=1e-13
@@ -40,8 +40,8 @@ def test_at_any_phase(phase):
 
 
 def test_more_points_than_the_record_has():
-    motion = vi.simulate(CASE.oscillator, SHAKEN, 2, samples=1)
-    long = vi.simulate(CASE.oscillator, SHAKEN, 300, samples=1)
+    motion = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 2, samples=1)
+    long = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 300, samples=1)
     section = vi.stroboscopic_section(motion, 0.4, 300)
     # The motion is chaotic: rounding grows, but not within 40 cycles.
     np.testing.assert_allclose(section["section_velocity"][:40], long["velocity"][:40], rtol=1e-4)
@@ -49,14 +49,14 @@ def test_more_points_than_the_record_has():
 
 
 def test_a_periodic_motion_has_as_many_points_as_its_period():
-    motion = vi.steady(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2))
+    motion = vi.steady(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)))
     section = vi.stroboscopic_section(motion, 1.0, 7)
     assert np.ptp(section["section_displacement"].values) < 1e-12
     assert vi.stroboscopic_section(motion, 1.0).sizes["section_point"] == 1
 
 
 def test_impacts():
-    motion = vi.simulate(CASE.oscillator, SHAKEN, 50, samples=1)
+    motion = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 50, samples=1)
     section = vi.impact_section(motion)
     log = vi.contacts(motion)
     for name in ("side", "start_phase", "start_velocity"):
@@ -71,7 +71,7 @@ def test_impacts():
 
 @pytest.mark.parametrize("cycles", [0, -1, 1.5, True])
 def test_refused(cycles):
-    motion = vi.simulate(CASE.oscillator, SHAKEN, 2, samples=1)
+    motion = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 2, samples=1)
     with pytest.raises(vi.InputError, match="cycles: "):
         vi.stroboscopic_section(motion, 0.0, cycles)
     with pytest.raises(vi.InputError, match="motion"):
@@ -82,7 +82,7 @@ def test_refused(cycles):
 
 def test_a_limit_that_is_met_is_told(monkeypatch):
     case = vi.laboratory.case("B2-G1-A3")
-    motion = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 0.6), 10, samples=8)
+    motion = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 0.6)), 10, samples=8)
     monkeypatch.setattr("vibroimpact.response.sections._MAX_EVENTS", 3)
     for phase in (0.0, 1.0):
         with pytest.warns(RuntimeWarning, match=r"stopped after \d of 10 points: .*max_events"):

@@ -30,7 +30,7 @@ EVERY_SAMPLE = {
 @pytest.fixture(scope="module")
 def motion() -> xr.Dataset:
     """Ten cycles with contacts on both sides."""
-    return vi.simulate(CASE.oscillator, SHAKEN, 10, vi.State(1e-3, 0.1), samples=512)
+    return vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 10, vi.State(1e-3, 0.1), samples=512)
 
 
 def test_variables_dims_and_units(motion: xr.Dataset) -> None:
@@ -124,7 +124,7 @@ def test_events_are_where_the_contact_changes(motion: xr.Dataset) -> None:
 
 def test_an_absent_bumper_has_no_clearance() -> None:
     rig = CASE.oscillator.replace(left=None)
-    data = vi.simulate(rig, SHAKEN, 3)
+    data = vi.simulate(vi.Rig(rig, SHAKEN), 3)
     assert data["left_clearance"].isnull().all()
     assert (data["left_bumper"] == 0.0).all()
     assert not data["right_clearance"].isnull().any()
@@ -133,7 +133,7 @@ def test_an_absent_bumper_has_no_clearance() -> None:
 
 @pytest.mark.parametrize(("cycles", "samples"), [(2.5, 4), (0.01, 16), (3.999, 7), (1, 1)])
 def test_the_end_is_the_end(cycles: float, samples: int) -> None:
-    data = vi.simulate(CASE.oscillator, SHAKEN, cycles, samples=samples)
+    data = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), cycles, samples=samples)
     assert data.sizes["time"] == math.ceil(cycles * samples - 1e-9) + 1
     assert data["cycle"].values[-1] == pytest.approx(cycles, rel=1e-15)
     assert (np.diff(data["cycle"]) > 0.0).all()
@@ -144,19 +144,19 @@ def test_the_end_is_the_end(cycles: float, samples: int) -> None:
 
 
 def test_every_form_of_start_goes_on_the_same() -> None:
-    whole = vi.simulate(CASE.oscillator, SHAKEN, 5, samples=0)
-    first = vi.simulate(CASE.oscillator, SHAKEN, 2, samples=8)
+    whole = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 5, samples=0)
+    first = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 2, samples=8)
     state = vi.State(*first["final_state"].values[:5])
     for start in (first, first["final_state"], state):
-        end = vi.simulate(CASE.oscillator, SHAKEN, 3, start, samples=0)["final_state"]
+        end = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 3, start, samples=0)["final_state"]
         np.testing.assert_allclose(end, whole["final_state"], rtol=1e-12, atol=1e-15)
     # The state's phase goes before that of the excitation.
-    other = vi.simulate(CASE.oscillator, SHAKEN.replace(phase=2.0), 3, first, samples=0)
+    other = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN.replace(phase=2.0)), 3, first, samples=0)
     np.testing.assert_array_equal(other["final_state"], end)
 
 
 def test_no_samples_no_memory() -> None:
-    data = vi.simulate(CASE.oscillator, SHAKEN, 100_000, samples=0)
+    data = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 100_000, samples=0)
     assert set(data.data_vars) == {"final_state"}
 
 
@@ -176,32 +176,32 @@ def test_no_samples_no_memory() -> None:
 )
 def test_bad_numbers(arguments: dict[str, object], field: str) -> None:
     with pytest.raises(vi.InputError, match=rf"^{field}: .* accepted") as caught:
-        vi.simulate(CASE.oscillator, SHAKEN, **{"cycles": 1, **arguments})
+        vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), **{"cycles": 1, **arguments})
     assert "\n" not in str(caught.value)
 
 
 def test_a_motion_that_is_given_up() -> None:
     slow = vi.Harmonic(CASE.amplitude, 0.3)
     with pytest.warns(RuntimeWarning, match=r"^simulate stopped in cycle 0: more contacts"):
-        data = vi.simulate(CASE.oscillator, slow, 5, samples=16, max_events=3)
+        data = vi.simulate(vi.Rig(CASE.oscillator, slow), 5, samples=16, max_events=3)
     assert "raise max_events" in data.attrs["status"]
     assert data.sizes["time"] == 0
     assert data.sizes["event"] == 3
-    whole = vi.simulate(CASE.oscillator, slow, 5, samples=16)
+    whole = vi.simulate(vi.Rig(CASE.oscillator, slow), 5, samples=16)
     np.testing.assert_array_equal(data["event_time"], whole["event_time"][:3])
 
 
 def test_a_stiffness_beyond_reach_is_told() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.Bumper(1e30, 0.0, 0.5))
     with pytest.warns(RuntimeWarning, match="raise the frequency or lower the largest stiffness"):
-        vi.simulate(rig, vi.Harmonic(1.0, 0.1), 1)
+        vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 0.1)), 1)
 
 
 def test_given_up_motion_ends_at_its_last_section() -> None:
     bumper = vi.Bumper(20.0, 0.4, 0.1)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), bumper, bumper)
     with pytest.warns(RuntimeWarning, match="simulate stopped in cycle 0"):
-        motion = vi.simulate(rig, vi.Harmonic(0.6, 0.2, 0.3), 5, max_events=3)
+        motion = vi.simulate(vi.Rig(rig, vi.Harmonic(0.6, 0.2, 0.3)), 5, max_events=3)
     assert list(motion["final_state"].values) == [
         *[0.0] * 4,
         pytest.approx(0.3),
@@ -214,5 +214,5 @@ def test_a_drag_that_is_too_stiff_is_told_as_one() -> None:
     """Nothing touches here: it is not chatter, and no number of events would do."""
     rig = vi.Oscillator(550.0, vi.Isolator(26e3, 500.0, damping_exponent=0.1), None, None)
     with pytest.warns(RuntimeWarning, match="a damping_exponent below 1 is too stiff"):
-        data = vi.simulate(rig, vi.Harmonic(0.5, 1.0), 1)
+        data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.5, 1.0)), 1)
     assert "too stiff near rest (raise it)" in data.attrs["status"]

@@ -18,24 +18,24 @@ TOLD = "beyond where the softening isolator still pushes back"
 def test_a_motion_that_runs_away() -> None:
     rig = vi.Oscillator(1.0, SOFT)
     with pytest.warns(RuntimeWarning, match=TOLD):
-        data = vi.simulate(rig, STRONG, 20)
+        data = vi.simulate(vi.Rig(rig, STRONG), 20)
     assert TOLD in data.attrs["status"]
-    found = vi.sweep(rig, 2.0, [0.15])
+    found = vi.sweep(vi.Rig(rig, 2.0), [0.15])
     assert (found["status"] == Status.REVERSED).all()
     assert found["status"].attrs["flag_meanings"].split()[Status.REVERSED] == "reversed"
     with pytest.warns(RuntimeWarning, match=TOLD):
-        assert TOLD in vi.steady(rig, STRONG).attrs["status"]
+        assert TOLD in vi.steady(vi.Rig(rig, STRONG)).attrs["status"]
 
 
 def test_a_motion_that_comes_back() -> None:
     """Values are there, for a stiffer spring further out or a stop bounds it."""
     for rig in (vi.Oscillator(1.0, WELLS), vi.Oscillator(1.0, SOFT, vi.RigidStop(0.5, 1.2))):
         rig = rig.replace(left=rig.right)
-        found = vi.sweep(rig, 2.0, [0.15])
+        found = vi.sweep(vi.Rig(rig, 2.0), [0.15])
         assert (found["status"] == Status.REVERSED).all()
         assert (found["displacement_max"] > 1.0).all()
         with pytest.warns(RuntimeWarning, match=TOLD):
-            data = vi.simulate(rig, STRONG, 20)
+            data = vi.simulate(vi.Rig(rig, STRONG), 20)
         assert TOLD in data.attrs["status"]
         assert np.isfinite(data["final_state"]).all()
 
@@ -43,12 +43,15 @@ def test_a_motion_that_comes_back() -> None:
 def test_through_a_record() -> None:
     record = vi.Record(np.full(400, 0.6), 0.05)
     with pytest.warns(RuntimeWarning, match=TOLD):
-        data = vi.simulate(vi.Oscillator(1.0, SOFT), record)
+        data = vi.simulate(vi.Rig(vi.Oscillator(1.0, SOFT), record))
     assert TOLD in data.attrs["status"]
 
 
 def test_small_motions_and_other_laws_say_nothing() -> None:
-    assert vi.simulate(vi.Oscillator(1.0, SOFT), vi.Harmonic(0.1, 0.1), 5).attrs["status"] == "done"
+    assert (
+        vi.simulate(vi.Rig(vi.Oscillator(1.0, SOFT), vi.Harmonic(0.1, 0.1)), 5).attrs["status"]
+        == "done"
+    )
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3))
     codes = judged(rig, [Status.DONE, Status.NOT_FINITE], [1e9, np.nan])
     assert codes.tolist() == [Status.DONE, Status.NOT_FINITE]
@@ -66,6 +69,6 @@ def test_nothing_known_is_no_reversal() -> None:
 def test_a_motion_that_runs_away_while_it_is_measured() -> None:
     rig = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 1.0, -50.0))
     start = vi.State(0.7128601657875597, 1.7338760758080227)
-    found = vi.sweep(rig, 3.0, [0.5264547101961601], "forward", start=start, max_cycles=1)
+    found = vi.sweep(vi.Rig(rig, 3.0), [0.5264547101961601], "forward", start=start, max_cycles=1)
     assert (found["status"] == Status.REVERSED).all()
     assert np.isnan(found["displacement_max"]).all()

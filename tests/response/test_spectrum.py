@@ -17,7 +17,7 @@ QUANTITIES = ("displacement", "velocity", "acceleration")
 @cache
 def steady(code: str, frequency: float, start: vi.State | None = None):
     case = vi.laboratory.case(code)
-    return vi.steady(case.oscillator, vi.Harmonic(case.amplitude, frequency, 0.3), start)
+    return vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, frequency, 0.3)), start)
 
 
 def lines(data, name):
@@ -29,8 +29,8 @@ def lines(data, name):
 )
 def test_harmonics_against_quadrature(code, frequency):
     """Of the motion by matrix exponentials, phase by phase, at Gauss-Legendre nodes."""
-    motion = steady(code, frequency)
-    found = vi.spectrum(motion, 20)
+    motion = steady(code, frequency=frequency)
+    found = vi.fourier_spectrum(motion, 20)
     case = vi.laboratory.case(code)
     rig, shaken = case.oscillator, vi.Harmonic(case.amplitude, frequency, 0.3)
     omega = shaken.angular_frequency
@@ -59,8 +59,8 @@ def test_harmonics_against_quadrature(code, frequency):
 
 
 def test_the_sum_of_the_lines_is_the_motion():
-    motion = steady("B2-G1-A3", 2.0)
-    found = vi.spectrum(motion, 400)
+    motion = steady("B2-G1-A3", frequency=2.0)
+    found = vi.fourier_spectrum(motion, 400)
     phase = 2.0 * np.pi * np.outer(motion["cycle"].values, found["order"].values)
     for name, tolerance in (("displacement", 1e-7), ("velocity", 1e-5)):
         sums = (
@@ -74,7 +74,7 @@ def test_free_flight_has_a_single_line():
     """Amplitudes and phases of the closed form, everything else rounding."""
     rig = vi.laboratory.case("B2-Ginf-A3").oscillator
     shaken = vi.Harmonic(0.5, 1.3, 0.7)
-    found = vi.spectrum(vi.steady(rig, shaken), 10)
+    found = vi.fourier_spectrum(vi.steady(vi.Rig(rig, shaken)), 10)
     omega = shaken.angular_frequency
     k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
     # −A sin(ωt + φ) = Re(i A exp(i(ωt + φ)))
@@ -95,11 +95,13 @@ def test_a_line_at_an_undamped_resonance_of_a_phase():
     bumper = vi.Bumper(4.0, 0.5, 0.4)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), bumper, bumper.replace(gap=0.6))
     frequency = 0.5 / (2.0 * math.pi)
-    motion = vi.steady(rig, vi.Harmonic(1.0, frequency))
+    motion = vi.steady(vi.Rig(rig, vi.Harmonic(1.0, frequency)))
     assert int(motion["period"]) == 1
-    found = vi.spectrum(motion, 4)
+    found = vi.fourier_spectrum(motion, 4)
     # Dense samples of one period: the trapezoidal rule, its error bounded by u‴'s jumps.
-    dense = vi.simulate(rig, vi.Harmonic(1.0, frequency), 1, motion["final_state"], samples=4096)
+    dense = vi.simulate(
+        vi.Rig(rig, vi.Harmonic(1.0, frequency)), 1, motion["final_state"], samples=4096
+    )
     fft = np.fft.rfft(dense["displacement"].values[:-1]) * 2.0 / 4096
     np.testing.assert_allclose(np.abs(fft[1:5]), found["displacement_amplitude"][1:], rtol=1e-6)
 
@@ -109,9 +111,9 @@ def test_subharmonic_orders():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), vi.Bumper(29.0, 0.0, 1.26), None)
     omega = 0.81
     shaken = vi.Harmonic(0.7 * omega**2, omega / (2.0 * math.pi), math.pi)
-    motion = vi.steady(rig, shaken)
+    motion = vi.steady(vi.Rig(rig, shaken))
     assert int(motion["period"]) == 5
-    found = vi.spectrum(motion, 3)
+    found = vi.fourier_spectrum(motion, 3)
     np.testing.assert_allclose(found["order"], np.arange(16) / 5)
     assert float(found["displacement_amplitude"][1]) > 1e-3
     np.testing.assert_allclose(found["line_frequency"], found["order"] * shaken.frequency)
@@ -121,8 +123,8 @@ def test_windowed_lines():
     """A record that is not periodic: two lines of known height, within a Hann window's reach."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), None, None)
     shaken = vi.Harmonic(1.0, math.sqrt(2.0) / (2.0 * math.pi))
-    motion = vi.simulate(rig, shaken, 400, vi.State(0.0, 0.0), samples=32)
-    found = vi.spectrum(motion, 3)
+    motion = vi.simulate(vi.Rig(rig, shaken), 400, vi.State(0.0, 0.0), samples=32)
+    found = vi.fourier_spectrum(motion, 3)
     assert "Hann" in found.attrs["method"]
     # u = a sin ωt + b sin t: a = −1/(1 − 2) = 1, b = −√2.
     forced = found.sel(order=1.0)
@@ -139,13 +141,13 @@ def test_windowed_lines():
 @pytest.mark.parametrize("highest", [0.0, -1.0, math.inf, "a"])
 def test_refused(highest):
     with pytest.raises(vi.InputError, match="highest"):
-        vi.spectrum(steady("B2-G1-A3", 2.0), highest)
+        vi.fourier_spectrum(steady("B2-G1-A3", frequency=2.0), highest)
 
 
 def test_too_short_a_record():
     case = vi.laboratory.case("B2-G1-A3")
-    short = vi.simulate(case.oscillator, vi.Harmonic(0.5, 2.0), 0.3)
+    short = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(0.5, 2.0)), 0.3)
     with pytest.raises(vi.InputError, match="at least one cycle"):
-        vi.spectrum(short)
+        vi.fourier_spectrum(short)
     with pytest.raises(vi.InputError, match="highest"):
-        vi.spectrum(steady("B2-G1-A3", 2.0), 1e9)
+        vi.fourier_spectrum(steady("B2-G1-A3", frequency=2.0), 1e9)

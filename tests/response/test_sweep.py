@@ -34,7 +34,7 @@ def grid(start: float, stop: float, step: float) -> list[float]:
 @cache
 def swept(code: str, parameters: str, start: float, stop: float, step: float) -> xr.Dataset:
     case = vi.laboratory.case(code, parameters)
-    return vi.sweep(case.oscillator, case.amplitude, grid(start, stop, step))
+    return vi.sweep(vi.Rig(case.oscillator, case.amplitude), grid(start, stop, step))
 
 
 def identified() -> xr.Dataset:
@@ -91,13 +91,15 @@ class TestDataset:
         case = vi.laboratory.case("B2-G1-A3")
         isolator = case.oscillator.isolator.replace(damping=damping)
         rig = case.oscillator.replace(isolator=isolator)
-        wide = vi.sweep(rig, case.amplitude, grid(0.5, 2.5, 0.1), "forward", max_cycles=20)
-        narrow = vi.sweep(rig, case.amplitude, grid(1.9, 2.5, 0.1), "forward", max_cycles=20)
+        wide = vi.sweep(vi.Rig(rig, case.amplitude), grid(0.5, 2.5, 0.1), "forward", max_cycles=20)
+        narrow = vi.sweep(
+            vi.Rig(rig, case.amplitude), grid(1.9, 2.5, 0.1), "forward", max_cycles=20
+        )
         for name, size in (("eta_d", "displacement"), ("eta_a", "acceleration")):
             scales = [(data[name] / data[f"{size}_excursion"]).values for data in (wide, narrow)]
             np.testing.assert_allclose(np.concatenate(scales, axis=1), scales[0][0, 0], rtol=1e-14)
         if damping == 1100.0:
-            orbit = vi.branch(rig, vi.Harmonic(case.amplitude, 2.2), low=2.1, high=2.3)
+            orbit = vi.branch(vi.Rig(rig, vi.Harmonic(case.amplitude, 2.2)), span=(2.1, 2.3))
             i = int(np.argmin(np.abs(orbit["frequency"].values - 2.2)))
             scale = float(orbit["eta_d"][i] / orbit["displacement_excursion"][i])
             assert scale == pytest.approx(
@@ -116,8 +118,8 @@ class TestDataset:
     @pytest.mark.parametrize("directions", [("backward",), "backward", ("backward", "forward")])
     def test_directions_are_as_asked(self, directions: str | tuple[str, ...]) -> None:
         case = vi.laboratory.case("B2-G1-A3")
-        data = vi.sweep(case.oscillator, case.amplitude, [1.0, 2.0, 3.0], directions)
-        both = vi.sweep(case.oscillator, case.amplitude, [1.0, 2.0, 3.0])
+        data = vi.sweep(vi.Rig(case.oscillator, case.amplitude), [1.0, 2.0, 3.0], directions)
+        both = vi.sweep(vi.Rig(case.oscillator, case.amplitude), [1.0, 2.0, 3.0])
         asked = [directions] if isinstance(directions, str) else list(directions)
         assert data["direction"].values.tolist() == asked
         xr.testing.assert_equal(data, both.sel(direction=asked))
@@ -126,10 +128,10 @@ class TestDataset:
         case = vi.laboratory.case("B2-G1-A3")
         told: list[tuple[int, int]] = []
         data = vi.sweep(
-            *(case.oscillator, "0.05 g", ["500 mHz", "2.5 Hz"]),
+            vi.Rig(*(case.oscillator, "0.05 g", ["500 mHz", "2.5 Hz"])),
             progress=lambda done, total: told.append((done, total)),
         )
-        plain = vi.sweep(case.oscillator, 0.05 * 9.80665, [0.5, 2.5])
+        plain = vi.sweep(vi.Rig(case.oscillator, 0.05 * 9.80665), [0.5, 2.5])
         xr.testing.assert_equal(data, plain)
         assert told[-1] == (4, 4)
         assert sorted(told) == told
@@ -139,7 +141,9 @@ class TestStepping:
     @pytest.mark.parametrize("direction", ["forward", "backward"])
     def test_each_hold_goes_on_from_the_last(self, direction: str) -> None:
         case = vi.laboratory.case("B2-G1-A3")
-        data = vi.sweep(case.oscillator, case.amplitude, [1.2, 1.7, 2.4], direction, phase=0.7)
+        data = vi.sweep(
+            vi.Rig(case.oscillator, case.amplitude), [1.2, 1.7, 2.4], direction, phase=0.7
+        )
         data = data.isel(direction=0)
         if direction == "backward":
             data = data.isel(frequency=slice(None, None, -1))
@@ -147,7 +151,7 @@ class TestStepping:
         for i in range(3):
             held = data.isel(frequency=i)
             shaken = vi.Harmonic(case.amplitude, float(held["frequency"]), 0.7)
-            end = vi.simulate(case.oscillator, shaken, 400, start, samples=0)["final_state"]
+            end = vi.simulate(vi.Rig(case.oscillator, shaken), 400, start, samples=0)["final_state"]
             np.testing.assert_allclose(held["section"], end, rtol=1e-9, atol=1e-14)
             start = held["section"]
 
@@ -158,7 +162,7 @@ class TestStepping:
             for direction in ("backward", "forward")
         )
         for start, direction in ((low, "backward"), (high, "forward")):
-            again = vi.sweep(case.oscillator, case.amplitude, [2.2], "forward", start=start)
+            again = vi.sweep(vi.Rig(case.oscillator, case.amplitude), [2.2], "forward", start=start)
             excursion = again["acceleration_excursion"].item()
             expected = identified()["acceleration_excursion"].sel(frequency=2.2)
             assert excursion == pytest.approx(expected.sel(direction=direction).item(), rel=1e-10)
@@ -171,7 +175,7 @@ class TestExtremes:
         case = vi.laboratory.case("B2-G1-A3", "identified")
         shaken = vi.Harmonic(case.amplitude, frequency)
         period = int(data["period"])
-        again = vi.simulate(case.oscillator, shaken, period, data["section"], 20_000)
+        again = vi.simulate(vi.Rig(case.oscillator, shaken), period, data["section"], 20_000)
         a = [
             again[name].values
             for name in ("acceleration", "event_acceleration_before", "event_acceleration_behind")
@@ -188,14 +192,15 @@ class TestExtremes:
 
     def test_the_jump_where_a_contact_begins_counts(self) -> None:
         """In a heavily damped contact the force is largest at once, and falls from there."""
-        oscillator, amplitude = vi.from_dimensionless(20.0, 0.5, 0.5, 0.15)
+        made = vi.from_dimensionless(20.0, 0.5, 0.5, 0.15)
+        oscillator, amplitude = made.oscillator, made.amplitude
         frequency = 1.2 * oscillator.natural_frequency
-        data = vi.sweep(oscillator, amplitude, [frequency], "forward").isel(
+        data = vi.sweep(vi.Rig(oscillator, amplitude), [frequency], "forward").isel(
             direction=0, frequency=0
         )
         assert data["period"] == 1
         shaken = vi.Harmonic(amplitude, frequency)
-        again = vi.simulate(oscillator, shaken, 1, data["section"], 20_000)
+        again = vi.simulate(vi.Rig(oscillator, shaken), 1, data["section"], 20_000)
         jumps = again["event_acceleration_behind"].values[again["event_contact"].values == 1]
         assert data["acceleration_max"].item() == pytest.approx(jumps.max(), rel=1e-11)
         assert data["acceleration_min"].item() == pytest.approx(jumps.min(), rel=1e-11)
@@ -204,15 +209,17 @@ class TestExtremes:
     def test_a_measured_window_is_that_of_its_states(self) -> None:
         case = vi.laboratory.case("B3-10mm-A3")
         data = vi.sweep(
-            case.oscillator, case.amplitude, [1.06], "forward", max_cycles=200, window=50
+            vi.Rig(case.oscillator, case.amplitude), [1.06], "forward", max_cycles=200, window=50
         ).isel(direction=0, frequency=0)
         assert data["motion"] == "undecided"
         assert data["status"] == 1
         assert data["period"] == 0
         assert data["cycles"] == 250
-        before = vi.simulate(case.oscillator, vi.Harmonic(case.amplitude, 1.06), 200, samples=0)
+        before = vi.simulate(
+            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.06)), 200, samples=0
+        )
         window = vi.simulate(
-            case.oscillator, vi.Harmonic(case.amplitude, 1.06), 50, before, samples=2000
+            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.06)), 50, before, samples=2000
         )
         np.testing.assert_allclose(window["final_state"][:4], data["section"][:4], rtol=1e-6)
         seen = np.ptp(window["displacement"].values)
@@ -313,7 +320,7 @@ class TestWrongInput:
             vi.sweeps([], [1.0])
         case = vi.laboratory.case("B2-G1-A3")
         with pytest.raises(vi.InputError, match=r"^rigs\[1\].amplitude: "):
-            vi.sweeps([case, (case.oscillator, -1.0)], [1.0])
+            vi.sweeps([case, vi.Rig(case.oscillator, -1.0)], [1.0])
         for wrong in ([case.oscillator], [(case.oscillator,)], [3.0], [(1.0, 2.0)]):
             with pytest.raises(vi.InputError, match=r"^rigs\[0\]: .* is no rig; .* accepted$"):
                 vi.sweeps(wrong, [1.0])
@@ -336,9 +343,9 @@ class TestWrongInput:
 class TestGivenUp:
     def test_too_many_events(self) -> None:
         case = vi.laboratory.case("B2-G1-A3")
-        data = vi.sweep(case.oscillator, case.amplitude, [0.3, 2.0], "forward", max_events=8).isel(
-            direction=0
-        )
+        data = vi.sweep(
+            vi.Rig(case.oscillator, case.amplitude), [0.3, 2.0], "forward", max_events=8
+        ).isel(direction=0)
         assert data["status"].values.tolist() == [2, 0]
         assert data["motion"].values.tolist() == ["undecided", "periodic"]
         assert np.isnan(data["eta_a"].values).tolist() == [True, False]
@@ -346,7 +353,7 @@ class TestGivenUp:
 
     def test_too_much_work(self) -> None:
         rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.Bumper(1e30, 0.0, 0.5))
-        data = vi.sweep(rig, 1.0, [0.1])
+        data = vi.sweep(vi.Rig(rig, 1.0), [0.1])
         assert (data["status"] == 3).all()
         assert data["eta_d"].isnull().all()
 
@@ -358,7 +365,7 @@ def test_behind_a_hold_that_was_given_up_a_preloaded_rig_goes_on_from_its_start(
     """u = 0 would be inside its stop."""
     rig = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"), None, left)
     told = {"directions": "forward", "max_events": 1}
-    both = vi.sweep(rig, [5.0, 0.5], [0.5, 1.6], **told)
-    alone = vi.sweep(rig, 0.5, [1.6], **told)
+    both = vi.sweep(vi.Rig(rig, [5.0, 0.5]), [0.5, 1.6], **told)
+    alone = vi.sweep(vi.Rig(rig, 0.5), [1.6], **told)
     assert both["status"].values.ravel().tolist() == [2, 0]
     assert both["displacement_max"].values[0, 1] == alone["displacement_max"].values[0, 0]

@@ -30,10 +30,12 @@ FREQUENCY = 1.5
 
 
 def held_and_contacts(rig: vi.Oscillator) -> tuple[xr.Dataset, xr.Dataset]:
-    held = vi.sweep(rig, 0.5, [FREQUENCY], "forward").isel(direction=0, frequency=0)
+    held = vi.sweep(vi.Rig(rig, 0.5), [FREQUENCY], "forward").isel(direction=0, frequency=0)
     assert held["motion"] == "periodic"
     cycles = int(held["period"])
-    motion = vi.simulate(rig, vi.Harmonic(0.5, FREQUENCY), 4 * cycles, held["section"], samples=8)
+    motion = vi.simulate(
+        vi.Rig(rig, vi.Harmonic(0.5, FREQUENCY)), 4 * cycles, held["section"], samples=8
+    )
     return held, vi.contacts(motion)
 
 
@@ -58,8 +60,10 @@ def test_forces_and_impulses_are_those_of_the_contacts(name: str) -> None:
 def test_no_moment_of_the_motion_has_a_larger_force(name: str) -> None:
     """Newton's law at samples: what the isolator and the base do not explain is the stops'."""
     rig = RIGS[name]
-    held = vi.sweep(rig, 0.5, [FREQUENCY], "forward").isel(direction=0, frequency=0)
-    motion = vi.simulate(rig, vi.Harmonic(0.5, FREQUENCY), 1, held["section"], samples=20_000)
+    held = vi.sweep(vi.Rig(rig, 0.5), [FREQUENCY], "forward").isel(direction=0, frequency=0)
+    motion = vi.simulate(
+        vi.Rig(rig, vi.Harmonic(0.5, FREQUENCY)), 1, held["section"], samples=20_000
+    )
     u, v = motion["displacement"].values, motion["velocity"].values
     stops = -rig.mass * motion["acceleration"].values
     stops -= np.array([rig.isolator.static_force(one) for one in u]) + rig.isolator.damping * v
@@ -72,8 +76,8 @@ def test_no_moment_of_the_motion_has_a_larger_force(name: str) -> None:
 
 def test_right_and_left_change_places_in_the_mirror() -> None:
     rig = RIGS["bumpers"]
-    here = vi.sweep(rig, 0.5, [1.0, FREQUENCY], phase=0.0)
-    there = vi.sweep(rig.mirrored(), 0.5, [1.0, FREQUENCY], phase=np.pi)
+    here = vi.sweep(vi.Rig(rig, 0.5), [1.0, FREQUENCY], phase=0.0)
+    there = vi.sweep(vi.Rig(rig.mirrored(), 0.5), [1.0, FREQUENCY], phase=np.pi)
     for one, other in (("right", "left"), ("left", "right")):
         np.testing.assert_allclose(
             here[f"peak_force_{one}"], there[f"peak_force_{other}"], rtol=1e-8
@@ -81,7 +85,7 @@ def test_right_and_left_change_places_in_the_mirror() -> None:
 
 
 def test_peaks_are_the_larger_ends() -> None:
-    data = vi.sweep(RIGS["bumpers"], 0.5, [1.0, FREQUENCY, 4.0])
+    data = vi.sweep(vi.Rig(RIGS["bumpers"], 0.5), [1.0, FREQUENCY, 4.0])
     for what in ("displacement", "acceleration"):
         ends = [np.abs(data[f"{what}_{end}"].values) for end in ("max", "min")]
         np.testing.assert_array_equal(data[f"peak_{what}"], np.maximum(*ends))
@@ -90,8 +94,8 @@ def test_peaks_are_the_larger_ends() -> None:
 
 def test_a_branch_has_them_too() -> None:
     rig = RIGS["bumpers"]
-    held = vi.sweep(rig, 0.5, [FREQUENCY], "forward").isel(direction=0, frequency=0)
-    orbit = vi.branch(rig, vi.Harmonic(0.5, FREQUENCY), held["section"], low=1.49, high=1.51)
+    held = vi.sweep(vi.Rig(rig, 0.5), [FREQUENCY], "forward").isel(direction=0, frequency=0)
+    orbit = vi.branch(vi.Rig(rig, vi.Harmonic(0.5, FREQUENCY)), held["section"], span=(1.49, 1.51))
     at = int(np.argmin(np.abs(orbit["frequency"].values - FREQUENCY)))
     for name in ("peak_displacement", "peak_acceleration", "peak_force_right"):
         assert float(orbit[name][at]) == pytest.approx(float(held[name]), rel=1e-2)

@@ -34,9 +34,9 @@ def stored(rig: vi.Oscillator, data: xr.Dataset, at: int) -> float:
 
 @pytest.mark.parametrize("name", RIGS)
 def test_the_extremes_are_those_of_ever_more_samples(name: str) -> None:
-    exact = vi.totals(vi.simulate(RIGS[name], ROUGH, tail=2.0))
+    exact = vi.totals(vi.simulate(vi.Rig(RIGS[name], ROUGH), tail=2.0))
     for samples, near in ((40, 3e-2), (4000, 3e-6)):
-        data = vi.simulate(RIGS[name], ROUGH, tail=2.0, samples=samples)
+        data = vi.simulate(vi.Rig(RIGS[name], ROUGH), tail=2.0, samples=samples)
         for one in MOTIONS:
             # Both sides of an event count: the samples lie on one of them.
             high, low = (float(exact[f"{one}_{end}"]) for end in ("max", "min"))
@@ -63,7 +63,7 @@ def high_less_low(data: xr.Dataset, one: str) -> float:
 def test_no_energy_is_lost_count_of(name: str, shaken: vi.Harmonic | vi.Record) -> None:
     rig = RIGS[name]
     how = {"tail": 1.3} if isinstance(shaken, vi.Record) else {"cycles": 6}
-    data = vi.simulate(rig, shaken, start=vi.State(0.0, 0.4), **how)
+    data = vi.simulate(vi.Rig(rig, shaken), start=vi.State(0.0, 0.4), **how)
     found = vi.totals(data)
     change = stored(rig, data, -1) - stored(rig, data, 0)
     balance = found["total_supplied"] - found["total_isolator"] - found["total_bumpers"]
@@ -112,7 +112,7 @@ def test_the_supplied_energy_is_the_integral_of_the_power(law: str, shaken: str)
     for rig in (CURVED[law], CURVED[law].mirrored()):
         excitation = SHAKINGS[shaken]
         how = {} if isinstance(excitation, vi.Record) else {"cycles": 20}
-        data = vi.simulate(rig, excitation, samples=2000, **how)
+        data = vi.simulate(vi.Rig(rig, excitation), samples=2000, **how)
         found = vi.totals(data)
         if shaken == "force":
             push = data["applied_force"].values
@@ -128,7 +128,7 @@ def test_the_supplied_energy_is_the_integral_of_the_power(law: str, shaken: str)
 
 
 def test_the_energy_supplied_to_a_steady_motion_is_what_is_lost() -> None:
-    data = vi.steady(CURVED["power"], SHAKINGS["even"])
+    data = vi.steady(vi.Rig(CURVED["power"], SHAKINGS["even"]))
     lost = float(data["energy_isolator"] + data["energy_bumpers"])
     assert lost > 0.1
     assert float(data["energy_supplied"]) == pytest.approx(lost, rel=1e-9)
@@ -136,7 +136,7 @@ def test_the_energy_supplied_to_a_steady_motion_is_what_is_lost() -> None:
 
 def test_those_of_a_steady_motion() -> None:
     case = vi.laboratory.case("B2-G1-A3")
-    data = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, 2.0))
+    data = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)))
     found = vi.totals(data)
     for name in ("displacement_max", "acceleration_min", "eccentricity"):
         assert float(found[name]) == float(data[name])
@@ -146,7 +146,7 @@ def test_those_of_a_steady_motion() -> None:
 
 
 def test_no_motion() -> None:
-    for wrong in (None, vi.simulate(BUMPERS, ROUGH, samples=0)):
+    for wrong in (None, vi.simulate(vi.Rig(BUMPERS, ROUGH), samples=0)):
         with pytest.raises(vi.InputError, match=r"motion: .* simulate with samples, is accepted"):
             vi.totals(wrong)
 
@@ -155,14 +155,14 @@ def test_a_start_into_a_rigid_stop_is_noted():
     """The impact counts: with it the energies balance from the initial state on."""
     rig = vi.Oscillator(2.0, vi.Isolator(5.0, 0.3), vi.RigidStop(0.6, 0.1))
     start = vi.State(0.1, 0.5)
-    motion = vi.simulate(rig, vi.Harmonic(0.2, 0.3), cycles=3, start=start)
+    motion = vi.simulate(vi.Rig(rig, vi.Harmonic(0.2, 0.3)), cycles=3, start=start)
     found = vi.totals(motion)
     assert "starts with an impact, from 0.5 to -0.3 m/s" in found.attrs["notes"]
     kinetic = 0.5 * 2.0 * (float(motion["velocity"][-1]) ** 2 - 0.5**2)
     spring = 0.5 * 5.0 * (float(motion["displacement"][-1]) ** 2 - 0.1**2)
     lost = float(found["total_isolator"] + found["total_bumpers"])
     assert float(found["total_supplied"]) == pytest.approx(kinetic + spring + lost, abs=1e-12)
-    behind = vi.simulate(rig, vi.Harmonic(0.2, 0.3), cycles=3, start=vi.State(0.1, -0.3))
+    behind = vi.simulate(vi.Rig(rig, vi.Harmonic(0.2, 0.3)), cycles=3, start=vi.State(0.1, -0.3))
     assert "notes" not in vi.totals(behind).attrs
 
 
@@ -176,7 +176,7 @@ def test_the_totals_of_a_chaotic_flight_are_those_of_the_motion_recorded():
         phase=5.6024,
         of="displacement",
     )
-    motion = vi.simulate(vi.Oscillator(1.0, law), shaken, cycles=20.3, samples=4096)
+    motion = vi.simulate(vi.Rig(vi.Oscillator(1.0, law), shaken), cycles=20.3, samples=4096)
     found = vi.totals(motion)
     time, v = motion["time"].values, motion["velocity"].values
     pull = motion["base_acceleration"].values

@@ -18,7 +18,7 @@ WITHOUT = {
 
 @pytest.mark.parametrize("law", WITHOUT.values(), ids=WITHOUT)
 def test_a_sweep_says_that_there_is_no_bound_and_draws_physical_units(law):
-    data = vi.sweep(vi.Oscillator(1.0, law, STOP), 1.0, np.linspace(0.05, 0.4, 71))
+    data = vi.sweep(vi.Rig(vi.Oscillator(1.0, law, STOP), 1.0), np.linspace(0.05, 0.4, 71))
     assert UNBOUNDED in data.attrs["notes"]
     assert "1 m" in data.attrs["notes"]  # A M/K
     axes = resonance_curves(data)
@@ -29,6 +29,6 @@ def test_a_sweep_says_that_there_is_no_bound_and_draws_physical_units(law):
 
 
 def test_a_damped_one_has_a_bound():
-    data = vi.sweep(vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), STOP), 1.0, [0.1, 0.2])
+    data = vi.sweep(vi.Rig(vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), STOP), 1.0), [0.1, 0.2])
     assert "notes" not in data.attrs
     assert "eta_a" in resonance_curves(data)[0].get_ylabel()

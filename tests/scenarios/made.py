@@ -17,7 +17,7 @@ GRID = np.round(np.arange(0.40, 3.01, 0.01), 10)
 
 
 RIG = one_sine(
-    *vi.from_dimensionless(20.0, 0.3, 0.01, 0.15, mass=1.0, stiffness=(2.0 * math.pi) ** 2), "RIG"
+    vi.from_dimensionless(20.0, 0.3, 0.01, 0.15, mass=1.0, stiffness=(2.0 * math.pi) ** 2), "RIG"
 )
 
 

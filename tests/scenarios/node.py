@@ -10,6 +10,4 @@ from vibroimpact.scenarios.thresholds import Thresholds
 
 
 def in_map(rig: vi.Rig) -> str:
-    return Scenario(
-        int(classified([one_sine(*rig, "rig")], Thresholds(), 0.01, None)["scenario"][0])
-    ).label
+    return Scenario(int(classified([one_sine(rig)], Thresholds(), 0.01, None)["scenario"][0])).label

@@ -21,9 +21,9 @@ OPTIONS = {"refine": 1, "block": 2, "step": sample(0.02, 0.04)}
 
 @cache
 def small() -> xr.Dataset:
-    return vi.scenario_map(X, Y, **OPTIONS)
+    return vi.scenario_map(None, X, Y, **OPTIONS)
 
 
-def rig_of(case) -> tuple[vi.Oscillator, float]:
-    """A case as a map's base."""
-    return case.oscillator, case.amplitude
+def rig_of(case) -> vi.Rig:
+    """A case as the rig of a map."""
+    return case.rig

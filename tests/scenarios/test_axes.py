@@ -57,9 +57,9 @@ def test_a_stiffness_keeps_the_dashpot_and_a_proportional_one_the_relaxation_tim
     ],
 )
 def test_dimensionless_parameters_one_at_a_time(name, value):
-    before = vi.to_dimensionless(CASE.oscillator, CASE.amplitude)
+    before = vi.to_dimensionless(vi.Rig(CASE.oscillator, CASE.amplitude))
     rig = BASE.rig({name: value})
-    after = vi.to_dimensionless(rig.oscillator, CASE.amplitude)
+    after = vi.to_dimensionless(vi.Rig(rig.oscillator, CASE.amplitude))
     assert rig.oscillator.mass == CASE.oscillator.mass
     assert rig.oscillator.isolator.stiffness == CASE.oscillator.isolator.stiffness
     own = {"gap_ratio": "gap"}.get(name, name)
@@ -146,4 +146,6 @@ def test_a_physical_and_a_dimensionless_parameter():
     assert ratio == pytest.approx(5.0, rel=1e-12)
     # Here the gap follows the amplitude.
     rig = BASE.rig({"amplitude": 0.3, "gap_ratio": 0.5})
-    assert vi.to_dimensionless(rig.oscillator, 0.3).right.gap == pytest.approx(0.5, rel=1e-12)
+    assert vi.to_dimensionless(vi.Rig(rig.oscillator, 0.3)).right.gap == pytest.approx(
+        0.5, rel=1e-12
+    )

@@ -33,7 +33,7 @@ def test_nodes_are_classified_as_one_by_one():
             rig = vi.from_dimensionless(
                 float(data["stiffness_ratio"][x]), float(data["gap_ratio"][y]), 0.01, 0.15
             )
-            alone = vi.classify(*rig, frequencies(*one_sine(*rig, "rig"), step))
+            alone = vi.classify_scenario(rig, frequencies(*one_sine(rig), step))
             assert Scenario(int(data["scenario"][y, x])).label == alone.scenario, (x, y)
 
 
@@ -72,7 +72,7 @@ def test_every_variable_is_described():
 
 def test_no_result_depends_on_threads_or_blocks_or_where_it_is_kept(tmp_path):
     for name, options in (("one", {"threads": 1, "block": 2}), ("big", {"threads": 3, "block": 9})):
-        data = vi.scenario_map(X, Y, **{**OPTIONS, **options}, store=tmp_path / name)
+        data = vi.scenario_map(None, X, Y, **{**OPTIONS, **options}, store=tmp_path / name)
         xr.testing.assert_equal(data.load(), small())
 
 
@@ -86,11 +86,11 @@ def test_many_rigs_go_to_processes_by_themselves(monkeypatch):
     monkeypatch.setattr(mapping, "placed", placed)
     for most in (len(X[1]) * len(Y[1]), len(X[1]) * len(Y[1]) + 1):
         monkeypatch.setattr(mapping, "_MANY", most)
-        data = vi.scenario_map(X, Y, **OPTIONS, threads=2)
+        data = vi.scenario_map(None, X, Y, **OPTIONS, threads=2)
         xr.testing.assert_identical(data, small())
     assert asked == ["threads", "processes", "threads", "threads"]
     monkeypatch.setattr(mapping, "_MANY", 1)
-    vi.scenario_map(X, Y, **OPTIONS, threads=1)
+    vi.scenario_map(None, X, Y, **OPTIONS, threads=1)
     assert asked[4:] == ["threads", "threads"]
 
 
@@ -104,14 +104,14 @@ def test_a_map_that_was_stopped_is_completed_to_the_same(tmp_path):
                 raise KeyboardInterrupt
 
         try:
-            vi.scenario_map(X, Y, **OPTIONS, store=tmp_path / "map", progress=stop)
+            vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map", progress=stop)
         except KeyboardInterrupt:
             stops += 1
     assert stops >= 3
     held = zarr.open_group(tmp_path / "map", mode="r")
     done = int(np.asarray(held["done"][:]).sum())
     assert done > 0
-    data = vi.scenario_map(X, Y, **OPTIONS, store=tmp_path / "map")
+    data = vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map")
     xr.testing.assert_identical(data.load(), small())
 
 
@@ -137,7 +137,7 @@ def test_a_process_that_was_killed(tmp_path):
             kills += 1
         child.wait()
     assert kills
-    data = vi.scenario_map(X, Y, **OPTIONS, store=tmp_path / "map")
+    data = vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map")
     xr.testing.assert_identical(data.load(), small())
 
 
@@ -154,19 +154,19 @@ def test_a_process_that_was_killed(tmp_path):
 )
 def test_wrong_values_are_refused(options, message):
     with pytest.raises(vi.InputError, match=message):
-        vi.scenario_map(X, Y, **{**OPTIONS, **options})
+        vi.scenario_map(None, X, Y, **{**OPTIONS, **options})
 
 
 def test_a_physical_map_agrees_with_the_dimensionless_one():
     """The same nodes, reached through gap and bumper stiffness of a laboratory rig."""
     case = vi.laboratory.case("B3-10mm-A3")
-    peak = case.oscillator.right.gap / vi.to_dimensionless(*rig_of(case)).right.gap
+    peak = case.oscillator.right.gap / vi.to_dimensionless(vi.Rig(*rig_of(case))).right.gap
     stiffness = [ratio * case.oscillator.isolator.stiffness for ratio in X[1][2:]]
     gaps = [ratio * peak for ratio in Y[1][1:4]]
     data = vi.scenario_map(
+        rig_of(case),
         ("proportional_stiffness", stiffness),
         ("gap", gaps),
-        rig_of(case),
         step=OPTIONS["step"],
         block=2,
     )
@@ -177,7 +177,7 @@ def test_a_physical_map_agrees_with_the_dimensionless_one():
 
 def test_progress_counts_up(tmp_path):
     told = []
-    vi.scenario_map(X, Y, **OPTIONS, progress=lambda *at: told.append(at))
+    vi.scenario_map(None, X, Y, **OPTIONS, progress=lambda *at: told.append(at))
     done = [d for d, _ in told]
     assert done == sorted(done)
     assert [t for _, t in told] == sorted(t for _, t in told)

@@ -25,10 +25,10 @@ OPTIONS = {"refine": 1, "block": 2, "step": 0.05}
 
 
 def test_a_finished_map_is_read_and_not_computed(tmp_path):
-    first = vi.scenario_map(X, Y, **OPTIONS, store=tmp_path / "map").load()
+    first = vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map").load()
     told = []
     again = vi.scenario_map(
-        X, Y, **OPTIONS, store=tmp_path / "map", progress=lambda *at: told.append(at)
+        None, X, Y, **OPTIONS, store=tmp_path / "map", progress=lambda *at: told.append(at)
     )
     xr.testing.assert_identical(again.load(), first)
     assert told == []
@@ -45,10 +45,10 @@ def test_a_finished_map_is_read_and_not_computed(tmp_path):
 )
 def test_a_store_with_another_map_is_refused_and_kept(tmp_path, changes, field):
     store = tmp_path / "map"
-    first = vi.scenario_map(X, Y, **OPTIONS, store=store).load()
+    first = vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
     with pytest.raises(vi.InputError, match=rf"store: .* holds another map: {field} differ"):
-        vi.scenario_map(X, Y, **{**OPTIONS, **changes}, store=store)
-    xr.testing.assert_identical(vi.scenario_map(X, Y, **OPTIONS, store=store).load(), first)
+        vi.scenario_map(None, X, Y, **{**OPTIONS, **changes}, store=store)
+    xr.testing.assert_identical(vi.scenario_map(None, X, Y, **OPTIONS, store=store).load(), first)
 
 
 def test_what_is_no_map_is_refused_and_kept(tmp_path):
@@ -58,13 +58,13 @@ def test_what_is_no_map_is_refused_and_kept(tmp_path):
     zarr.open_group(tmp_path / "other", mode="w").create_array("a", shape=(2,), dtype="f8")
     for name in ("folder", "file", "other"):
         with pytest.raises(vi.InputError, match=r"store: .* exists and is not a map, or its desc"):
-            vi.scenario_map(X, Y, **OPTIONS, store=tmp_path / name)
+            vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / name)
     assert (tmp_path / "folder" / "mine").read_text() == "kept"
     with pytest.raises(vi.InputError, match=r"store: .* cannot be written .*does not exist"):
-        vi.scenario_map(X, Y, **OPTIONS, store=tmp_path / "missing" / "map")
+        vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "missing" / "map")
     for wrong in (3, "a\0b"):
         with pytest.raises(vi.InputError, match=r"store: .*the path of a folder is accepted"):
-            vi.scenario_map(X, Y, **OPTIONS, store=wrong)
+            vi.scenario_map(None, X, Y, **OPTIONS, store=wrong)
 
 
 def test_a_store_in_use_is_refused(tmp_path):
@@ -74,10 +74,10 @@ def test_a_store_in_use_is_refused(tmp_path):
     def second(done: int, total: int) -> None:
         if not refused:
             with pytest.raises(vi.InputError, match="being written by another process") as error:
-                vi.scenario_map(X, Y, **OPTIONS, store=store)
+                vi.scenario_map(None, X, Y, **OPTIONS, store=store)
             refused.append(error)
 
-    vi.scenario_map(X, Y, **OPTIONS, store=store, progress=second)
+    vi.scenario_map(None, X, Y, **OPTIONS, store=store, progress=second)
     assert refused
 
 
@@ -96,8 +96,8 @@ def test_what_a_killed_process_leaves_does_no_harm(tmp_path):
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=False)
     assert done.returncode == -signal.SIGKILL
     assert lock.exists()
-    again = vi.scenario_map(X, Y, **OPTIONS, store=store).load()
-    xr.testing.assert_identical(again, vi.scenario_map(X, Y, **OPTIONS).load())
+    again = vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
+    xr.testing.assert_identical(again, vi.scenario_map(None, X, Y, **OPTIONS).load())
     assert not lock.exists()
 
 
@@ -105,7 +105,7 @@ def test_what_a_killed_process_leaves_does_no_harm(tmp_path):
 def whole(tmp_path_factory):
     """A finished map in a folder, and the same in memory."""
     store = tmp_path_factory.mktemp("whole") / "map"
-    return store, vi.scenario_map(X, Y, **OPTIONS, store=store).load()
+    return store, vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
 
 
 def chunks(array):
@@ -136,7 +136,7 @@ DAMAGES = [remove, replace_by_folder, truncate, flip]
 
 def mended(store):
     with pytest.warns(RuntimeWarning, match=r"is damaged; \d of 2 blocks are computed again"):
-        return vi.scenario_map(X, Y, **OPTIONS, store=store).load()
+        return vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
 
 
 CASES = [("scenario", damage) for damage in DAMAGES] + [("gap_ratio", flip), ("level", remove)]
@@ -149,7 +149,7 @@ def test_a_damaged_file_is_made_again(whole, tmp_path, array, damage):
     xr.testing.assert_identical(mended(store), whole[1])
     with warnings.catch_warnings():  # and is whole then
         warnings.simplefilter("error")
-        vi.scenario_map(X, Y, **OPTIONS, store=store)
+        vi.scenario_map(None, X, Y, **OPTIONS, store=store)
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
@@ -159,7 +159,7 @@ def test_a_lost_mark_costs_a_block_at_most(whole, tmp_path, damage):
         damage(file)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        again = vi.scenario_map(X, Y, **OPTIONS, store=store)
+        again = vi.scenario_map(None, X, Y, **OPTIONS, store=store)
     xr.testing.assert_identical(again.load(), whole[1])
 
 
@@ -193,7 +193,7 @@ def test_a_folder_whose_own_description_is_damaged_is_refused(whole, tmp_path, c
         content = json.dumps(held)
     file.write_text(content)
     with pytest.raises(vi.InputError, match=r"is not a map, or its desc|holds another map"):
-        vi.scenario_map(X, Y, **OPTIONS, store=store)
+        vi.scenario_map(None, X, Y, **OPTIONS, store=store)
 
 
 def test_every_flipped_bit_of_a_chunk_is_noticed(whole, tmp_path):
@@ -206,7 +206,7 @@ def test_every_flipped_bit_of_a_chunk_is_noticed(whole, tmp_path):
         files[i].write_bytes(content)
         with pytest.warns(RuntimeWarning, match="is damaged"):
             xr.testing.assert_identical(
-                vi.scenario_map(X, Y, **OPTIONS, store=store).load(), whole[1]
+                vi.scenario_map(None, X, Y, **OPTIONS, store=store).load(), whole[1]
             )
 
 
@@ -219,10 +219,10 @@ def test_a_link_is_the_folder_that_it_leads_to(tmp_path):
     def second(done: int, total: int) -> None:
         if not refused:
             with pytest.raises(vi.InputError, match="being written by another process") as error:
-                vi.scenario_map(*axes, step=0.05, store=tmp_path / "map")
+                vi.scenario_map(None, *axes, step=0.05, store=tmp_path / "map")
             refused.append(error)
 
-    vi.scenario_map(*axes, step=0.05, store=tmp_path / "link", progress=second)
+    vi.scenario_map(None, *axes, step=0.05, store=tmp_path / "link", progress=second)
     assert refused
     assert (tmp_path / "map" / "zarr.json").is_file()
     assert {p.name for p in tmp_path.iterdir()} == {"link", "map"}
@@ -230,7 +230,7 @@ def test_a_link_is_the_folder_that_it_leads_to(tmp_path):
 
 def test_a_store_of_another_version_is_refused(tmp_path, monkeypatch):
     axes = ("stiffness_ratio", [1.0, 2.0]), ("gap_ratio", [0.5, 0.6])
-    vi.scenario_map(*axes, step=0.05, store=tmp_path / "map")
+    vi.scenario_map(None, *axes, step=0.05, store=tmp_path / "map")
     monkeypatch.setattr(zarr_store, "__version__", "99.0")
     with pytest.raises(vi.InputError, match="vibroimpact_version differ"):
-        vi.scenario_map(*axes, step=0.05, store=tmp_path / "map")
+        vi.scenario_map(None, *axes, step=0.05, store=tmp_path / "map")

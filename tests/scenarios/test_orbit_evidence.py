@@ -16,7 +16,7 @@ from vibroimpact.tasks.threads import Stopped
 def looked_at(code: str, low: float, high: float, step: float):
     case = vi.laboratory.case(code)
     rig = case.oscillator, vi.Harmonic(case.amplitude, 1.0)
-    data = vi.sweep(*rig, np.arange(round(low / step), round(high / step) + 1) * step)
+    data = vi.sweep(vi.Rig(*rig), np.arange(round(low / step), round(high / step) + 1) * step)
     return evidence(*rig, data, 0.01), rig, holds(data)
 
 

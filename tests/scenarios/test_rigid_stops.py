@@ -26,8 +26,8 @@ def test_a_rigid_stop_has_the_scenario_of_very_stiff_bumpers(ratio: float, named
     rig = between(ratio)
     bumper = vi.Bumper.from_restitution(1.0, 1e5, 0.6, ratio * PEAK)
     stiff = rig.replace(right=bumper, left=bumper)
-    found = vi.classify(rig, 1.0, held)
-    assert found.scenario == named == vi.classify(stiff, 1.0, held).scenario
+    found = vi.classify_scenario(vi.Rig(rig, 1.0), held)
+    assert found.scenario == named == vi.classify_scenario(vi.Rig(stiff, 1.0), held).scenario
 
 
 def test_the_range_of_a_rigid_stop_is_bounded_by_energy_or_at_last() -> None:
@@ -37,7 +37,7 @@ def test_the_range_of_a_rigid_stop_is_bounded_by_energy_or_at_last() -> None:
 
 def test_a_map_over_what_a_rigid_stop_has() -> None:
     data = vi.scenario_map(
-        ("gap_ratio", [0.7, 1.2]), ("restitution", [0.4, 0.8]), (between(0.5), 1.0), step=0.05
+        vi.Rig(between(0.5), 1.0), ("gap_ratio", [0.7, 1.2]), ("restitution", [0.4, 0.8]), step=0.05
     )
     assert data["scenario"].sel(gap_ratio=1.2).values.tolist() == [0, 0]
     assert (data["scenario"].sel(gap_ratio=0.7).values > 0).all()
@@ -58,14 +58,14 @@ def test_nodes_change_what_each_stop_has() -> None:
 @pytest.mark.parametrize("name", ["bumper_stiffness", "proportional_stiffness", "relaxation_time"])
 def test_a_rigid_stop_has_no_stiffness_to_map_over(name: str) -> None:
     axes = (name, [1.0, 2.0]), ("gap_ratio", [0.5, 1.0])
-    with pytest.raises(vi.InputError, match=f"^base: '{name}' is that of bumpers, but every stop"):
-        vi.scenario_map(*axes, (between(0.5), 1.0))
+    with pytest.raises(vi.InputError, match=f"^rig: '{name}' is that of bumpers, but every stop"):
+        vi.scenario_map(vi.Rig(between(0.5), 1.0), *axes)
 
 
 def test_a_bumper_has_no_restitution_to_map_over() -> None:
     rig = FREE.replace(right=vi.Bumper(20.0, 0.4, 0.5))
     axes = ("restitution", [0.1, 0.2]), ("gap_ratio", [0.5, 1.0])
-    with pytest.raises(vi.InputError, match=r"^base: .restitution. is that of rigid stops, but"):
-        vi.scenario_map(*axes, (rig, 1.0))
+    with pytest.raises(vi.InputError, match=r"^rig: .restitution. is that of rigid stops, but"):
+        vi.scenario_map(vi.Rig(rig, 1.0), *axes)
     with pytest.raises(vi.InputError, match=r"^x\[1\]: 1\.2"):
-        vi.scenario_map(("restitution", [0.1, 1.2]), axes[1], (rig, 1.0))
+        vi.scenario_map(vi.Rig(rig, 1.0), ("restitution", [0.1, 1.2]), axes[1])

@@ -21,7 +21,9 @@ SWING = vi.Harmonic(CASE.amplitude / OMEGA**2, 1.0, of="displacement")
 def test_a_force_on_the_mass_is_an_acceleration_of_the_base() -> None:
     """Relative to the base, the motion is the same; only the absolute acceleration is not."""
     held = np.arange(0.5, 3.5, 0.02)
-    base, force = (vi.classify(CASE.oscillator, one, held) for one in (CASE.amplitude, FORCE))
+    base, force = (
+        vi.classify_scenario(vi.Rig(CASE.oscillator, one), held) for one in (CASE.amplitude, FORCE)
+    )
     for name in ("contact", "gap_ratio", "penetration", "swept", "within"):
         told = getattr(base.features, name), getattr(force.features, name)
         assert told[1] == pytest.approx(told[0], rel=1e-9)
@@ -38,10 +40,10 @@ def test_gaps_are_scaled_by_free_flight_under_what_is_held(ratio: float, named: 
     What only grazes at one acceleration is carried on by one displacement, which shakes the more
     the higher the frequency.
     """
-    rig, _ = vi.from_dimensionless(25.9, 1.0, 0.01, 0.15, stiffness=(2.0 * np.pi) ** 2)
+    rig = vi.from_dimensionless(25.9, 1.0, 0.01, 0.15, stiffness=(2.0 * np.pi) ** 2).oscillator
     peak = 2e-3 / (2.0 * 0.15 * np.sqrt(1.0 - 0.15**2))
     bumper = rig.right.replace(gap=ratio * peak)
-    found = vi.classify(rig.replace(right=bumper, left=bumper), "2 mm")
+    found = vi.classify_scenario(vi.Rig(rig.replace(right=bumper, left=bumper), "2 mm"))
     assert found.features.gap_ratio == pytest.approx(ratio, rel=1e-12)
     assert found.features.within
     assert found.scenario == named
@@ -66,7 +68,10 @@ def test_a_constant_force_is_a_pair_of_other_gaps() -> None:
     }
     held = np.arange(0.5, 3.5, 0.05)
     pushed = rig.replace(force=shift * rig.isolator.stiffness)
-    one, other = vi.classify(pushed, SWING, held), vi.classify(rig.replace(**gaps), SWING, held)
+    one, other = (
+        vi.classify_scenario(vi.Rig(pushed, SWING), held),
+        vi.classify_scenario(vi.Rig(rig.replace(**gaps), SWING), held),
+    )
     assert one.scenario == other.scenario
     for name in ("contact", "gap_ratio", "penetration", "onset"):
         told = getattr(one.features, name), getattr(other.features, name)
@@ -77,7 +82,10 @@ def test_a_constant_force_is_a_pair_of_other_gaps() -> None:
 def test_a_map_is_made_of_such_rigs(shaken: vi.Harmonic) -> None:
     sizes = [0.5 * shaken.amplitude, 2.0 * shaken.amplitude]
     data = vi.scenario_map(
-        ("amplitude", sizes), ("stiffness_ratio", [1.0, 20.0]), (CASE.oscillator, shaken), step=0.02
+        vi.Rig(CASE.oscillator, shaken),
+        ("amplitude", sizes),
+        ("stiffness_ratio", [1.0, 20.0]),
+        step=0.02,
     )
     units, name = {
         "force": ("N", "peak force on the mass"),
@@ -91,7 +99,7 @@ def test_a_map_is_made_of_such_rigs(shaken: vi.Harmonic) -> None:
     rig = CASE.oscillator.replace(right=bumper, left=bumper)
     for k, size in enumerate(sizes):
         one = shaken.replace(amplitude=size)
-        alone = vi.classify(rig, one, frequencies(*one_sine(rig, one, ""), 0.02))
+        alone = vi.classify_scenario(vi.Rig(rig, one), frequencies(*one_sine(rig, one, ""), 0.02))
         assert Scenario(int(data["scenario"][1, k])).label == alone.scenario
         wanted = max(p.value for p in alone.features.peaks if p.curve == "eta_d")
         known = data[["peak_eta_d_forward", "peak_eta_d_backward"]].isel(
@@ -102,11 +110,11 @@ def test_a_map_is_made_of_such_rigs(shaken: vi.Harmonic) -> None:
 
 def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
     """There the orbits are the same: λ = 1.6276962 at this gap, as for the acceleration."""
-    delta = vi.to_dimensionless(CASE.oscillator, CASE.amplitude).right.gap
+    delta = vi.to_dimensionless(vi.Rig(CASE.oscillator, CASE.amplitude)).right.gap
     data = vi.scenario_map(
+        vi.Rig(CASE.oscillator, FORCE),
         ("stiffness_ratio", np.geomspace(1.4, 2.0, 3)),
         ("gap_ratio", [delta, delta + 0.2]),
-        (CASE.oscillator, FORCE),
         step=0.02,
     )
     border = jump_border(data)
@@ -128,6 +136,6 @@ def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
 )
 def test_what_has_no_scenario_is_refused(oscillator, amplitude, message) -> None:
     with pytest.raises(vi.InputError, match=message):
-        vi.classify(oscillator, amplitude)
+        vi.classify_scenario(vi.Rig(oscillator, amplitude))
     with pytest.raises(vi.InputError, match=message.replace("amplitude", r"base\[1\]")):
-        vi.scenario_map(("gap", [1e-3, 2e-3]), ("amplitude", [1, 2]), (oscillator, amplitude))
+        vi.scenario_map(vi.Rig(oscillator, amplitude), ("gap", [1e-3, 2e-3]), ("amplitude", [1, 2]))

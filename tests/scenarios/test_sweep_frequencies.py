@@ -13,7 +13,7 @@ from vibroimpact.scenarios.sweep_frequencies import LOW, STEP, frequencies, high
 
 
 def sine(*parameters) -> Shaken:
-    return one_sine(*vi.from_dimensionless(*parameters), "rig")
+    return one_sine(vi.from_dimensionless(*parameters), "rig")
 
 
 @settings(max_examples=25)
@@ -28,7 +28,7 @@ def test_the_primary_resonance_lies_within(ratio, gap, time, damping, sides):
     pair = {"both": ratio, "right": (ratio, None), "left": (None, ratio)}[sides]
     rig = sine(pair, gap, time, damping)
     held = frequencies(*rig, step=0.02)
-    data = vi.sweep(*rig, held, "forward", max_cycles=500)
+    data = vi.sweep(vi.Rig(*rig), held, "forward", max_cycles=500)
     one = data.isel(direction=0)
     touching = (one["impacts_right"] + one["impacts_left"]).values > 0.0
     # Soft bumpers with small gaps are still hit beyond it.
@@ -66,4 +66,4 @@ def test_an_undamped_isolator_is_not_held_at_its_resonance(stops):
     there = frequencies(*one_sine(damped, case.amplitude, "")) / rig.natural_frequency
     assert np.count_nonzero(np.abs(there[: len(ratios)] - ratios[: len(there)]) > 1e-9) == 1
     if not stops:
-        assert vi.classify(rig, case.amplitude).scenario == "S0"
+        assert vi.classify_scenario(vi.Rig(rig, case.amplitude)).scenario == "S0"

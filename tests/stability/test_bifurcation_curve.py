@@ -17,7 +17,7 @@ def case():
 
 @cache
 def diagram():
-    return vi.resonance_diagram(case().oscillator, case().amplitude, 0.8, 4.0)
+    return vi.resonance_diagram(vi.Rig(case().oscillator, case().amplitude), (0.8, 4.0))
 
 
 def one(kind: str, number: int = -1):
@@ -29,12 +29,10 @@ def one(kind: str, number: int = -1):
 @cache
 def curve(kind: str, other: str, low: float, high: float, number: int = -1):
     return vi.bifurcation_curve(
-        case().oscillator,
-        vi.Harmonic(case().amplitude, 2.0),
+        vi.Rig(case().oscillator, vi.Harmonic(case().amplitude, 2.0)),
         one(kind, number),
+        spans=((0.3, 6.0), (low, high)),
         parameters=("frequency", other),
-        low=(0.3, low),
-        high=(6.0, high),
     )
 
 
@@ -54,7 +52,7 @@ def test_folds_are_those_of_the_branches_beside_it():
     for gap in (6e-3, 9e-3):
         rig = case().oscillator
         rig = rig.replace(right=rig.right.replace(gap=gap), left=rig.left.replace(gap=gap))
-        beside = vi.resonance_diagram(rig, case().amplitude, 1.0, 5.0)
+        beside = vi.resonance_diagram(rig, (case().amplitude, 1.0), 5.0)
         folds = beside["bifurcation_value"].values[beside["bifurcation_kind"].values == "fold"]
         order = np.argsort(data["gap"].values)
         here = np.interp(gap, data["gap"].values[order], data["frequency"].values[order])
@@ -81,7 +79,7 @@ def test_both_folds_meet_in_a_cusp():
             stiffness=stiffness, damping=rig.right.damping * stiffness / rig.right.stiffness
         )
         rig = rig.replace(right=bumper, left=bumper)
-        found = vi.resonance_diagram(rig, case().amplitude, 1.2, 3.0)
+        found = vi.resonance_diagram(vi.Rig(rig, case().amplitude), (1.2, 3.0))
         counts.append(int((found["bifurcation_kind"] == "fold").sum()))
     assert counts == [0, 2]
 
@@ -94,16 +92,14 @@ def test_multipliers_stay_critical():
 
 def test_symmetry_breaking_and_period_doubling():
     rig = vi.laboratory.case("B3-10mm-A3")
-    found = vi.resonance_diagram(rig.oscillator, rig.amplitude, 0.9, 1.4)
+    found = vi.resonance_diagram(vi.Rig(rig.oscillator, rig.amplitude), (0.9, 1.4))
     for kind, critical in (("symmetry breaking", 1.0), ("period doubling", -1.0)):
         row = int(np.flatnonzero(found["bifurcation_kind"].values == kind)[0])
         data = vi.bifurcation_curve(
-            rig.oscillator,
-            vi.Harmonic(rig.amplitude, 1.2),
+            vi.Rig(rig.oscillator, vi.Harmonic(rig.amplitude, 1.2)),
             found.isel(bifurcation=row),
+            spans=((0.5, 2.0), (0.47, 0.51)),
             parameters=("frequency", "amplitude"),
-            low=(0.5, 0.47),
-            high=(2.0, 0.51),
         )
         assert data.sizes["point"] > 3
         distance = np.abs(data["multiplier_real"].values - critical).min(axis=1)
@@ -134,21 +130,19 @@ def test_refused(wrong, told):
         **wrong,
     }
     with pytest.raises(vi.InputError, match=told):
-        vi.bifurcation_curve(case().oscillator, vi.Harmonic(0.5, 2.0), **given)
+        vi.bifurcation_curve(vi.Rig(case().oscillator, vi.Harmonic(0.5, 2.0)), **given)
 
 
 def test_no_symmetry_breaking_without_symmetry():
     case = vi.laboratory.case("B3-10mm-A3")
-    found = vi.resonance_diagram(case.oscillator, case.amplitude, 0.9, 1.4)
+    found = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (0.9, 1.4))
     row = int(np.flatnonzero(found["bifurcation_kind"].values == "symmetry breaking")[0])
     with pytest.raises(vi.InputError, match="parameters: 'right_gap' leaves no symmetry"):
         vi.bifurcation_curve(
-            case.oscillator,
-            vi.Harmonic(case.amplitude, 1.2),
+            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.2)),
             found.isel(bifurcation=row),
+            spans=((0.5, 2.0), (1e-3, 2e-2)),
             parameters=("frequency", "right_gap"),
-            low=(0.5, 1e-3),
-            high=(2.0, 2e-2),
         )
 
 
@@ -156,16 +150,14 @@ def test_neimark_sacker():
     bumper = vi.Bumper(0.01, 0.2, 0.6)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), bumper, bumper)
     turn = 2 * np.pi
-    found = vi.resonance_diagram(rig, 1.0, 1.0 / turn, 1.5 / turn)
+    found = vi.resonance_diagram(rig, (1.0, 1.0 / turn), 1.5 / turn)
     row = int(np.flatnonzero(found["bifurcation_kind"].values == "Neimark-Sacker")[0])
     seen = []
     data = vi.bifurcation_curve(
-        rig,
-        vi.Harmonic(1.0, 1.2 / turn),
+        vi.Rig(rig, vi.Harmonic(1.0, 1.2 / turn)),
         found.isel(bifurcation=row),
+        spans=((0.5 / turn, 2.0 / turn), (0.4, 0.9)),
         parameters=("frequency", "gap"),
-        low=(0.5 / turn, 0.4),
-        high=(2.0 / turn, 0.9),
         progress=lambda *at: seen.append(at),
     )
     modulus = np.hypot(data["multiplier_real"], data["multiplier_imag"]).values[:, 0]
@@ -179,15 +171,13 @@ def test_grazing_of_one_bumper(side):
     rig = case().oscillator
     far = rig.right.replace(gap=1.0)
     rig = rig.replace(**{"left" if side == "right" else "right": far})
-    found = vi.resonance_diagram(rig, case().amplitude, 1.2, 3.0)
+    found = vi.resonance_diagram(vi.Rig(rig, case().amplitude), (1.2, 3.0))
     row = int(np.flatnonzero(found["bifurcation_kind"].values == "grazing")[-1])
     data = vi.bifurcation_curve(
-        rig,
-        vi.Harmonic(case().amplitude, 2.0),
+        vi.Rig(rig, vi.Harmonic(case().amplitude, 2.0)),
         found.isel(bifurcation=row),
+        spans=((0.5, 5.0), (4e-3, 12e-3)),
         parameters=("frequency", f"{side}_gap"),
-        low=(0.5, 4e-3),
-        high=(5.0, 12e-3),
     )
     omega = 2 * np.pi * data["frequency"].values
     k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
@@ -201,15 +191,14 @@ def test_grazing_of_rigid_stops_in_closed_form(left, other, low, high):
     """Behind it the map is a square root, and Newton's method goes to and fro."""
     rig = vi.Oscillator(550.0, vi.Isolator(26.8e3, 1.1e3), vi.RigidStop(0.6, 0.025), left)
     shaken = vi.Harmonic("0.05 g", 3.0)
-    found = vi.branch(rig, shaken, low=0.6, high=3.0)
+    found = vi.branch(rig, frequency=shaken, span=(0.6, 3.0))
     i = int(np.flatnonzero(found["bifurcation_kind"].values == "grazing")[0])
     data = vi.bifurcation_curve(
         rig,
-        shaken,
         found.isel(bifurcation=i),
+        frequency=shaken,
+        spans=((0.3, 6.0), (low, high)),
         parameters=("frequency", other),
-        low=(0.3, low),
-        high=(6.0, high),
     )
     assert data.sizes["point"] < 300
     for end in ("ended_low", "ended_high"):

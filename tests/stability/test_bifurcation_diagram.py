@@ -21,7 +21,7 @@ def shaken(frequency: float, phase: float = 0.0) -> vi.Harmonic:
 
 @cache
 def over_frequency() -> xr.Dataset:
-    return vi.bifurcation_diagram(RIG, shaken(1.2, 0.4), "frequency", 1.05, 1.2, 16)
+    return vi.bifurcation_diagram(vi.Rig(RIG, shaken(1.2, 0.4)), "frequency", (1.05, 1.2), 16)
 
 
 def changes(data: xr.Dataset, first: int, second: int) -> list[tuple[float, float]]:
@@ -42,7 +42,7 @@ def changes(data: xr.Dataset, first: int, second: int) -> list[tuple[float, floa
 def test_period_doublings_lie_where_branches_double(parameter, low, high, frequency):
     """Each change from period 1 to 2 holds a doubling of the branch of period 1."""
     given = (RIG, shaken(frequency), parameter, low, high, sample(201, 41))
-    found = vi.bifurcation_diagram(*given, directions="up").isel(start=0)
+    found = vi.bifurcation_diagram(vi.Rig(*given), directions="up").isel(start=0)
     ends = changes(found, 1, 2)
     assert ends
     for below, above in ends:
@@ -56,7 +56,7 @@ def test_period_doublings_lie_where_branches_double(parameter, low, high, freque
             stop = RIG.right.replace(gap=float(middle[parameter]))
             rig = RIG.replace(right=stop, left=stop)
         branch = vi.branch(
-            rig, excitation, middle["section"], parameter=parameter, low=low, high=high
+            vi.Rig(rig, excitation), middle["section"], span=(low, high), parameter=parameter
         )
         doubling = branch["bifurcation_kind"].values == "period doubling"
         at = branch["bifurcation_value"].values[doubling]
@@ -66,7 +66,7 @@ def test_period_doublings_lie_where_branches_double(parameter, low, high, freque
 @pytest.mark.parametrize("k", [0, 6, 12, 15])
 def test_single_values_are_those_of_steady(k):
     data = over_frequency().isel(frequency=k).sel(start="up")
-    motion = vi.steady(RIG, shaken(float(data["frequency"]), 0.4), data["section"])
+    motion = vi.steady(vi.Rig(RIG, shaken(float(data["frequency"]), 0.4)), data["section"])
     assert data["motion"].item() == motion["motion"].item()
     assert int(data["period"]) == int(motion["period"])
     known = data["section_displacement"].dropna("section_point")
@@ -89,10 +89,10 @@ def test_single_values_are_those_of_steady(k):
 
 def test_impacts_are_those_of_steady():
     data = vi.bifurcation_diagram(
-        RIG, shaken(1.2), "amplitude", "0.045 g", "0.05 g", 3, section="impacts"
+        vi.Rig(RIG, shaken(1.2)), "amplitude", ("0.045 g", "0.05 g"), 3, section="impacts"
     ).isel(amplitude=-1, start=0)
     motion = vi.steady(
-        RIG, shaken(1.2).replace(amplitude=float(data["amplitude"])), data["section"]
+        vi.Rig(RIG, shaken(1.2).replace(amplitude=float(data["amplitude"]))), data["section"]
     )
     section = vi.impact_section(motion)
     order = np.argsort(section["contact_start_phase"].values)
@@ -108,7 +108,7 @@ def test_the_mirror_image():
     rig = RIG.replace(left=RIG.left.replace(gap=6e-3))
     turned = rig.replace(right=rig.left, left=rig.right)
     one, other = (
-        vi.bifurcation_diagram(given, shaken(1.3, phase), "amplitude", 0.3, 0.6, 7)
+        vi.bifurcation_diagram(vi.Rig(given, shaken(1.3, phase)), "amplitude", (0.3, 0.6), 7)
         for given, phase in ((rig, 0.2), (turned, 0.2 + np.pi))
     )
     settled = one["period"].values > 0
@@ -123,7 +123,7 @@ def test_the_mirror_image():
 def test_up_is_down_where_there_is_one_motion():
     """Free flight, in closed form: |u| of the section, and exponents −C/2M."""
     rig = RIG.replace(right=None, left=None)
-    data = vi.bifurcation_diagram(rig, shaken(2.0), "stiffness", "10 kN/m", "40 kN/m", 9)
+    data = vi.bifurcation_diagram(vi.Rig(rig, shaken(2.0)), "stiffness", ("10 kN/m", "40 kN/m"), 9)
     np.testing.assert_allclose(
         data["section_displacement"].sel(start="up"), data["section_displacement"].sel(start="down")
     )
@@ -140,7 +140,12 @@ def test_threads_and_seeds():
     seen = []
     one, two = (
         vi.bifurcation_diagram(
-            *given, directions=(), random=2, seed=3, threads=n, progress=lambda *p: seen.append(p)
+            vi.Rig(*given),
+            directions=(),
+            random=2,
+            seed=3,
+            threads=n,
+            progress=lambda *p: seen.append(p),
         )
         for n in (1, 2)
     )
@@ -155,14 +160,14 @@ def test_named_starts_find_what_coexists():
     case = vi.laboratory.case("B2-G1-A3")
     starts = {"rest": vi.State(), "far": vi.State(0.0, 0.5)}
     data = vi.bifurcation_diagram(
-        case, 2.4, "gap", "6 mm", "7.5 mm", 3, starts=starts, directions=()
+        case, "gap", ("6 mm", "7.5 mm"), 3, frequency=2.4, starts=starts, directions=()
     )
     reach = data["displacement_max"].sel(gap=7.5e-3)
     assert float(reach.sel(start="rest")) < 7.5e-3 < float(reach.sel(start="far"))
 
 
 def test_a_motion_that_is_given_up():
-    data = vi.bifurcation_diagram(RIG, shaken(0.5), "gap", 4.9e-3, 5e-3, 2, max_events=6)
+    data = vi.bifurcation_diagram(vi.Rig(RIG, shaken(0.5)), "gap", (4.9e-3, 5e-3), 2, max_events=6)
     assert (data["status"] == 2).all()
     assert (data["period"] == 0).all()
     assert data["section_displacement"].isnull().all()
@@ -188,4 +193,4 @@ def test_a_motion_that_is_given_up():
 def test_refused(wrong):
     given = {"parameter": "gap", "low": 2e-3, "high": 5e-3}
     with pytest.raises(vi.InputError, match=next(iter(wrong))):
-        vi.bifurcation_diagram(RIG, shaken(1.1), **{**given, **wrong})
+        vi.bifurcation_diagram(vi.Rig(RIG, shaken(1.1)), **{**given, **wrong})

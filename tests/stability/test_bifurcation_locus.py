@@ -23,16 +23,14 @@ MODES = {0: 0.0, 1: 1.0, -1: 2.0}
 
 def beside_the_cusp(other: str, low: float, high: float):
     """The fold of B2-G1-A3 near 0.56 Hz over the frequency and another parameter."""
-    data = vi.resonance_diagram(CASE.oscillator, CASE.amplitude, 0.4, 1.0)
+    data = vi.resonance_diagram(vi.Rig(CASE.oscillator, CASE.amplitude), (0.4, 1.0))
     folds = np.flatnonzero(data["bifurcation_kind"].values == "fold")
     row = folds[np.argmin(np.abs(data["bifurcation_value"].values[folds] - 0.56038578))]
     return vi.bifurcation_curve(
-        CASE.oscillator,
-        vi.Harmonic(CASE.amplitude, 2.0),
+        vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)),
         data.isel(bifurcation=int(row)),
+        spans=((0.3, 6.0), (low, high)),
         parameters=("frequency", other),
-        low=(0.3, low),
-        high=(6.0, high),
     )
 
 
@@ -63,20 +61,16 @@ def rig(cubic: float, damping: float, stops: int) -> vi.Oscillator:
 def highest_fold(cubic: float, damping: float, stops: int):
     """The fold of the highest frequency, over frequency and amplitude."""
     found = vi.branch(
-        rig(cubic, damping, stops),
-        vi.Harmonic(0.5, 3.9 / TURN),
-        low=1.0 / TURN,
-        high=4.0 / TURN,
+        vi.Rig(rig(cubic, damping, stops), vi.Harmonic(0.5, 3.9 / TURN)),
+        span=(1.0 / TURN, 4.0 / TURN),
     )
     folds = np.flatnonzero(found["bifurcation_kind"].values == "fold")
     row = folds[np.argmax(found["bifurcation_value"].values[folds])]
     return vi.bifurcation_curve(
-        rig(cubic, damping, stops),
-        vi.Harmonic(0.5, 1.8 / TURN),
+        vi.Rig(rig(cubic, damping, stops), vi.Harmonic(0.5, 1.8 / TURN)),
         found.isel(bifurcation=int(row)),
+        spans=tuple(zip(LOW, HIGH, strict=True)),
         parameters=("frequency", "amplitude"),
-        low=LOW,
-        high=HIGH,
     )
 
 
@@ -101,7 +95,9 @@ def looked_at(data, oscillator: vi.Oscillator) -> tuple[np.ndarray, ...]:
         orbit = seen_by(oscillator, shaken, section)
         miss = np.abs(orbit.map_multipliers - 1.0).min()
         shaken = shaken.replace(phase=float(section.sel(component="phase")))
-        seen = vi.simulate(oscillator, shaken, 1, section, samples=128)["displacement"].values
+        seen = vi.simulate(vi.Rig(oscillator, shaken), 1, section, samples=128)[
+            "displacement"
+        ].values
         found.append((orbit.facts[RESIDUAL], miss, seen.min(), seen.max()))
     residual, miss, least, most = np.array(found).T
     return residual, miss, np.column_stack([least, most])
@@ -199,7 +195,7 @@ def at(side: np.ndarray, size: float) -> float:
 def folds_of_branch(cubic: float, damping: float, size: float) -> np.ndarray:
     """Ω of the folds on the branch at one amplitude, which knows nothing of the curve."""
     shaken = vi.Harmonic(size, 3.0 / TURN)
-    found = vi.branch(rig(cubic, damping, 1), shaken, low=0.9 / TURN, high=3.0 / TURN)
+    found = vi.branch(vi.Rig(rig(cubic, damping, 1), shaken), span=(0.9 / TURN, 3.0 / TURN))
     return TURN * found["bifurcation_value"].values[found["bifurcation_kind"].values == "fold"]
 
 
@@ -211,13 +207,13 @@ def test_an_orbit_elsewhere_on_the_plane_is_seen_as_it_moves(pair):
     over = plane(oscillator, shaken, pair)
     p, q = (there[name] for name in pair)
     setting = over.other.write(*over.family.parameter.write(oscillator, shaken, p), q)
-    start = vi.steady(*setting)["final_state"].values
+    start = vi.steady(vi.Rig(*setting))["final_state"].values
     section = Section(over.at_vectors(q), 1, False, np.ones(6))
     point = np.array([*start[:4], start[6], p])
     status, orbit, _ = evaluated(section, point, MODES[int(start[5])])
     assert int(status) == 0
     seen, _ = seen_at(orbit, 1.3)
-    expected = vi.simulate(*setting, 1.3 / TURN, vi.State(start[0], start[1]), samples=0)
+    expected = vi.simulate(vi.Rig(*setting), 1.3 / TURN, vi.State(start[0], start[1]), samples=0)
     np.testing.assert_allclose(seen[:2], expected["final_state"].values[:2], rtol=1e-9)
 
 
@@ -225,21 +221,19 @@ def test_a_parameter_of_one_side_takes_the_symmetry():
     """The fold begins as that of a motion that is its own mirror image."""
     oscillator = CASE.oscillator
     shaken = vi.Harmonic(CASE.amplitude, 2.0)
-    found = vi.branch(oscillator, shaken, low=1.0, high=4.0)
+    found = vi.branch(vi.Rig(oscillator, shaken), span=(1.0, 4.0))
     row = list(found["bifurcation_kind"].values).index("fold")
     assert found["bifurcation_antisymmetric"][row]
     gap = oscillator.right.gap
     data = vi.bifurcation_curve(
-        oscillator,
-        shaken,
+        vi.Rig(oscillator, shaken),
         found.isel(bifurcation=row),
+        spans=((0.3, 6.0), (0.5 * gap, 1.5 * gap)),
         parameters=("frequency", "right_gap"),
-        low=(0.3, 0.5 * gap),
-        high=(6.0, 1.5 * gap),
     )
     for wide in (0.6 * gap, 1.3 * gap):
         other = oscillator.replace(right=oscillator.right.replace(gap=wide))
-        beside = vi.branch(other, vi.Harmonic(CASE.amplitude, 4.0), low=1.0, high=4.0)
+        beside = vi.branch(vi.Rig(other, vi.Harmonic(CASE.amplitude, 4.0)), span=(1.0, 4.0))
         folds = beside["bifurcation_value"].values[beside["bifurcation_kind"].values == "fold"]
         order = np.argsort(data["right_gap"].values)
         here = np.interp(wide, data["right_gap"].values[order], data["frequency"].values[order])
@@ -249,17 +243,15 @@ def test_a_parameter_of_one_side_takes_the_symmetry():
 def test_no_step_lands_on_the_curve_beside_it():
     """1e-5 from a grazing on its way, behind which motions with one contact more fold as well."""
     case = vi.laboratory.case("B3-10mm-A3")
-    found = vi.resonance_diagram(case.oscillator, case.amplitude, 0.9, 1.4)
+    found = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (0.9, 1.4))
     value, contacts = found["bifurcation_value"].values, found["bifurcation_contacts"].values
     folds = (found["bifurcation_kind"].values == "fold") & (contacts == "7R 4L")
     row = np.flatnonzero(folds & (np.abs(value - 1.0082179) < 1e-6))[0]
     data = vi.bifurcation_curve(
-        case.oscillator,
-        vi.Harmonic(case.amplitude, 1.2),
+        vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.2)),
         found.isel(bifurcation=int(row)),
+        spans=((0.3, 3.0), (0.1, 2.0)),
         parameters=("frequency", "amplitude"),
-        low=(0.3, 0.1),
-        high=(3.0, 2.0),
     )
     for k in range(data.sizes["point"]):
         shaken = vi.Harmonic(float(data["amplitude"][k]), float(data["frequency"][k]))

@@ -13,14 +13,14 @@ from stability.followed import diagram, remembering, values
 def test_neimark_sacker_with_a_long_memory(phase):
     """There a pair can cross the unit circle, and beyond it the motion is quasi-periodic."""
     turn = 2 * np.pi
-    data = vi.resonance_diagram(remembering(), 1.0, 1.0 / turn, 1.8 / turn, phase=phase)
+    data = vi.resonance_diagram(vi.Rig(remembering(), 1.0), (1.0 / turn, 1.8 / turn), phase=phase)
     (value,) = values(data, "Neimark-Sacker")
     row = int(np.flatnonzero(data["bifurcation_kind"].values == "Neimark-Sacker")[0])
     pair = data.isel(bifurcation=row)
     modulus = np.hypot(*(pair[f"bifurcation_multiplier_{part}"][0] for part in ("real", "imag")))
     assert float(modulus) == pytest.approx(1.0, abs=1e-9)
     assert abs(float(pair["bifurcation_multiplier_imag"][0])) > 0.1
-    beside = [vi.steady(remembering(), vi.Harmonic(1.0, value * f)) for f in (0.98, 1.02)]
+    beside = [vi.steady(vi.Rig(remembering(), vi.Harmonic(1.0, value * f))) for f in (0.98, 1.02)]
     assert [m["motion"].item() for m in beside] == ["periodic", "quasi-periodic"]
 
 
@@ -30,7 +30,7 @@ def test_no_pair_passes_the_circle_at_no_damping(left):
     stop = vi.Bumper(10.0, 0.0, 1.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop if left else None)
     shaken = vi.Harmonic(0.3, 1.3 / (2 * np.pi))
-    data = vi.branch(rig, shaken, parameter="damping", low=0.0, high=0.5)
+    data = vi.branch(vi.Rig(rig, shaken), span=(0.0, 0.5), parameter="damping")
     assert float(data["damping"].min()) == 0.0
     assert len(values(data, "Neimark-Sacker")) == 0
 
@@ -63,13 +63,12 @@ def test_steps_are_small_and_stability_changes_at_bifurcations_only():
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_two_folds_within_a_step(mirrored):
     """Beside a cusp, 2e-5 of a frequency apart; the mirror image is followed by other steps."""
-    rig, amplitude = vi.from_dimensionless((60.0, 1.0), (0.15375, 1.0), 0.01, 0.1574)
+    made = vi.from_dimensionless((60.0, 1.0), (0.15375, 1.0), 0.01, 0.1574)
+    rig, amplitude = made.oscillator, made.amplitude
     natural = rig.natural_frequency
     data = vi.branch(
-        rig.mirrored() if mirrored else rig,
-        vi.Harmonic(amplitude, 1.5 * natural),
-        low=0.4 * natural,
-        high=4.0 * natural,
+        vi.Rig(rig.mirrored() if mirrored else rig, vi.Harmonic(amplitude, 1.5 * natural)),
+        span=(0.4 * natural, 4.0 * natural),
     )
     low, high = values(data, "fold")[-2:]
     assert high - low < 1e-4 * natural

@@ -70,7 +70,9 @@ class TestPublishedRigs:
         case = vi.laboratory.case(code)
         data = diagram(code, 0.8, 4.0)
         limits = np.concatenate([values(data, "fold"), values(data, "grazing")])
-        found = features(vi.sweep(case.oscillator, case.amplitude, np.arange(800, 4001, 4) / 1000))
+        found = features(
+            vi.sweep(vi.Rig(case.oscillator, case.amplitude), np.arange(800, 4001, 4) / 1000)
+        )
         assert len(found.jumps) >= 2
         for jump in found.jumps:
             lower, upper = sorted([jump.before, jump.after])
@@ -102,10 +104,10 @@ def test_grazing_of_a_damped_bumper_in_closed_form():
 def test_ends_are_told():
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.0)
-    data = vi.branch(case.oscillator, shaken, low=1.9, high=2.2, most_points=500)
+    data = vi.branch(vi.Rig(case.oscillator, shaken), span=(1.9, 2.2), most_points=500)
     assert "range ends at 1.9" in data.attrs["ended_low"] + data.attrs["ended_high"]
     assert float(data["frequency"].min()) == 1.9
-    short = vi.branch(case.oscillator, shaken, low=0.3, high=5.0, most_points=4)
+    short = vi.branch(vi.Rig(case.oscillator, shaken), span=(0.3, 5.0), most_points=4)
     assert "4 points" in short.attrs["ended_low"]
 
 
@@ -125,8 +127,7 @@ def test_refused(wrong, told):
     case = vi.laboratory.case("B2-G1-A3")
     with pytest.raises(vi.InputError, match=told):
         vi.branch(
-            case.oscillator,
-            vi.Harmonic(case.amplitude, 2.0),
+            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)),
             **{"low": 0.3, "high": 4.0, **wrong},
         )
 
@@ -135,8 +136,8 @@ def test_a_parameter_that_the_bumpers_do_not_share():
     case = vi.laboratory.case("B2-G1-A3")
     rig = case.oscillator.replace(left=case.oscillator.left.replace(gap=6e-3))
     with pytest.raises(vi.InputError, match="'right_gap' and 'left_gap'"):
-        vi.branch(rig, vi.Harmonic(0.5, 2.0), parameter="gap", low=1e-3, high=1e-2)
-    data = vi.branch(rig, vi.Harmonic(0.5, 2.0), parameter="left_gap", low=1e-3, high=1e-2)
+        vi.branch(vi.Rig(rig, vi.Harmonic(0.5, 2.0)), span=(1e-3, 1e-2), parameter="gap")
+    data = vi.branch(vi.Rig(rig, vi.Harmonic(0.5, 2.0)), span=(1e-3, 1e-2), parameter="left_gap")
     assert data.sizes["point"] > 5
 
 
@@ -148,7 +149,7 @@ def test_an_amplitude_is_followed_in_its_own_unit(amplitude, low, high, units) -
     """Of a linear rig the excursion is proportional to it; the gap over free flight the inverse."""
     rig = vi.laboratory.case("B2-Ginf-A3").oscillator
     shaken = vi.Harmonic(amplitude, "2 Hz")
-    data = vi.branch(rig, shaken, parameter="amplitude", low=low, high=high)
+    data = vi.branch(vi.Rig(rig, shaken), span=(low, high), parameter="amplitude")
     assert data["amplitude"].attrs["units"] == units
     ratio = data["displacement_excursion"].values / data["amplitude"].values
     np.testing.assert_allclose(ratio, ratio[0], rtol=1e-10)

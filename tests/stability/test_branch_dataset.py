@@ -13,7 +13,9 @@ def test_an_orbit_without_extremes_is_told(monkeypatch):
     case = vi.laboratory.case("B2-G1-A3")
     monkeypatch.setattr("vibroimpact.stability.branch_dataset.MAX_EVENTS", 1)
     with pytest.warns(RuntimeWarning, match="the orbit at .* has no extremes: .*max_events"):
-        data = vi.branch(case.oscillator, vi.Harmonic(case.amplitude, 2.0), low=1.95, high=2.05)
+        data = vi.branch(
+            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)), span=(1.95, 2.05)
+        )
     assert data["eta_d"].isnull().any()
 
 
@@ -25,7 +27,7 @@ def test_every_point_is_an_orbit():
         state = data["section"].isel(point=i)
         shaken = vi.Harmonic(case.amplitude, float(data["frequency"][i]))
         period = int(data["period"][i])
-        moved = vi.simulate(case.oscillator, shaken, period, state, 0)["final_state"]
+        moved = vi.simulate(vi.Rig(case.oscillator, shaken), period, state, 0)["final_state"]
         growth = max(
             1.0,
             float(

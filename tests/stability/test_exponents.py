@@ -58,7 +58,7 @@ def test_those_of_a_periodic_motion_are_its_multipliers():
     case = vi.laboratory.case("B3-10mm-A3")
     for frequency, tolerance in ((1.2, 1e-10), (2.0, 2e-3)):
         averaged = vi.lyapunov_exponents([case], [frequency], 4000).isel(rig=0, frequency=0)
-        exact = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, frequency))
+        exact = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, frequency)))
         np.testing.assert_allclose(averaged["exponents"], exact["exponents"], atol=tolerance)
 
 
@@ -120,7 +120,7 @@ def test_refused(wrong):
 def test_strong_contraction(damping):
     """λ = (−c ± √(c² − 4k))/2, also where one direction dies out e^−300 faster than the other."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, damping), None, None)
-    data = vi.lyapunov_exponents([(rig, 1.0)], [0.01], 64, transient=10)
+    data = vi.lyapunov_exponents([vi.Rig(rig, 1.0)], [0.01], 64, transient=10)
     roots = np.roots([1.0, damping, 1.0]).real
     np.testing.assert_allclose(data["exponents"][0, 0], np.sort(roots)[::-1], rtol=2e-2)
     if damping > 2.0:
@@ -130,7 +130,7 @@ def test_strong_contraction(damping):
 
 def test_the_sum_rule_where_contraction_is_strong():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 6.0), vi.Bumper(50.0, 1.0, 1e-3), None)
-    data = vi.lyapunov_exponents([(rig, 1.0)], [0.2 / 6.2832], 64, transient=50)
+    data = vi.lyapunov_exponents([vi.Rig(rig, 1.0)], [0.2 / 6.2832], 64, transient=50)
     total = float(data["exponents"].sum()) + float(data["effective_damping"][0, 0])
     assert abs(total) < 1e-8
 
@@ -184,7 +184,7 @@ def test_a_direction_that_sticking_takes_is_lost_in_every_answer():
     """Second exponent of a mass that sticks: steady, the averages and the multipliers agree."""
     rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.9))
     shaken = vi.Harmonic(1.0, 0.8 / (2.0 * math.pi))
-    steady = vi.steady(rig, shaken)["exponents"].values
+    steady = vi.steady(vi.Rig(rig, shaken))["exponents"].values
     averaged = vi.lyapunov_exponents({"rig": vi.Rig(rig, shaken)}, [shaken.frequency], 200)
     assert steady[0] == pytest.approx(-0.26024431, abs=1e-7)
     np.testing.assert_allclose(averaged["exponents"].values.ravel(), steady, atol=1e-8)
@@ -196,7 +196,7 @@ def test_strong_damping_leaves_a_second_exponent():
     rig, shaken = vi.Oscillator(1.0, vi.Isolator(1.0, 8.0)), vi.Harmonic(1.0, 0.8 / (2 * math.pi))
     slow = 4.0 - math.sqrt(15.0)
     exact = np.array([-slow, -(8.0 - slow)])
-    np.testing.assert_allclose(vi.steady(rig, shaken)["exponents"], exact, rtol=1e-12)
+    np.testing.assert_allclose(vi.steady(vi.Rig(rig, shaken))["exponents"], exact, rtol=1e-12)
 
 
 def test_what_has_not_settled_says_so():
@@ -218,7 +218,7 @@ def test_the_uncertainty_of_a_complex_pair_covers_its_error():
         oscillator = vi.Oscillator(1.0, law)
         for frequency in (0.11, 0.23):
             shaken = vi.Harmonic(1.0, frequency)
-            orbit = vi.orbit(oscillator, shaken)
+            orbit = vi.orbit(vi.Rig(oscillator, shaken))
             pair = orbit["multiplier_real"].values + 1j * orbit["multiplier_imag"].values
             assert abs(pair[0].imag) > 1e-3
             exact = frequency * np.log(np.abs(pair[:2]))

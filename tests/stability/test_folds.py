@@ -24,10 +24,10 @@ from vibroimpact.stability import branch as followed
     ],
 )
 def test_free_flight_need_not_be_followed(ratio, gaps, memory, damping, count, monkeypatch):
-    oscillator, shaken = one_sine(*vi.from_dimensionless(ratio, gaps, memory, damping), "rig")
+    oscillator, shaken = one_sine(vi.from_dimensionless(ratio, gaps, memory, damping), "rig")
     natural = oscillator.natural_frequency
     here = shaken.replace(frequency=0.99 * natural)
-    begin = vi.steady(oscillator, here)["final_state"]
+    begin = vi.steady(vi.Rig(oscillator, here))["final_state"]
     ended = []
     turns_into_flight = followed.turns_into_flight
 

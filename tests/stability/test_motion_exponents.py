@@ -17,7 +17,7 @@ def test_an_orbit_by_its_multipliers():
     found = approach(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2), vi.State())
     kind, damping, cycles, status = judge_orbit(found, 100)
     assert (kind.motion, kind.period, cycles, status) == ("periodic", 1, 2, Status.DONE)
-    orbit = vi.orbit(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2))
+    orbit = vi.orbit(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)))
     moduli = np.hypot(orbit["multiplier_real"], orbit["multiplier_imag"]).values
     np.testing.assert_allclose(np.sort(kind.exponents)[::-1], np.log(moduli[:2]), atol=1e-9)
     # Where bumpers forget the sum is that of the damping.

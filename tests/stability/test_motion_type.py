@@ -68,7 +68,7 @@ def test_a_bounded_growth_over_few_cycles_says_nothing():
     assert judge(growth(0.0, 0.01, 900), WANDERING[:900]).motion == "undecided"
     assert judge(growth(0.0, 0.01, 1100), WANDERING[:1100]).motion == "quasi-periodic"
     case = vi.laboratory.case("B3-10mm-A3")
-    data = vi.steady(case.oscillator, vi.Harmonic(case.amplitude, 1.1), exponent_cycles=60)
+    data = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.1)), exponent_cycles=60)
     assert data["motion"].item() == "undecided"
 
 
@@ -144,7 +144,7 @@ def settled(which: str):
         "conservative": conservative(),
         "remembering": remembering(),
     }[which]
-    return vi.steady(rig, shaken, start, 4, window=4000, max_cycles=5000)
+    return vi.steady(vi.Rig(rig, shaken), start, 4, window=4000, max_cycles=5000)
 
 
 def points(which: str) -> tuple[np.ndarray, np.ndarray]:
@@ -179,7 +179,9 @@ def test_chaos_by_the_zero_one_test():
     other = first.replace(displacement=first.displacement + 1e-11)
     distance = []
     for cycles in (10, 20, 30, 40, 50, 60, 70):
-        ends = [vi.simulate(rig, shaken, cycles, s, 0)["final_state"] for s in (first, other)]
+        ends = [
+            vi.simulate(vi.Rig(rig, shaken), cycles, s, 0)["final_state"] for s in (first, other)
+        ]
         distance.append(float(abs(ends[0] - ends[1])[:2].max()))
     rate = np.polyfit([10, 20, 30, 40, 50, 60, 70], np.log(distance), 1)[0]
     told = float(settled("chaos")["exponents"][0]) / shaken.frequency
@@ -215,10 +217,10 @@ def test_a_given_displacement_of_the_base_is_the_same_at_each_frequency(omega, w
     """The published rig is shaken by a ω² sin ωτ: a base displacement of one size."""
     rig, plain = soft_impact(omega)
     moved = vi.Harmonic(0.7, omega / (2 * math.pi), of="displacement")
-    one, other = (vi.simulate(rig, shaken, 20, samples=8) for shaken in (plain, moved))
+    one, other = (vi.simulate(vi.Rig(rig, shaken), 20, samples=8) for shaken in (plain, moved))
     np.testing.assert_allclose(one["displacement"], other["displacement"], atol=1e-10)
     known = settled(which)
-    found = vi.steady(rig, moved, None, 4, window=4000, max_cycles=5000)
+    found = vi.steady(vi.Rig(rig, moved), None, 4, window=4000, max_cycles=5000)
     assert found["motion"].item() == known["motion"].item()
     assert int(found["period"]) == int(known["period"])
 
@@ -231,9 +233,9 @@ def test_it_grazes_where_the_free_flight_reaches_the_stop():
     squares = np.roots([e**2 - a**2, e**2 * (4 * xi**2 - 2), e**2])
     exact = float(np.sqrt(squares.min()))
     shaken = vi.Harmonic(a, 0.7 / (2 * math.pi), of="displacement")
-    start = vi.simulate(rig.without_bumpers(), shaken, 300, samples=0)["final_state"].values
+    start = vi.simulate(vi.Rig(rig.without_bumpers(), shaken), 300, samples=0)["final_state"].values
     begin = vi.State(start[0], start[1], phase=start[4])
-    data = vi.branch(rig, shaken, begin, low=0.6 / (2 * math.pi), high=0.85 / (2 * math.pi))
+    data = vi.branch(vi.Rig(rig, shaken), begin, span=(0.6 / (2 * math.pi), 0.85 / (2 * math.pi)))
     at = 2 * math.pi * data["bifurcation_value"].values
     grazing = at[data["bifurcation_kind"].values == "grazing"]
     assert np.abs(grazing - exact).min() < 1e-11

@@ -12,8 +12,8 @@ def test_it_agrees_with_settling():
     case = vi.laboratory.case("B3-10mm-A3")
     for frequency in (0.5, 1.12, 2.0):
         shaken = vi.Harmonic(case.amplitude, frequency, 0.4)
-        settled = vi.steady(case.oscillator, shaken)
-        found = vi.orbit(case.oscillator, shaken, settled)
+        settled = vi.steady(vi.Rig(case.oscillator, shaken))
+        found = vi.orbit(vi.Rig(case.oscillator, shaken), settled)
         for name in ("displacement_max", "acceleration_max", "energy_supplied"):
             assert float(found[name]) == pytest.approx(float(settled[name]), rel=1e-10)
         assert float(found["residual"]) <= 1e-12
@@ -29,7 +29,7 @@ def test_the_antisymmetric_orbit_of_the_non_regular_range_is_unstable():
     case = vi.laboratory.case("B3-10mm-A3")
     for frequency in (1.02, 1.06, 1.10):
         found = vi.orbit(
-            case.oscillator, vi.Harmonic(case.amplitude, frequency), vi.State(1e-3, -0.02)
+            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, frequency)), vi.State(1e-3, -0.02)
         )
         assert bool(found["antisymmetric"])
         assert int(found["stable"]) == 0
@@ -39,7 +39,7 @@ def test_the_antisymmetric_orbit_of_the_non_regular_range_is_unstable():
         shaken = vi.Harmonic(case.amplitude, frequency)
         state = found["final_state"].values
         beside = vi.State(state[0] + 1e-7, state[1])
-        left = vi.steady(case.oscillator, shaken, beside, window=50)
+        left = vi.steady(vi.Rig(case.oscillator, shaken), beside, window=50)
         assert float(left["displacement_excursion"]) > 1.005 * float(
             found["displacement_excursion"]
         )
@@ -49,8 +49,8 @@ def test_a_longer_period():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), vi.Bumper(29.0, 0.0, 1.26), None)
     omega = 0.81
     shaken = vi.Harmonic(0.7 * omega**2, omega / (2 * np.pi), np.pi)
-    settled = vi.steady(rig, shaken)
-    found = vi.orbit(rig, shaken, settled, period=5)
+    settled = vi.steady(vi.Rig(rig, shaken))
+    found = vi.orbit(vi.Rig(rig, shaken), settled, period=5)
     assert int(found["period"]) == 5
     assert float(found["cycle"][-1]) == 5.0
 
@@ -67,7 +67,7 @@ def test_a_longer_period():
 def test_refused(wrong, told):
     case = vi.laboratory.case("B2-G1-A3")
     with pytest.raises(vi.InputError, match=told):
-        vi.orbit(case.oscillator, vi.Harmonic(case.amplitude, 1.06, 0.0), **wrong)
+        vi.orbit(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.06, 0.0)), **wrong)
 
 
 @pytest.mark.parametrize("start", [None, vi.State(), vi.State(0.3, -2.0)])
@@ -80,7 +80,7 @@ def test_free_flight_is_found_from_anywhere(damping_ratio, start):
     rig = vi.Oscillator(1.0, isolator, force=force)
     for frequency in (0.05, 0.25, 0.5, 0.99, 1.0, 1.2, 2.0, 7.3):
         omega = 2.0 * np.pi * frequency
-        found = vi.orbit(rig, vi.Harmonic(1.5, frequency), start)
+        found = vi.orbit(vi.Rig(rig, vi.Harmonic(1.5, frequency)), start)
         swing = 1.5 / np.hypot(omega0**2 - omega**2, 2.0 * damping_ratio * omega0 * omega)
         assert float(found["displacement_excursion"]) == pytest.approx(2.0 * swing, rel=1e-9)
         assert float(found["eccentricity"]) == pytest.approx(force / omega0**2, abs=1e-9 * swing)
@@ -91,5 +91,5 @@ def test_free_flight_is_found_from_anywhere(damping_ratio, start):
 def test_a_start_at_rest_beside_attached_bumpers_has_no_size(gap):
     rig = vi.Oscillator(1.0, vi.Isolator(40.0, 0.6), vi.Bumper(100.0, 1.0, gap))
     for frequency in (0.7, 1.3, 3.0, 8.0):
-        found = vi.orbit(rig, vi.Harmonic(1.0, frequency), vi.State())
+        found = vi.orbit(vi.Rig(rig, vi.Harmonic(1.0, frequency)), vi.State())
         assert float(found["residual"]) <= 1e-12

@@ -17,7 +17,7 @@ def test_from_no_dashpot_and_to_none():
     ends = []
     for damping in (0.0, 1.0):
         data = vi.branch(
-            between_stops(damping), shaken, parameter="bumper_damping", low=0.0, high=2.0
+            vi.Rig(between_stops(damping), shaken), span=(0.0, 2.0), parameter="bumper_damping"
         )
         ends.append(data.isel(point=int(data["bumper_damping"].values.argmin())))
         ends.append(data.isel(point=int(data["bumper_damping"].values.argmax())))
@@ -38,7 +38,7 @@ def test_other_parameters(parameter):
         "stiffness_ratio": (1.0, 50.0),
     }
     low, high = ranges[parameter]
-    data = vi.branch(case.oscillator, shaken, parameter=parameter, low=low, high=high)
+    data = vi.branch(vi.Rig(case.oscillator, shaken), span=(low, high), parameter=parameter)
     assert data.attrs["parameter"] == parameter
     for i in np.linspace(0, data.sizes["point"] - 1, 8).astype(int):
         value = float(data[parameter][i])
@@ -55,7 +55,7 @@ def test_other_parameters(parameter):
             bumper = rig.right.replace(stiffness=stiffness, damping=damping)
             rig = rig.replace(right=bumper, left=bumper)
         state = data["section"].isel(point=i)
-        moved = vi.simulate(rig, excitation, 1, state, 0)["final_state"]
+        moved = vi.simulate(vi.Rig(rig, excitation), 1, state, 0)["final_state"]
         np.testing.assert_allclose(moved[:2], state[:2], rtol=0, atol=1e-9)
 
 
@@ -70,7 +70,7 @@ def test_over_the_gap_into_preload(frequency):
         return case.oscillator.replace(right=bumper, left=bumper)
 
     ways = [
-        vi.branch(rig(gap), shaken, parameter="gap", low="-1 mm", high="1 mm")
+        vi.branch(vi.Rig(rig(gap), shaken), span=("-1 mm", "1 mm"), parameter="gap")
         for gap in (1e-3, -1e-3)
     ]
     for data in ways:
@@ -80,7 +80,7 @@ def test_over_the_gap_into_preload(frequency):
         for i in (0, -1):
             last = data.isel(point=i)
             phase = float(last["section"].sel(component="phase"))
-            settled = vi.steady(rig(float(last["gap"])), shaken.replace(phase=phase))
+            settled = vi.steady(vi.Rig(rig(float(last["gap"])), shaken.replace(phase=phase)))
             state = settled["final_state"].values
             np.testing.assert_allclose(last["section"].values[:4], state[:4], atol=1e-12)
             # The samples of the record come close to the exact extremes.
@@ -99,13 +99,13 @@ def test_over_the_restitution_of_a_wall():
     def rig(restitution: float) -> vi.Oscillator:
         return case.oscillator.replace(right=vi.RigidStop(restitution, "2 mm"), left=None)
 
-    data = vi.branch(rig(0.6), shaken, parameter="restitution", low=0.5, high=0.95)
+    data = vi.branch(vi.Rig(rig(0.6), shaken), span=(0.5, 0.95), parameter="restitution")
     assert data.attrs["parameter"] == "restitution"
     ends = {data.attrs["ended_low"], data.attrs["ended_high"]}
     assert ends == {"the range ends at 0.5", "the range ends at 0.95"}
     for i in np.linspace(0, data.sizes["point"] - 1, 6).astype(int):
         here = data.isel(point=i)
-        alone = vi.orbit(rig(float(here["restitution"])), shaken, here["section"])
+        alone = vi.orbit(vi.Rig(rig(float(here["restitution"])), shaken), here["section"])
         assert float(alone["displacement_min"]) == pytest.approx(
             float(here["displacement_min"]), rel=1e-9
         )
@@ -121,7 +121,7 @@ def test_parameters_that_do_not_count_in_proportion(parameter, low, high):
     stop = vi.PowerBumper(200.0, 0.3, 1.5, restitution=0.6)
     rig = vi.Oscillator(1.0, vi.BoucWenIsolator(4.0, 1.0, 0.2, 0.1), stop, stop.replace(gap=0.5))
     shaken = vi.Harmonic(0.5, 1.1 / (2 * np.pi))
-    data = vi.branch(rig, shaken, parameter=parameter, low=low, high=high)
+    data = vi.branch(vi.Rig(rig, shaken), span=(low, high), parameter=parameter)
     values = data[parameter].values
     assert values.min() <= low + 1e-9
     assert values.max() >= high - 1e-9
@@ -133,5 +133,5 @@ def test_parameters_that_do_not_count_in_proportion(parameter, low, high):
             here = rig.replace(right=stop.replace(restitution=value))
         start = data["section"].isel(point=int(k))
         cycles = int(np.ravel(data["period"])[min(int(k), data["period"].size - 1)])
-        after = vi.simulate(here, shaken, cycles, start, samples=0)["final_state"]
+        after = vi.simulate(vi.Rig(here, shaken), cycles, start, samples=0)["final_state"]
         np.testing.assert_allclose(after[:2], start[:2], atol=1e-9)

@@ -22,7 +22,7 @@ def hertz(omega: float) -> float:
 
 def test_one_branch_has_the_attributes_of_any():
     case = vi.laboratory.case("B3-0mm-A3")
-    data = vi.resonance_diagram(case.oscillator, case.amplitude, 3.0, 4.0)
+    data = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (3.0, 4.0))
     assert set(data["branch"].values) == {0}
     assert data.attrs["branch_0_closed"] == 0
     assert {data.attrs[f"branch_0_ended_{end}"] for end in ("low", "high")} == {
@@ -33,7 +33,7 @@ def test_one_branch_has_the_attributes_of_any():
 
 @cache
 def isolated() -> xr.Dataset:
-    return vi.resonance_diagram(TWO_STOPS, 2.0, hertz(1.5), hertz(8.0))
+    return vi.resonance_diagram(vi.Rig(TWO_STOPS, 2.0), (hertz(1.5), hertz(8.0)))
 
 
 def test_isolated_branches_are_found_once():
@@ -43,10 +43,10 @@ def test_isolated_branches_are_found_once():
     kinds = [(int(data["period"][k]), bool(data["antisymmetric"][k])) for k in first]
     assert kinds == [(1, True), (3, True), (3, False)]
     assert [data.attrs[f"branch_{b}_closed"] for b in range(3)] == [0, 1, 1]
-    alone = vi.resonance_diagram(TWO_STOPS, 2.0, hertz(1.5), hertz(8.0), random=0)
+    alone = vi.resonance_diagram(vi.Rig(TWO_STOPS, 2.0), (hertz(1.5), hertz(8.0)), random=0)
     assert int(alone["branch"].max()) == 0
     xr.testing.assert_equal(
-        isolated(), vi.resonance_diagram(TWO_STOPS, 2.0, hertz(1.5), hertz(8.0))
+        isolated(), vi.resonance_diagram(vi.Rig(TWO_STOPS, 2.0), (hertz(1.5), hertz(8.0)))
     )
 
 
@@ -56,7 +56,7 @@ def test_basins_lead_to_a_branch_that_random_starts_miss():
     asked = {"oscillator": rig, "amplitude": 2.0, "low": hertz(4.0), "high": hertz(8.0)}
     missed = vi.resonance_diagram(**asked, longest=5, random=40)
     assert not (missed["period"] == 5).any()
-    found = vi.basins(rig, vi.Harmonic(2.0, hertz(6.0)), nodes=40)
+    found = vi.basins(vi.Rig(rig, vi.Harmonic(2.0, hertz(6.0))), nodes=40)
     assert float(found["share"].min()) < 0.01
     data = vi.resonance_diagram(**asked, longest=5, basins=found)
     isola = data["period"].values == 5
@@ -74,9 +74,9 @@ def test_basins_of_a_rig_whose_bumpers_remember():
     slow = vi.Bumper(40.0, 20.0, 1.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), slow, None)
     shaking = vi.Harmonic(2.0, hertz(2.0))
-    found = vi.basins(rig, shaking, nodes=5)
+    found = vi.basins(vi.Rig(rig, shaking), nodes=5)
     over = {"parameter": "gap", "random": 0, "starts": 2}
-    data = vi.resonance_diagram(rig, shaking, 0.8, 1.2, **over, basins=[found])
+    data = vi.resonance_diagram(vi.Rig(rig, shaking), (0.8, 1.2), **over, basins=[found])
     assert int(data["branch"].max()) == 0
 
 
@@ -94,7 +94,7 @@ def excursions(data: xr.Dataset, value: float) -> list[float]:
 def test_two_parameters_meet_in_the_same_orbits():
     """Where a diagram over the frequency and one over the gap cross, orbits are the same."""
     shaking = vi.Harmonic(2.0, hertz(4.6))
-    over_gap = vi.resonance_diagram(TWO_STOPS, shaking, 0.9, 3.0, parameter="gap")
+    over_gap = vi.resonance_diagram(vi.Rig(TWO_STOPS, shaking), (0.9, 3.0), parameter="gap")
     one, other = excursions(isolated(), hertz(4.6)), excursions(over_gap, 1.0)
     # Free flight, and the stable and the unstable orbit of period 3.
     assert len(one) == len(other) == 3
@@ -108,8 +108,10 @@ def test_two_parameters_meet_in_the_same_orbits():
 def test_what_settles_lies_on_a_branch(parameter, low, high):
     """Each motion of a bifurcation diagram of period 1 to 4 is near an orbit of its period."""
     shaking = vi.Harmonic(2.0, hertz(2.4))
-    data = vi.resonance_diagram(ONE_STOP, shaking, low, high, parameter=parameter)
-    found = vi.bifurcation_diagram(ONE_STOP, shaking, parameter, low, high, 9, random=2, seed=5)
+    data = vi.resonance_diagram(vi.Rig(ONE_STOP, shaking), (low, high), parameter=parameter)
+    found = vi.bifurcation_diagram(
+        vi.Rig(ONE_STOP, shaking), parameter, (low, high), 9, random=2, seed=5
+    )
     x, y = data[parameter].values, data["displacement_excursion"].values
     for i, value in enumerate(found[parameter].values[1:-1], start=1):
         known = excursions(data, float(value))
@@ -124,8 +126,8 @@ def test_what_settles_lies_on_a_branch(parameter, low, high):
 def test_the_bifurcations_of_a_branch_are_among_them():
     case = vi.laboratory.case("B3-10mm-A3")
     shaking = vi.Harmonic(case.amplitude, 1.12)
-    every = vi.resonance_diagram(case, 4.8e-3, 6e-3, parameter="gap", frequency=1.12, random=0)
-    one = vi.branch(case.oscillator, shaking, parameter="gap", low=4.8e-3, high=6e-3)
+    every = vi.resonance_diagram(case, (4.8e-3, 6e-3), parameter="gap", frequency=1.12, random=0)
+    one = vi.branch(vi.Rig(case.oscillator, shaking), span=(4.8e-3, 6e-3), parameter="gap")
     for kind in np.unique(one["bifurcation_kind"]):
         mine, theirs = (
             d["bifurcation_value"].values[d["bifurcation_kind"].values == kind]
@@ -163,7 +165,7 @@ def test_refused(wrong, told):
     ],
 )
 def test_basins_that_are_refused(changed, told):
-    found = vi.basins(ONE_STOP, vi.Harmonic(1.0, 0.3), nodes=3)
+    found = vi.basins(vi.Rig(ONE_STOP, vi.Harmonic(1.0, 0.3)), nodes=3)
     given = {"oscillator": ONE_STOP, "amplitude": 1.0, "low": 0.2, "high": 0.4, "basins": found}
     with pytest.raises(vi.InputError, match=told):
         vi.resonance_diagram(**{**given, **changed}, starts=1)

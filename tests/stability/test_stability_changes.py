@@ -8,7 +8,7 @@ import pytest
 import vibroimpact as vi
 from stability.followed import values
 from vibroimpact.stability.bifurcations import unexplained
-from vibroimpact.stability.branch import _begun, _both_ways
+from vibroimpact.stability.branch import _both_ways, _first_orbit
 
 
 @pytest.mark.parametrize("gap", [None, 0.006331861949463645])
@@ -23,8 +23,8 @@ def test_a_symmetry_breaking_of_an_orbit_that_does_not_reach_the_only_stop(gap):
     )
     rig = vi.Oscillator(453.0518198083075, isolator, left=left)
     shaken = vi.Harmonic("1.436060444936944 N", 0.045)
-    start = vi.steady(rig, shaken)["final_state"]
-    data = vi.branch(rig, shaken, start, low=0.0434, high=0.046)
+    start = vi.steady(vi.Rig(rig, shaken))["final_state"]
+    data = vi.branch(vi.Rig(rig, shaken), start, span=(0.0434, 0.046))
     assert np.abs(values(data, "symmetry breaking") - 0.04373158).min() < 1e-8
     assert "unexplained_changes" not in data.attrs
 
@@ -46,8 +46,8 @@ def test_a_branch_ends_where_orbits_are_not_isolated():
     )
     f = shaken.frequency
     with pytest.warns(RuntimeWarning, match="not isolated"):
-        start = vi.steady(rig, shaken)["final_state"]
-    data = vi.branch(rig, shaken, start, low=0.9 * f, high=1.1 * f)
+        start = vi.steady(vi.Rig(rig, shaken))["final_state"]
+    data = vi.branch(vi.Rig(rig, shaken), start, span=(0.9 * f, 1.1 * f))
     assert data.sizes["point"] < 100
     assert data.sizes["bifurcation"] == 0
     for end in ("low", "high"):
@@ -57,9 +57,7 @@ def test_a_branch_ends_where_orbits_are_not_isolated():
 def test_a_change_that_no_bifurcation_explains_is_told():
     """If those that explain it are left out."""
     case = vi.laboratory.case("B2-G1-A3")
-    _, span, first = _begun(
-        case.oscillator, vi.Harmonic(case.amplitude, 2.0), None, "frequency", 0.8, 4.0, None
-    )
+    _, span, first = _first_orbit(case.rig.at(2.0), None, "frequency", (0.8, 4.0), None)
     stations, _, _ = _both_ways(first, span, 5000)
     (change,) = unexplained(stations, [])[:1]
     assert 0.8 < change[0] < 4.0
@@ -69,7 +67,7 @@ def test_a_branch_that_grows_until_its_points_are_used_up_says_so():
     """Below Den Hartog's bound dry friction does not limit a resonance."""
     rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.3))
     shaken = vi.Harmonic(1.0, 0.11)
-    data = vi.branch(rig, shaken, low=0.1, high=0.2, most_points=300)
+    data = vi.branch(vi.Rig(rig, shaken), span=(0.1, 0.2), most_points=300)
     assert "points were reached" in data.attrs["ended_high"]
     assert "times the first and still grows" in data.attrs["ended_high"]
 
@@ -79,7 +77,7 @@ def test_a_branch_ends_where_its_motion_grows_without_bound():
     rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.3))
     resonance = 0.5 / np.pi
     for frequency, end in ((0.11, "high"), (0.19, "low")):
-        data = vi.branch(rig, vi.Harmonic(1.0, frequency), low=0.1, high=0.2)
+        data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, frequency)), span=(0.1, 0.2))
         assert f"without bound near frequency = {resonance:.6g}" in data.attrs[f"ended_{end}"]
         assert data.sizes["point"] < 2500
         ratio = data["displacement_max"].max() / data["displacement_max"].min()
@@ -90,7 +88,7 @@ def test_a_branch_ends_where_its_motion_grows_without_bound():
 def test_a_slightly_damped_resonance_is_passed(damping_ratio):
     """However large it is: its peak is that of the closed form."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2.0 * damping_ratio))
-    data = vi.branch(rig, vi.Harmonic(1.0, 0.11), low=0.1, high=0.2)
+    data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, 0.11)), span=(0.1, 0.2))
     assert data.attrs["ended_high"] == "the range ends at 0.2"
     peak = 0.5 / damping_ratio
     assert float(data["displacement_max"].max()) == pytest.approx(peak, rel=1e-3)
@@ -98,7 +96,7 @@ def test_a_slightly_damped_resonance_is_passed(damping_ratio):
 
 def test_a_dashpot_limits_a_resonance_that_is_not_followed_to_its_peak():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2e-5))
-    data = vi.branch(rig, vi.Harmonic(1.0, 0.11), low=0.1, high=0.2)
+    data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, 0.11)), span=(0.1, 0.2))
     assert "without bound" not in data.attrs["ended_high"]
     assert data.attrs["ended_high"].startswith("the motion grows beyond 1e+04 times the first")
 
@@ -106,7 +104,7 @@ def test_a_dashpot_limits_a_resonance_that_is_not_followed_to_its_peak():
 def test_a_motion_that_grows_with_the_amplitude_is_no_resonance():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.2))
     shaken = vi.Harmonic(1e-3, 0.11)
-    data = vi.branch(rig, shaken, parameter="amplitude", low=1e-3, high=100.0)
+    data = vi.branch(vi.Rig(rig, shaken), span=(1e-3, 100.0), parameter="amplitude")
     assert data.attrs["ended_high"] == "the range ends at 100"
 
 
@@ -116,7 +114,7 @@ def test_a_pair_passes_the_circle_where_the_section_lies_in_a_contact():
     left = vi.Bumper(0.01, 2.009975124224178, 10.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), right, left)
     shaken = vi.Harmonic(1.0, 0.5 / np.pi)
-    data = vi.branch(rig, shaken, low=0.11, high=0.21)
+    data = vi.branch(vi.Rig(rig, shaken), span=(0.11, 0.21))
     assert "unexplained_changes" not in data.attrs
     (value,) = values(data, "Neimark-Sacker")
     assert value == pytest.approx(0.191607879, abs=1e-8)

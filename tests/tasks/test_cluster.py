@@ -41,7 +41,7 @@ def cluster():
 
 @pytest.fixture(scope="module")
 def on_threads():
-    return vi.scenario_map(*AXES, refine=1, block=2)
+    return vi.scenario_map(None, *AXES, refine=1, block=2)
 
 
 def test_sweeps(cluster):
@@ -62,20 +62,22 @@ def test_demands(cluster):
 
 def test_basins(cluster):
     asked = {"nodes": sample(400, 190)}  # 19 regions
-    there = vi.basins("B3-10mm-A3", "0.70 Hz", where=cluster, **asked)
-    assert there.identical(vi.basins("B3-10mm-A3", "0.70 Hz", **asked))
+    there = vi.basins("B3-10mm-A3", frequency="0.70 Hz", where=cluster, **asked)
+    assert there.identical(vi.basins("B3-10mm-A3", frequency="0.70 Hz", **asked))
 
 
 def _shares(**how):
     return vi.basin_stability(
-        "B3-10mm-A3", 0.7, parameter="gap", values=[0.004, 0.006], states=20, **how
+        "B3-10mm-A3", frequency=0.7, parameter="gap", values=[0.004, 0.006], states=20, **how
     )
 
 
 def _diagram(**how):
     case = vi.laboratory.case("B3-10mm-A3")
     shaking = vi.Harmonic(case.amplitude, 1.12)
-    return vi.bifurcation_diagram(case.oscillator, shaking, "gap", "5 mm", "6 mm", 3, **how)
+    return vi.bifurcation_diagram(
+        vi.Rig(case.oscillator, shaking), "gap", ("5 mm", "6 mm"), 3, **how
+    )
 
 
 def _growth(**how):
@@ -83,7 +85,7 @@ def _growth(**how):
 
 
 def _designs(**how):
-    return vi.design_chart("B2-G1-A3", "0.05 g", {"gap": ["5 mm", "8 mm"]}, step=0.2, **how)
+    return vi.design_chart(vi.Rig("B2-G1-A3", "0.05 g"), {"gap": ["5 mm", "8 mm"]}, step=0.2, **how)
 
 
 @pytest.mark.parametrize("computed", [_shares, _diagram, _growth, _designs])
@@ -112,7 +114,7 @@ def test_a_map_outlives_workers(cluster, on_threads):
                 killed.append(pid)
                 os.kill(pid, signal.SIGKILL)
 
-    there = vi.scenario_map(*AXES, refine=1, block=2, where=cluster, progress=kill)
+    there = vi.scenario_map(None, *AXES, refine=1, block=2, where=cluster, progress=kill)
     assert len(killed) == 2
     assert there.identical(on_threads)
 
@@ -129,11 +131,11 @@ def test_a_map_is_completed_when_the_scheduler_died(tmp_path, on_threads):
             local.close(timeout=10)
 
     with pytest.raises(LostError, match="went away"):
-        vi.scenario_map(*AXES, refine=1, block=2, store=store, where=client, progress=die)
+        vi.scenario_map(None, *AXES, refine=1, block=2, store=store, where=client, progress=die)
     client.close()
     left = []
     again = vi.scenario_map(
-        *AXES, refine=1, block=2, store=store, progress=lambda *at: left.append(at[0])
+        None, *AXES, refine=1, block=2, store=store, progress=lambda *at: left.append(at[0])
     )
     assert left[0] > 0  # what was done is not done again
     assert again.load().identical(on_threads)

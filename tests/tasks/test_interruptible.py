@@ -61,7 +61,7 @@ def test_where_the_growth_of_disturbances_is_cut_changes_no_bit(isolator, monkey
 def test_a_motion_in_a_task_that_is_not_wanted_ends():
     def task(_, tally):
         tally[1] = 1
-        vi.simulate(RIG, SHAKEN, 1e12, samples=0)
+        vi.simulate(vi.Rig(RIG, SHAKEN), 1e12, samples=0)
 
     with pytest.raises(Stopped):
         each(task, [0], threads=1)
@@ -111,8 +111,10 @@ def test_tasks_of_a_task_end_with_it():
 @pytest.mark.parametrize(
     "call",
     [
-        lambda **how: vi.steady(RIG, SHAKEN, max_cycles=2, exponent_cycles=400, **how),
-        lambda **how: vi.seismic_response(RIG, vi.Record(np.resize([1.0, -1.0], 400), 0.1), **how),
+        lambda **how: vi.steady(vi.Rig(RIG, SHAKEN), max_cycles=2, exponent_cycles=400, **how),
+        lambda **how: vi.seismic_response(
+            vi.Rig(RIG, vi.Record(np.resize([1.0, -1.0], 400), 0.1)), **how
+        ),
     ],
 )
 def test_progress_changes_nothing_and_ends_with_all(call):

@@ -141,17 +141,19 @@ def test_all_functions_tell_the_same(monkeypatch):
         told.append((done, total))
 
     shaken = vi.Harmonic(CASE.amplitude, 2.0)
-    found = vi.resonance_diagram(CASE.oscillator, CASE.amplitude, 1.0, 3.0, progress=note)
+    found = vi.resonance_diagram(vi.Rig(CASE.oscillator, CASE.amplitude), (1.0, 3.0), progress=note)
     assert all(isinstance(total, int) for _, total in told)
     assert told[-1][0] == told[-1][1]
     told.clear()
-    vi.branch(CASE.oscillator, shaken, parameter="gap", low=7e-3, high=8e-3, progress=note)
+    vi.branch(vi.Rig(CASE.oscillator, shaken), span=(7e-3, 8e-3), parameter="gap", progress=note)
     counted_and_ended(told)
     told.clear()
     fold = found.isel(bifurcation=0)
     span = {"low": (1.0, 7e-3), "high": (4.0, 8e-3)}
     over = ("frequency", "gap")
-    vi.bifurcation_curve(CASE.oscillator, shaken, fold, parameters=over, **span, progress=note)
+    vi.bifurcation_curve(
+        vi.Rig(CASE.oscillator, shaken), fold, parameters=over, **span, progress=note
+    )
     counted_and_ended(told)
 
 

@@ -23,55 +23,59 @@ grid = np.linspace(1.0, 3.0, 5)
 
 
 def swept() -> xr.Dataset:
-    assert_type(vi.sweep(rig, 0.5, grid), xr.Dataset)
-    assert_type(vi.sweep(rig, "0.05 g", ["1 Hz", 2.0], ("forward",)), xr.Dataset)
-    assert_type(vi.sweep(rig, shaking, frequencies=grid, tolerance=1e-8), xr.Dataset)
+    assert_type(vi.sweep(vi.Rig(rig, 0.5), grid), xr.Dataset)
+    assert_type(vi.sweep(vi.Rig(rig, "0.05 g"), ["1 Hz", 2.0], ("forward",)), xr.Dataset)
+    assert_type(vi.sweep(vi.Rig(rig, shaking), frequencies=grid, tolerance=1e-8), xr.Dataset)
     assert_type(vi.sweep("B2-G1-A3", grid), xr.Dataset)
-    assert_type(vi.sweep((rig, 0.5), grid), xr.Dataset)
-    assert_type(vi.sweep(Path("rig.toml"), grid), xr.Dataset)
+    assert_type(vi.sweep(vi.Rig((rig, 0.5), grid)), xr.Dataset)
+    assert_type(vi.sweep(vi.Rig(Path("rig.toml"), grid)), xr.Dataset)
     assert_type(vi.sweeps(["rig.toml", Path("rig.toml")], grid), xr.Dataset)
-    assert_type(vi.sweep(oscillator=rig, amplitude=0.5, frequencies=grid), xr.Dataset)
-    assert_type(vi.sweeps(["B2-G1-A3", (rig, 0.5)], grid, threads=2), xr.Dataset)
+    assert_type(vi.sweep(vi.Rig(rig, 0.5), frequencies=grid), xr.Dataset)
+    assert_type(vi.sweeps(["B2-G1-A3", vi.Rig(rig, 0.5)], grid, threads=2), xr.Dataset)
     return vi.sweep(case, case.frequencies)
 
 
 def moved() -> xr.Dataset:
-    motion = vi.simulate(rig, shaking, 10, start=vi.State(displacement=0.001))
-    assert_type(vi.simulate(case, "2 Hz", cycles=10), xr.Dataset)
-    assert_type(vi.simulate(rig, record), xr.Dataset)
-    assert_type(vi.steady(rig, excitation=shaking), xr.Dataset)
-    assert_type(vi.coexisting(case, 2.6, random=4), list[xr.Dataset])
+    motion = vi.simulate(vi.Rig(rig, shaking), 10, start=vi.State(displacement=0.001))
+    assert_type(vi.simulate(case, frequency="2 Hz", cycles=10), xr.Dataset)
+    assert_type(vi.simulate(vi.Rig(rig, record)), xr.Dataset)
+    assert_type(vi.steady(vi.Rig(rig, shaking)), xr.Dataset)
+    assert_type(vi.coexisting_motions(case, frequency=2.6, random=4), list[xr.Dataset])
     assert_type(vi.contacts(motion), xr.Dataset)
-    assert_type(vi.seismic_response(rig, record, tail="5 s"), xr.Dataset)
+    assert_type(vi.seismic_response(vi.Rig(rig, record), tail="5 s"), xr.Dataset)
     return motion
 
 
 def explored() -> None:
-    assert_type(vi.orbit(rig, shaking, vi.State(0.001, 0.0), period=1), xr.Dataset)
-    assert_type(vi.branch(case, "2 Hz", low=1.0, high=3.0), xr.Dataset)
-    diagram = vi.bifurcation_diagram(rig, shaking, "gap", "3 mm", "7 mm", 9, where="threads")
+    assert_type(vi.orbit(vi.Rig(rig, shaking), vi.State(0.001, 0.0), period=1), xr.Dataset)
+    assert_type(vi.branch(case, frequency="2 Hz", span=(1.0, 3.0)), xr.Dataset)
+    diagram = vi.bifurcation_diagram(
+        vi.Rig(rig, shaking), "gap", ("3 mm", "7 mm"), 9, where="threads"
+    )
     assert_type(diagram, xr.Dataset)
-    found = vi.basins(case, 2.6, (-0.02, 0.02), ("-1 m/s", "1 m/s"), nodes=(20, 30))
-    curves = vi.manifolds(rig, shaking, longest=1.0)
+    found = vi.basins(case, (-0.02, 0.02), ("-1 m/s", "1 m/s"), frequency=2.6, nodes=(20, 30))
+    curves = vi.manifolds(vi.Rig(rig, shaking), longest=1.0)
     save_figure(basin_portrait(found, manifolds=curves), "basins.png")
-    assert_type(vi.resonance_diagram(case, 1.0, 3.0, basins=[found]), xr.Dataset)
-    assert_type(vi.resonance_diagram(rig, 0.5, 1.0, 3.0, random=2), xr.Dataset)
-    shares = vi.basin_stability(case, 2.0, parameter="frequency", values=[2.0, 2.6])
+    assert_type(vi.resonance_diagram(case, (1.0, 3.0), basins=[found]), xr.Dataset)
+    assert_type(vi.resonance_diagram(vi.Rig(rig, 0.5), (1.0, 3.0), random=2), xr.Dataset)
+    shares = vi.basin_stability(case, frequency=2.0, parameter="frequency", values=[2.0, 2.6])
     assert_type(shares, xr.Dataset)
 
 
 def named() -> None:
-    print(vi.classify("B2-G1-A3").scenario, vi.classify(rig, 0.5).scenario)
-    assert_type(vi.to_dimensionless(rig, "0.05 g"), vi.Dimensionless)
+    print(
+        vi.classify_scenario("B2-G1-A3").scenario, vi.classify_scenario(vi.Rig(rig, 0.5)).scenario
+    )
+    assert_type(vi.to_dimensionless(vi.Rig(rig, "0.05 g")), vi.Dimensionless)
     assert_type(vi.to_dimensionless(case), vi.Dimensionless)
     assert_type(vi.from_dimensionless(20.0, 0.3, 0.01, 0.15), vi.Rig)
     save_figure(resonance_curves(swept()), "curves.png")
 
 
 def designed() -> None:
-    chart = vi.design_chart(rig, "0.05 g", {"gap": ["5 mm", "8 mm"]})
+    chart = vi.design_chart(vi.Rig(rig, "0.05 g"), {"gap": ["5 mm", "8 mm"]})
     assert_type(chart, xr.Dataset)
-    assert_type(vi.required_gap(rig, [record]), xr.Dataset)
+    assert_type(vi.required_gap(rig, records=[record]), xr.Dataset)
     drawn = vi.ensemble("B2-G1-A3", {"gap": "normal:5%"}, lambda rigs: vi.sweeps(rigs, grid))
     assert_type(drawn, xr.Dataset)
     try:
@@ -82,6 +86,6 @@ def designed() -> None:
 
 def told() -> None:
     vi.sweep(rig)  # type: ignore[call-overload]
-    vi.sweep(3.0, grid)  # type: ignore[call-overload]
-    vi.simulate(rig, shaking, cylces=10)  # type: ignore[call-overload]
-    vi.simulate("B2-G1-A3", [2.0], 10)  # type: ignore[call-overload]
+    vi.sweep(vi.Rig(3.0, grid))  # type: ignore[call-overload]
+    vi.simulate(vi.Rig(rig, shaking), cylces=10)  # type: ignore[call-overload]
+    vi.simulate("B2-G1-A3", 10, frequency=[2.0])  # type: ignore[call-overload]

@@ -30,7 +30,7 @@ def test_free_flight_on_an_uncertain_spring(method):
     """Above resonance |u| rises with K, so that its fractiles are those of K, mapped."""
     spring = stats.uniform(20e3, 10e3)
     data = vi.ensemble(
-        (FREE, SHAKING),
+        vi.Rig(FREE, SHAKING),
         {"stiffness": spring},
         partial(vi.sweeps, frequencies=[2.0], directions=["forward"]),
         256,
@@ -68,16 +68,18 @@ def test_the_same_seed_gives_the_same_rigs():
         gap=float(one["gap"][k]), stiffness=float(one["bumper_stiffness"][k])
     )
     rig = CASE.oscillator.replace(right=stop, left=stop)
-    alone = vi.sweep(rig, CASE.amplitude, [1.0, 2.0])
+    alone = vi.sweep(vi.Rig(rig, CASE.amplitude), [1.0, 2.0])
     for name in ("eta_d", "peak_acceleration", "period"):
         np.testing.assert_array_equal(one[name].isel(sample=k), alone[name])
 
 
 def test_an_uncertain_amplitude_of_what_shakes_it():
     data = vi.ensemble(
-        (FREE, SHAKING),
+        vi.Rig(FREE, SHAKING),
         {"amplitude": "uniform:0.3 m/s^2:0.7 m/s^2"},
-        vi.one_by_one(lambda rig, shaking: vi.steady(rig, shaking)[["displacement_max", "period"]]),
+        vi.for_each_rig(
+            lambda rig, shaking: vi.steady(vi.Rig(rig, shaking))[["displacement_max", "period"]]
+        ),
         4,
     )
     np.testing.assert_allclose(
@@ -104,7 +106,7 @@ def test_of_what_a_record_asks():
     rig = rig.replace(
         isolator=rig.isolator.replace(damping=ratio * CASE.oscillator.critical_damping)
     )
-    alone = vi.seismic_response(rig, quake)
+    alone = vi.seismic_response(vi.Rig(rig, quake))
     assert float(data["peak_displacement"][0, 1, k]) == pytest.approx(
         float(alone["peak_displacement"]), rel=1e-12
     )
@@ -112,9 +114,9 @@ def test_of_what_a_record_asks():
 
 def test_parameters_that_are_made_of_others_are_set_last():
     data = vi.ensemble(
-        (FREE, SHAKING),
+        vi.Rig(FREE, SHAKING),
         {"damping_ratio": "uniform:0.1:0.2", "stiffness": "normal:10%"},
-        vi.one_by_one(
+        vi.for_each_rig(
             lambda rig, shaking: xr.Dataset({"r": rig.damping_ratio, "k": rig.isolator.stiffness})
         ),
         8,
@@ -127,7 +129,9 @@ def test_progress():
     seen = []
     response = partial(vi.sweeps, frequencies=[2.0])
     given = {"stiffness": "normal:1%"}
-    vi.ensemble((FREE, SHAKING), given, response, 8, block=3, progress=lambda *p: seen.append(p))
+    vi.ensemble(
+        vi.Rig(FREE, SHAKING), given, response, 8, block=3, progress=lambda *p: seen.append(p)
+    )
     assert seen == [(3, 8), (6, 8), (8, 8)]
 
 
@@ -151,7 +155,7 @@ def test_rigs_are_asked_for_that_take_a_while(monkeypatch, seconds, sizes):
     asked = []
     response, clock = _slowly(seconds, asked)
     monkeypatch.setattr("vibroimpact.uncertainty.ensemble.time", SimpleNamespace(monotonic=clock))
-    data = vi.ensemble((FREE, SHAKING), {"stiffness": "normal:1%"}, response, 1024)
+    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"stiffness": "normal:1%"}, response, 1024)
     assert asked == sizes
     assert data.sizes["sample"] == 1024
 
@@ -181,7 +185,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ({"seed": -1}, "seed"),
         ({"block": 0}, "block"),
         ({"response": 3}, "response: 3 is no function"),
-        ({"response": lambda rigs: vi.sweep(*rigs[0], [2.0])}, "response: it gives "),
+        ({"response": lambda rigs: vi.sweep(vi.Rig(*rigs[0]), [2.0])}, "response: it gives "),
         ({"rig": CASE.oscillator, "distributions": {"amplitude": "normal:5%"}}, "that of a sine"),
         ({"rig": (FREE, [0.1, 0.2])}, r"rig\[1\]"),
     ],
@@ -196,7 +200,7 @@ def test_fractiles_over_the_rigs():
     """|u| rises with K: its fractiles are the swing at those of K; NaN is left out, and told."""
     spring = stats.norm(25e3, 1e3)
     response = partial(vi.sweeps, frequencies=[2.0, 2.2], directions=["forward"])
-    data = vi.ensemble((FREE, SHAKING), {"stiffness": spring}, response, 512)
+    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"stiffness": spring}, response, 512)
     found = vi.fractiles(data, "displacement_max", (0.16, 0.5, 0.84))
     assert found["displacement_max"].dims == ("fractile", "direction", "frequency")
     for k, frequency in enumerate((2.0, 2.2)):
@@ -219,6 +223,6 @@ def test_fractiles_over_the_rigs():
 
 
 def test_fractiles_of_a_response_with_a_name_of_its_own():
-    response = vi.one_by_one(lambda rig, _: xr.Dataset({"k": rig.isolator.stiffness}))
-    data = vi.ensemble((FREE, SHAKING), {"stiffness": "uniform:1kN/m:2kN/m"}, response, 256)
+    response = vi.for_each_rig(lambda rig, _: xr.Dataset({"k": rig.isolator.stiffness}))
+    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"stiffness": "uniform:1kN/m:2kN/m"}, response, 256)
     assert float(vi.fractiles(data, "k", [0.5])["k"][0]) == pytest.approx(1.5e3, rel=1e-3)

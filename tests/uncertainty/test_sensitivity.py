@@ -27,7 +27,7 @@ def test_ishigami():
     """Closed form of Ishigami and Homma (1990): a = 7, b = 0.1."""
     seen = []
     found = vi.sensitivity(
-        (RIG, 1.0),
+        vi.Rig(RIG, 1.0),
         {"force": TURN, "gap": TURN, "damping": stats.uniform(0.0, 2.0 * np.pi)},
         ishigami,
         "y",
@@ -65,11 +65,11 @@ def test_near_the_static_limit():
         return np.log(data[["peak_displacement"]].isel(direction=0, frequency=0))
 
     spread = {"stiffness": "lognormal:0.1", "amplitude": "lognormal:0.2", "damping": "normal:5%"}
-    found = vi.sensitivity((rig, 1.0), spread, response, "peak_displacement", 256)
+    found = vi.sensitivity(vi.Rig(rig, 1.0), spread, response, "peak_displacement", 256)
     np.testing.assert_allclose(found["first_order"], [0.2, 0.8, 0.0], atol=0.02)
     np.testing.assert_allclose(found["total_order"], [0.2, 0.8, 0.0], atol=0.02)
     np.testing.assert_allclose(found["variance"], 0.05, rtol=0.05)
-    again = vi.sensitivity((rig, 1.0), spread, response, "peak_displacement", 256)
+    again = vi.sensitivity(vi.Rig(rig, 1.0), spread, response, "peak_displacement", 256)
     xr.testing.assert_identical(found, again)
 
 

@@ -24,7 +24,7 @@ from vibroimpact.model import Oscillator, Repeated, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantities import LENGTH, VELOCITY
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
@@ -47,13 +47,12 @@ class _Found(NamedTuple):
     given_up: int
 
 
-@takes_rig
 def basin_stability(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: AnyRig,
     displacement: Sequence[float | str] | None = None,
     velocity: Sequence[float | str] | None = None,
     *,
+    frequency: float | str | None = None,
     parameter: str | None = None,
     values: Iterable[float | str] | None = None,
     states: int = 1000,
@@ -72,11 +71,13 @@ def basin_stability(
 
     Parameters
     ----------
-    oscillator, excitation
-        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     displacement, velocity
         Lowest and highest of the states, in m and m/s. None for what `basins` takes, around all
         motions along the parameter.
+    frequency
+        Forcing frequency (Hz). Default: that of the rig.
     parameter, values
         What is varied, such as "frequency" or "gap", and its values. A motion keeps its number as
         long as its states lead to one near it at the next value.
@@ -101,6 +102,11 @@ def basin_stability(
     InputError
         If a value cannot be used, or nothing dies out.
     """
+    rig = as_rig(rig, frequency)
+    if rig.frequency is None and parameter == "frequency" and isinstance(values, Iterable):
+        values = list(values)
+        rig = rig.at(values[0]) if values else rig
+    oscillator, excitation = rig.oscillator, rig.harmonic
     check_progress(progress)
     drawn, seed = whole(states, "states", most=MOST_STATES), whole(seed, "seed", 0)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
@@ -110,7 +116,7 @@ def basin_stability(
     varied, given = _values(oscillator, excitation, parameter, values)
     searches = []
     for value in given:
-        rig, shaken = (
+        here, shaken = (
             varied.write(oscillator, excitation, value)
             if varied
             else (
@@ -118,8 +124,8 @@ def basin_stability(
                 excitation,
             )
         )
-        check_bounded(rig, shaken)
-        searches.append(Search(Stage(rig, shaken, max_events), max_cycles, workers))
+        check_bounded(here, shaken)
+        searches.append(Search(Stage(here, shaken, max_events), max_cycles, workers))
     if wide is None or fast is None:
         every = [window(search) for search in searches]
         wide, fast = wide or _around(w[0] for w in every), fast or _around(w[1] for w in every)

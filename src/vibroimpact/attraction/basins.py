@@ -19,10 +19,10 @@ from vibroimpact.attraction.state_window import walls, window
 from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
-from vibroimpact.model import Oscillator, Repeated, to_si
+from vibroimpact.model import Oscillator, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
@@ -35,13 +35,12 @@ MOST_NODES = 100_000_000
 MOST_REFINED = 8
 
 
-@takes_rig
 def basins(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: AnyRig,
     displacement: Sequence[float | str] | None = None,
     velocity: Sequence[float | str] | None = None,
     *,
+    frequency: float | str | None = None,
     nodes: int | tuple[int, int] = 200,
     refine: int = 0,
     right_bumper: float | str = 0.0,
@@ -61,11 +60,13 @@ def basins(
 
     Parameters
     ----------
-    oscillator, excitation
-        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     displacement, velocity
         Lowest and highest of the grid, in m and m/s. None for 1.6 times what the steady motions
         take that a coarse grid of starts leads to.
+    frequency
+        Forcing frequency (Hz). Default: that of the rig.
     nodes
         Along each axis, or along displacement and velocity.
     refine
@@ -103,6 +104,8 @@ def basins(
     InputError
         If a value cannot be used, or nothing dies out, so that each state has its own motion.
     """
+    rig = as_rig(rig, frequency)
+    oscillator, excitation = rig.oscillator, rig.harmonic
     check_bounded(oscillator, excitation)
     check_progress(progress)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)

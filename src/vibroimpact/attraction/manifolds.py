@@ -22,10 +22,10 @@ from vibroimpact.attraction.state_window import window
 from vibroimpact.attraction.unstable_manifold import unstable_curve
 from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model import State
 from vibroimpact.model.count_checks import MOST_CYCLES, check_max_events, share, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.units import to_si
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import placed
@@ -35,14 +35,13 @@ _IMAGES = 400
 """Images of the piece with which a curve begins, at most."""
 
 
-@takes_rig
 def manifolds(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: AnyRig,
     saddles: xr.Dataset | State | Sequence[xr.Dataset | State] | None = None,
     displacement: Sequence[float | str] | None = None,
     velocity: Sequence[float | str] | None = None,
     *,
+    frequency: float | str | None = None,
     period: int = 1,
     spacing: float = 0.01,
     longest: float = 30.0,
@@ -60,13 +59,15 @@ def manifolds(
 
     Parameters
     ----------
-    oscillator, excitation
-        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     saddles
         Datasets of `orbit`, or states near saddle orbits. None for up to four saddles that the
         borders between basins lead to.
     displacement, velocity
         Lowest and highest of the window, in m and m/s; None for that of `basins`.
+    frequency
+        Forcing frequency (Hz). Default: that of the rig.
     period
         Of the saddles that are given as states, in forcing cycles.
     spacing
@@ -95,6 +96,8 @@ def manifolds(
         velocity: bumpers that relax slowly, isolators with a memory, power-law stops with a
         restitution that the saddle presses at the phase of the excitation.
     """
+    rig = as_rig(rig, frequency)
+    oscillator, excitation = rig.oscillator, rig.harmonic
     check_bounded(oscillator, excitation)
     check_progress(progress)
     period = whole(period, "period", most=MOST_CYCLES)

@@ -10,6 +10,7 @@ from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOpti
 from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import StateOptions
 from vibroimpact.errors import InputError
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -87,8 +88,7 @@ def basin_stability(
 
         with progress_bar("following") as progress:
             data = run(
-                what.oscillator,
-                shaken,
+                Rig(what.oscillator, shaken),
                 *ranges,
                 parameter=along,
                 values=np.linspace(*span, steps),

@@ -8,6 +8,7 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Where, Whole
 from vibroimpact.cli.states import StateOptions
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,8 +64,7 @@ def basins(
 
         with progress_bar("following") as progress:
             data = run(
-                what.oscillator,
-                excitation,
+                Rig(what.oscillator, excitation),
                 *ranges,
                 nodes=nodes,
                 refine=refine,

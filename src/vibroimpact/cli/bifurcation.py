@@ -10,6 +10,7 @@ from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOpti
 from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import forcing
 from vibroimpact.errors import InputError
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -151,10 +152,9 @@ def bifurcation(
         ways = {"both": DIRECTIONS, "none": ()}
         with progress_bar("holding") as progress:
             data = bifurcation_diagram(
-                what.oscillator,
-                shaken,
+                Rig(what.oscillator, shaken),
                 along,
-                *span,
+                span,
                 steps,
                 directions=ways.get(direction, (direction,)),
                 random=random,
@@ -182,4 +182,6 @@ def _branches(what: Subject, shaken: Repeated, along: str, span: tuple[float, fl
     """The branches whose bifurcations are marked."""
     from vibroimpact.stability.resonance_diagram import resonance_diagram
 
-    return resonance_diagram(what.oscillator, shaken, *span, parameter=along, phase=shaken.phase)
+    return resonance_diagram(
+        Rig(what.oscillator, shaken), span, parameter=along, phase=shaken.phase
+    )

@@ -10,6 +10,7 @@ from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.cli.parameters import Varied, option_range
 from vibroimpact.cli.states import state
 from vibroimpact.errors import InputError
+from vibroimpact.model.rig import Rig
 from vibroimpact.stability.branch_styles import Quantity
 
 if TYPE_CHECKING:
@@ -208,9 +209,8 @@ def _all_branches(
 
     phase = what.study.excitation.phase if what.study else 0.0
     return resonance_diagram(
-        what.oscillator,
-        what.repeated,
-        *span,
+        Rig(what.oscillator, what.repeated),
+        span,
         parameter=parameter,
         frequency=None if parameter == "frequency" else hertz,
         phase=phase,
@@ -237,7 +237,7 @@ def _basins(
     step = (span[1] - span[0]) / max(count, 1)
     return [
         basins(
-            *varied.write(what.oscillator, shaken, span[0] + (i + 0.5) * step),
+            Rig(*varied.write(what.oscillator, shaken, span[0] + (i + 0.5) * step)),
             nodes=_NODES,
             progress=progress,
         )
@@ -253,7 +253,7 @@ def _sweep(what: Subject, data: xr.Dataset) -> xr.Dataset:
 
     frequency = data["frequency"].values
     grid = np.linspace(frequency.min(), frequency.max(), 120)
-    return sweep(what.oscillator, what.repeated, grid)
+    return sweep(Rig(what.oscillator, what.repeated), grid)
 
 
 class First(NamedTuple):
@@ -331,12 +331,10 @@ def _one_branch(
     assert hertz is not None
     phase = what.study.excitation.phase if what.study else 0.0
     return follow(
-        what.oscillator,
-        what.at(hertz, phase),
+        Rig(what.oscillator, what.at(hertz, phase)),
         first.start,
         parameter=parameter,
-        low=span[0],
-        high=span[1],
+        span=span,
         period=first.period,
         progress=progress,
     )

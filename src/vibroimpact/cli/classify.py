@@ -80,12 +80,11 @@ def classify(
         from vibroimpact.datasets.files import save
         from vibroimpact.facts import scenario as told
         from vibroimpact.figures import resonance_curves, save_figure
-        from vibroimpact.scenarios.classify import classify as run
+        from vibroimpact.scenarios.classify import classify_scenario as run
 
         with progress_bar("sweeping") as progress:
             found = run(
-                what.oscillator,
-                what.repeated,
+                what.rig,
                 held,
                 thresholds=used,
                 threads=threads,
@@ -116,7 +115,7 @@ def _frequencies(
     """The frequencies that were asked for; None for the default."""
     from vibroimpact.scenarios.axes import one_sine
 
-    oscillator, shaken = one_sine(what.oscillator, what.repeated, "excitation")
+    oscillator, shaken = one_sine(what.rig, "excitation")
     if start is None and stop is None and step is None:
         return None
     import numpy as np

@@ -10,6 +10,7 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions
 from vibroimpact.errors import InputError
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -214,12 +215,10 @@ def _curves(
 
     if names[0] == "frequency":
         data = resonance_diagram(
-            what.oscillator, what.repeated, *spans[0], phase=shaken.phase, progress=progress
+            Rig(what.oscillator, what.repeated), spans[0], phase=shaken.phase, progress=progress
         )
     else:
-        data = branch(
-            what.oscillator, shaken, parameter=names[0], low=spans[0][0], high=spans[0][1]
-        )
+        data = branch(Rig(what.oscillator, shaken), span=spans[0], parameter=names[0])
     found: dict[str, xr.Dataset] = {}
 
     here = parameter(names[1]).read(what.oscillator, shaken)
@@ -228,12 +227,10 @@ def _curves(
         if any(_passes(curve, names, value, here) for curve in found.values()):
             continue
         found[f"{names[0]} {value:.6g}"] = bifurcation_curve(
-            what.oscillator,
-            shaken,
+            Rig(what.oscillator, shaken),
             data.isel(bifurcation=int(i)),
+            spans=(spans[0], spans[1]),
             parameters=names,
-            low=(spans[0][0], spans[1][0]),
-            high=(spans[0][1], spans[1][1]),
             progress=progress,
         )
     return found

@@ -118,14 +118,15 @@ def design(
     out = output or OutputOptions()
     found = (reading or RecordOptions()).read(records or listed(rig))
     what = subject(rig, changes or RigOptions(), out.name, shaken=next(iter(found.values()), None))
-    shaking = _shaking(what, found, scale, peak)
+    suite = _records(what, found, scale, peak)
+    designed = what.oscillator if suite else what.rig
     table = what.study.design if what.study else None
     share = fractile if fractile is not None else (table and table.fractile)
     asked: dict[str, Any] = {
         "fractile": 1.0 if share is None else _share(share),
         "threads": threads,
         "where": where,
-        "frequencies": _frequencies(what, start, to) if not found else None,
+        "frequency_span": _frequencies(what, start, to) if not found else None,
     }
     ranges = _ranges(what, vary or tuple(((table and table.vary) or {}).items()))
     limits: dict[str, Any] = {**((table and table.limits) or {}), **dict(limit)}
@@ -145,14 +146,12 @@ def design(
         stem = f"{what.slug}-design"
         files: dict[str, Path] = {}
         with progress_bar("computing") as progress:
-            gap = required_gap(what.oscillator, shaking, **asked)
+            gap = required_gap(designed, records=suite, **asked)
             values = ranges or _usual(what, float(gap["required_gap"]))
-            data = chart(
-                what.oscillator, shaking, values, limits=limits, **asked, progress=progress
-            )
+            data = chart(designed, values, records=suite, limits=limits, **asked, progress=progress)
             least = (
                 least_acceleration(
-                    what.oscillator, shaking, limits=limits, **asked, progress=progress
+                    designed, records=suite, limits=limits, **asked, progress=progress
                 )
                 if best
                 else None
@@ -180,7 +179,7 @@ def design(
     return 0
 
 
-def _shaking(what: Subject, found: dict[str, Record], scale: str | None, peak: str | None) -> Any:
+def _records(what: Subject, found: dict[str, Record], scale: str | None, peak: str | None) -> Any:
     from vibroimpact.cli.earthquake import record_of_study, scaled_records
     from vibroimpact.model import Record
 
@@ -189,7 +188,7 @@ def _shaking(what: Subject, found: dict[str, Record], scale: str | None, peak: s
         for option, value in (("--scale", scale), ("--peak", peak)):
             if value is not None:
                 raise InputError(f"{option}: {value!r}, but no record is given; --amplitude is")
-        return what.repeated
+        return None
     found.update(records)
     return scaled_records(records, scale, peak)
 

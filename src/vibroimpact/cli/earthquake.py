@@ -18,6 +18,7 @@ from vibroimpact.cli.options import (
     record_name,
 )
 from vibroimpact.errors import InputError
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -211,12 +212,12 @@ def _computed(
     from vibroimpact.response.simulate import simulate
 
     behind = free_tail(rig, record) if tail is None else tail
-    motion = simulate(rig, record, samples=samples, tail=behind, progress=progress)
+    motion = simulate(Rig(rig, record), samples=samples, tail=behind, progress=progress)
     if motion.attrs["status"] != Status.DONE.advice:
         raise InputError(f"the motion was given up ({motion.attrs['status']})")
     periods = np.geomspace(_SHORTEST, _LONGEST, _PERIODS)
     return {
-        "response": seismic_response(rig, record, tail=behind, progress=progress),
+        "response": seismic_response(Rig(rig, record), tail=behind, progress=progress),
         "motion": motion,
         "ground": response_spectrum(record, periods, _DAMPING),
         "floor": response_spectrum(floor_record(motion), periods, _DAMPING),
@@ -232,6 +233,6 @@ def _free(
     if not rig.stops:
         return None
     try:
-        return seismic_response(rig.without_bumpers(), record, tail=tail, progress=progress)
+        return seismic_response(Rig(rig.without_bumpers(), record), tail=tail, progress=progress)
     except InputError:
         return None

@@ -17,6 +17,7 @@ from vibroimpact.cli.options import (
     Whole,
 )
 from vibroimpact.errors import InputError
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -138,10 +139,11 @@ def ensemble(
         from vibroimpact.uncertainty.ensemble import ensemble as draw
 
         pair = (what.oscillator, what.repeated)
+        shaken_rig = Rig(*pair)
         response = partial(sweeps, frequencies=held, threads=threads, where=where)
         with warnings.catch_warnings(record=True) as caught, progress_bar("sweeping") as progress:
             warnings.simplefilter("always", RuntimeWarning)
-            data = draw(pair, given, response, method=way, progress=progress, **options)
+            data = draw(shaken_rig, given, response, method=way, progress=progress, **options)
             data.attrs["title"] = what.name
             from vibroimpact.model.unbounded import has_no_bound
 
@@ -150,7 +152,7 @@ def ensemble(
             physical = physical or undefined
             shown = ("peak_acceleration", "peak_displacement") if physical else ("eta_a", "eta_d")
             axes = resonance_bands(
-                data, quantities=shown, nominal=sweep(*pair, held), title=what.title
+                data, quantities=shown, nominal=sweep(shaken_rig, held), title=what.title
             )
             stem = folder / f"{what.slug}-ensemble"
             files = {
@@ -198,7 +200,7 @@ def _distributions(what: Subject, options: tuple[tuple[str, str], ...]) -> dict[
     from vibroimpact.uncertainty.random_rigs import uncertain
 
     try:
-        uncertain((what.oscillator, what.repeated), given)
+        uncertain(Rig(what.oscillator, what.repeated), given)
     except InputError as error:
         raise InputError(f"--uncertain: {error}") from None
     return given

@@ -55,6 +55,7 @@ def explore(
     from vibroimpact.errors import InputError
     from vibroimpact.explorer.run import LOOPBACK, serve
     from vibroimpact.explorer.state import begin
+    from vibroimpact.model.rig import Rig
 
     if not 0 <= port <= 65535:
         raise InputError(f"--port: {port}; a whole number from 0 to 65535 is accepted")
@@ -64,7 +65,7 @@ def explore(
         span = (what.study.sweep.start, what.study.sweep.to)
     elif what.published:
         span = (0.5, 5.0)  # of the tests
-    first = begin((what.oscillator, what.repeated), what.name, span)
+    first = begin(Rig(what.oscillator, what.repeated), what.name, span)
 
     def told(where: str) -> None:
         print(f"The explorer is at {where}\nCtrl-C ends it.", flush=True)

@@ -157,7 +157,7 @@ def identify(
         from vibroimpact.reports.identification import fit_report
 
         with progress_bar("fitting") as progress:
-            found = run(tests, _rig(what), draws=bootstrap, progress=progress, **asked)
+            found = run(_rig(what), tests, draws=bootstrap, progress=progress, **asked)
         fits, comparison, best = {_GIVEN: found}, None, _GIVEN
         if others:
             for other in others:
@@ -209,25 +209,25 @@ def _pair(text: str, option: str) -> tuple[str, str]:
 def _other(model: str, found: xr.Dataset, tests: Any, asked: dict[str, Any]) -> xr.Dataset:
     """The same data fitted by another model, begun from the first fit."""
     from vibroimpact.identification.comparison import asked_of, remodelled
-    from vibroimpact.identification.identify import fitted, identify
+    from vibroimpact.identification.identify import fitted_rig, identify
     from vibroimpact.model import Rig
 
     rigs = {}
     for test in found["test"].values.tolist():
-        rig = fitted(found, test)
+        rig = fitted_rig(found, test)
         depth = _depth(found, rig.oscillator) if model == "hertz" else 0.0
         rigs[test] = Rig(remodelled(model, rig.oscillator, depth), rig.amplitude)
     search = {"profiles": False, "starts": 2, "tried": 16}
-    return identify(tests, rigs, **{**asked_of(model, asked), **search})
+    return identify(rigs, tests, **{**asked_of(model, asked), **search})
 
 
 def _finished(model: str, fit: xr.Dataset, tests: Any, asked: dict[str, Any]) -> xr.Dataset:
     """A fit of another model again, from where it ended, with its intervals."""
     from vibroimpact.identification.comparison import asked_of
-    from vibroimpact.identification.identify import fitted, identify
+    from vibroimpact.identification.identify import fitted_rig, identify
 
-    rigs = {test: fitted(fit, test) for test in fit["test"].values.tolist()}
-    return identify(tests, rigs, **{**asked_of(model, asked), "starts": 1, "tried": 0})
+    rigs = {test: fitted_rig(fit, test) for test in fit["test"].values.tolist()}
+    return identify(rigs, tests, **{**asked_of(model, asked), "starts": 1, "tried": 0})
 
 
 def _depth(found: xr.Dataset, oscillator: Any) -> float:

@@ -8,6 +8,7 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.cli.states import StateOptions, state
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -90,10 +91,10 @@ def manifolds(
         from vibroimpact.datasets.files import save
         from vibroimpact.figures import basin_portrait, save_figure
 
-        asked = (what.oscillator, excitation)
+        asked = Rig(what.oscillator, excitation)
         with progress_bar("following") as progress:
             data = run(
-                *asked,
+                asked,
                 near or None,
                 *ranges,
                 period=period,
@@ -103,7 +104,7 @@ def manifolds(
                 progress=progress,
             )
             window = [motion_parameters(data)[name] for name in ("displacement", "velocity")]
-            below = basins(*asked, *window, nodes=nodes, threads=threads, progress=progress)
+            below = basins(asked, *window, nodes=nodes, threads=threads, progress=progress)
         data.attrs["title"] = what.name
         stem = folder / f"{what.slug}-{excitation.frequency:.10g}Hz-manifolds"
         title = f"{what.title}, {excitation.frequency:.6g} Hz"

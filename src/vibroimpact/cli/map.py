@@ -16,6 +16,7 @@ from vibroimpact.cli.options import (
     Whole,
 )
 from vibroimpact.errors import InputError
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -134,8 +135,8 @@ def scenario_map(
         with progress_bar("mapping") as progress:
             try:
                 data = run(
+                    Rig(what.oscillator, what.repeated),
                     *axes,
-                    base=(what.oscillator, what.repeated),
                     step=step,
                     refine=refine,
                     thresholds=used,
@@ -224,7 +225,7 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
             **rest,
         }
     else:
-        group = to_dimensionless(what.oscillator, scale_of(what.oscillator, shaken))
+        group = to_dimensionless(Rig(what.oscillator, scale_of(what.oscillator, shaken)))
         halves = [b for b in (group.right, group.left) if b is not None]
         quantities = {
             "stiffness_ratio": ("λ =", [_ratio(b.stiffness_ratio) for b in halves]),
@@ -263,7 +264,7 @@ def _check(what: Subject, axes: tuple[_Axis, ...], refine: int) -> None:
     from vibroimpact.scenarios.axes import Base, axis, check_pair, one_sine
 
     try:
-        base = Base(*one_sine(what.oscillator, what.repeated, "excitation"))
+        base = Base(*one_sine(what.rig, "excitation"))
         x, y = (
             axis(given, option, base.shaken.of)
             for given, option in zip(axes, ("--x", "--y"), strict=True)

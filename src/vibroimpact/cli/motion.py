@@ -8,6 +8,7 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.errors import InputError
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -166,12 +167,12 @@ def _found(
     """The motions by name, with their spectra and sections."""
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.response.sweep_starts import arrivals
-    from vibroimpact.stability.coexisting import coexisting
+    from vibroimpact.stability.coexisting import coexisting_motions
     from vibroimpact.stability.steady import steady
 
     if branch == "all":
-        motions = coexisting(
-            what.oscillator, excitation, random=random, window=window, samples=samples
+        motions = coexisting_motions(
+            Rig(what.oscillator, excitation), random=random, window=window, samples=samples
         )
         return _named([_complete(data) for data in motions])
     starts = arrivals(what.oscillator, excitation)
@@ -182,7 +183,9 @@ def _found(
         )
     start = starts[f"{branch} branch"]
     with progress_bar("following") as progress:
-        data = steady(what.oscillator, excitation, start, samples, window=window, progress=progress)
+        data = steady(
+            Rig(what.oscillator, excitation), start, samples, window=window, progress=progress
+        )
     return {f"{branch} branch": _complete(data)}
 
 
@@ -192,7 +195,7 @@ def _complete(data: xr.Dataset) -> xr.Dataset:
 
     from vibroimpact.datasets.description import motion_parameters
     from vibroimpact.response.sections import stroboscopic_section
-    from vibroimpact.response.spectrum import spectrum
+    from vibroimpact.response.spectrum import fourier_spectrum
 
     if not data.sizes["time"]:
         return data
@@ -202,7 +205,7 @@ def _complete(data: xr.Dataset) -> xr.Dataset:
     if float(data["cycle"][-1]) < 1.0:  # it was given up
         lines = xr.Dataset()
     else:
-        lines = spectrum(data)
+        lines = fourier_spectrum(data)
         data.attrs["spectrum_method"] = lines.attrs["method"]
     return data.assign({str(name): part[name] for part in (section, lines) for name in part})
 

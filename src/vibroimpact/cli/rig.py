@@ -28,7 +28,7 @@ from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.names import check_name, file_stem, literal
 from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
-from vibroimpact.model.rigs import as_shaking
+from vibroimpact.model.rig import Rig, as_periodic
 from vibroimpact.model.units import to_si
 from vibroimpact.response.plausibility import doubt_gaps
 
@@ -70,6 +70,11 @@ class Subject(NamedTuple):
                 "records"
             )
         return self.shaking
+
+    @property
+    def rig(self) -> Rig:
+        """What vibrates and what shakes it; the frequency of a periodic shaking is left open."""
+        return Rig.of_open_frequency(self.oscillator, self.shaking, self.name)
 
     def at(self, hertz: float, phase: float | None = None) -> Repeated:
         """What shakes it at a frequency (Hz)."""
@@ -155,7 +160,7 @@ def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated:
     if isinstance(shaking, Periodic):
         size, _ = sized(amplitude, shaking.of, "--amplitude", positive=True)
         return shaking.replace(amplitude=size)
-    found, _ = as_shaking(amplitude, "--amplitude")
+    found, _ = as_periodic(amplitude, "--amplitude")
     return found if shaking is None else found.replace(phase=shaking.phase)
 
 
@@ -193,7 +198,8 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
             f"--parameters: {parameters!r}, but {path!r} describes its own oscillator; "
             "a case has parameter sets"
         )
-    title, oscillator, shaking = study.rig(Path(path), parameters)
+    described = study.rig(Path(path), parameters)
+    title, oscillator, shaking = described.name or "", described.oscillator, described.shaking
     first = file_stem(title)
     if study.case is not None and parameters != (study.parameters or (parameters and "table")):
         title, first = f"{title}, {parameters} parameters", f"{first}-{parameters}"

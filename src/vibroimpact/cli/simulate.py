@@ -9,6 +9,7 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.errors import InputError
+from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
@@ -90,8 +91,7 @@ def simulate(
         with warnings.catch_warnings(record=True) as caught, progress_bar("following") as progress:
             warnings.simplefilter("always", RuntimeWarning)
             data = run(
-                what.oscillator,
-                given.excitation,
+                Rig(what.oscillator, given.excitation),
                 given.cycles,
                 given.start,
                 given.samples,

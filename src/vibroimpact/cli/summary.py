@@ -38,6 +38,7 @@ from vibroimpact.model.quantities import (
     STIFFNESS,
     VELOCITY,
 )
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 
 _LATELY = 10.0
@@ -214,6 +215,8 @@ _SHAKEN = {"acceleration": "base", "displacement": "base", "force": "force on th
 
 def _dimensionless(subject: Subject) -> Dimensionless | None:
     try:
-        return to_dimensionless(subject.oscillator, scale_of(subject.oscillator, subject.repeated))
+        return to_dimensionless(
+            Rig(subject.oscillator, scale_of(subject.oscillator, subject.repeated))
+        )
     except InputError:  # nothing to scale a gap by, or another kind of shaking
         return None

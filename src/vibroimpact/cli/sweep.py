@@ -119,8 +119,7 @@ def sweep(
 
         with progress_bar("sweeping") as progress:
             data = run(
-                what.oscillator,
-                what.repeated,
+                what.rig,
                 held,
                 DIRECTIONS if way == "both" else (way,),
                 progress=progress,

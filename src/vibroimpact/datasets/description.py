@@ -11,7 +11,7 @@ import xarray as xr
 from vibroimpact._version import __version__
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, State
+from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, Rig, State
 from vibroimpact.model.parameters import parameter
 
 COMPONENTS = [*State.model_fields]
@@ -81,6 +81,14 @@ def excitation_parameters(shaken: Repeated, *left_out: str) -> dict[str, Any]:
     if shaken.of == "acceleration":
         del numbers["of"]
     return numbers
+
+
+def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
+    """What vibrates and what shakes it as plain numbers (SI units), for a dataset's attributes."""
+    return {
+        "oscillator": oscillator_parameters(rig.oscillator),
+        **excitation_parameters(rig.periodic, *left_out),
+    }
 
 
 def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:

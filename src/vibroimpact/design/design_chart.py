@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
-from vibroimpact.design.design_shaking import AnyShaken, asked, one_rig
+from vibroimpact.design.design_shaking import AnyRecords, design_rig
 from vibroimpact.design.limits import limits_of
 from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
@@ -20,7 +20,7 @@ from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator
-from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
 
@@ -33,13 +33,13 @@ _STIFFNESSES = {
 
 
 def design_chart(
-    oscillator: Oscillator | AnyRig,
-    shaking: AnyShaken,
+    rig: AnyRig | Oscillator,
     vary: Mapping[str, ArrayLike],
     *,
+    records: AnyRecords | None = None,
     limits: Mapping[str, float | str] | None = None,
     fractile: float = 1.0,
-    frequencies: tuple[float | str, float | str] | None = None,
+    frequency_span: tuple[float | str, float | str] | None = None,
     step: float = STEP,
     tail: float | str | None = None,
     threads: int | None = None,
@@ -50,17 +50,18 @@ def design_chart(
 
     Parameters
     ----------
-    oscillator
-        What vibrates, with any isolator and any stops; or a case, its code or a study file.
-    shaking
-        Sines, by their amplitude as in `sweep`: the worst steady motion counts of all frequencies,
-        swept up and down. Or a record, or several by name or as a list: a fractile over them
-        counts, each from rest, at its own size.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        Of a sine, the worst steady motion of all frequencies counts, swept up and down. Of a
+        record, the motion from rest counts.
     vary
         Values of parameters by name, all combined, such as ``"gap"``, ``"bumper_stiffness"``,
         ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` or ``"yield_force"``. Those
         of stops are set on both sides, where the stop has them. ``"bumper_stiffness"`` keeps the
         bumpers' damping, ``"stiffness_at_restitution"`` lets it follow, for the same restitution.
+    records
+        A record, or several by name or as a list, in the place of what shakes the rig, which may
+        then be an `Oscillator` alone. A fractile over them counts, each from rest, at its own size.
     limits
         What must not be exceeded, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
         ``"peak_displacement"`` (m; ``_right``, ``_left``). A design that exceeds one is told as
@@ -68,9 +69,9 @@ def design_chart(
     fractile
         Share of the records below; 1 for the largest of all. It is taken of each quantity by
         itself, interpolated between records, and limits are held against it.
-    frequencies
-        Lowest and highest frequency of the sines. None for a range about the primary resonance, of
-        each design.
+    frequency_span
+        Lowest and highest frequency of the sines (Hz). None for a range about the primary
+        resonance, of each design.
     step
         Step of the sweeps, as a share of the natural frequency, or smaller where the damping is
         light; about the largest responses it is 64 times as fine.
@@ -104,9 +105,10 @@ def design_chart(
     InputError
         If a value cannot be used.
     """
-    rig = one_rig(oscillator)
-    what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
-    plan = _designs(rig, vary)
+    oscillator, what = design_rig(
+        rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
+    )
+    plan = _designs(oscillator, vary)
     most = limits_of(limits)
     workers = placed(threads, where)
     places = list(itertools.product(*(range(n) for n in plan.shape)))
@@ -114,7 +116,7 @@ def design_chart(
     data = _dataset(plan, {**what.peaks(rigs, workers, progress), **_dampings(plan, rigs)}, most)
     warn(data["status"].values, "design")
     parameters = {
-        "oscillator": oscillator_parameters(rig),
+        "oscillator": oscillator_parameters(oscillator),
         "varied": {one.name: one.values.tolist() for one in plan.varied},
         "limits": most,
         **what.parameters(),

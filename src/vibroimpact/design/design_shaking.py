@@ -17,18 +17,18 @@ from vibroimpact.earthquakes.run_plan import digest, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, Record, to_si
+from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.count_checks import share
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
-from vibroimpact.model.rigs import as_rig
+from vibroimpact.model.read_rig import as_rig
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]
 
-AnyShaken: TypeAlias = float | str | Harmonic | Record | Sequence[Record] | Mapping[str, Record]
-"""An amplitude of sines, or one record or several."""
+AnyRecords: TypeAlias = Record | Sequence[Record] | Mapping[str, Record]
+"""One record or several."""
 
 PEAKS = (
     "peak_displacement",
@@ -181,52 +181,35 @@ def _penetration(rigs: Sequence[Oscillator], right: _Array, left: _Array) -> _Ar
     return found
 
 
-def asked(
-    oscillator: Oscillator,
-    shaking: Any,
+def design_rig(
+    rig: Any,
+    records: Any,
     *,
     fractile: float,
-    frequencies: tuple[float | str, float | str] | None,
+    frequency_span: tuple[float | str, float | str] | None,
     step: float,
     tail: float | str | None,
-) -> BySines | ByRecords:
-    """Read what a rig is sized for.
+) -> tuple[Oscillator, BySines | ByRecords]:
+    """Read the oscillator of a design, and what it is designed for.
 
     Raises
     ------
     InputError
         If it cannot be used.
     """
-    if _are_records(shaking):
-        if frequencies is not None:
-            raise InputError("frequencies: given with records; they are accepted beside a sine")
-        return ByRecords(
-            suite(shaking),
+    found = as_rig(rig, oscillator_alone=records is not None)
+    if records is None and isinstance(found.shaking, Record):
+        records = found.shaking
+    if records is not None:
+        if frequency_span is not None:
+            raise InputError("frequency_span: given with records; it is accepted with a sine")
+        return found.oscillator, ByRecords(
+            suite(records),
             to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),
             None if tail is None else to_si(tail, TIME, "tail", minimum=0.0),
         )
-    _, sine = one_sine(oscillator, shaking, "shaking")
-    return BySines(Sines(sine, *_range(frequencies), share(step, "step")))
-
-
-def one_rig(oscillator: Any) -> Oscillator:
-    """Read what vibrates: an oscillator, or a case, its code or a study file.
-
-    Raises
-    ------
-    InputError
-        If it is neither.
-    """
-    if isinstance(oscillator, Oscillator):
-        return oscillator
-    return as_rig(oscillator, otherwise="an oscillator, ").oscillator
-
-
-def _are_records(shaking: Any) -> bool:
-    if isinstance(shaking, Record | Mapping):
-        return True
-    listed = isinstance(shaking, Sequence) and not isinstance(shaking, str)
-    return listed and (not shaking or any(isinstance(one, Record) for one in shaking))
+    oscillator, sine = one_sine(found)
+    return oscillator, BySines(Sines(sine, *_range(frequency_span), share(step, "step")))
 
 
 def _range(frequencies: Any) -> tuple[float | None, float | None]:
@@ -234,14 +217,15 @@ def _range(frequencies: Any) -> tuple[float | None, float | None]:
         return None, None
     if isinstance(frequencies, str) or len(frequencies) != 2:
         raise InputError(
-            f'frequencies: {frequencies!r}; the lowest and the highest, as ("0.2 Hz", "3 Hz"), '
+            f'frequency_span: {frequencies!r}; the lowest and the highest, as ("0.2 Hz", "3 Hz"), '
             "are accepted"
         )
     low, high = (
-        to_si(one, FREQUENCY, f"frequencies[{i}]", above=0.0) for i, one in enumerate(frequencies)
+        to_si(one, FREQUENCY, f"frequency_span[{i}]", above=0.0)
+        for i, one in enumerate(frequencies)
     )
     if not low < high:
         raise InputError(
-            f"frequencies[1]: {high:g} Hz is not above {low:g} Hz; a rising pair is accepted"
+            f"frequency_span[1]: {high:g} Hz is not above {low:g} Hz; a rising pair is accepted"
         )
     return low, high

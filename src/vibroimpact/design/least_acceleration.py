@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.design_shaking import AnyShaken, Asked, asked, one_rig
+from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
 from vibroimpact.design.limits import QUANTITIES, limits_of
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import Runs, runs
@@ -20,7 +20,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Bumper, Oscillator
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.units import pretty
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
@@ -107,14 +107,14 @@ _VAST = 1e30
 
 
 def least_acceleration(
-    oscillator: Oscillator | AnyRig,
-    shaking: AnyShaken,
+    rig: AnyRig | Oscillator,
     ranges: Mapping[str, _Range] | None = None,
     *,
+    records: AnyRecords | None = None,
     gap: float | str | None = None,
     limits: Mapping[str, float | str] | None = None,
     fractile: float = 1.0,
-    frequencies: _Range | None = None,
+    frequency_span: _Range | None = None,
     step: float = STEP,
     tail: float | str | None = None,
     seed: int = 0,
@@ -131,10 +131,10 @@ def least_acceleration(
 
     Parameters
     ----------
-    oscillator, shaking, fractile, frequencies, step, tail, threads, where
-        As of `design`.
+    rig, records, fractile, frequency_span, step, tail, threads, where
+        As of `design_chart`.
     ranges
-        Lowest and highest value of parameters by name, as those of `design`. None for the
+        Lowest and highest value of parameters by name, as those of `design_chart`. None for the
         stiffness of the bumpers from 0.1 to 100 times that of the isolator and their damping from
         0.01 to 10 times the critical one on it.
     gap
@@ -150,7 +150,7 @@ def least_acceleration(
     Returns
     -------
     xarray.Dataset
-        Without dims: the parameters by name, and the variables of `design` there;
+        Without dims: the parameters by name, and the variables of `design_chart` there;
         ``evaluations``, the designs that were tried. The attribute ``notes`` says if the best
         design touches no stop, which limits it stays away from, and which parameters ended at an
         end of their range.
@@ -167,11 +167,12 @@ def least_acceleration(
     """
     from scipy.optimize import NonlinearConstraint, differential_evolution
 
-    rig = one_rig(oscillator)
+    oscillator, what = design_rig(
+        rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
+    )
     if gap is not None:
-        rig = runs(rig, [gap], None).oscillator((0,))
-    space = _space(rig, ranges)
-    what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
+        oscillator = runs(oscillator, [gap], None).oscillator((0,))
+    space = _space(oscillator, ranges)
     most = limits_of(limits)
     known = _Known(what, space, placed(threads, where), progress)
     constraints = tuple(
@@ -193,8 +194,8 @@ def least_acceleration(
     (best,) = known(np.asarray(found.x)[:, np.newaxis])
     _refuse(best, most)
     values = space.values(np.asarray(found.x)[:, np.newaxis])[:, 0]
-    notes = [*_untouched(rig, best), *_slack(best, most), *_at_ends(space, values)]
-    if rig.stops and not best["hitting"]:
+    notes = [*_untouched(oscillator, best), *_slack(best, most), *_at_ends(space, values)]
+    if oscillator.stops and not best["hitting"]:
         warn_of_input("least_acceleration", notes)
     data = xr.Dataset(
         {
@@ -204,7 +205,7 @@ def least_acceleration(
         }
     )
     parameters = {
-        "oscillator": oscillator_parameters(rig),
+        "oscillator": oscillator_parameters(oscillator),
         "ranges": {
             name: [float(low), float(high)]
             for name, low, high in zip(space.names, space.low, space.high, strict=True)

@@ -8,24 +8,24 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
-from vibroimpact.design.design_shaking import AnyShaken, ByRecords, asked, one_rig
+from vibroimpact.design.design_shaking import AnyRecords, ByRecords, design_rig
 from vibroimpact.design.worst_sine import STEP, Sines
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, equilibrium
-from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
 
 
 def required_gap(
-    oscillator: Oscillator | AnyRig,
-    shaking: AnyShaken,
+    rig: AnyRig | Oscillator,
     *,
+    records: AnyRecords | None = None,
     fractile: float = 1.0,
-    frequencies: tuple[float | str, float | str] | None = None,
+    frequency_span: tuple[float | str, float | str] | None = None,
     step: float = STEP,
     tail: float | str | None = None,
     threads: int | None = None,
@@ -36,13 +36,13 @@ def required_gap(
 
     Parameters
     ----------
-    oscillator, shaking, fractile, frequencies, step, tail, threads, where, progress
-        As of `design`; the fractile is that of the larger side of each record, and of each side by
-        itself, so that the gap for both may exceed those of the two. Of sines and a linear isolator
-        the worst frequency is known in closed form, and the gap is that of the steady motion: exact
-        at any frequency of the range, all of them if none is given. Of other isolators it is that
-        of sweeps up and down. A transient may reach farther. Of records it is exact: each begins at
-        rest.
+    rig, records, fractile, frequency_span, step, tail, threads, where, progress
+        As of `design_chart`; the fractile is that of the larger side of each record, and of each
+        side by itself, so that the gap for both may exceed those of the two. Of sines and a linear
+        isolator the worst frequency is known in closed form, and the gap is that of the steady
+        motion: exact at any frequency of the range, all of them if none is given. Of other
+        isolators it is that of sweeps up and down. A transient may reach farther. Of records it is
+        exact: each begins at rest.
 
     Returns
     -------
@@ -57,9 +57,10 @@ def required_gap(
         If a value cannot be used, or the free motion has no bound or was given up.
     """
     workers = placed(threads, where)
-    rig = one_rig(oscillator)
-    what = asked(rig, shaking, fractile=fractile, frequencies=frequencies, step=step, tail=tail)
-    free = rig.without_bumpers()
+    oscillator, what = design_rig(
+        rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
+    )
+    free = oscillator.without_bumpers()
     if isinstance(what, ByRecords):
         found = _of_records(free, what, workers, progress)
     elif free.isolator.linear:
@@ -71,7 +72,7 @@ def required_gap(
             "shaking: the mass moves without bound where no stop holds it; an isolator that does "
             "is accepted"
         )
-    parameters = {"oscillator": oscillator_parameters(rig), **what.parameters()}
+    parameters = {"oscillator": oscillator_parameters(oscillator), **what.parameters()}
     return describe(found, "vibroimpact.required_gap", parameters, what.notes())
 
 

@@ -24,7 +24,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.quantities import TIME
-from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
 from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read
@@ -43,7 +43,7 @@ _PENDING = -1
 
 
 def demands(
-    oscillator: Oscillator | AnyRig | Mapping[str, Oscillator | AnyRig] | list[Oscillator | AnyRig],
+    rig: Oscillator | AnyRig | Mapping[str, Oscillator | AnyRig] | list[Oscillator | AnyRig],
     records: Record | Sequence[Record] | Mapping[str, Record],
     scales: ArrayLike | Sequence[str] = (1.0,),
     *,
@@ -64,8 +64,9 @@ def demands(
 
     Parameters
     ----------
-    oscillator
-        What vibrates; or a case, its code or a study file; or several, by name or as a list.
+    rig
+        The rig: an `Oscillator`, a `Rig`, a laboratory case, its code, or the path of a study file;
+        or several, by name or as a list. The records shake it in the place of its own shaking.
     records
         One, or several: by name or as a list, whose names are those of their files.
     scales
@@ -112,7 +113,7 @@ def demands(
     InputError
         If a value cannot be used, or the store holds something else.
     """
-    rigs = runs(oscillator, gaps, vary)
+    rigs = runs(rig, gaps, vary)
     shaking = suite(records)
     scaled = measure(intensity)
     levels = _levels(scales, scaled)

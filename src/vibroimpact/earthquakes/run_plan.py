@@ -15,7 +15,7 @@ from vibroimpact.arguments import VALUES, check_mapping
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Harmonic, Oscillator, Record
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.model.rigs import as_rig, rig_name
+from vibroimpact.model.read_rig import as_rigs, is_one_rig
 from vibroimpact.model.varied import Varied, varied, written
 
 _Array = NDArray[np.float64]
@@ -63,7 +63,7 @@ class Runs(NamedTuple):
         return written(rig, _ANY, pairs)[0]
 
 
-def runs(oscillator: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None) -> Runs:
+def runs(rig: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None) -> Runs:
     """Read the rigs: one, or several by name or in a list; and what is varied of each.
 
     Raises
@@ -71,17 +71,10 @@ def runs(oscillator: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] 
     InputError
         If one cannot be used.
     """
-    if isinstance(oscillator, Mapping):
-        rigs = {str(name): _rig(one, f"oscillator[{name!r}]") for name, one in oscillator.items()}
-    elif isinstance(oscillator, list):
-        made = [_rig(one, f"oscillator[{i}]") for i, one in enumerate(oscillator)]
-        names = [rig_name(one, str(i)) for i, one in enumerate(oscillator)]
-        unique = names if len(set(names)) == len(names) else [str(i) for i in range(len(made))]
-        rigs = dict(zip(unique, made, strict=True))
-    else:
-        rigs = {"rig": _rig(oscillator, "oscillator")}
-    if not rigs:
-        raise InputError("oscillator: none given; one or several are accepted")
+    read = as_rigs(rig, "rig", oscillator_alone=True)
+    rigs = {name: one.oscillator for name, one in read.items()}
+    if is_one_rig(rig):
+        rigs = {"rig": next(iter(rigs.values()))}
     given = dict(check_mapping({} if vary is None else vary, "vary", VALUES))
     if gaps is not None:
         if "gap" in given:
@@ -99,14 +92,10 @@ def runs(oscillator: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] 
         )
         for name, values in given.items()
     )
-    found = Runs(rigs, every, isinstance(oscillator, Mapping | list))
+    found = Runs(rigs, every, not is_one_rig(rig))
     for at in itertools.product(*((0, n - 1) for n in found.shape)):
         found.oscillator(at)  # refused before anything is computed
     return found
-
-
-def _rig(given: Any, where: str) -> Oscillator:
-    return given if isinstance(given, Oscillator) else as_rig(given, where, "an oscillator, ")[0]
 
 
 def suite(records: Any) -> dict[str, Record]:

@@ -12,11 +12,10 @@ from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Oscillator, Record, to_si
+from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import check_max_events
 from vibroimpact.model.quantities import TIME
-from vibroimpact.model.rigs import takes_rig_or_record
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.response.plausibility import doubt_gaps
 from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.tasks.threads import Progress
@@ -33,10 +32,8 @@ SUMS = {
 """Of both sides."""
 
 
-@takes_rig_or_record
 def seismic_response(
-    oscillator: Oscillator,
-    record: Record,
+    rig: AnyRig,
     *,
     tail: float | str | None = None,
     max_events: int = MAX_EVENTS,
@@ -49,10 +46,8 @@ def seismic_response(
 
     Parameters
     ----------
-    oscillator
-        What vibrates, with any isolator and any stops; or a case, its code or a study file.
-    record
-        What shakes its base.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     tail
         How long the motion is followed behind the record, while the base stands still: seconds, or
         text such as ``"10 s"``. None for two natural periods of its softest spring.
@@ -84,8 +79,8 @@ def seismic_response(
     InputError
         If it is no record, or a value cannot be used.
     """
-    if not isinstance(record, Record):
-        raise InputError(f"record: {shown(record)}; a Record is accepted")
+    rig = as_rig(rig)
+    oscillator, record = rig.oscillator, rig.record
     check_progress(progress)
     behind = (
         free_tail(oscillator, record) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)

@@ -24,8 +24,8 @@ from vibroimpact.model import (
     RigidStop,
     Stop,
 )
-from vibroimpact.model.dimensionless import largest_free_flight
 from vibroimpact.model.isolators import ISOLATORS
+from vibroimpact.model.largest_free_response import largest_free_flight
 from vibroimpact.model.stops import STOPS
 
 NONE = "none"

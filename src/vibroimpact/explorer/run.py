@@ -12,7 +12,7 @@ from vibroimpact.explorer import require_websockets
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.share import address
 from vibroimpact.explorer.state import State, begin
-from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.read_rig import AnyRig
 
 LOOPBACK = ("127.0.0.1", "::1", "localhost")
 
@@ -91,7 +91,7 @@ def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
     Parameters
     ----------
     rig
-        A case, its code, a study file, a `Rig` or a pair (oscillator, amplitude).
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     height
         Of the page, in pixels.
 

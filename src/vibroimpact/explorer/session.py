@@ -288,7 +288,7 @@ def shown_as(history: History) -> Message:
     InputError
         If its mass has no spring.
     """
-    one_sine(*history.now.rig, "amplitude")
+    one_sine(history.now.rig, "amplitude")
     state, first = history.now, history.first
     rig = state.oscillator
     return {

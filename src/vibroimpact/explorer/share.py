@@ -15,6 +15,7 @@ from vibroimpact.explorer.state import Direction, State
 from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.quantities import FREQUENCY
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.scenarios.axes import one_sine
 
@@ -88,7 +89,7 @@ def _from_table(table: Any) -> State:
     if not low < high:
         raise InputError("address: span: empty; a rising range is accepted")
     shaken = Harmonic(size, hertz, table["phase"], of)
-    one_sine(oscillator, shaken, "amplitude")
+    one_sine(Rig(oscillator, shaken), "amplitude")
     state = State(name, oscillator, shaken, (low, high), direction)
     listed = table["shown"]
     if not isinstance(listed, list) or not all(isinstance(item, str) for item in listed):
@@ -149,7 +150,7 @@ def _quoted(text: str) -> str:
 def program(state: State) -> str:
     """Return the Python program that gives the curves and the motion of a state."""
     low, high = state.span
-    oscillator, shaken = state.rig
+    oscillator, shaken = state.oscillator, state.shaking
     kinds = {type(oscillator).__name__, type(oscillator.isolator).__name__}
     kinds |= {type(stop).__name__ for stop in oscillator.stops} | {"Harmonic"}
     written = repr(oscillator)
@@ -168,17 +169,18 @@ from vibroimpact.figures import resonance_curves, save_figure
 
 oscillator = {written}
 shaking = {_prefixed(repr(shaken), "Harmonic")}  # {pretty(shaken.amplitude, shaken.quantity)}
+rig = vi.Rig(oscillator, shaking)
 
 frequencies = np.linspace({low!r}, {high!r}, {FINE})
-curves = vi.sweep(oscillator, shaking, frequencies)
+curves = vi.sweep(rig, frequencies)
 axes = resonance_curves(curves, physical={state.physical!r})
 save_figure(axes[0], "curves.png")
-print(vi.classify(oscillator, shaking))
+print(vi.classify_scenario(rig))
 
 held = curves.sel(direction={state.direction!r}).sel(
     frequency={shaken.frequency!r}, method="nearest"
 )
-motion = vi.steady(oscillator, shaking.replace(frequency=float(held.frequency)), held.section)
+motion = vi.steady(rig, held.section, frequency=float(held.frequency))
 print(motion.motion.item(), motion.period.item(), motion.attrs["evidence"])
 '''
 

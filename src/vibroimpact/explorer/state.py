@@ -6,7 +6,8 @@ from typing import Literal, NamedTuple
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
-from vibroimpact.model.rigs import AnyRig, as_rig, rig_name
+from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.scenarios.axes import one_sine
 
 Direction = Literal["forward", "backward"]
@@ -41,9 +42,9 @@ class State(NamedTuple):
     """Which pictures of `ON_DEMAND` are asked for."""
 
     @property
-    def rig(self) -> tuple[Oscillator, Harmonic]:
-        """What `vibroimpact.sweep` takes."""
-        return self.oscillator, self.shaking
+    def rig(self) -> Rig:
+        """What vibrates and what shakes it, at the frequency whose motion is looked at."""
+        return Rig(self.oscillator, self.shaking)
 
 
 def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) -> State:
@@ -52,7 +53,7 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     Parameters
     ----------
     rig
-        A case, its code, a study file, a `Rig` or a pair of oscillator and amplitude.
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     name
         What it is called; that of a case is its code.
     span
@@ -64,15 +65,15 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     InputError
         If it is no rig, is not shaken by one sine, or its mass has no spring.
     """
-    given = as_rig(rig, "rig")
-    oscillator, shaken = one_sine(given.oscillator, given.amplitude, "amplitude")
+    given = as_rig(rig)
+    oscillator, shaken = one_sine(given, "amplitude")
     natural = oscillator.natural_frequency
     low, high = span or (_short(LOWEST * natural), _short(HIGHEST * natural))
     if not 0.0 < low < high:
         raise InputError(f"span: {low:g} to {high:g} Hz; a rising range above 0 is accepted")
     chosen = min(max(_short(_CHOSEN * natural), low), high)
     return State(
-        name or rig_name(rig, "rig"),
+        name or given.name or "rig",
         oscillator,
         shaken.replace(frequency=chosen),
         (low, high),

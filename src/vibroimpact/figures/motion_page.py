@@ -17,7 +17,7 @@ from vibroimpact.figures.lines import spectrum_lines
 from vibroimpact.figures.motion_style import Shown, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Grid, new_axes
 from vibroimpact.figures.portrait import phase_portrait
-from vibroimpact.response.spectrum import spectrum
+from vibroimpact.response.spectrum import fourier_spectrum
 
 ROWS = 2 + len(PANELS)
 
@@ -157,7 +157,7 @@ def _column(
     phase_portrait(given, axes[0])
     # A motion that was given up may be too short for a spectrum.
     long = {name: motion for name, motion in given.items() if motion["cycle"][-1] >= 1.0}
-    lines = {name: spectrum(motion, highest) for name, motion in long.items()}
+    lines = {name: fourier_spectrum(motion, highest) for name, motion in long.items()}
     if lines:
         spectrum_lines(lines, axes[1], highest=highest)
     curves = shown(given, length)

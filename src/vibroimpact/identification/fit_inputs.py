@@ -12,23 +12,21 @@ from vibroimpact.errors import InputError, printable, shown, unknown
 from vibroimpact.identification.curve_residuals import CurveTest
 from vibroimpact.identification.history_residuals import HistoryTest
 from vibroimpact.identification.least_squares import Test
-from vibroimpact.measurements.read import CALL, as_measured
-from vibroimpact.model import Oscillator
+from vibroimpact.measurements.read import as_measured
 from vibroimpact.model.access import Setting
 from vibroimpact.model.excitation import Harmonic, Periodic
 from vibroimpact.model.names import check_name
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.model.rigs import as_rig, as_shaking
+from vibroimpact.model.read_rig import as_rig
+from vibroimpact.model.rig import Rig, as_periodic
 from vibroimpact.model.units import to_si
 
 BASE = "the measured base"
 """Where the amplitude of a history is from whose base was measured."""
 
 
-def tests_of(
-    data: Any, oscillator: Any, amplitude: Any, noise: Any, window: int | None, steady: bool
-) -> list[Test]:
+def tests_of(rig: Any, data: Any, noise: Any, window: int | None, steady: bool) -> list[Test]:
     """Read the tests, each with the rig and shaking that it begins from.
 
     Raises
@@ -41,11 +39,10 @@ def tests_of(
     for name, one in named.items():
         where = f"data[{name!r}]" if len(named) > 1 else "data"
         measured = as_measured(one, where)
-        rig = _of(oscillator, name, list(named), "oscillator")
-        given = _of(amplitude, name, list(named), "amplitude")
+        tested = as_rig(_of(rig, name, list(named), "rig"), oscillator_alone=True)
         share = _of(noise, name, list(named), "noise")
         share = None if share is None else to_si(share, DIMENSIONLESS, "noise", above=0.0)
-        setting, source = _setting(rig, given, measured, where)
+        setting, source = _setting(tested, measured, where)
         measured = measured.assign_attrs(amplitude_source=source)
         if measured.attrs["kind"] == "curves":
             found.append(CurveTest(name, measured, setting, share))
@@ -85,31 +82,28 @@ def _of(given: Any, name: str, names: list[str], field: str) -> Any:
     return given
 
 
-def _setting(rig: Any, amplitude: Any, data: xr.Dataset, where: str) -> tuple[Setting, str]:
-    """The rig with its shaking, and where that is from: the call, a file, or the rig given."""
-    carried: Any = None
-    if not isinstance(rig, Oscillator):
-        rig, carried = as_rig(rig, "oscillator", "an oscillator, ")
-    chosen, source = amplitude, CALL
+def _setting(rig: Rig, data: xr.Dataset, where: str) -> tuple[Setting, str]:
+    """The rig with its shaking, and where that is from: the data, or else the rig."""
+    chosen: Any = data.attrs.get("amplitude")
+    source = str(data.attrs.get("amplitude_source", "the data"))
     if chosen is None:
-        chosen = data.attrs.get("amplitude")
-        source = str(data.attrs.get("amplitude_source", "the data"))
-    if chosen is None:
-        chosen, source = carried, "the rig given"
+        chosen, source = rig.shaking, "the rig"
+        if rig.amplitudes is not None:
+            chosen = rig.amplitudes
     base = data.attrs["kind"] == "history" and "base_acceleration" in data
     if base:
         source = BASE
     if chosen is None and base:
-        return (rig, Harmonic(1.0, 1.0)), source
+        return (rig.oscillator, Harmonic(1.0, 1.0)), source
     if chosen is None:
         raise InputError(
-            f"amplitude: missing, and {where} does not say it; the peak base acceleration of the "
-            'test is accepted, such as amplitude="0.05 g"'
+            f"rig: an Oscillator alone, and {where} does not say what shook it; the peak base "
+            'acceleration is accepted, such as Rig(oscillator, "0.05 g")'
         )
-    shaken, sizes = as_shaking(chosen, "amplitude")
+    shaken, sizes = as_periodic(chosen, "shaking")
     if sizes is not None or not isinstance(shaken, Harmonic | Periodic):
-        raise InputError("amplitude: a list; one for each test is accepted, as a mapping by name")
-    return (rig, shaken), source
+        raise InputError("shaking: a list of amplitudes; a rig for each test is accepted, by name")
+    return (rig.oscillator, shaken), source
 
 
 def ties_of(ties: Mapping[str, str] | None) -> dict[str, str]:

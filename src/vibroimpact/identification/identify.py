@@ -37,11 +37,10 @@ _ROUNDS = 2
 
 
 def identify(
+    rig: Any,
     data: Any,
-    oscillator: Any,
     free: Mapping[str, Any] | Sequence[str] | str,
     *,
-    amplitude: Any = None,
     each: Sequence[str] = (),
     ties: Mapping[str, str] | None = None,
     priors: Mapping[str, tuple[Any, Any]] | None = None,
@@ -63,19 +62,19 @@ def identify(
 
     Parameters
     ----------
+    rig
+        What was tested, with the values that are known and a guess of the others: a `Rig`, a
+        laboratory case, its code, or the path of a study file; or one for each test, as a list or
+        by name. Where the data say what shook it, that counts, and an `Oscillator` alone is
+        accepted.
     data
         A dataset of `read_measurement`, or of `sweep` or `simulate`, or the path of a file; or
         several, as a list or by name.
-    oscillator
-        What was tested, with the values that are known and a guess of the others: an `Oscillator`,
-        a case, a study file or a `Rig`; or one for each test, as a list or by name.
     free
         What is sought: names of parameters, such as ``"stiffness,bumper_damping"``; or a mapping
         from names to a start, to bounds (low, high), to both (``{"start": ..., "low": ...}``), or
         to None for the rig's own value. Of sensors there are ``displacement_scale``,
         ``acceleration_scale``, ``displacement_offset`` and ``acceleration_offset``.
-    amplitude
-        Peak base acceleration, where neither the data nor the rig say it; by test if they differ.
     each
         Names of those of which each test has its own; the others are shared.
     ties
@@ -118,7 +117,7 @@ def identify(
         and whether it is open there, ``covariance``, ``correlation``, the profiles, the bootstrap's
         values. Dim ``point``: what was measured, what the fit has there, and the residual as a
         share. Dim ``test``: noise, and whether the residuals have a shape. The attribute
-        ``findings`` says it in words, a line each; `fitted` makes the rig of it.
+        ``findings`` says it in words, a line each; `fitted_rig` makes the rig of it.
 
     Raises
     ------
@@ -131,7 +130,7 @@ def identify(
     confidence = share(confidence, "confidence")
     window = None if window is None else whole(window, "window")
     threads = (os.cpu_count() or 1) if threads is None else whole(threads, "threads")
-    tests = tests_of(data, oscillator, amplitude, noise, window, steady)
+    tests = tests_of(rig, data, noise, window, steady)
     swings = {t.name: t.swing for t in tests}
     given = frees(free, {t.name: t.setting for t in tests}, each, priors, swings)
     if any(one.name == "amplitude" for one in given):
@@ -181,7 +180,7 @@ def identify(
     return results.labelled(fit, samples, confidence)
 
 
-def fitted(result: xr.Dataset, test: str | None = None) -> Rig:
+def fitted_rig(result: xr.Dataset, test: str | None = None) -> Rig:
     """Return the rig that a fit has found, with the shaking of a test.
 
     Parameters

@@ -6,9 +6,7 @@ from vibroimpact.model.dimensionless import (
     DimensionlessBumper,
     DimensionlessRigidStop,
     DimensionlessStop,
-    Rig,
     from_dimensionless,
-    peak_displacement,
     to_dimensionless,
 )
 from vibroimpact.model.equilibrium import equilibrium
@@ -22,9 +20,11 @@ from vibroimpact.model.isolators import (
     Isolator,
     PolynomialIsolator,
 )
+from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import GRAVITY
 from vibroimpact.model.record import Record
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.state import State
 from vibroimpact.model.stops import Bumper, JankowskiBumper, PowerBumper, RigidStop, Stop
 from vibroimpact.model.units import to_si

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.excitation import Harmonic, Repeated
 from vibroimpact.model.isolators.law import spring_and_dashpot
+from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.stops import Bumper, Stop

@@ -17,44 +17,23 @@ side. Here a gap is always that of one side.
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar, NamedTuple, TypeAlias
+from typing import Annotated, ClassVar, TypeAlias
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.html_table import table
+from vibroimpact.model.excitation import Harmonic
 from vibroimpact.model.isolators import Isolator
+from vibroimpact.model.largest_free_response import peak_displacement, peak_of
 from vibroimpact.model.law_registry import Kinds, Named
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
-from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.units import to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 PerSide: TypeAlias = "float | str | tuple[float | str | None, float | str | None] | None"
 """One value for both sides, or a pair (right, left); None is a side without a bumper."""
-
-_NO_DAMPING = 1e-150
-"""A damping ratio below which the peak is larger than any number."""
-_ALL_DAMPING = 1e100
-"""Damping ratio from which on the mass moves with the base, to rounding."""
-
-
-class Rig(NamedTuple):
-    """An oscillator with the base acceleration that its gaps were scaled by.
-
-    It unpacks: ``oscillator, amplitude = rig``.
-    """
-
-    oscillator: Oscillator
-    amplitude: float
-    """Peak base acceleration A in m/s²."""
-
-    def __str__(self) -> str:
-        return f"Rig(oscillator={self.oscillator}, amplitude={self.amplitude:.6g} m/s²)"
-
-    def _repr_html_(self) -> str:
-        shaken = ("amplitude", pretty(self.amplitude, ACCELERATION))
-        return table("Rig", [*self.oscillator.rows(), shaken])
 
 
 class DimensionlessBumper(Named):
@@ -193,7 +172,7 @@ class Dimensionless(Model):
             if side is None:
                 return None
             # A gap of 0 is 0 at any scale, so it needs no resonance peak.
-            gap = side.gap * _peak(m, k, self.damping_ratio, a) if side.gap else 0.0
+            gap = side.gap * peak_of(m, k, self.damping_ratio, a) if side.gap else 0.0
             if isinstance(side, DimensionlessRigidStop):
                 return RigidStop(side.restitution, gap)
             stiffness_j = side.stiffness_ratio * k
@@ -234,7 +213,7 @@ def from_dimensionless(
     Returns
     -------
     Rig
-        ``oscillator, amplitude``: the gaps hold only at that amplitude.
+        With the base acceleration by which the gaps are scaled; they hold only at that one.
 
     Raises
     ------
@@ -244,11 +223,10 @@ def from_dimensionless(
 
     Examples
     --------
-    >>> oscillator, amplitude = from_dimensionless(20.0, 0.5, 0.01, 0.15)
-    >>> oscillator.right == oscillator.left
+    >>> rig = from_dimensionless(20.0, 0.5, 0.01, 0.15)
+    >>> rig.oscillator.right == rig.oscillator.left
     True
-    >>> one_sided, _ = from_dimensionless((20.0, None), 0.5, 0.01, 0.15)
-    >>> one_sided.left is None
+    >>> from_dimensionless((20.0, None), 0.5, 0.01, 0.15).oscillator.left is None
     True
     """
     ratios = _pair(stiffness_ratio, "stiffness_ratio")
@@ -262,16 +240,14 @@ def from_dimensionless(
     return group.to_physical(mass=mass, stiffness=stiffness, amplitude=amplitude)
 
 
-@takes_rig
-def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensionless:
-    """Return the dimensionless parameters of an oscillator under a base acceleration.
+def to_dimensionless(rig: AnyRig) -> Dimensionless:
+    """Return the dimensionless parameters of a rig.
 
     Parameters
     ----------
-    oscillator
-        The oscillator; or a case, its code or a study file, and then the amplitude may be left out.
-    amplitude
-        Peak base acceleration A in m/s², or text with units; it scales the gaps.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file. The peak of the
+        base acceleration scales the gaps.
 
     Returns
     -------
@@ -285,7 +261,8 @@ def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensio
         not 0 while free flight has no finite resonance peak to scale it by (see
         ``peak_displacement``).
     """
-    a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
+    found = as_rig(rig)
+    oscillator, a = found.oscillator, base_acceleration(found)
     oscillator.check_linear("dimensionless parameters")
     k = oscillator.isolator.initial_stiffness
 
@@ -302,88 +279,21 @@ def to_dimensionless(oscillator: Oscillator, amplitude: float | str) -> Dimensio
     return Dimensionless(oscillator.damping_ratio, side(oscillator.right), side(oscillator.left))
 
 
-def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
-    """Return the largest displacement amplitude in free flight, over all frequencies.
-
-    u_max = A/(2ξ√(1-ξ²) ω0²), reached at ω = ω0√(1-2ξ²).
-
-    Parameters
-    ----------
-    oscillator
-        The oscillator; its stops are left out of account.
-    amplitude
-        Peak base acceleration A in m/s², or text with units.
-
-    Returns
-    -------
-    float
-        u_max in m.
+def base_acceleration(rig: Rig) -> float:
+    """Return the peak A (m/s²) of the sine of base acceleration that shakes a rig.
 
     Raises
     ------
     InputError
-        If the isolator is not linear. If the amplitude is 0, or if the damping ratio is 0 (the
-        peak is unbounded) or at least 1/√2 (the displacement has no peak).
+        If something else shakes it.
     """
-    a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
-    oscillator.check_linear("free flight in closed form, whose peak scales gaps", stops=False)
-    stiffness = oscillator.isolator.initial_stiffness
-    return _peak(oscillator.mass, stiffness, oscillator.damping_ratio, a)
-
-
-def largest_free_flight(
-    angular_frequency: float, damping_ratio: float, amplitude: float
-) -> tuple[float, float]:
-    """Return the largest amplitudes in free flight, over all frequencies.
-
-    Of the displacement A/(2ξ√(1-ξ²) ω0²) (see ``peak_displacement``), or A/ω0², which it comes
-    close to at low frequencies, if ξ is at least 1/√2. Of the absolute acceleration
-    A √(1 + 4ξ²r²)/√((1 - r²)² + 4ξ²r²) at r² = 2/(1 + √(1 + 8ξ²)).
-
-    Parameters
-    ----------
-    angular_frequency
-        ω0 in rad/s.
-    damping_ratio
-        ξ; with 0 both are infinite.
-    amplitude
-        Peak base acceleration A in m/s².
-
-    Returns
-    -------
-    tuple of float
-        In m and m/s².
-    """
-    xi, static = damping_ratio, amplitude / angular_frequency**2
-    if xi < _NO_DAMPING:
-        return math.inf, math.inf
-    peaked = xi < math.sqrt(0.5)
-    swing = static / (2.0 * xi * math.sqrt(1.0 - xi**2)) if peaked else static
-    if xi > _ALL_DAMPING:
-        return swing, amplitude
-    square = 2.0 / (1.0 + math.sqrt(1.0 + 8.0 * xi**2))
-    damped = 4.0 * xi**2 * square
-    return swing, amplitude * math.sqrt((1.0 + damped) / ((1.0 - square) ** 2 + damped))
-
-
-def _peak(mass: float, stiffness: float, damping_ratio: float, amplitude: float) -> float:
-    if not 0.0 < damping_ratio < math.sqrt(0.5):
+    shaking = rig.periodic
+    if not isinstance(shaking, Harmonic) or shaking.of != "acceleration":
         raise InputError(
-            f"damping_ratio: {damping_ratio:.6g} gives free flight no finite resonance peak, by "
-            "which a gap that is not 0 is scaled; between 0 and 0.707107 is accepted"
+            f"shaking: {shaking}, but dimensionless parameters are those of a sine of base "
+            'acceleration, such as Rig(oscillator, "0.05 g")'
         )
-    if amplitude == 0.0:
-        raise InputError(
-            "amplitude: 0 moves nothing, so a gap that is not 0 has no scale; "
-            "an acceleration greater than 0 is accepted"
-        )
-    peak, _ = largest_free_flight(math.sqrt(stiffness / mass), damping_ratio, amplitude)
-    if not 0.0 < peak < math.inf:
-        raise InputError(
-            f"amplitude: {amplitude:g} m/s² moves a mass of {mass:g} kg on {stiffness:g} N/m by "
-            "a distance outside the range of floating-point numbers; a moderate one is accepted"
-        )
-    return peak
+    return shaking.amplitude
 
 
 def _pair(value: PerSide, field: str) -> tuple[float | str | None, float | str | None]:

@@ -19,7 +19,6 @@ from itertools import pairwise
 from typing import Literal, NamedTuple, TypeAlias, get_args
 
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.html_table import table
 from vibroimpact.model.isolators import (
     AnyIsolator,
@@ -28,8 +27,10 @@ from vibroimpact.model.isolators import (
     ExponentialIsolator,
     Isolator,
 )
+from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, STIFFNESS, Quantity
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import Bumper
 from vibroimpact.model.units import pretty, read
 
@@ -113,6 +114,11 @@ class Case:
     amplitude: float
     frequencies: tuple[float, ...]
     parameters: Parameters
+
+    @property
+    def rig(self) -> Rig:
+        """The rig, whose frequency is left open."""
+        return Rig(self.oscillator, self.amplitude, name=self.code)
 
     @property
     def slug(self) -> str:

@@ -7,10 +7,11 @@ parameter, and for its value in a rig and the rig at another value. A new one is
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple, cast
 
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.arguments import is_list
+from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.model import access
 from vibroimpact.model.access import Read, Write
 from vibroimpact.model.excitation import QUANTITIES, Of
@@ -118,23 +119,29 @@ def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> P
     return PARAMETERS[key]
 
 
-def bounds(varied: Parameter, low: float | str, high: float | str) -> tuple[float, float]:
-    """Read the ends of a range.
+def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[float, float]:
+    """Read the lowest and the highest value of a parameter.
 
     Raises
     ------
     InputError
-        If one cannot be used, or the range is empty.
+        If it is not a pair, a value cannot be used, or the range is empty.
     """
-    ends = [
-        to_si(given, varied.quantity, field, minimum=varied.least, maximum=varied.most)
-        for given, field in ((low, "low"), (high, "high"))
-    ]
-    if not ends[0] < ends[1]:
+    if not is_list(span) or len(ends := list(cast("Iterable[float | str]", span))) != 2:
         raise InputError(
-            f"high: {ends[1]:g} does not lie above low, {ends[0]:g}; a larger value is accepted"
+            f"{field}: {shown(span)}; the lowest and the highest value of {varied.name} are "
+            "accepted, as (low, high)"
         )
-    return ends[0], ends[1]
+    low, high = (
+        to_si(end, varied.quantity, f"{field}[{i}]", minimum=varied.least, maximum=varied.most)
+        for i, end in enumerate(ends)
+    )
+    if not low < high:
+        raise InputError(
+            f"{field}[1]: {high:g} does not lie above {field}[0], {low:g}; a larger value is "
+            "accepted"
+        )
+    return low, high
 
 
 def _of_stops(

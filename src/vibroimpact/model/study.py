@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, Self, TypeVar
+from typing import Annotated, Any, Self, TypeVar
 
 from pydantic import model_validator
 
@@ -19,7 +19,7 @@ from vibroimpact.model.names import check_name
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ANGLE, TIME
 from vibroimpact.model.record import Record
-from vibroimpact.model.rigs import as_shaking
+from vibroimpact.model.rig import Rig, as_periodic
 from vibroimpact.model.validation import Accepts, Model, validate
 
 _Study = TypeVar("_Study", bound="RigStudy")
@@ -79,17 +79,8 @@ class ExcitationTable(Model):
             return Periodic(1.0, self.amplitudes, self.phases, self.phase)
         if self.amplitude is None:
             return None
-        shaken, _ = as_shaking(self.amplitude, "amplitude")
+        shaken, _ = as_periodic(self.amplitude, "amplitude")
         return shaken.replace(phase=self.phase)
-
-
-class Studied(NamedTuple):
-    """The rig of a study."""
-
-    name: str
-    oscillator: Oscillator
-    amplitude: Repeated | Record | None
-    """What shakes it, a frequency left open; None where nothing says it."""
 
 
 class RigStudy(Model):
@@ -119,8 +110,8 @@ class RigStudy(Model):
             raise InputError("parameters are given without a case; they are accepted beside one")
         return self
 
-    def rig(self, path: Path, parameters: Parameters | None = None) -> Studied:
-        """The rig that is described.
+    def rig(self, path: Path, parameters: Parameters | None = None) -> Rig:
+        """The rig that is described; the frequency of a periodic shaking is left open.
 
         Parameters
         ----------
@@ -141,13 +132,13 @@ class RigStudy(Model):
             raise InputError(f"{where}: excitation.{error}") from None
         if self.case is None:
             assert self.oscillator is not None  # one of the two is there
-            return Studied(name, self.oscillator, shaking)
+            return Rig.of_open_frequency(self.oscillator, shaking, name)
         try:
             case = laboratory.case(self.case, parameters or self.parameters or "table")
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
         usual = Harmonic(case.amplitude, 1.0, phase=self.excitation.phase)
-        return Studied(name, case.oscillator, usual if shaking is None else shaking)
+        return Rig.of_open_frequency(case.oscillator, shaking or usual, name)
 
 
 def read_study(path: Path, kind: type[_Study]) -> _Study:
@@ -199,7 +190,7 @@ def _deeper(data: Any, levels: int) -> bool:
     return bool(found)
 
 
-def read_rig(path: Path) -> Studied:
+def read_rig_study(path: Path) -> Rig:
     """Read the rig of a study file.
 
     Raises

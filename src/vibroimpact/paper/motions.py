@@ -15,7 +15,7 @@ from vibroimpact.paper import fig15
 from vibroimpact.paper.curves import S3, S5, S5_RANGE
 from vibroimpact.paper.item import Item
 from vibroimpact.paper.study import PublishedStudy
-from vibroimpact.response.spectrum import spectrum
+from vibroimpact.response.spectrum import fourier_spectrum
 
 PLACES = (
     "$f_{I}$, secondary resonance",
@@ -85,7 +85,7 @@ def _attached(study: PublishedStudy) -> Figure:
     figure = Figure(figsize=(12.0, 12.0), layout="constrained")
     grid = figure.add_gridspec(4, 2, height_ratios=[1.5, 1.0, 1.0, 1.0])
     phase_portrait(motion, figure.add_subplot(grid[0, 0]))
-    spectrum_lines(spectrum(motion), figure.add_subplot(grid[0, 1]))
+    spectrum_lines(fourier_spectrum(motion), figure.add_subplot(grid[0, 1]))
     first = figure.add_subplot(grid[1, 0])
     histories = [first, *(figure.add_subplot(grid[i, 0], sharex=first) for i in (2, 3))]
     time_history(motion, histories, cycles=2.0)

@@ -17,15 +17,16 @@ from vibroimpact.model import (
     laboratory,
     to_dimensionless,
 )
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state
 from vibroimpact.response.resonance import Features, features
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.sweep import sweeps
 from vibroimpact.response.sweep_starts import arrivals
-from vibroimpact.scenarios.classify import Classification, classify
+from vibroimpact.scenarios.classify import Classification, classify_scenario
 from vibroimpact.scenarios.map import scenario_map
 from vibroimpact.stability.branch import branch
-from vibroimpact.stability.coexisting import coexisting
+from vibroimpact.stability.coexisting import coexisting_motions
 from vibroimpact.stability.orbit import orbit
 from vibroimpact.stability.steady import steady
 
@@ -163,7 +164,7 @@ class PublishedStudy:
 
         def make() -> xr.Dataset:
             start = arrivals(case.oscillator, excitation)[f"{direction} branch"]
-            return steady(case.oscillator, excitation, start, samples)
+            return steady(Rig(case.oscillator, excitation), start, samples)
 
         return self._once(("motion", code, frequency, direction, parameters, samples), make)
 
@@ -172,7 +173,7 @@ class PublishedStudy:
         case = self._case(code)
         return self._once(
             ("motions", code, frequency),
-            lambda: coexisting(case.oscillator, Harmonic(case.amplitude, frequency)),
+            lambda: coexisting_motions(Rig(case.oscillator, Harmonic(case.amplitude, frequency))),
         )
 
     def classification(
@@ -186,8 +187,8 @@ class PublishedStudy:
         case = self._case(code, parameters)
         return self._once(
             ("classification", code, low, high, parameters),
-            lambda: classify(
-                case.oscillator, case.amplitude, grid(low, high), threads=self._threads
+            lambda: classify_scenario(
+                Rig(case.oscillator, case.amplitude), grid(low, high), threads=self._threads
             ),
         )
 
@@ -245,7 +246,7 @@ class PublishedStudy:
         def make() -> xr.Dataset:
             motion = self.motion(code, frequency, direction)
             # Half a cycle turns the forcing round, and with it the mirror image's phase.
-            end = as_state(simulate(case.oscillator, excitation, 0.5, motion, 0))
+            end = as_state(simulate(Rig(case.oscillator, excitation), 0.5, motion, 0))
             image = State(
                 -end.displacement,
                 -end.velocity,
@@ -253,7 +254,7 @@ class PublishedStudy:
                 -(end.right_bumper or 0.0),
                 contact=-(end.contact or 0),
             )
-            return steady(case.oscillator, excitation, image)
+            return steady(Rig(case.oscillator, excitation), image)
 
         return self._once(("mirror image", code, frequency, direction), make)
 
@@ -262,7 +263,7 @@ class PublishedStudy:
         case = self._case(code)
         return self._once(
             ("antisymmetric branch", code, low, high),
-            lambda: branch(case.oscillator, Harmonic(case.amplitude, high), low=low, high=high),
+            lambda: branch(Rig(case.oscillator, Harmonic(case.amplitude, high)), span=(low, high)),
         )
 
     def antisymmetric_orbit(
@@ -275,7 +276,7 @@ class PublishedStudy:
             along = self.antisymmetric_branch(code, low, high)
             nearest = int(np.abs(along["frequency"].values - frequency).argmin())
             guess = along["section"].isel(point=nearest)
-            return orbit(case.oscillator, Harmonic(case.amplitude, frequency), guess)
+            return orbit(Rig(case.oscillator, Harmonic(case.amplitude, frequency)), guess)
 
         return self._once(("antisymmetric orbit", code, frequency, low, high), make)
 
@@ -292,7 +293,7 @@ class PublishedStudy:
         )
         return self._once(
             ("scenario at", stiffness_ratio, gap),
-            lambda: classify(*rig, threads=self._threads).scenario,
+            lambda: classify_scenario(rig, threads=self._threads).scenario,
         )
 
     def twins(self, code: str) -> tuple[xr.Dataset, xr.Dataset]:
@@ -301,16 +302,20 @@ class PublishedStudy:
         Both at the same multiples of their natural frequency.
         """
         case = self._case(code)
-        group = to_dimensionless(case.oscillator, case.amplitude)
+        group = to_dimensionless(Rig(case.oscillator, case.amplitude))
         other = group.to_physical(mass=3.0, stiffness=700.0, amplitude=2.0)
         ratios = np.arange(40, 401, 2) / 100.0
 
         def curves(rig: Oscillator, amplitude: float) -> xr.Dataset:
             held = ratios * rig.natural_frequency
-            return sweeps([(rig, amplitude)], held, threads=self._threads).isel(rig=0)
+            return sweeps([Rig(rig, amplitude)], held, threads=self._threads).isel(rig=0)
 
         return self._once(
-            ("twins", code), lambda: (curves(case.oscillator, case.amplitude), curves(*other))
+            ("twins", code),
+            lambda: (
+                curves(case.oscillator, case.amplitude),
+                curves(other.oscillator, other.amplitude),
+            ),
         )
 
     def map(self) -> xr.Dataset:
@@ -318,6 +323,7 @@ class PublishedStudy:
         return self._once(
             "map",
             lambda: scenario_map(
+                None,
                 ("stiffness_ratio", np.geomspace(0.5, 100.0, MAP_NODES[0])),
                 ("gap_ratio", np.linspace(0.0, 1.0, MAP_NODES[1])),
                 step=MAP_STEP,

@@ -19,13 +19,14 @@ from vibroimpact.figures import resonance_curves, save_figure
 from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
 from vibroimpact.identification.finding_texts import amplitude_words
 from vibroimpact.identification.free_parameters import SENSORS
-from vibroimpact.identification.identify import fitted
+from vibroimpact.identification.identify import fitted_rig
 from vibroimpact.identification.next_test import next_test
 from vibroimpact.identification.results import setting_of
 from vibroimpact.measurements.read import as_measured
 from vibroimpact.model.names import file_stems
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS, Quantity
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.reports.study import study_text
 from vibroimpact.response.sweep import sweep
@@ -97,8 +98,8 @@ def fit_report(
         key = key if result.sizes["test"] == 1 else f"{key}-{stems[str(test)]}"
         if kind == "curves":
             measured = measured_of(result, str(test))
-            rig = fitted(result, str(test))
-            curves = sweep(rig.oscillator, rig.amplitude, _dense(measured["frequency"].values))
+            rig = fitted_rig(result, str(test))
+            curves = sweep(Rig(rig.oscillator, rig.amplitude), _dense(measured["frequency"].values))
             si = not any(str(name).startswith("eta_") for name in measured)
             drawn(key, resonance_curves(curves, measured=measured, physical=si),
                   f"{test}: measured points over the curves of the fitted rig")  # fmt: skip
@@ -227,7 +228,7 @@ def _studies(result: xr.Dataset, name: str) -> Iterable[tuple[str, str, str]]:
         if text in seen:
             continue
         seen.add(text)
-        rig = fitted(result, test)
+        rig = fitted_rig(result, test)
         key = name if len(rigs) == 1 else f"{name}-{stems[test]}"
         about = f"Fitted by vibroimpact {__version__} to {test}.\n" + "\n".join(
             f"{row[0]} = {row[1]}, standard error {row[2]}" for row in parameter_rows(result)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
-from vibroimpact.model.dimensionless import largest_free_flight
+from vibroimpact.model.largest_free_response import largest_free_flight
 from vibroimpact.model.unbounded import grows, has_no_bound, undamped_frequency
 from vibroimpact.response.numerical_free_response import largest_flight, resonance
 

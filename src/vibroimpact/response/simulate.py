@@ -21,10 +21,10 @@ from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Record, Repeated, State, equilibrium, to_si
+from vibroimpact.model import Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.count_checks import check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
-from vibroimpact.model.rigs import takes_rig_or_record
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
@@ -34,14 +34,13 @@ from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
 
 
-@takes_rig_or_record
 def simulate(
-    oscillator: Oscillator,
-    excitation: Repeated | Record,
+    rig: AnyRig,
     cycles: float | None = None,
     start: State | xr.DataArray | xr.Dataset | None = None,
     samples: int | None = None,
     *,
+    frequency: float | str | None = None,
     tail: float | str | None = None,
     max_events: int = 10_000,
     progress: Progress | None = None,
@@ -50,8 +49,8 @@ def simulate(
 
     Parameters
     ----------
-    oscillator, excitation
-        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     cycles
         How long, in forcing cycles, greater than 0; the last may be incomplete. Not for a record,
         which says itself how long it is.
@@ -62,6 +61,8 @@ def simulate(
         Samples per forcing cycle, 256 unless said; or per step of a record, 1 unless said. They
         only look: no value depends on their number. With 0 only ``final_state`` is returned, and
         memory does not grow with ``cycles``.
+    frequency
+        Forcing frequency (Hz). Default: that of the rig.
     tail
         How long the motion is followed behind a record, while the base stands still: seconds, or
         text such as ``"10 s"``; 0 unless said.
@@ -84,8 +85,11 @@ def simulate(
     InputError
         If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
     """
+    rig = as_rig(rig, frequency)
+    oscillator = rig.oscillator
+    excitation = rig.shaking if isinstance(rig.shaking, Record) else rig.harmonic
     max_events = check_max_events(max_events)
-    per = 256 if isinstance(excitation, Repeated) else 1
+    per = 1 if isinstance(excitation, Record) else 256
     samples = per if samples is None else whole(samples, "samples", 0)
     if isinstance(excitation, Record):
         if cycles is not None:
@@ -112,13 +116,13 @@ def simulate(
     capacity = max_events + 1 + (EVENTS_AT_ONCE if samples else 0)
     buffer = np.empty((capacity, record.EVENT))
     found = []
-    rig = engine_rig(oscillator, excitation)
+    vector_of_rig = engine_rig(oscillator, excitation)
     at = 0
     outcome = int(Status.DONE)
     calls = Calls(length, progress)
     while at < length and outcome == Status.DONE:
         at, events, outcome = batch.trajectory(
-            rig,
+            vector_of_rig,
             excitation.amplitude,
             excitation.frequency,
             phase,

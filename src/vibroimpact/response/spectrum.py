@@ -24,7 +24,7 @@ MOST_LINES = 20_000
 """Lines of a periodic motion."""
 
 
-def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
+def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     """Return the Fourier spectrum of displacement, velocity and absolute acceleration.
 
     The acceleration is that of finite forces, without the impulses of impacts on rigid stops.
@@ -76,7 +76,7 @@ def spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
         data[f"{name}_amplitude"] = ("order", np.abs(values))
         data[f"{name}_phase"] = ("order", np.angle(values))
     data.attrs["method"] = method
-    return describe(data, "vibroimpact.spectrum", motion_parameters(motion), noted(motion))
+    return describe(data, "vibroimpact.fourier_spectrum", motion_parameters(motion), noted(motion))
 
 
 def _exact(origin: Recorded[Repeated], parts: Phases, order: NDArray[np.float64]) -> list[_Complex]:
@@ -146,4 +146,4 @@ def _of_measured(motion: xr.Dataset, highest: float) -> xr.Dataset:
         data[f"{name}_amplitude"] = ("order", np.abs(line))
         data[f"{name}_phase"] = ("order", np.angle(line))
     data.attrs["method"] = f"Hann window over {cycles} forcing cycles"
-    return describe(data, "vibroimpact.spectrum", {"frequency": sine.frequency})
+    return describe(data, "vibroimpact.fourier_spectrum", {"frequency": sine.frequency})

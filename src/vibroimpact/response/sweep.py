@@ -6,7 +6,6 @@ then the next one begins from the state and the phase that were reached.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -18,25 +17,17 @@ from vibroimpact.arguments import check_list
 from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
-    excitation_parameters,
-    oscillator_parameters,
+    rig_parameters,
 )
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Oscillator, Repeated, State, to_si
+from vibroimpact.model import State, to_si
 from vibroimpact.model.count_checks import check_max_events, share, whole
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
-from vibroimpact.model.rigs import (
-    AnyRig,
-    AnyShaking,
-    as_rig,
-    as_shaking,
-    is_rig,
-    rig_name,
-    takes_rig,
-)
+from vibroimpact.model.read_rig import AnyRig, as_rig, as_rigs
+from vibroimpact.model.rig import Rig, as_periodic
 from vibroimpact.response.engine_input import as_state
 from vibroimpact.response.plausibility import doubt_gaps, note_unbounded
 from vibroimpact.response.softening_limit import judged
@@ -48,10 +39,8 @@ from vibroimpact.tasks.threads import Progress, each
 DIRECTIONS = ("forward", "backward")
 
 
-@takes_rig
 def sweep(
-    oscillator: Oscillator,
-    amplitude: AnyShaking,
+    rig: AnyRig,
     frequencies: Iterable[float | str],
     directions: Sequence[str] = DIRECTIONS,
     *,
@@ -68,13 +57,8 @@ def sweep(
 
     Parameters
     ----------
-    oscillator
-        What vibrates; or a case, its code or a study file, and then the amplitude may be left out.
-    amplitude
-        What is held at all frequencies: the peak A of the base acceleration in m/s², greater
-        than 0; or a text such as ``"0.05 g"``, ``"5 mm"`` (displacement of the base) or
-        ``"120 N"`` (force on the mass); or a `Harmonic` or `Periodic`, whose own frequency is
-        left out of account. A list has one for each frequency.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     frequencies
         The frequencies to hold in Hz, rising; or text such as ``"2.5 Hz"``.
     directions
@@ -102,7 +86,7 @@ def sweep(
         If a value cannot be used.
     """
     data = sweeps(
-        [(oscillator, amplitude)],
+        [as_rig(rig)],
         frequencies,
         directions,
         start=start,
@@ -120,7 +104,7 @@ def sweep(
 
 
 def sweeps(
-    rigs: Sequence[AnyRig] | Mapping[str, AnyRig] | AnyRig,
+    rigs: Iterable[AnyRig] | Mapping[str, AnyRig] | AnyRig,
     frequencies: Iterable[float | str],
     directions: Sequence[str] = DIRECTIONS,
     *,
@@ -139,8 +123,8 @@ def sweeps(
     Parameters
     ----------
     rigs
-        Laboratory cases or their codes, a `Rig` each or (oscillator, amplitude) pairs; as a
-        mapping, its keys name the rigs.
+        Each a `Rig`, a laboratory case, its code, or the path of a study file; the keys of a
+        mapping name them.
     frequencies, directions
         As in `sweep`.
     start
@@ -175,7 +159,8 @@ def sweeps(
     InputError
         If a value cannot be used.
     """
-    names, pairs = named_rigs(rigs)
+    named = periodic_rigs(rigs)
+    names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     directions = _directions(directions)
     angle = to_si(phase, ANGLE, "phase")
@@ -187,9 +172,7 @@ def sweeps(
     max_events = check_max_events(max_events)
     workers = placed(threads, where)
 
-    ready = [
-        prepared(oscillator, shaken, grid, sizes, state) for oscillator, shaken, sizes in pairs
-    ]
+    ready = [prepared(rig, grid, state) for rig in pairs]
     patience = Patience(angle, tolerance, max_cycles, window, max_events)
 
     batch.sweep.prepare(*(one.rig for one in ready))  # once, before the threads would queue for it
@@ -206,14 +189,15 @@ def sweeps(
     states = np.array([reached for _, reached in done]).reshape(*shape, layout.STATE)
     del done  # as large as both
     doubts: list[str] = []
-    for r, (oscillator, shaken, _) in enumerate(pairs):
+    for r, rig in enumerate(pairs):
+        oscillator, shaken = rig.oscillator, rig.periodic
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
         ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
         results[r][..., hold.OUTCOME] = ended
         doubts += [*doubt_gaps(oscillator, shaken, swing), *note_unbounded(oscillator, shaken)]
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)
-    data = held([oscillator for oscillator, _, _ in pairs], results, states, free, largest, angle)
+    data = held([rig.oscillator for rig in pairs], results, states, free, largest, angle)
     data = data.assign_coords(
         rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
     )
@@ -223,11 +207,10 @@ def sweeps(
         {
             "rigs": [
                 {
-                    "oscillator": oscillator_parameters(oscillator),
-                    **excitation_parameters(shaken, "frequency", "phase"),
-                    **({} if sizes is None else {"amplitude": list(sizes)}),
+                    **rig_parameters(rig, "frequency", "phase"),
+                    **({} if rig.amplitudes is None else {"amplitude": list(rig.amplitudes)}),
                 }
-                for oscillator, shaken, sizes in pairs
+                for rig in pairs
             ],
             "phase": angle,
             "tolerance": tolerance,
@@ -267,34 +250,18 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     return grid
 
 
-def named_rigs(
-    rigs: Any,
-) -> tuple[list[str], list[tuple[Oscillator, Repeated, tuple[float, ...] | None]]]:
-    """Names of the rigs, and each one's oscillator, shaking and amplitudes if there are many.
+def periodic_rigs(rigs: Any) -> dict[str, Rig]:
+    """Read one or several rigs, each with a periodic shaking, by their names.
 
     Raises
     ------
     InputError
-        If there is none, or an amplitude is not positive.
+        If there is none, or one cannot be used.
     """
-    if isinstance(rigs, Mapping):
-        names = [str(name) for name in rigs]
-        items = list(rigs.values())
-    else:
-        one = not isinstance(rigs, Iterable) or is_rig(rigs)
-        items = [as_rig(rigs, "rigs")] if one else list(rigs)
-        names = [rig_name(item, str(i)) for i, item in enumerate([rigs] if one else items)]
-    if not items:
-        raise InputError("rigs: the list is empty; at least one rig is accepted")
-    # As of two study files of one name in two folders.
-    counts = Counter(names)
-    names = [f"{name} ({i})" if counts[name] > 1 else name for i, name in enumerate(names)]
-    pairs = []
-    for name, item in zip(names, items, strict=True):
-        oscillator, amplitude = as_rig(item, f"rigs[{name}]")
-        where = "amplitude" if len(items) == 1 else f"rigs[{name}].amplitude"
-        pairs.append((oscillator, *as_shaking(amplitude, where)))
-    return names, pairs
+    found = as_rigs(rigs)
+    for name, rig in found.items():
+        as_periodic(rig.shaking, "shaking" if len(found) == 1 else f"rigs[{name}].shaking")
+    return found
 
 
 def _directions(directions: Sequence[str]) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated, State, equilibrium
+from vibroimpact.model import Repeated, Rig, State, equilibrium
 from vibroimpact.response.analytic_free_response import (
     check_each_bounded,
     free_flight_excursions,
@@ -52,20 +52,15 @@ class Patience(NamedTuple):
     """Time (s) after which a motion that is plainly chaotic is waited for no longer."""
 
 
-def prepared(
-    oscillator: Oscillator,
-    shaken: Repeated,
-    frequencies: _Array,
-    sizes: tuple[float, ...] | None = None,
-    state: State | None = None,
-) -> Prepared:
-    """Look at a rig once, before it is swept in either direction.
+def prepared(rig: Rig, frequencies: _Array, state: State | None = None) -> Prepared:
+    """Prepare a rig once, before it is swept in either direction.
 
     Raises
     ------
     InputError
         If the sizes do not go with the frequencies, or the state or a frequency not with the rig.
     """
+    oscillator, shaken, sizes = rig.oscillator, rig.periodic, rig.amplitudes
     levels = _levels(sizes, shaken, frequencies)
     least = shaken if sizes is None else shaken.replace(amplitude=levels.min())
     check_each_bounded(oscillator, least, frequencies)

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
 
@@ -37,8 +38,7 @@ def arrivals(
         if not len(path):
             continue
         data = sweep(
-            oscillator,
-            excitation,
+            Rig(oscillator, excitation),
             path,
             direction,
             phase=excitation.phase,

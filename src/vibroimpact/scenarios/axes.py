@@ -18,10 +18,10 @@ from vibroimpact.model import (
     to_si,
 )
 from vibroimpact.model.access import scale_of
-from vibroimpact.model.dimensionless import peak_displacement
 from vibroimpact.model.excitation import Of
+from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.parameters import PARAMETERS, parameter
-from vibroimpact.model.rigs import as_shaking
+from vibroimpact.model.rig import ANY_FREQUENCY, Rig, as_periodic
 
 _Array = NDArray[np.float64]
 
@@ -149,18 +149,20 @@ class Shaken(NamedTuple):
     shaken: Harmonic
 
 
-def one_sine(oscillator: Oscillator, amplitude: Any, where: str) -> Shaken:
-    """Read what a scenario is asked of.
+def one_sine(rig: Rig, where: str = "shaking") -> Shaken:
+    """Read the oscillator and the sine of a rig, whose frequency is left open.
 
     Raises
     ------
     InputError
         If it is not one sine, or the mass has no spring.
     """
-    shaken, sizes = as_shaking(amplitude, where)
-    if sizes is not None:
+    oscillator = rig.oscillator
+    shaken, _ = as_periodic(rig.shaking, where)
+    if rig.amplitudes is not None:
         raise InputError(
-            f"{where}: {len(sizes)} of them; a scenario is that of one amplitude at all frequencies"
+            f"{where}: {len(rig.amplitudes)} amplitudes; a scenario is that of one amplitude at "
+            "all frequencies"
         )
     if not isinstance(shaken, Harmonic):
         raise InputError(
@@ -172,7 +174,7 @@ def one_sine(oscillator: Oscillator, amplitude: Any, where: str) -> Shaken:
             "isolator.stiffness: 0 leaves no natural frequency, by which scenarios are scaled; "
             "one greater than 0 is accepted"
         )
-    return Shaken(oscillator, shaken.replace(frequency=1.0, phase=0.0))
+    return Shaken(oscillator, shaken.replace(frequency=ANY_FREQUENCY, phase=0.0))
 
 
 def _turn(name: str) -> int:
@@ -223,15 +225,15 @@ class Base(NamedTuple):
     def _check(self, values: Mapping[str, float]) -> None:
         stops = self.oscillator.stops
         if not stops:
-            raise InputError("base: there is no bumper; a rig with one or two is accepted")
+            raise InputError("rig: there is no bumper; a rig with one or two is accepted")
         for name in values:
             if name in _OF_BUMPERS and not any(isinstance(stop, Bumper) for stop in stops):
                 raise InputError(
-                    f"base: {name!r} is that of bumpers, but every stop is rigid; 'gap', "
+                    f"rig: {name!r} is that of bumpers, but every stop is rigid; 'gap', "
                     "'gap_ratio', 'restitution', 'amplitude' or 'damping_ratio' is accepted"
                 )
             if name == "restitution" and not any(isinstance(stop, RigidStop) for stop in stops):
                 raise InputError(
-                    "base: 'restitution' is that of rigid stops, but there is none; a rig with "
+                    "rig: 'restitution' is that of rigid stops, but there is none; a rig with "
                     "one or two is accepted"
                 )

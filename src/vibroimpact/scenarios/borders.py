@@ -17,6 +17,7 @@ import xarray as xr
 from vibroimpact.datasets.description import describe, excitation_from
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator
+from vibroimpact.model.rig import ANY_FREQUENCY, Rig
 from vibroimpact.response.sweep import sweep
 from vibroimpact.scenarios.axes import Base, Shaken, one_sine
 from vibroimpact.scenarios.evidence import evidence
@@ -81,7 +82,8 @@ def jump_border(
         other = y if along == x else x
         base = dict(settings["base"])
         oscillator = Oscillator.model_validate(base.pop("oscillator"))
-        start = Base(*one_sine(oscillator, excitation_from(base, frequency=1.0), "data"))
+        shaking = excitation_from(base, frequency=ANY_FREQUENCY)
+        start = Base(*one_sine(Rig(oscillator, shaking), "data"))
         candidates = _beside(data, along, other)
         chosen = np.unique(np.linspace(0, len(candidates) - 1, lines).round().astype(int))
         nodes = [candidates[i] for i in chosen] if candidates else []
@@ -136,7 +138,7 @@ def _cusp(rig: Shaken, along: str, value: float) -> float | None:
     """Value of a parameter at the cusp of the rig's folds that is nearest; None if not found."""
     oscillator, shaken = rig
     held = frequencies(oscillator, shaken)
-    data = sweep(oscillator, shaken, held)
+    data = sweep(Rig(oscillator, shaken), held)
     seen = evidence(oscillator, shaken, data, 0.02)
     try:
         orbits = primary_branch(seen, oscillator, shaken, holds(data))
@@ -148,12 +150,10 @@ def _cusp(rig: Shaken, along: str, value: float) -> float | None:
             return None
         i = int(folds[np.argmax(orbits["bifurcation_value"].values[folds])])
         curve = bifurcation_curve(
-            oscillator,
-            shaken.replace(frequency=float(orbits["bifurcation_value"][i])),
+            Rig(oscillator, shaken.replace(frequency=float(orbits["bifurcation_value"][i]))),
             orbits.isel(bifurcation=i),
+            spans=((float(held[0]), float(held[-1])), (value / _REACH, value * _REACH)),
             parameters=("frequency", along),
-            low=(float(held[0]), value / _REACH),
-            high=(float(held[-1]), value * _REACH),
         )
     except InputError:  # too near to the cusp for Newton's method
         return None

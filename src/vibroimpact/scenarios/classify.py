@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator
 from vibroimpact.model.html_table import table
-from vibroimpact.model.rigs import AnyShaking, takes_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.sweep import sweep
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.classification import alternatives, confidence, scenario
@@ -72,10 +72,8 @@ class Classification:
         return table(f"Scenario {self.scenario}", rows)
 
 
-@takes_rig
-def classify(
-    oscillator: Oscillator,
-    amplitude: AnyShaking,
+def classify_scenario(
+    rig: AnyRig,
     frequencies: Iterable[float | str] | None = None,
     *,
     thresholds: Thresholds | None = None,
@@ -91,12 +89,8 @@ def classify(
 
     Parameters
     ----------
-    oscillator
-        What vibrates; or a case, its code or a study file, and then the amplitude may be left out.
-    amplitude
-        What is held at all frequencies: the peak A of the base acceleration in m/s², greater
-        than 0; or text such as ``"0.05 g"``, ``"5 mm"`` (displacement of the base) or ``"120 N"``
-        (force on the mass); or a `Harmonic`, whose own frequency is left out of account.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     frequencies
         The frequencies to hold in Hz, rising. None for steps of a hundredth of the natural
         frequency from 0.4 times it to beyond where the primary resonance can lie.
@@ -119,11 +113,13 @@ def classify(
         If a value cannot be used.
     """
     used = checked(thresholds)
-    _, peak = one_sine(oscillator, amplitude, "amplitude")
+    oscillator, peak = one_sine(as_rig(rig))
     held = default_frequencies(oscillator, peak) if frequencies is None else frequencies
     if max_cycles is None:
         max_cycles = cycles(oscillator, peak, highest(oscillator, peak), MAX_CYCLES)
-    data = sweep(oscillator, peak, held, max_cycles=max_cycles, threads=threads, progress=progress)
+    data = sweep(
+        Rig(oscillator, peak), held, max_cycles=max_cycles, threads=threads, progress=progress
+    )
     if data.sizes["frequency"] < LEAST:
         raise InputError(
             f"frequencies: {data.sizes['frequency']} given; at least {LEAST} are accepted, for "

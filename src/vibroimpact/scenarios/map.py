@@ -16,7 +16,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.grids.refinement import UNKNOWN, Nodes, Scenarios
 from vibroimpact.model import from_dimensionless
 from vibroimpact.model.count_checks import share, whole
-from vibroimpact.model.rigs import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.scenarios.axes import Axis, Base, axis, check_pair, one_sine
 from vibroimpact.scenarios.map_node import RIG, classified
 from vibroimpact.scenarios.map_store import MapStore, map_store
@@ -40,9 +40,9 @@ Python's, which threads do in turn."""
 
 
 def scenario_map(
+    rig: AnyRig | None,
     x: tuple[Any, ...],
     y: tuple[Any, ...],
-    base: AnyRig | None = None,
     *,
     step: float = STEP,
     refine: int = 0,
@@ -58,19 +58,18 @@ def scenario_map(
 
     Parameters
     ----------
+    rig
+        What has all other parameters: a `Rig`, a laboratory case, its code, or the path of a study
+        file, shaken by one sine. None for ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5, on two sides.
     x, y
         Name and rising values of a parameter. Physical: ``"gap"`` (m, of each side),
-        ``"amplitude"`` (in the unit of the base's), ``"bumper_stiffness"`` (N/m, at the base's
-        damping C_j), ``"proportional_stiffness"`` (N/m, at the base's C_j/K_j).
+        ``"amplitude"`` (in the unit of the rig's), ``"bumper_stiffness"`` (N/m, at the rig's
+        damping C_j), ``"proportional_stiffness"`` (N/m, at the rig's C_j/K_j).
         Dimensionless: ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ,
         ``"damping_ratio"`` ξ, ``"restitution"`` e. They are set on both sides alike, where the
         stop has them: a rigid one has only a gap and a restitution. Between dimensionless ones
         δ0 is kept where it is not varied, beside a physical one the gap.
         ``"log"`` or ``"linear"`` behind the values says how they are refined, if they do not.
-    base
-        A case, its code, a study file, a `Rig` or a pair of oscillator and amplitude, for all other
-        parameters; the amplitude is one of acceleration, displacement or force. None for ξ = 0.15,
-        τ = 0.01, λ = 25.9 and δ0 = 0.5, on two sides.
     step
         Step of the sweeps, as a share of the natural frequency.
     refine
@@ -110,7 +109,7 @@ def scenario_map(
     InputError
         If a value cannot be used, or the store holds something else.
     """
-    start = _base(base)
+    start = _base(rig)
     first, second = (axis(given, where, start.shaken.of) for given, where in ((x, "x"), (y, "y")))
     check_pair(first, second)
     used = checked(thresholds)
@@ -254,4 +253,4 @@ def _refinement(given: object) -> int:
 def _base(given: AnyRig | None) -> Base:
     if given is None:
         given = from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO)
-    return Base(*one_sine(*as_rig(given, "base"), "base[1]"))
+    return Base(*one_sine(as_rig(given)))

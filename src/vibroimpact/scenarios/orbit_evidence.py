@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Swept
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.scenarios.evidence import Evidence, Irregular, Kind
@@ -146,7 +147,9 @@ def _turns(oscillator: Oscillator, parts: list[_Begun]) -> set[float] | None:
     """Where a branch turns back in some parts of it (Hz); None where Newton's method fails."""
     try:
         return {
-            f for one, begin, end in parts for f in turning_points(oscillator, *one, begin, end)
+            f
+            for (shaken, state), begin, end in parts
+            for f in turning_points(Rig(oscillator, shaken), state, (begin, end))
         }
     except InputError:
         return None
@@ -180,7 +183,7 @@ def primary_branch(
         return None
     low, high = found.swept
     try:
-        return branch(oscillator, *first, low=low, high=high)
+        return branch(Rig(oscillator, first[0]), first[1], span=(low, high))
     except InputError:
         return None
 

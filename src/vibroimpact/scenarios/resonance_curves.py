@@ -17,6 +17,7 @@ from vibroimpact.engine import hold
 from vibroimpact.engine.status import NOT_SETTLED
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, each_swept
 from vibroimpact.response.engine_input import components
 from vibroimpact.response.sweep_arrays import Patience, prepared, rows
@@ -120,7 +121,7 @@ def swept_alone(
 
     A motion that is plainly chaotic behind its transient (s) is measured at once.
     """
-    ready = prepared(*rig, frequencies)
+    ready = prepared(Rig(*rig), frequencies)
     patience = Patience(0.0, _TOLERANCE, max_cycles, window, _MAX_EVENTS, transient)
     shape = (2, len(frequencies))
     found, states = np.empty((*shape, hold.RESULTS)), []

@@ -22,6 +22,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import is_list
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.datasets.description import (
@@ -32,11 +33,10 @@ from vibroimpact.datasets.description import (
 )
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.section_map import PARAMETER
-from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.count_checks import whole
-from vibroimpact.model.parameters import bounds
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.parameters import read_span
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.stability.bifurcation_locus import Locus, Place
 from vibroimpact.stability.bifurcations import BREAKING
 from vibroimpact.stability.branch_dataset import state_of
@@ -51,15 +51,13 @@ _Array = NDArray[np.float64]
 _NOTHING = xr.DataArray([np.nan])
 
 
-@takes_rig
 def bifurcation_curve(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: AnyRig,
     start: xr.Dataset,
     *,
+    frequency: float | str | None = None,
     parameters: tuple[str, str],
-    low: tuple[float | str, float | str],
-    high: tuple[float | str, float | str],
+    spans: tuple[tuple[float | str, float | str], tuple[float | str, float | str]],
     most_points: int = 2000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -67,16 +65,17 @@ def bifurcation_curve(
 
     Parameters
     ----------
-    oscillator, excitation
-        The rig and the forcing for which the bifurcation was found; the first parameter may have
-        any value. Or a case, its code or a study file, and a frequency.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     start
         One bifurcation of a dataset of `branch` or `resonance_diagram` along the first
         parameter: ``data.isel(bifurcation=i)``.
+    frequency
+        Forcing frequency (Hz). Default: that of the rig.
     parameters
         The two parameters, by the names that `branch` takes.
-    low, high
-        Range of each.
+    spans
+        Lowest and highest value of each.
     most_points
         Points in each direction after which it is given up.
     progress
@@ -96,6 +95,8 @@ def bifurcation_curve(
     InputError
         If a value cannot be used, or the start is no bifurcation of this rig.
     """
+    rig = as_rig(rig, frequency)
+    oscillator, excitation = rig.oscillator, rig.harmonic
     if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
         raise InputError(
             "start: this is not one bifurcation; data.isel(bifurcation=i) of a branch is accepted"
@@ -109,13 +110,17 @@ def bifurcation_curve(
     kind = start["bifurcation_kind"].item()
     phase = float(start["bifurcation_section"].sel(component="phase"))
     over = plane(oscillator, excitation.replace(phase=phase), (parameters[0], parameters[1]))
-    spans = [
-        bounds(varied, low[i], high[i])
+    if not is_list(spans) or len(spans) != 2:
+        raise InputError(
+            f"spans: {shown(spans)}; a (low, high) pair for each of the two parameters is accepted"
+        )
+    ends = [
+        read_span(varied, spans[i], f"spans[{i}]")
         for i, varied in enumerate((over.family.parameter, over.other))
     ]
-    if not spans[1][0] <= over.value <= spans[1][1]:
+    if not ends[1][0] <= over.value <= ends[1][1]:
         raise InputError(
-            f"low: {spans[1][0]:g} to {spans[1][1]:g} leaves out the rig's {parameters[1]}, "
+            f"spans[1]: {ends[1][0]:g} to {ends[1][1]:g} leaves out the rig's {parameters[1]}, "
             f"{over.value:g}; a range that holds it is accepted"
         )
     if kind == BREAKING and not over.symmetric:
@@ -123,7 +128,7 @@ def bifurcation_curve(
             f"parameters: {parameters[1]!r} leaves no symmetry to break; one that changes both "
             "sides alike, such as 'gap', is accepted"
         )
-    system, y = _start(over, kind, start, spans)
+    system, y = _start(over, kind, start, ends)
     first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
     if first is None:
         first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
@@ -136,7 +141,7 @@ def bifurcation_curve(
     for sense in (-1.0, 1.0):
         along = sense * np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 1.0])
         begin = Place(system, first, unit_tangent(first.jacobian, along, SEEN), 0.0)
-        locus = Locus(begin, spans)
+        locus = Locus(begin, ends)
         traces.append(arclength.follow(locus, begin, most_points, told))
         if traces[0].ended == CLOSED:
             break
@@ -152,7 +157,7 @@ def bifurcation_curve(
     ended = (traces[0].ended, traces[-1].ended)
     if progress is not None:
         progress(len(places), len(places))
-    return _dataset([place.spot for place in places], cusps, over, kind, spans, ended)
+    return _dataset([place.spot for place in places], cusps, over, kind, ends, ended)
 
 
 def _start(

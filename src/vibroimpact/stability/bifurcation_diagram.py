@@ -20,12 +20,12 @@ from vibroimpact.datasets.description import (
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model import Oscillator, State
 from vibroimpact.model.access import Setting
 from vibroimpact.model.count_checks import check_max_events, share, whole
-from vibroimpact.model.parameters import bounds
 from vibroimpact.model.parameters import parameter as registered
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.parameters import read_span
+from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.sweep_dataset import sizes
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
@@ -41,15 +41,13 @@ _BLOCK = 32
 """Values that one thread holds at a time where none is carried on to the next."""
 
 
-@takes_rig
 def bifurcation_diagram(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: AnyRig,
     parameter: str,
-    low: float | str,
-    high: float | str,
+    span: tuple[float | str, float | str],
     steps: int = 200,
     *,
+    frequency: float | str | None = None,
     directions: Sequence[str] = DIRECTIONS,
     starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
     random: int = 0,
@@ -72,14 +70,15 @@ def bifurcation_diagram(
 
     Parameters
     ----------
-    oscillator, excitation
-        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency. The
-        excitation's phase is that of the section.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     parameter
         What is varied, as of `branch`.
-    low, high, steps
-        Range of the parameter, in SI units or as text, and how many values in it, both ends
-        included.
+    span, steps
+        Lowest and highest value of the parameter, in SI units or as text, and how many values in
+        all.
+    frequency
+        Forcing frequency (Hz), where another parameter is varied. Default: that of the rig.
     directions
         ``"up"``, ``"down"`` or both: from rest at the first value, each of the others begins
         where the one before has ended.
@@ -126,13 +125,15 @@ def bifurcation_diagram(
     InputError
         If a value cannot be used.
     """
+    rig = from_lowest(as_rig(rig, frequency), parameter, span)
+    oscillator, excitation = rig.oscillator, rig.harmonic
     varied = registered(parameter, of=excitation.of).of(oscillator)
-    span = bounds(varied, low, high)
-    if log and span[0] <= 0.0:
-        raise InputError(f"low: {span[0]:g}; of a logarithmic axis a value above 0 is accepted")
+    ends = read_span(varied, span)
+    if log and ends[0] <= 0.0:
+        raise InputError(f"span[0]: {ends[0]:g}; of a logarithmic axis a value above 0 is accepted")
     count = whole(steps, "steps", 2)
-    values: _Array = np.geomspace(*span, count) if log else np.linspace(*span, count)
-    values[0], values[-1] = span
+    values: _Array = np.geomspace(*ends, count) if log else np.linspace(*ends, count)
+    values[0], values[-1] = ends
     if section not in POINT:
         raise InputError(f"section: {section!r}; one of {', '.join(POINT)} is accepted")
     patience = Patience(

@@ -7,10 +7,10 @@ import xarray as xr
 
 from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model import Rig, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
-from vibroimpact.model.parameters import bounds
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.parameters import read_span
+from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
 from vibroimpact.stability.fixed_points import HELD, Orbit
@@ -24,15 +24,13 @@ _GROWN = 3.0
 """Size over that of the first orbit from which a motion that still grows is reported as such."""
 
 
-@takes_rig
 def branch(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: AnyRig,
     start: State | xr.DataArray | xr.Dataset | None = None,
     *,
+    frequency: float | str | None = None,
     parameter: str = "frequency",
-    low: float | str,
-    high: float | str,
+    span: tuple[float | str, float | str],
     period: int | None = None,
     most_points: int = 5000,
     progress: Progress | None = None,
@@ -45,12 +43,14 @@ def branch(
 
     Parameters
     ----------
-    oscillator, excitation
-        The rig and the forcing of the first orbit; or a case, its code or a study file, and a
-        frequency.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     start
         A state near that orbit, at the excitation's phase; None for where the motion from rest
         settles.
+    frequency
+        Forcing frequency of the first orbit (Hz). Default: that of the rig; where it is open and
+        the frequency is varied, the lowest of the span.
     parameter
         What is varied: "frequency", "amplitude", "force" (constant); "gap", "bumper_stiffness",
         "bumper_damping" or "restitution" of both sides, "right_gap", "left_gap",
@@ -59,8 +59,8 @@ def branch(
         "dissipation", "bumper_exponent" or "bumper_mass"; "proportional_stiffness" and
         "stiffness_ratio" (λ) of the bumpers at a fixed C_j/K_j, "stiffness_at_restitution" at a
         fixed restitution, "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
-    low, high
-        Range of the parameter, in SI units or as text.
+    span
+        Lowest and highest value of the parameter, in SI units or as text.
     period
         Of the orbits, in forcing cycles; None for that of the motion from rest, or 1 with a start.
     most_points
@@ -84,27 +84,26 @@ def branch(
     InputError
         If a value cannot be used, or Newton's method finds no orbit near the start.
     """
-    fam, span, first = _begun(oscillator, excitation, start, parameter, low, high, period)
+    rig = from_lowest(as_rig(rig, frequency), parameter, span)
+    fam, ends, first = _first_orbit(rig, start, parameter, span, period)
     most_points = whole(most_points, "most_points")
-    data = as_dataset([follow_both_ways(first, span, most_points, progress)], fam, span)
+    data = as_dataset([follow_both_ways(first, ends, most_points, progress)], fam, ends)
     if progress is not None:
         progress(data.sizes["point"], data.sizes["point"])
     return data
 
 
 def turning_points(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: Rig,
     start: State | xr.DataArray | xr.Dataset,
-    low: float,
-    high: float,
+    span: tuple[float, float],
     most_points: int = 5000,
 ) -> list[float]:
     """Frequencies (Hz) at which a branch of orbits of one cycle turns back.
 
     Where nothing else is asked of it: the arguments are those of `branch`.
     """
-    _, span, first = _begun(oscillator, excitation, start, "frequency", low, high, 1)
+    _, span, first = _first_orbit(rig, start, "frequency", span, 1)
     path = InContact if bounded_by_flight(first) else Branch
     stations, ended, _ = _both_ways(first, span, most_points, path=path)
     found = [one.orbit.value for one in bifurcations.find(stations, turning=True) if one.turns]
@@ -114,25 +113,23 @@ def turning_points(
     return found
 
 
-def _begun(
-    oscillator: Oscillator,
-    excitation: Repeated,
+def _first_orbit(
+    rig: Rig,
     start: State | xr.DataArray | xr.Dataset | None,
     parameter: str,
-    low: float | str,
-    high: float | str,
+    span: tuple[float | str, float | str],
     period: int | None,
 ) -> tuple[Family, tuple[float, float], Orbit]:
     """What is varied, over which range, and the first orbit."""
-    fam = family(oscillator, excitation, parameter)
-    span = bounds(fam.parameter, low, high)
-    if not span[0] <= fam.value <= span[1]:
+    fam = family(rig.oscillator, rig.harmonic, parameter)
+    ends = read_span(fam.parameter, span)
+    if not ends[0] <= fam.value <= ends[1]:
         raise InputError(
-            f"low: {span[0]:g} to {span[1]:g} leaves out the first orbit's {parameter}, "
+            f"span: {ends[0]:g} to {ends[1]:g} leaves out the first orbit's {parameter}, "
             f"{fam.value:g}; a range that holds it is accepted"
         )
     period = None if period is None else whole(period, "period", most=MOST_CYCLES)
-    return fam, span, first_orbit(fam, span, start, period)
+    return fam, ends, first_orbit(fam, ends, start, period)
 
 
 def follow_both_ways(

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import STARTS, check_mapping
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Oscillator, Repeated, RigidStop, State, Stop
+from vibroimpact.model import Repeated, RigidStop, State, Stop
 from vibroimpact.model.count_checks import whole
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.sweep_starts import arrivals
 from vibroimpact.stability.equivalence import image_of, mirrors, same
@@ -40,11 +41,10 @@ class _Kept(NamedTuple):
     mirrored_starts: list[str]
 
 
-@takes_rig
-def coexisting(
-    oscillator: Oscillator,
-    excitation: Repeated,
+def coexisting_motions(
+    rig: AnyRig,
     *,
+    frequency: float | str | None = None,
     frequencies: Iterable[float | str] | None = None,
     starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
     random: int = 12,
@@ -64,8 +64,10 @@ def coexisting(
 
     Parameters
     ----------
-    oscillator, excitation
-        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+    frequency
+        Forcing frequency (Hz). Default: that of the rig.
     frequencies
         Frequencies of the sweeps in Hz, rising; those below the excitation's are held going up,
         those above going down. None for steps of a hundredth of the natural frequency from 0.3
@@ -92,6 +94,8 @@ def coexisting(
     InputError
         If a value cannot be used.
     """
+    rig = as_rig(rig, frequency)
+    oscillator, excitation = rig.oscillator, rig.harmonic
     random = whole(random, "random", 0)
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     kept: list[_Kept] = []
@@ -135,8 +139,7 @@ def coexisting(
     for given, names in given_up.values():
         # Told with a warning, and once.
         motion = steady(
-            oscillator,
-            excitation,
+            Rig(oscillator, excitation),
             given if isinstance(given, State) else state_from(given, excitation.phase),
             samples,
             window=window,
@@ -144,7 +147,7 @@ def coexisting(
             max_events=max_events,
         ).assign(mirror_pair=False)
         motion.attrs |= {"starts": ", ".join(names), "mirrored_starts": ""}
-        motions.append(describe(motion, "vibroimpact.coexisting"))
+        motions.append(describe(motion, "vibroimpact.coexisting_motions"))
     return motions
 
 
@@ -162,8 +165,8 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
     data = one.motion.assign(mirror_pair=pair)
     data.attrs["starts"] = ", ".join(one.starts)
     data.attrs["mirrored_starts"] = ", ".join(one.mirrored_starts)
-    data.attrs["created_by"] = "vibroimpact.coexisting"
-    return describe(data, "vibroimpact.coexisting")
+    data.attrs["created_by"] = "vibroimpact.coexisting_motions"
+    return describe(data, "vibroimpact.coexisting_motions")
 
 
 def _at_phase(found: Settled, excitation: Repeated, max_events: int) -> Settled:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,20 +12,20 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import VALUES, check_mapping
-from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
+from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Oscillator, Repeated, State, equilibrium, to_si
+from vibroimpact.model import Rig, State, equilibrium, to_si
 from vibroimpact.model.access import Setting
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ANGLE
-from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.varied import Varied, varied, written
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
 from vibroimpact.response.propagate import grow
-from vibroimpact.response.sweep import check_frequencies, named_rigs
+from vibroimpact.response.sweep import check_frequencies, periodic_rigs
 from vibroimpact.stability.block_averages import Averaged
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import DONE, Progress, Tally, each
@@ -46,7 +46,7 @@ class _Grown(NamedTuple):
 
 
 def lyapunov_exponents(
-    rigs: Sequence[AnyRig] | Mapping[str, AnyRig] | AnyRig,
+    rigs: Iterable[AnyRig] | Mapping[str, AnyRig] | AnyRig,
     frequencies: Iterable[float | str],
     cycles: int = 1000,
     *,
@@ -69,8 +69,8 @@ def lyapunov_exponents(
     Parameters
     ----------
     rigs
-        Laboratory cases or their codes, a `Rig` each or (oscillator, amplitude) pairs; as a
-        mapping, its keys name the rigs.
+        Each a `Rig`, a laboratory case, its code, or the path of a study file; the keys of a
+        mapping name them.
     frequencies
         Excitation frequencies in Hz, rising.
     cycles
@@ -108,7 +108,8 @@ def lyapunov_exponents(
     InputError
         If a value cannot be used.
     """
-    names, pairs = named_rigs(rigs)
+    named = periodic_rigs(rigs)
+    names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     angle = to_si(phase, ANGLE, "phase")
     state = None if start is None else as_state(start)
@@ -117,7 +118,7 @@ def lyapunov_exponents(
     cycles, transient = whole(cycles, "cycles"), whole(transient, "transient", 0)
     max_events = check_max_events(max_events)
     workers = placed(threads, where)
-    first = pairs[0][0]
+    first = pairs[0].oscillator
     every = tuple(
         varied(name, values, first, f"vary[{name!r}]", ("frequency",), "has an argument of its own")
         for name, values in check_mapping({} if vary is None else vary, "vary", VALUES).items()
@@ -193,13 +194,7 @@ def lyapunov_exponents(
         coords={"rig": names, "frequency": grid, **{one.name: one.values for one in every}},
     )
     parameters: dict[str, Any] = {
-        "rigs": [
-            {
-                "oscillator": oscillator_parameters(oscillator),
-                **excitation_parameters(shaken, "frequency", "phase"),
-            }
-            for oscillator, shaken, _ in pairs
-        ],
+        "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
         "varied": {one.name: one.values.tolist() for one in every},
         "phase": angle,
         "cycles": cycles,
@@ -221,16 +216,15 @@ def lyapunov_exponents(
 
 
 def _setting(
-    pair: tuple[Oscillator, Repeated, object],
+    rig: Rig,
     grid: NDArray[np.float64],
     i: int,
     phase: float,
     values: Iterable[tuple[Varied, int]],
 ) -> Setting:
     """A rig and its forcing at one of the frequencies and a value of each parameter."""
-    oscillator, shaken, _ = pair
     numbers = [(PARAMETERS[one.name], float(one.values[k])) for one, k in values]
-    here = shaken.replace(frequency=float(grid[i]), phase=phase)
-    setting = written(oscillator, here, numbers)
+    here = rig.periodic.replace(frequency=float(grid[i]), phase=phase)
+    setting = written(rig.oscillator, here, numbers)
     check_bounded(*setting, f"frequencies[{i}]")
     return setting

@@ -6,9 +6,9 @@ import xarray as xr
 
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine import section_map
-from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model import State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.stability.fixed_points import MAX_EVENTS
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.parameter_family import family
@@ -16,13 +16,12 @@ from vibroimpact.stability.settle import settled_on
 from vibroimpact.stability.steady import describe_motion
 
 
-@takes_rig
 def orbit(
-    oscillator: Oscillator,
-    excitation: Repeated,
-    guess: State | xr.DataArray | xr.Dataset | None = None,
+    rig: AnyRig,
+    start: State | xr.DataArray | xr.Dataset | None = None,
     period: int | None = None,
     *,
+    frequency: float | str | None = None,
     samples: int = 256,
 ) -> xr.Dataset:
     """Find the periodic orbit near a state, whether it is stable or not.
@@ -31,14 +30,16 @@ def orbit(
 
     Parameters
     ----------
-    oscillator, excitation
-        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
-    guess
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+    start
         A state near the orbit's, at the excitation's phase; None for where the motion from rest
         settles.
     period
-        In forcing cycles; None for that of the motion from rest, or 1 with a guess. A warning says
-        if what is found without a guess is not the motion from rest.
+        In forcing cycles; None for that of the motion from rest, or 1 with a start. A warning says
+        if what is found without a start is not the motion from rest.
+    frequency
+        Forcing frequency (Hz). Default: that of the rig.
     samples
         Samples per forcing cycle, at least 1.
 
@@ -52,12 +53,14 @@ def orbit(
     Raises
     ------
     InputError
-        If a value cannot be used, or Newton's method finds no orbit near the guess.
+        If a value cannot be used, or Newton's method finds no orbit near the start.
     """
+    rig = as_rig(rig, frequency)
+    oscillator, excitation = rig.oscillator, rig.harmonic
     period = None if period is None else whole(period, "period", most=MOST_CYCLES)
     samples = whole(samples, "samples")
     fam = family(oscillator, excitation, "frequency")
-    found = first_orbit(fam, (0.0, 1.0), guess, period, symmetric=False)
+    found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
     data = describe_motion(settled_on(found), samples, 1, 1, MAX_EVENTS)
     multipliers = found.multipliers
     data = data.assign(

@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, Periodic
 from vibroimpact.model.count_checks import whole
-from vibroimpact.model.parameters import bounds
-from vibroimpact.model.rigs import AnyShaking, as_shaking, takes_rig
+from vibroimpact.model.parameters import PARAMETERS, read_span
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
 from vibroimpact.stability.branch import follow_both_ways
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
@@ -30,12 +29,9 @@ _SAME = 1e-6
 _CLOSE = 0.1
 
 
-@takes_rig
 def resonance_diagram(
-    oscillator: Oscillator,
-    amplitude: AnyShaking,
-    low: float | str,
-    high: float | str,
+    rig: AnyRig,
+    span: tuple[float | str, float | str],
     *,
     parameter: str = "frequency",
     frequency: float | str | None = None,
@@ -58,17 +54,14 @@ def resonance_diagram(
 
     Parameters
     ----------
-    oscillator
-        What vibrates; or a case, its code or a study file, and then the amplitude may be left out.
-    amplitude
-        As in `sweep`, the same all along.
-    low, high
-        Range of the parameter, in SI units or as text.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+    span
+        Lowest and highest value of the parameter, in SI units or as text.
     parameter
         What is varied, as of `branch`.
     frequency
-        Excitation frequency in Hz where another parameter is varied; that of a `Harmonic` or a
-        `Periodic` may be left out.
+        Forcing frequency (Hz), where another parameter is varied. Default: that of the rig.
     phase
         Forcing phase of the sections, rad.
     longest
@@ -95,60 +88,55 @@ def resonance_diagram(
     InputError
         If a value cannot be used.
     """
-    shaken, several = as_shaking(amplitude, "amplitude")
-    if several:
-        raise InputError("amplitude: a list; one amplitude all along is accepted")
+    rig = as_rig(rig, frequency)
+    if rig.amplitudes is not None:
+        raise InputError("shaking: a list of amplitudes; one amplitude is accepted")
     if parameter == "frequency":
         if frequency is not None:
             raise InputError(
-                f"frequency: {frequency!r}, but it is varied; it is accepted beside another one"
+                f"frequency: {frequency!r}, but it is varied; it is accepted where another "
+                "parameter is"
             )
-        frequency = high
-    elif frequency is None:
-        if not isinstance(amplitude, Harmonic | Periodic):
-            raise InputError(
-                "frequency: missing; one is accepted where another parameter is varied"
-            )
-        frequency = shaken.frequency
-    fam = family(oscillator, shaken.replace(frequency=frequency, phase=phase), parameter)
-    span = bounds(fam.parameter, low, high)
+        rig = rig.at(read_span(PARAMETERS["frequency"], span)[1])
+    fam = family(rig.oscillator, rig.harmonic.replace(phase=phase), parameter)
+    ends = read_span(fam.parameter, span)
     longest, starts = whole(longest, "longest"), whole(starts, "starts")
     most_branches = whole(most_branches, "most_branches")
     most_points = whole(most_points, "most_points")
     random, seed = whole(random, "random", 0), whole(seed, "seed", 0)
     given = [basins] if isinstance(basins, xr.Dataset) else list(basins)
-    begin = values(fam, span, starts)
+    begin = values(fam, ends, starts)
     followed: list[Followed] = []
     waiting: list[tuple[Orbit, Bifurcation | None]] = [
         (first, None)
         for first in itertools.chain(
             free(begin),
             settled(begin, longest, random, seed),
-            in_basins(fam, span, given, longest),
+            in_basins(fam, ends, given, longest),
         )
     ]
     complete = True
     while waiting:
         first, origin = waiting.pop(0)
-        if any(on_branch(first, one) for one in followed) or _used(origin, followed, span):
+        if any(on_branch(first, one) for one in followed) or _used(origin, followed, ends):
             continue
         if len(followed) >= most_branches:
             complete = False
             break
-        done = follow_both_ways(first, span, most_points)
+        done = follow_both_ways(first, ends, most_points)
         followed.append(done)
         for found in done.bifurcations:
             if found.turns or found.kind not in (BREAKING, DOUBLING):
                 continue
             for station in born(found):
-                inside = span[0] <= station.orbit.value <= span[1]
+                inside = ends[0] <= station.orbit.value <= ends[1]
                 if station.orbit.section.period <= longest and inside:
                     waiting.append((station.orbit, found))
         if progress:
             progress(len(followed), len(followed) + len(waiting))
     if progress:  # what still waited was on branches that had been followed
         progress(len(followed), len(followed))
-    data = as_dataset(followed, fam, span, "resonance_diagram")
+    data = as_dataset(followed, fam, ends, "resonance_diagram")
     data.attrs["complete"] = int(complete)
     return data
 

@@ -15,9 +15,10 @@ from vibroimpact.datasets.description import describe
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated, State, equilibrium
+from vibroimpact.model import State, equilibrium
 from vibroimpact.model.count_checks import check_max_events, check_samples, whole
-from vibroimpact.model.rigs import takes_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.contacts import contact_log
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.motion_phases import Recorded, cut
@@ -57,13 +58,12 @@ MOST_CYCLES = 5_000_000
 """Cycles over which exponents are averaged: about 0.3 GB."""
 
 
-@takes_rig
 def steady(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: AnyRig,
     start: State | xr.DataArray | xr.Dataset | None = None,
     samples: int = 256,
     *,
+    frequency: float | str | None = None,
     window: int = 200,
     tolerance: float = 1e-12,
     max_cycles: int = 2000,
@@ -75,12 +75,14 @@ def steady(
 
     Parameters
     ----------
-    oscillator, excitation
-        What vibrates, and what shakes it; or a case, its code or a study file, and a frequency.
+    rig
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     start
         Where the motion starts; None is rest.
     samples
         Samples per forcing cycle, at least 1. They only look: no other value depends on them.
+    frequency
+        Forcing frequency (Hz). Default: that of the rig.
     window
         Forcing cycles that are recorded of a motion that does not settle.
     tolerance, max_cycles, max_events
@@ -107,6 +109,8 @@ def steady(
     InputError
         If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
     """
+    rig = as_rig(rig, frequency)
+    oscillator, excitation = rig.oscillator, rig.harmonic
     samples, window = whole(samples, "samples"), whole(window, "window")
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     exponent_cycles = whole(exponent_cycles, "exponent_cycles")
@@ -203,8 +207,7 @@ def _record(
     found: Settled, state: _Array, samples: int, cycles: int, max_events: int
 ) -> xr.Dataset:
     return simulate(
-        found.oscillator,
-        found.excitation,
+        Rig(found.oscillator, found.excitation),
         cycles,
         state_from(state, found.excitation.phase),
         samples,
@@ -288,8 +291,7 @@ def _until_the_last_event(data: xr.Dataset, found: Settled, samples: int) -> xr.
         length = float(data["event_cycle_time"][-1]) * found.excitation.frequency
     length = max(length, 1e-12)
     return simulate(
-        found.oscillator,
-        found.excitation,
+        Rig(found.oscillator, found.excitation),
         length,
         state_from(found.state, found.excitation.phase),
         samples,

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import origin
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Oscillator, Rig
 from vibroimpact.model.count_checks import whole
-from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.threads import Progress, each
 from vibroimpact.uncertainty.distributions import Distribution
-from vibroimpact.uncertainty.random_rigs import Drawn, Method, Uncertain, shares, uncertain
+from vibroimpact.uncertainty.random_rigs import Method, Uncertain, shares, uncertain
 
 _Array = NDArray[np.float64]
 
@@ -39,7 +39,7 @@ def ensemble(
     rig: AnyRig | Oscillator,
     distributions: Mapping[str, Distribution | str],
     response: Response,
-    samples: int = 128,
+    draws: int = 128,
     *,
     method: Method = "sobol",
     seed: int = 0,
@@ -50,23 +50,22 @@ def ensemble(
 
     The response is any function of a list of rigs that returns a dataset with the dim ``rig``:
     `sweeps`, `demands` and `lyapunov_exponents` are such functions, their other arguments given
-    beforehand, and `one_by_one` makes one of a function of a single rig::
+    beforehand, and `for_each_rig` makes one of a function of a single rig::
 
         vi.ensemble(case, {"gap": "normal:5%"}, functools.partial(vi.sweeps, frequencies=grid))
 
     Parameters
     ----------
     rig
-        A case, its code, a study file, a `Rig` or a pair (oscillator, what shakes it); or an
-        oscillator alone, for a response to records.
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file; or an
+        `Oscillator` alone, for a response to records.
     distributions
         By parameter, as of `branch`: frozen distributions of ``scipy.stats`` in SI units, or texts
         such as ``"normal:7.5 mm:0.5 mm"``, ``"lognormal:0.2"`` or ``"uniform:10%"`` (of the rig's
         own value). They are independent of each other.
     response
-        Called with some rigs at a time: pairs (oscillator, what shakes it), or
-        oscillators if one was given.
-    samples
+        Called with a list of some rigs at a time.
+    draws
         How many rigs are drawn; of Sobol's points a power of 2.
     method
         ``"sobol"`` (scrambled), ``"latin"`` (hypercube) or ``"random"``.
@@ -91,9 +90,9 @@ def ensemble(
         gives no dataset over rigs.
     """
     drawn = uncertain(rig, distributions)
-    values = drawn.values(shares(samples, len(drawn.names), method, whole(seed, "seed", 0)))
+    values = drawn.values(shares(draws, len(drawn.names), method, whole(seed, "seed", 0)))
     data = responded(drawn, values, response, block, progress)
-    about = {**drawn.about(), "samples": len(values), "method": method, "seed": seed}
+    about = {**drawn.about(), "draws": len(values), "method": method, "seed": seed}
     # It says of itself something else than the response of its first rigs.
     data.attrs = {**data.attrs, **origin(CREATED_BY, about)}
     return labelled(data, drawn, values)
@@ -161,24 +160,23 @@ def labelled(data: xr.Dataset, drawn: Uncertain, values: _Array) -> xr.Dataset:
     return data
 
 
-def one_by_one(
-    function: Callable[..., xr.Dataset], threads: int | None = None
-) -> Callable[[list[Drawn]], xr.Dataset]:
-    """Make a function of many rigs of one of a single rig, for `ensemble` and `sensitivity`.
+def for_each_rig(
+    function: Callable[[Rig], xr.Dataset], threads: int | None = None
+) -> Callable[[list[Rig]], xr.Dataset]:
+    """Make a function of many rigs from a function of one, for `ensemble` and `sensitivity`.
 
     Parameters
     ----------
     function
-        Called with an oscillator and what shakes it (or with an oscillator alone, if the rig of
-        the ensemble is one); it returns a dataset whose dims have the same sizes for all rigs. For
-        example ``lambda rig, shaking: vi.steady(rig, shaking)[["displacement_max", "period"]]``.
+        Called with a rig; it returns a dataset whose dims have the same sizes for all rigs. For
+        example ``lambda rig: vi.steady(rig)[["displacement_max", "period"]]``.
     threads
         How many run at once; None for one a processor.
     """
 
-    def responses(rigs: list[Drawn]) -> xr.Dataset:
-        def one(rig: Drawn, _: Any) -> xr.Dataset:
-            return function(rig) if isinstance(rig, Oscillator) else function(*rig)
+    def responses(rigs: list[Rig]) -> xr.Dataset:
+        def one(rig: Rig, _: Any) -> xr.Dataset:
+            return function(rig)
 
         return xr.concat(each(one, rigs, threads=threads), "rig", combine_attrs="override")
 

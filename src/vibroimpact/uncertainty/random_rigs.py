@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, Repeated
 from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.rigs import AnyRig, as_rig, as_shaking
+from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.varied import written
 from vibroimpact.uncertainty.distributions import (
     Distribution,
@@ -29,9 +30,6 @@ _Array = NDArray[np.float64]
 Method = Literal["sobol", "latin", "random"]
 METHODS: tuple[Method, ...] = ("sobol", "latin", "random")
 
-Drawn: TypeAlias = Oscillator | tuple[Oscillator, Repeated]
-"""A rig, with what shakes it unless that is left open."""
-
 _ANY = Harmonic(1.0, 1.0)
 """What the registry of parameters asks for beside a rig without one."""
 
@@ -41,8 +39,7 @@ _ROUNDING = 1e-9
 class Uncertain(NamedTuple):
     """A rig and the distributions of some of its parameters."""
 
-    oscillator: Oscillator
-    shaken: Repeated | None
+    base: Rig
     parameters: tuple[Parameter, ...]
     distributions: tuple[Distribution, ...]
     texts: dict[str, str]
@@ -67,7 +64,17 @@ class Uncertain(NamedTuple):
             check_values(column, varied, f"distributions[{varied.name!r}]")
         return np.column_stack(columns)
 
-    def rig(self, values: _Array) -> Drawn:
+    @property
+    def oscillator(self) -> Oscillator:
+        """What vibrates."""
+        return self.base.oscillator
+
+    @property
+    def shaken(self) -> Repeated | None:
+        """What shakes it, unless that is left open."""
+        return None if self.base.shaking is None else self.base.periodic
+
+    def rig(self, values: _Array) -> Rig:
         """The rig at one value of each parameter.
 
         Raises
@@ -78,10 +85,10 @@ class Uncertain(NamedTuple):
         pairs = [
             (varied, float(value)) for varied, value in zip(self.parameters, values, strict=True)
         ]
-        rig, shaken = written(self.oscillator, self.shaken or _ANY, pairs)
-        return rig if self.shaken is None else (rig, shaken)
+        oscillator, shaken = written(self.oscillator, self.shaken or _ANY, pairs)
+        return self.base.with_parts(oscillator, None if self.shaken is None else shaken)
 
-    def rigs(self, values: _Array) -> list[Drawn]:
+    def rigs(self, values: _Array) -> list[Rig]:
         """A rig for each row of values.
 
         Raises
@@ -91,7 +98,7 @@ class Uncertain(NamedTuple):
         """
         found = [self.rig(row) for row in values]
         first = found[0]
-        rig, shaken = (first, _ANY) if isinstance(first, Oscillator) else first
+        rig, shaken = first.oscillator, _ANY if first.shaking is None else first.periodic
         for varied, value in zip(self.parameters, values[0], strict=True):
             if not math.isclose(varied.read(rig, shaken), value, rel_tol=_ROUNDING, abs_tol=1e-300):
                 raise InputError(
@@ -118,13 +125,11 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     InputError
         If one cannot be used, or the rig has no such parameter.
     """
-    if isinstance(rig, Oscillator):
-        oscillator, shaken = rig, None
-    else:
-        oscillator, amplitude = as_rig(rig, "rig", "an oscillator, ")
-        shaken, several = as_shaking(amplitude, "rig[1]")
-        if several:
-            raise InputError("rig[1]: a list of amplitudes; one amplitude is accepted")
+    alone = isinstance(rig, Oscillator)
+    base = as_rig(rig, oscillator_alone=True)
+    if base.amplitudes is not None:
+        raise InputError("shaking: a list of amplitudes; one amplitude is accepted")
+    oscillator, shaken = base.oscillator, None if alone else base.periodic
     given = check_names(distributions)
     parameters, made = [], []
     for name, one in given.items():
@@ -133,8 +138,8 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
         varied = varied.of(oscillator)
         if shaken is None and varied.name in ("frequency", "amplitude", "gap_ratio"):
             raise InputError(
-                f"{field}: {varied.name} is that of a sine, and the rig has none; a pair "
-                "(oscillator, amplitude) is accepted as the rig"
+                f"{field}: {varied.name} is that of a sine, and the rig has none; "
+                "Rig(oscillator, amplitude) is accepted as the rig"
             )
 
         def own(varied: Parameter = varied) -> float:
@@ -146,7 +151,7 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     texts = {varied.name: told(one) for varied, one in zip(parameters, given.values(), strict=True)}
     if len(texts) < len(parameters):
         raise InputError("distributions: a parameter is given twice; one of each is accepted")
-    return Uncertain(oscillator, shaken, tuple(parameters), tuple(made), texts)
+    return Uncertain(base, tuple(parameters), tuple(made), texts)
 
 
 def shares(count: object, columns: int, method: str, seed: int) -> _Array:
@@ -157,11 +162,11 @@ def shares(count: object, columns: int, method: str, seed: int) -> _Array:
     InputError
         If there is no such method, or the count is no power of 2 for Sobol's points.
     """
-    n = whole(count, "samples")
+    n = whole(count, "draws")
     if method not in METHODS:
         raise InputError(f"method: {method!r}; one of {', '.join(METHODS)} is accepted")
     if method == "sobol":
-        check_power(n, "samples", "Sobol's points")
+        check_power(n, "draws", "Sobol's points")
         found: _Array = qmc.Sobol(columns, rng=seed).random(n)
     elif method == "latin":
         found = qmc.LatinHypercube(columns, rng=seed).random(n)

@@ -14,7 +14,7 @@ from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator
 from vibroimpact.model.count_checks import whole
-from vibroimpact.model.rigs import AnyRig
+from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.threads import Progress
 from vibroimpact.uncertainty.distributions import Distribution
 from vibroimpact.uncertainty.ensemble import Response, responded
@@ -31,7 +31,7 @@ def sensitivity(
     distributions: Mapping[str, Distribution | str],
     response: Response,
     quantity: str,
-    samples: int = 256,
+    draws: int = 256,
     *,
     seed: int = 0,
     resamples: int = 0,
@@ -40,7 +40,7 @@ def sensitivity(
 ) -> xr.Dataset:
     """Return how much of the variance of a response each uncertain parameter makes.
 
-    By the estimators of Saltelli et al. (2010), from ``samples`` × (parameters + 2) rigs.
+    By the estimators of Saltelli et al. (2010), from ``draws`` × (parameters + 2) rigs.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def sensitivity(
         As of `ensemble`.
     quantity
         A variable of the response; a dataset of it has its other dims.
-    samples
+    draws
         Points of each of the two sets, a power of 2.
     seed
         The same one gives the same indices.
@@ -72,8 +72,8 @@ def sensitivity(
         As of `ensemble`; or if the response has no such quantity.
     """
     drawn = uncertain(rig, distributions)
-    count, draws = whole(samples, "samples"), whole(resamples, "resamples", 0)
-    check_power(count, "samples", "Sobol's points")
+    count, resampled_sets = whole(draws, "draws"), whole(resamples, "resamples", 0)
+    check_power(count, "draws", "Sobol's points")
     seed = whole(seed, "seed", 0)
     columns = len(drawn.names)
     points = qmc.Sobol(2 * columns, rng=seed).random(count)
@@ -96,8 +96,8 @@ def sensitivity(
         "mean": (dims[:-1], found[..., :2, :].mean(axis=(-2, -1))),
         "variance": (dims[:-1], found[..., :2, :].var(axis=(-2, -1))),
     }
-    if draws:
-        again = np.random.default_rng(seed).integers(count, size=(draws, count))
+    if resampled_sets:
+        again = np.random.default_rng(seed).integers(count, size=(resampled_sets, count))
         resampled = np.array([_orders(found[..., chosen]) for chosen in again])
         tails = 0.5 * np.array([1.0 - CONFIDENCE, 1.0 + CONFIDENCE])
         intervals = np.moveaxis(np.quantile(resampled, tails, axis=0), 0, -1)
@@ -106,7 +106,7 @@ def sensitivity(
     coords = {name: coord for name, coord in one.coords.items() if name not in drawn.names}
     made = xr.Dataset(variables, {**coords, "uncertain_parameter": drawn.names})
     made.attrs["quantity"] = quantity
-    about = {**drawn.about(), "quantity": quantity, "samples": count, "seed": seed}
+    about = {**drawn.about(), "quantity": quantity, "draws": count, "seed": seed}
     made = describe(made, CREATED_BY, about)
     units = str(one.attrs.get("units", "1"))
     made["mean"].attrs["units"] = units

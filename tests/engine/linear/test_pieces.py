@@ -65,7 +65,7 @@ def check(rig: vi.Oscillator, amplitude: float, motion: Motion, length: float) -
     start = vi.State(motion.u, motion.v, contact=1 if motion.mode == RIGHT else 0)
     shaken = vi.Harmonic(amplitude, FREQUENCY, PHASE)
     for _, end, u, v, _ in pieces[:: max(1, len(pieces) // 10)]:
-        final = vi.simulate(rig, shaken, end * FREQUENCY, start, samples=0)["final_state"]
+        final = vi.simulate(vi.Rig(rig, shaken), end * FREQUENCY, start, samples=0)["final_state"]
         assert (u, v) == pytest.approx(tuple(final.values[:2]), abs=1e-12)
     return pieces
 

@@ -23,7 +23,7 @@ def rig(damping_ratio: float, right: float, left: float, load: float = 0.0) -> v
 
 
 def held(one: vi.Oscillator, frequency: float, start: vi.State, phase: float = 0.0, **given):
-    data = vi.sweep(one, 1.0, [frequency], "forward", start=start, phase=phase, **given)
+    data = vi.sweep(vi.Rig(one, 1.0), [frequency], "forward", start=start, phase=phase, **given)
     return data.isel(direction=0, frequency=0)
 
 
@@ -33,12 +33,12 @@ def test_it_is_what_following_leads_to(amplitude: float | str, load: float) -> N
     """Extremes and the state at any section, against a motion that is followed."""
     one = rig(0.1, 0.5, 0.5, load)
     for frequency in (0.4, 1.3, 3.0):
-        data = vi.sweep(one, amplitude, [frequency], "forward", phase=0.7)
+        data = vi.sweep(vi.Rig(one, amplitude), [frequency], "forward", phase=0.7)
         data = data.isel(direction=0, frequency=0)
         assert (data["cycles"], data["period"]) == (0, 1)
         shaken = vi.Harmonic(amplitude, frequency, 0.7)
-        settled = vi.simulate(one, shaken, 90, samples=0)
-        motion = vi.simulate(one, shaken, 1, settled, samples=512)
+        settled = vi.simulate(vi.Rig(one, shaken), 90, samples=0)
+        motion = vi.simulate(vi.Rig(one, shaken), 1, settled, samples=512)
         for name in ("displacement", "acceleration"):
             size = float(np.ptp(motion[name].values))
             for end in ("max", "min"):
@@ -69,7 +69,7 @@ def test_whatever_the_start_it_is_the_motion_that_following_reaches(
     data = held(one, frequency, start)
     if data["cycles"] > 0:
         return
-    followed = vi.simulate(one, vi.Harmonic(1.0, frequency), 60, start, samples=1)
+    followed = vi.simulate(vi.Rig(one, vi.Harmonic(1.0, frequency)), 60, start, samples=1)
     assert followed.sizes["event"] == 0
     later = followed["final_state"].values[:2]
     lost = math.exp(-60 * _slowest(damping_ratio) * 2.0 * math.pi / ratio)
@@ -98,7 +98,9 @@ def test_a_graze_is_followed() -> None:
     steady = held(one, 1.3, vi.State(0.0, 0.0))["section"]
     for share, known in ((1.0 + 1e-6, True), (1.0 + 1e-12, False), (1.0 - 1e-6, False)):
         closer = rig(0.1, share * reach, 1.0)
-        data = vi.sweep(closer, 1.0, [1.3], "forward", start=steady).isel(direction=0, frequency=0)
+        data = vi.sweep(vi.Rig(closer, 1.0), [1.3], "forward", start=steady).isel(
+            direction=0, frequency=0
+        )
         assert bool(data["cycles"] == 0) is known
 
 
@@ -119,6 +121,8 @@ def test_the_left_tables_of_a_symmetric_rig_are_the_right_ones() -> None:
     for stop in (None, vi.RigidStop(0.7, case.oscillator.left.gap)):
         both = case.oscillator if stop is None else case.oscillator.replace(right=stop, left=stop)
         other = both.replace(left=own if stop is None else stop.replace(gap=own.gap))
-        one, two = (vi.sweep(r, case.amplitude, [1.5, 1.6, 1.7, 1.8]) for r in (both, other))
+        one, two = (
+            vi.sweep(vi.Rig(r, case.amplitude), [1.5, 1.6, 1.7, 1.8]) for r in (both, other)
+        )
         for name in ("displacement_max", "displacement_min", "peak_force_left"):
             np.testing.assert_allclose(one[name], two[name], rtol=1e-11)

@@ -49,7 +49,7 @@ def flow(motion: Motion, values) -> np.ndarray:
     right = max(given[2], 0.0) if rig.right else None
     left = min(given[3], 0.0) if rig.left else None
     start = vi.State(given[0], given[1], right, left)
-    return vi.simulate(rig, motion.excitation, 1.0, start, 0)["final_state"].values[:4]
+    return vi.simulate(vi.Rig(rig, motion.excitation), 1.0, start, 0)["final_state"].values[:4]
 
 
 @examples(60)
@@ -88,7 +88,7 @@ def struck() -> Motion:
 
 def test_derivative_with_respect_to_a_relaxing_bumper():
     motion = struck()
-    data = vi.simulate(motion.oscillator, motion.excitation, 1.0, motion.start)
+    data = vi.simulate(vi.Rig(motion.oscillator, motion.excitation), 1.0, motion.start)
     assert float(data["event_right_bumper"][0]) > 1e-3  # at contact it is still deformed
     rows, _ = derivative(motion.oscillator, motion.excitation, motion.start)
     first = np.array([0.3, 1.1, 0.05, 0.0])
@@ -118,7 +118,9 @@ def test_section_in_a_contact():
     assert not rows[2].any()
     step = 1e-8
     ends = [
-        vi.simulate(case.oscillator, shaken, 1, vi.State(8e-3 + d, 0.05), 0)["final_state"][:4]
+        vi.simulate(vi.Rig(case.oscillator, shaken), 1, vi.State(8e-3 + d, 0.05), 0)["final_state"][
+            :4
+        ]
         for d in (step, -step)
     ]
     expected = (ends[0] - ends[1]).values / (2.0 * step)

@@ -22,7 +22,7 @@ PLAIN = [name for name in ISOLATORS if name not in (*HYSTERETIC, "friction")]
 @pytest.mark.parametrize("isolator", PLAIN)
 def test_two_exponents_sum_up_to_the_divergence(isolator: str, stop: str | None) -> None:
     """Where only displacement and velocity are remembered."""
-    found = vi.lyapunov_exponents((between(isolator, stop), 0.6), [FREQUENCY], 200)
+    found = vi.lyapunov_exponents(vi.Rig(between(isolator, stop), 0.6), [FREQUENCY], 200)
     damping = float(found["effective_damping"].squeeze())
     assert damping > 0.05
     assert float(found["exponents"].sum()) == pytest.approx(-damping, rel=1e-6)
@@ -33,14 +33,14 @@ def test_two_exponents_sum_up_to_the_divergence(isolator: str, stop: str | None)
 def test_the_exponents_of_an_orbit_are_those_of_its_determinant(isolator: str, stop: str) -> None:
     """What a cycle leaves of an area of displacement and velocity, by the tangent map."""
     rig = between(isolator, stop)
-    held = vi.sweep(rig, 0.6, [FREQUENCY]).isel(direction=0, frequency=0)
+    held = vi.sweep(vi.Rig(rig, 0.6), [FREQUENCY]).isel(direction=0, frequency=0)
     period, state = int(held["period"]), held["section"]
     assert period > 0
     assert float(state.sel(component="contact")) == 0.0
     start = engine_state(rig, vi.State(*state.values[:2]))
     rows, _, _ = carried(rig, start, period, vi.Harmonic(0.6, FREQUENCY))
     area = math.log(abs(np.linalg.det(rows[:2, :2]))) / period * FREQUENCY
-    found = vi.lyapunov_exponents((rig, 0.6), [FREQUENCY], 200, start=state)
+    found = vi.lyapunov_exponents(vi.Rig(rig, 0.6), [FREQUENCY], 200, start=state)
     assert float(found["exponents"].sum()) == pytest.approx(area, rel=1e-5)
 
 
@@ -48,6 +48,6 @@ def test_the_exponents_of_an_orbit_are_those_of_its_determinant(isolator: str, s
 def test_free_flight(isolator: str) -> None:
     """Both exponents are half of the damping's mean where the motion turns."""
     rig = between(isolator, None)
-    found = vi.lyapunov_exponents((rig, 0.6), [FREQUENCY], 1000)
+    found = vi.lyapunov_exponents(vi.Rig(rig, 0.6), [FREQUENCY], 1000)
     damping = float(found["effective_damping"].squeeze())
     np.testing.assert_allclose(np.ravel(found["exponents"]), -0.5 * damping, rtol=5e-3)

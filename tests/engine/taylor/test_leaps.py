@@ -57,11 +57,11 @@ def test_a_hair_before_and_behind_a_grazing(name: str) -> None:
     rig, amplitude, _ = PERIODIC[name]
     free = rig.replace(right=None, left=None)
     shaken = SHAKEN.replace(amplitude=0.5 * amplitude)
-    data = vi.simulate(free, shaken, 1, vi.State(0.1, 0.5), 4096)
+    data = vi.simulate(vi.Rig(free, shaken), 1, vi.State(0.1, 0.5), 4096)
     most = float(data["displacement"].max())
     for distance in (1e-2, 1e-4, 1e-6):
         for sign in (-1.0, 1.0):
             gap = most * (1.0 + sign * distance)
             near = rig.replace(right=rig.right.replace(gap=gap), left=None)
-            found = vi.simulate(near, shaken, 1, vi.State(0.1, 0.5), 1)
+            found = vi.simulate(vi.Rig(near, shaken), 1, vi.State(0.1, 0.5), 1)
             assert bool(found["event_time"].size) == (sign < 0.0), (distance, sign)

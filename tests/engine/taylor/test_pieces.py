@@ -18,11 +18,11 @@ SAMPLES = 4096
 @pytest.mark.parametrize("isolator", ISOLATORS)
 def test_extremes_are_just_above_those_of_dense_samples(isolator: str, stop: str) -> None:
     rig = between(isolator, stop)
-    held = vi.sweep(rig, 0.6, [FREQUENCY]).isel(direction=0, frequency=0)
+    held = vi.sweep(vi.Rig(rig, 0.6), [FREQUENCY]).isel(direction=0, frequency=0)
     period = int(held["period"])
     assert period > 0
     shaken = vi.Harmonic(0.6, FREQUENCY)
-    data = vi.simulate(rig, shaken, period, held["section"], SAMPLES)
+    data = vi.simulate(vi.Rig(rig, shaken), period, held["section"], SAMPLES)
     for name in ("displacement", "acceleration"):
         seen = float(np.ptp(data[name].values))
         # An impact is missed by up to a step's way or change.
@@ -34,7 +34,7 @@ def test_extremes_are_just_above_those_of_dense_samples(isolator: str, stop: str
 @pytest.mark.parametrize("isolator", ISOLATORS)
 def test_samples_lie_on_the_motion(isolator: str, stop: str) -> None:
     rig = between(isolator, stop)
-    data = vi.simulate(rig, SHAKEN, 2, vi.State(0.1, 0.3), 37)
+    data = vi.simulate(vi.Rig(rig, SHAKEN), 2, vi.State(0.1, 0.3), 37)
     for k in (1, 11, 30, 52, 74):
         end = followed(rig, SHAKEN, k / 37, started(rig, 0.1, 0.3))
         now = data.isel(time=k)
@@ -45,7 +45,9 @@ def test_samples_lie_on_the_motion(isolator: str, stop: str) -> None:
 @pytest.mark.parametrize("isolator", ISOLATORS)
 def test_the_acceleration_is_that_of_the_velocity(isolator: str) -> None:
     """u′ sampled densely, its differences plus the shaking: the absolute acceleration."""
-    data = vi.simulate(between(isolator, "hunt-crossley"), SHAKEN, 1, vi.State(0.1, 0.3), SAMPLES)
+    data = vi.simulate(
+        vi.Rig(between(isolator, "hunt-crossley"), SHAKEN), 1, vi.State(0.1, 0.3), SAMPLES
+    )
     t, v = data["time"].values, data["velocity"].values
     relative = (v[2:] - v[:-2]) / (t[2:] - t[:-2])
     expected = relative + 0.6 * np.sin(0.9 * t[1:-1] + 0.4)

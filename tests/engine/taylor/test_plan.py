@@ -39,5 +39,8 @@ def test_what_would_take_too_long() -> None:
     assert too_much_work(stiff, math.pi)
     with pytest.warns(RuntimeWarning, match="too many times"):
         vi.simulate(
-            vi.Oscillator(1.0, vi.PolynomialIsolator(1e30, 0.0, 1.0)), vi.Harmonic(1.0, 1.0), 1
+            vi.Rig(
+                vi.Oscillator(1.0, vi.PolynomialIsolator(1e30, 0.0, 1.0)), vi.Harmonic(1.0, 1.0)
+            ),
+            1,
         )

@@ -82,7 +82,7 @@ def test_a_record_is_followed() -> None:
         rig = vi.Oscillator(1.0, isolator, bumper, bumper)
         ends = []
         for other in (isolator, isolator.replace(damping_exponent=1.0 + 1e-13)):  # not by tables
-            data = vi.simulate(rig.replace(isolator=other), shaken)
+            data = vi.simulate(vi.Rig(rig.replace(isolator=other), shaken))
             ends.append(data[["displacement", "velocity"]].to_array().values)
         np.testing.assert_allclose(ends[0], ends[1], atol=1e-11)
         assert np.abs(ends[0][0]).max() > 0.2  # the bumpers are met
@@ -101,7 +101,7 @@ def test_free_slides_are_as_long_as_in_closed_form() -> None:
     still = vi.Harmonic(1e-300, 1.0 / math.pi)
     rig = vi.Oscillator(1.0, vi.FrictionIsolator(4.0, 0.0, 0.2))
     ends = [
-        vi.simulate(rig, still, cycles, vi.State(1.0), samples=0)["final_state"].values
+        vi.simulate(vi.Rig(rig, still), cycles, vi.State(1.0), samples=0)["final_state"].values
         for cycles in (0.5, 1.0, 3.0, 20.0)
     ]
     np.testing.assert_allclose([end[0] for end in ends], [-0.9, 0.8, 0.4, 0.0], atol=1e-14)

@@ -29,7 +29,7 @@ COCO_START = vi.State(-0.98, -0.29)
 
 @cache
 def _coco_orbit() -> xr.Dataset:
-    return vi.orbit(COCO_RIG, COCO_SHAKEN, COCO_START)
+    return vi.orbit(vi.Rig(COCO_RIG, COCO_SHAKEN), COCO_START)
 
 
 def _coco_impact() -> tuple[float, float]:
@@ -41,7 +41,9 @@ def _coco_impact() -> tuple[float, float]:
 @cache
 def coco_grazing() -> float:
     """The amplitude at which the family of this orbit grazes."""
-    data = vi.branch(COCO_RIG, COCO_SHAKEN, COCO_START, parameter="amplitude", low=0.05, high=1.0)
+    data = vi.branch(
+        vi.Rig(COCO_RIG, COCO_SHAKEN), COCO_START, span=(0.05, 1.0), parameter="amplitude"
+    )
     grazings = data["bifurcation_value"].values[data["bifurcation_kind"].values == "grazing"]
     return float(grazings[np.abs(grazings - 0.1).argmin()])
 
@@ -114,7 +116,9 @@ def budd_dux_doubling_found(one: Oscillator) -> float:
     """The same on a branch of ours."""
     shaken, start = budd_dux_start(fastest(one))
     exact = budd_dux_doubling(one)
-    data = vi.branch(budd_dux_rig(one), shaken, start, low=0.9 * one.frequency, high=1.02 * exact)
+    data = vi.branch(
+        vi.Rig(budd_dux_rig(one), shaken), start, span=(0.9 * one.frequency, 1.02 * exact)
+    )
     values = data["bifurcation_value"].values
     values = values[data["bifurcation_kind"].values == "period doubling"]
     return float(values[np.abs(values - exact).argmin()])
@@ -205,7 +209,9 @@ def dead_zone_shaken(ratio: float) -> vi.Harmonic:
 
 def dead_zone_orbit(ratio: float) -> xr.Dataset:
     """Ours, from the closed form."""
-    return vi.orbit(DEAD_ZONE, dead_zone_shaken(ratio), vi.State(dead_zone_amplitude(ratio), 0.0))
+    return vi.orbit(
+        vi.Rig(DEAD_ZONE, dead_zone_shaken(ratio)), vi.State(dead_zone_amplitude(ratio), 0.0)
+    )
 
 
 def _dead_zone(ratio: float) -> Comparison:
@@ -239,7 +245,7 @@ def bounced(nominal: float, stiffness: float = 1e10) -> float:
     z = -math.log(nominal) / math.hypot(math.pi, math.log(nominal))
     stop = vi.Bumper(stiffness, 2.0 * z * math.sqrt(stiffness), 0.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), stop)
-    data = vi.simulate(rig, vi.Harmonic(0.0, 1.0), 0.5, vi.State(0.0, 1.0), samples=1)
+    data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0)), 0.5, vi.State(0.0, 1.0), samples=1)
     return -float(data["event_velocity"][0])
 
 

@@ -27,7 +27,7 @@ def problem_p(periods: int) -> tuple[float, float]:
     stop = vi.Bumper(P.bumper_stiffness, P.bumper_damping, P.gap)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2.0 * P.damping_ratio), stop, stop)
     shaken = vi.Harmonic(P.amplitude, P.frequency / math.tau, -math.pi / 2)
-    x, v = vi.simulate(rig, shaken, periods, samples=0)["final_state"].values[:2]
+    x, v = vi.simulate(vi.Rig(rig, shaken), periods, samples=0)["final_state"].values[:2]
     return float(x), float(v)
 
 
@@ -87,7 +87,7 @@ _LAWS = (
 def _law(name: str) -> Comparison:
     def ours() -> float:
         rig, shaken = CASES[name]
-        return 1e3 * float(vi.simulate(rig, shaken, CYCLES, samples=0)["final_state"][0])
+        return 1e3 * float(vi.simulate(vi.Rig(rig, shaken), CYCLES, samples=0)["final_state"][0])
 
     return Comparison(
         "own reference, 40 digits",
@@ -109,7 +109,8 @@ STOPS = vi.Oscillator(
 def elastic_stops(phase: float = 0.0) -> xr.Dataset:
     """The branch over Ω from 1 to 2.5."""
     return vi.branch(
-        STOPS, vi.Harmonic(0.2, 2.0 / math.tau, phase), low=1.0 / math.tau, high=2.5 / math.tau
+        vi.Rig(STOPS, vi.Harmonic(0.2, 2.0 / math.tau, phase)),
+        span=(1.0 / math.tau, 2.5 / math.tau),
     )
 
 
@@ -183,7 +184,7 @@ def siconos_times() -> np.ndarray:
 
 def _siconos_ours() -> float:
     shaken = vi.Harmonic(0.0, 100.0)
-    found = vi.simulate(SICONOS_RIG, shaken, 12, vi.State(1.0), samples=1)
+    found = vi.simulate(vi.Rig(SICONOS_RIG, shaken), 12, vi.State(1.0), samples=1)
     return float(found["event_time"][BOUNCES - 1])
 
 
@@ -207,7 +208,9 @@ def _printed(names: str) -> tuple[int, int]:
 def attached_resonance() -> float:
     """Frequency (Hz) of the largest displacement of B3-0mm-A3."""
     case = vi.laboratory.case("B3-0mm-A3")
-    curves = vi.sweep(case.oscillator, case.amplitude, np.arange(500, 601) / 100, ("forward",))
+    curves = vi.sweep(
+        vi.Rig(case.oscillator, case.amplitude), np.arange(500, 601) / 100, ("forward",)
+    )
     excursion = curves["displacement_excursion"].squeeze()
     return float(excursion["frequency"][int(excursion.values.argmax())])
 

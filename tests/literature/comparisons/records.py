@@ -121,7 +121,7 @@ def _pounding(name: str) -> Comparison:
     rig = POUNDING[name]
 
     def ours() -> float:
-        found = vi.seismic_response(rig, pounding_record(), tail=0.0)
+        found = vi.seismic_response(vi.Rig(rig, pounding_record()), tail=0.0)
         return 1e3 * float(found["peak_displacement"])
 
     again: Number = lambda: 1e3 * opensees_peak(rig, pounding_record(), 64)  # noqa: E731

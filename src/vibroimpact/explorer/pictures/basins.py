@@ -24,7 +24,7 @@ def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
         If nothing dies out, so that each start has its own motion.
     """
     data = basins(
-        *state.rig, nodes=FINE if fine else COARSE, max_cycles=_PATIENCE, progress=progress
+        state.rig, nodes=FINE if fine else COARSE, max_cycles=_PATIENCE, progress=progress
     )
     return {
         "picture": "basins",

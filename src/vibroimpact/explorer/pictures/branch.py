@@ -13,6 +13,7 @@ from vibroimpact.explorer.pictures.motion import at
 from vibroimpact.explorer.pictures.numbers import short
 from vibroimpact.explorer.state import State
 from vibroimpact.model import GRAVITY
+from vibroimpact.model.rig import Rig
 from vibroimpact.stability.branch import branch
 from vibroimpact.tasks.threads import Progress
 
@@ -31,11 +32,9 @@ def branches(state: State, data: xr.Dataset, progress: Progress) -> dict[str, An
     shaken, section, period = at(state, data)
     low, high = state.span
     found = branch(
-        state.oscillator,
-        shaken,
+        Rig(state.oscillator, shaken),
         section,
-        low=low,
-        high=high,
+        span=(low, high),
         period=int(period) or None,
         most_points=_MOST,
         progress=progress,

@@ -30,7 +30,7 @@ def swept(state: State, fine: bool, progress: Progress | None = None) -> xr.Data
     count = FINE if fine else COARSE
     frequencies = beside_resonance(state.oscillator, np.linspace(*state.span, count))
     few: dict[str, Any] = {} if fine else {"max_cycles": _PATIENCE, "window": _WINDOW}
-    data = sweep(*state.rig, frequencies, progress=progress, **few)
+    data = sweep(state.rig, frequencies, progress=progress, **few)
     data.attrs["title"] = state.name
     return data
 

@@ -13,8 +13,9 @@ from vibroimpact.facts import motions as told
 from vibroimpact.facts.tables import as_text
 from vibroimpact.model import Harmonic
 from vibroimpact.model.quantities import FORCE
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.simulate import simulate
-from vibroimpact.response.spectrum import spectrum
+from vibroimpact.response.spectrum import fourier_spectrum
 from vibroimpact.stability.steady import steady
 
 _SAMPLES = 160
@@ -43,7 +44,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
     """Return the motion as the sweep has left it, for while a knob is turned."""
     shaken, section, period = at(state, data)
     cycles = int(period) if 0 < period <= _MOST_CYCLES else _MOST_CYCLES
-    motion = simulate(state.oscillator, shaken, cycles, section, _SAMPLES)
+    motion = simulate(Rig(state.oscillator, shaken), cycles, section, _SAMPLES)
     return {**_drawn(state, motion, shaken), "fine": False}
 
 
@@ -51,7 +52,7 @@ def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
     """Return the motion named and measured, with the impacts (mm/s) of what is drawn."""
     shaken, section, _ = at(state, data)
     motion = steady(
-        state.oscillator, shaken, section, _SAMPLES, window=_WINDOW, exponent_cycles=_GROWTH
+        Rig(state.oscillator, shaken), section, _SAMPLES, window=_WINDOW, exponent_cycles=_GROWTH
     )
     found = {shaken.frequency: {f"{state.direction} branch": motion}}
     drawn = motion.isel(time=slice(_MOST_CYCLES * _SAMPLES + 1))
@@ -76,7 +77,7 @@ def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 def _spectrum(motion: xr.Dataset) -> dict[str, Any]:
     """The lines of the displacement (mm), the mean left out."""
-    lines = spectrum(motion, _HIGHEST).isel(order=slice(1, None))
+    lines = fourier_spectrum(motion, _HIGHEST).isel(order=slice(1, None))
     return {
         "frequency": short(lines["line_frequency"].values),
         "displacement": short(1e3 * lines["displacement_amplitude"].values),

@@ -12,6 +12,7 @@ from vibroimpact.explorer.state import State
 from vibroimpact.model import from_dimensionless, to_dimensionless
 from vibroimpact.model.access import scale_of
 from vibroimpact.model.dimensionless import DimensionlessBumper
+from vibroimpact.model.rig import Rig
 from vibroimpact.scenarios.map import scenario_map
 from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.tasks.threads import Progress
@@ -39,7 +40,7 @@ def plane(state: State) -> Plane:
         If the rig has no λ, δ0, τ and ξ that are those of both sides.
     """
     rig = state.oscillator
-    scaled = to_dimensionless(rig, scale_of(rig, state.shaking))
+    scaled = to_dimensionless(Rig(rig, scale_of(rig, state.shaking)))
     stops = [stop for stop in (scaled.right, scaled.left) if stop is not None]
     if not stops or not all(isinstance(stop, DimensionlessBumper) for stop in stops):
         raise InputError("map: it needs a bumper of spring and dashpot on some side")
@@ -64,9 +65,9 @@ def scenarios(where: Plane, fine: bool, progress: Progress) -> dict[str, Any]:
         each(10.0), each(0.5), each(where.relaxation_time), where.damping_ratio
     )
     data = scenario_map(
+        base,
         ("stiffness_ratio", np.geomspace(*STIFFNESS, _NODES), "log"),
         ("gap_ratio", np.linspace(*GAP, _NODES)),
-        base,
         step=_STEP,
         refine=1 if fine else 0,
         progress=progress,

@@ -10,7 +10,7 @@ from vibroimpact.explorer.pictures.numbers import one
 from vibroimpact.explorer.state import State
 from vibroimpact.facts import scenario as told
 from vibroimpact.scenarios.classification import scenario
-from vibroimpact.scenarios.classify import classify
+from vibroimpact.scenarios.classify import classify_scenario
 from vibroimpact.scenarios.evidence import evidence
 from vibroimpact.scenarios.evidence_text import in_words
 from vibroimpact.scenarios.thresholds import Thresholds
@@ -20,7 +20,7 @@ from vibroimpact.tasks.threads import Progress
 def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
     """Return what a coarse sweep shows, while a knob is turned."""
     used = Thresholds()
-    found = evidence(*state.rig, data, 0.5 * used.prominence)
+    found = evidence(state.oscillator, state.shaking, data, 0.5 * used.prominence)
     label = scenario(found, used).label
     return {
         "picture": "scenario",
@@ -34,7 +34,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 def careful(state: State, progress: Progress) -> dict[str, Any]:
     """Return what `vibroimpact.classify` finds, over frequencies that it chooses itself."""
-    found = told.facts(classify(*state.rig, progress=progress))
+    found = told.facts(classify_scenario(state.rig, progress=progress))
     return {
         "picture": "scenario",
         "fine": True,

@@ -6,6 +6,7 @@ import numpy as np
 
 from vibroimpact.model import laboratory
 from vibroimpact.model.dimensionless import to_dimensionless
+from vibroimpact.model.rig import Rig
 from vibroimpact.paper import table1
 from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims import grazing
@@ -63,7 +64,7 @@ def _of_tests() -> dict[str, tuple[float, float]]:
     found = {}
     for code in CODES:
         case = laboratory.case(code)
-        bumper = to_dimensionless(case.oscillator, case.amplitude).right
+        bumper = to_dimensionless(Rig(case.oscillator, case.amplitude)).right
         assert bumper is not None
         found[code] = (bumper.stiffness_ratio, bumper.gap)
     return found

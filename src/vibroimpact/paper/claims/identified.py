@@ -6,6 +6,7 @@ from contextlib import suppress
 
 from vibroimpact.model import laboratory
 from vibroimpact.model.dimensionless import DimensionlessBumper, to_dimensionless
+from vibroimpact.model.rig import Rig
 from vibroimpact.paper.claim import Finding, Kind
 from vibroimpact.paper.claims.reading import BOTH, AbsentError, claim, regular_places, turns
 from vibroimpact.paper.study import PublishedStudy
@@ -138,7 +139,7 @@ def damping(study: PublishedStudy) -> Finding:
     told, off = [], []
     for code in (_S3, _S2):
         case = laboratory.case(code, "identified")
-        group = to_dimensionless(case.oscillator, case.amplitude)
+        group = to_dimensionless(Rig(case.oscillator, case.amplitude))
         assert isinstance(group.right, DimensionlessBumper)
         ratio, time = group.damping_ratio, group.right.relaxation_time
         off += [ratio / laboratory.DAMPING_RATIO - 1.0, time / laboratory.RELAXATION_TIME - 1.0]

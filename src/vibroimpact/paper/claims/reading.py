@@ -14,7 +14,7 @@ from vibroimpact.paper.claim import Claim, Finding, Kind
 from vibroimpact.paper.study import HIGH, LOW, STEP, PublishedStudy
 from vibroimpact.response.curve_pair import Direction, in_contact
 from vibroimpact.response.peaks import Curve, Peak
-from vibroimpact.response.spectrum import spectrum
+from vibroimpact.response.spectrum import fourier_spectrum
 from vibroimpact.scenarios.evidence import SAME
 
 TEST_STEP = 0.1
@@ -266,7 +266,7 @@ LINES: tuple[Line, Line] = ("displacement", "acceleration")
 
 def harmonics(motion: xr.Dataset, of: Line = "displacement", highest: int = 20) -> Array:
     """Amplitudes of the harmonics 1, 2, ... of a quantity over the first one."""
-    lines = spectrum(motion, highest)
+    lines = fourier_spectrum(motion, highest)
     whole = lines.sel(order=list(range(1, highest + 1)))[f"{of}_amplitude"].values
     shares: Array = whole / whole[0]
     return shares

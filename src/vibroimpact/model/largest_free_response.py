@@ -1,0 +1,106 @@
+"""Largest free response of a linear isolator over all frequencies, in closed form."""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.quantities import ACCELERATION
+from vibroimpact.model.units import to_si
+
+_NO_DAMPING = 1e-150
+"""A damping ratio below which the peak is larger than any number."""
+_ALL_DAMPING = 1e100
+"""Damping ratio from which on the mass moves with the base, to rounding."""
+
+
+def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
+    """Return the largest displacement amplitude in free flight, over all frequencies.
+
+    u_max = A/(2ξ√(1-ξ²) ω0²), reached at ω = ω0√(1-2ξ²).
+
+    Parameters
+    ----------
+    oscillator
+        The oscillator; its stops are left out of account.
+    amplitude
+        Peak base acceleration A in m/s², or text with units.
+
+    Returns
+    -------
+    float
+        u_max in m.
+
+    Raises
+    ------
+    InputError
+        If the isolator is not linear. If the amplitude is 0, or if the damping ratio is 0 (the
+        peak is unbounded) or at least 1/√2 (the displacement has no peak).
+    """
+    a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
+    oscillator.check_linear("free flight in closed form, whose peak scales gaps", stops=False)
+    stiffness = oscillator.isolator.initial_stiffness
+    return peak_of(oscillator.mass, stiffness, oscillator.damping_ratio, a)
+
+
+def largest_free_flight(
+    angular_frequency: float, damping_ratio: float, amplitude: float
+) -> tuple[float, float]:
+    """Return the largest amplitudes in free flight, over all frequencies.
+
+    Of the displacement A/(2ξ√(1-ξ²) ω0²) (see ``peak_displacement``), or A/ω0², which it comes
+    close to at low frequencies, if ξ is at least 1/√2. Of the absolute acceleration
+    A √(1 + 4ξ²r²)/√((1 - r²)² + 4ξ²r²) at r² = 2/(1 + √(1 + 8ξ²)).
+
+    Parameters
+    ----------
+    angular_frequency
+        ω0 in rad/s.
+    damping_ratio
+        ξ; with 0 both are infinite.
+    amplitude
+        Peak base acceleration A in m/s².
+
+    Returns
+    -------
+    tuple of float
+        In m and m/s².
+    """
+    xi, static = damping_ratio, amplitude / angular_frequency**2
+    if xi < _NO_DAMPING:
+        return math.inf, math.inf
+    peaked = xi < math.sqrt(0.5)
+    swing = static / (2.0 * xi * math.sqrt(1.0 - xi**2)) if peaked else static
+    if xi > _ALL_DAMPING:
+        return swing, amplitude
+    square = 2.0 / (1.0 + math.sqrt(1.0 + 8.0 * xi**2))
+    damped = 4.0 * xi**2 * square
+    return swing, amplitude * math.sqrt((1.0 + damped) / ((1.0 - square) ** 2 + damped))
+
+
+def peak_of(mass: float, stiffness: float, damping_ratio: float, amplitude: float) -> float:
+    """Return the largest displacement amplitude in free flight (m), by which gaps are scaled.
+
+    Raises
+    ------
+    InputError
+        If there is no finite peak.
+    """
+    if not 0.0 < damping_ratio < math.sqrt(0.5):
+        raise InputError(
+            f"damping_ratio: {damping_ratio:.6g} gives free flight no finite resonance peak, by "
+            "which a gap that is not 0 is scaled; between 0 and 0.707107 is accepted"
+        )
+    if amplitude == 0.0:
+        raise InputError(
+            "amplitude: 0 moves nothing, so a gap that is not 0 has no scale; "
+            "an acceleration greater than 0 is accepted"
+        )
+    peak, _ = largest_free_flight(math.sqrt(stiffness / mass), damping_ratio, amplitude)
+    if not 0.0 < peak < math.inf:
+        raise InputError(
+            f"amplitude: {amplitude:g} m/s² moves a mass of {mass:g} kg on {stiffness:g} N/m by "
+            "a distance outside the range of floating-point numbers; a moderate one is accepted"
+        )
+    return peak

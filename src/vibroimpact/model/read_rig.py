@@ -1,0 +1,129 @@
+"""Read what stands for a rig: a `Rig`, a laboratory case, its code, or the path of a study file."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from vibroimpact.arguments import is_list
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model import laboratory
+from vibroimpact.model.excitation import Harmonic, Periodic
+from vibroimpact.model.laboratory import Case
+from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.record import Record
+from vibroimpact.model.rig import Rig
+from vibroimpact.model.study import read_rig_study
+
+AnyRig: TypeAlias = Rig | Case | str | Path
+"""A `Rig`, a laboratory case, its code such as ``"B2-G1-A3"``, or the path of a study file."""
+
+_ACCEPTED = (
+    'a Rig, a laboratory case or its code, such as "B2-G1-A3", or the path of a study file, such '
+    'as "rig.toml", is accepted'
+)
+
+
+def as_rig(
+    value: Any,
+    frequency: float | str | None = None,
+    *,
+    where: str = "rig",
+    oscillator_alone: bool = False,
+) -> Rig:
+    """Read a rig.
+
+    Parameters
+    ----------
+    value
+        What a function was given as a rig.
+    frequency
+        In Hz, or text with a unit; replaces that of the rig. None leaves it as it is.
+    where
+        The argument, which the error names.
+    oscillator_alone
+        Whether an `Oscillator` is accepted, where something else says what shakes it.
+
+    Raises
+    ------
+    InputError
+        If it is not a rig, there is no such case, the study file cannot be used, or the rig has
+        no frequency because a record shakes it.
+    """
+    rig = _read(value, where, oscillator_alone)
+    return rig if frequency is None else rig.at(frequency)
+
+
+def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> dict[str, Rig]:
+    """Read one rig or several: an iterable, or a mapping from names to rigs.
+
+    Returns
+    -------
+    dict
+        From names to rigs, in their order. A rig without a name is called by its position.
+
+    Raises
+    ------
+    InputError
+        If there is none, or one is not a rig.
+    """
+    if isinstance(rigs, Mapping):
+        items = [(str(name), rig) for name, rig in rigs.items()]
+    elif is_one_rig(rigs) or not isinstance(rigs, Iterable):
+        items = [("", rigs)]
+    else:
+        items = [("", rig) for rig in rigs]
+    if not items:
+        raise InputError(f"{where}: the list is empty; at least one rig is accepted")
+    read = []
+    for i, (name, item) in enumerate(items):
+        place = where if is_one_rig(rigs) else f"{where}[{name or i}]"
+        rig = _read(item, place, oscillator_alone)
+        read.append((name or rig.name or str(i), rig))
+    # As of two study files of one name in two folders.
+    counts = Counter(name for name, _ in read)
+    return {
+        f"{name} ({i})" if counts[name] > 1 else name: rig for i, (name, rig) in enumerate(read)
+    }
+
+
+def is_one_rig(value: object) -> bool:
+    """Whether a value is one rig, or is meant to be, rather than several."""
+    return isinstance(value, Rig | Case | Oscillator | str | Path)
+
+
+def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
+    if isinstance(value, Rig):
+        return value
+    if isinstance(value, Case):
+        return value.rig
+    if isinstance(value, Path) or (isinstance(value, str) and value.lower().endswith(".toml")):
+        return read_rig_study(Path(value))
+    why = ""
+    if isinstance(value, str):
+        try:
+            return laboratory.case(value).rig
+        except InputError as error:
+            why = f" ({error})"
+    if isinstance(value, Oscillator):
+        if oscillator_alone:
+            return Rig(value)
+        raise InputError(
+            f"{where}: an Oscillator alone does not say what shakes it; Rig(oscillator, shaking) "
+            'is accepted, such as Rig(oscillator, "0.05 g")'
+        )
+    if isinstance(value, Harmonic | Periodic | Record):
+        raise InputError(
+            f"{where}: a {type(value).__name__} alone does not say what vibrates; Rig(oscillator, "
+            "shaking) is accepted"
+        )
+    raise InputError(f"{where}: {shown(value)} is not a rig; {_ACCEPTED}{why}")
+
+
+def from_lowest(rig: Rig, parameter: str, span: Any) -> Rig:
+    """Return a rig at the lowest frequency of a span, if the frequency is varied and left open."""
+    if rig.frequency is None and parameter == "frequency" and is_list(span) and len(span):
+        return rig.at(span[0])
+    return rig

@@ -1,0 +1,273 @@
+"""The rig: what vibrates and what shakes it. The first argument of every public function."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias, cast
+
+from vibroimpact.arguments import is_list
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
+from vibroimpact.model.html_table import table
+from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.quantities import FREQUENCY
+from vibroimpact.model.record import Record
+from vibroimpact.model.units import pretty, to_si
+
+Shaking: TypeAlias = float | str | Harmonic | Periodic | Record | Sequence[float | str]
+"""What a rig may be given as shaking: an amplitude, a text with its unit, one amplitude for each
+frequency of a sweep, or a `Harmonic`, a `Periodic` or a `Record`."""
+
+ANY_FREQUENCY = 1.0
+"""Hz; stands in a periodic shaking whose frequency is left open, and has no meaning there."""
+
+_EXAMPLE = 'Rig(oscillator, "0.05 g") or Rig(oscillator, Harmonic("0.05 g", "2 Hz"))'
+
+
+@dataclass(frozen=True, init=False, slots=True)
+class Rig:
+    """What vibrates and what shakes it.
+
+    Parameters
+    ----------
+    oscillator
+        The mass with its isolator and its stops.
+    shaking
+        The peak A of the base acceleration in m/s², greater than 0; or a text such as
+        ``"0.05 g"``, ``"5 mm"`` (displacement of the base) or ``"120 N"`` (force on the mass). The
+        frequency is then left open. Or a `Harmonic`, a `Periodic` or a `Record`. For sweeps, a
+        list has one amplitude for each frequency. None leaves the shaking open, for functions
+        that get it from elsewhere.
+    frequency
+        Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: that of the shaking; an
+        amplitude alone leaves it open.
+    name
+        What datasets, tables and legends call it.
+
+    Attributes
+    ----------
+    oscillator : Oscillator
+    shaking : Harmonic, Periodic, Record or None
+        Where the frequency is open, that of the shaking has no meaning.
+    frequency : float or None
+        In Hz; None if it is open, or a record shakes the rig.
+    amplitudes : tuple of float or None
+        One for each frequency of a sweep, in the units of the shaking.
+    name : str or None
+
+    Raises
+    ------
+    InputError
+        If the oscillator is not an `Oscillator`, or the shaking or the frequency cannot be used.
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> oscillator = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"))
+    >>> vi.Rig(oscillator, "0.05 g").frequency is None
+    True
+    >>> vi.Rig(oscillator, vi.Harmonic("0.05 g", "2 Hz")).frequency
+    2.0
+    """
+
+    oscillator: Oscillator
+    shaking: Repeated | Record | None
+    frequency: float | None
+    amplitudes: tuple[float, ...] | None
+    name: str | None
+
+    def __init__(
+        self,
+        oscillator: Oscillator,
+        shaking: Shaking | None = None,
+        frequency: float | str | None = None,
+        name: str | None = None,
+    ) -> None:
+        if not isinstance(oscillator, Oscillator):
+            raise InputError(f"oscillator: {_misplaced(oscillator)}; {_EXAMPLE} is accepted")
+        if isinstance(shaking, Oscillator | Rig):
+            raise InputError(f"shaking: {shown(shaking)} does not shake; {_EXAMPLE} is accepted")
+        amplitudes: tuple[float, ...] | None = None
+        own: float | None = None
+        if isinstance(shaking, Harmonic | Periodic):
+            own = shaking.frequency
+        if shaking is not None and not isinstance(shaking, Record):
+            shaking, amplitudes = as_periodic(shaking, "shaking")
+        if frequency is not None:
+            own = to_si(frequency, FREQUENCY, "frequency", above=0.0)
+            if isinstance(shaking, Record):
+                raise InputError(
+                    f"frequency: {own:g} Hz, but the shaking is a Record, which has no frequency; "
+                    "a Harmonic or a Periodic is accepted with one"
+                )
+            if shaking is not None:
+                shaking = shaking.replace(frequency=own)
+        self._set(oscillator, shaking, own, amplitudes, name)
+
+    def _set(
+        self,
+        oscillator: Oscillator,
+        shaking: Repeated | Record | None,
+        frequency: float | None,
+        amplitudes: tuple[float, ...] | None,
+        name: str | None,
+    ) -> None:
+        for field, value in (
+            ("oscillator", oscillator),
+            ("shaking", shaking),
+            ("frequency", frequency),
+            ("amplitudes", amplitudes),
+            ("name", name),
+        ):
+            object.__setattr__(self, field, value)
+
+    @property
+    def amplitude(self) -> float:
+        """Amplitude of the periodic shaking, the largest of several; m/s², m or N."""
+        return self.periodic.amplitude
+
+    @property
+    def periodic(self) -> Repeated:
+        """The periodic shaking.
+
+        Raises
+        ------
+        InputError
+            If a record shakes the rig, or nothing does.
+        """
+        return as_periodic(self.shaking, "shaking")[0]
+
+    @property
+    def harmonic(self) -> Repeated:
+        """The periodic shaking at the frequency of the rig.
+
+        Raises
+        ------
+        InputError
+            As of `periodic`, and if the frequency is open.
+        """
+        found = self.periodic
+        if self.frequency is None:
+            raise InputError(
+                "frequency: missing, and the rig leaves it open; a frequency greater than 0 is "
+                'accepted, such as frequency="2 Hz" or Rig(oscillator, Harmonic("0.05 g", "2 Hz"))'
+            )
+        return found
+
+    @classmethod
+    def of_open_frequency(
+        cls, oscillator: Oscillator, shaking: Repeated | Record | None, name: str | None = None
+    ) -> Rig:
+        """Return a rig whose shaking has a shape, and a frequency without meaning."""
+        rig = cls(oscillator, shaking, name=name)
+        object.__setattr__(rig, "frequency", None)
+        return rig
+
+    @property
+    def record(self) -> Record:
+        """The record that shakes the rig.
+
+        Raises
+        ------
+        InputError
+            If something else does, or nothing.
+        """
+        if not isinstance(self.shaking, Record):
+            raise InputError(
+                f"shaking: {shown(self.shaking)} is not a Record; Rig(oscillator, record) is "
+                "accepted"
+            )
+        return self.shaking
+
+    def at(self, frequency: float | str) -> Rig:
+        """Return the rig shaken at a frequency (Hz, or text with a unit)."""
+        return Rig(self.oscillator, self.periodic, frequency, self.name)
+
+    def with_parts(self, oscillator: Oscillator, shaking: Repeated | Record | None = None) -> Rig:
+        """Return a copy with another oscillator and shaking; an open frequency stays open."""
+        if shaking is None:
+            shaking = self.shaking
+        changed = Rig(oscillator, shaking, name=self.name)
+        if self.frequency is None:
+            object.__setattr__(changed, "frequency", None)
+        object.__setattr__(changed, "amplitudes", self.amplitudes)
+        return changed
+
+    def __repr__(self) -> str:
+        parts = [repr(self.oscillator)]
+        if self.amplitudes is not None:
+            parts.append(repr(list(self.amplitudes)))
+        elif isinstance(self.shaking, Harmonic | Periodic) and self.frequency is None:
+            parts.append(repr(self._open()))
+        elif self.shaking is not None:
+            parts.append(repr(self.shaking))
+        if self.name is not None:
+            parts.append(f"name={self.name!r}")
+        return f"Rig({', '.join(parts)})"
+
+    def __str__(self) -> str:
+        return f"Rig(oscillator={self.oscillator}, shaking={self._shaking_text()})"
+
+    def _repr_html_(self) -> str:
+        title = "Rig" if self.name is None else f"Rig {self.name}"
+        return table(title, [*self.oscillator.rows(), ("shaking", self._shaking_text())])
+
+    def _open(self) -> object:
+        """The shaking whose frequency is open, by its amplitude if that is all there is to it."""
+        shaking = self.periodic
+        if isinstance(shaking, Harmonic) and shaking.phase == 0.0:
+            return shaking.amplitude if shaking.of == "acceleration" else self._shaking_text()
+        return shaking
+
+    def _shaking_text(self) -> str:
+        if isinstance(self.shaking, Harmonic) and self.frequency is None:
+            return pretty(self.shaking.amplitude, self.shaking.quantity)
+        return "open" if self.shaking is None else str(self.shaking)
+
+
+def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] | None]:
+    """Read a periodic shaking: an amplitude, amplitudes, a `Harmonic` or a `Periodic`.
+
+    Returns
+    -------
+    shaking, amplitudes
+        The frequency of an amplitude alone has no meaning. `amplitudes` are those of a list, of
+        which the shaking has the largest.
+
+    Raises
+    ------
+    InputError
+        If it cannot be used, is missing, or is 0.
+    """
+    if isinstance(value, Record):
+        raise InputError(
+            f"{where}: a Record has no period, and a motion that repeats itself is asked for; a "
+            "Harmonic or a Periodic is accepted, and simulate takes records"
+        )
+    if value is None:
+        raise InputError(
+            f"{where}: missing, and the rig does not say it; an acceleration greater than 0 is "
+            'accepted, such as "0.05 g", or a displacement or a force'
+        )
+    if isinstance(value, Harmonic | Periodic):
+        if value.amplitude == 0.0:
+            raise InputError(f"{where}: 0; an amplitude greater than 0 is accepted")
+        return value, None
+    if is_list(value):
+        sizes, of = [], None
+        for i, one in enumerate(cast("Sequence[float | str]", value)):
+            size, of = sized(one, of, f"{where}[{i}]", positive=True)
+            sizes.append(size)
+        if not sizes:
+            raise InputError(f"{where}: the list is empty; an amplitude for each is accepted")
+        return Harmonic(max(sizes), ANY_FREQUENCY, of=of), tuple(sizes)
+    size, of = sized(value, None, where, positive=True)
+    return Harmonic(size, ANY_FREQUENCY, of=of), None
+
+
+def _misplaced(value: object) -> str:
+    """Say what stands in the place of an oscillator."""
+    if isinstance(value, Harmonic | Periodic | Record):
+        return f"a {type(value).__name__} shakes a rig and comes second"
+    return f"{shown(value)} is not an Oscillator"
