@@ -89,7 +89,7 @@ def _gather(
                 title, values, others = signal
                 at = f"{name}/{title}" if name else title
                 groups.setdefault(name, {})[title] = values
-                about[at] = stated(others, f"measurement: {str(path)!r}, {title!r}")
+                about[at] = stated(others)
             else:
                 own = f"{place}({number})" if many and len(value) > 1 else place
                 _gather(path, one, own, groups, about)
@@ -113,6 +113,5 @@ def _signal(record: Mapping[str, Any]) -> tuple[str, Any, dict[str, Any]] | None
     values = [key for key in ("values", "data") if key in record]
     if not names or not values or not record[names[0]]:
         return None
-    used = {names[0], values[0]}
-    texts = {k: v for k, v in record.items() if k not in used and isinstance(v, str | float | int)}
-    return record[names[0]], record[values[0]], texts
+    others = {key: value for key, value in record.items() if key not in (names[0], values[0])}
+    return record[names[0]], record[values[0]], others

@@ -10,12 +10,10 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Column, Columns
-from vibroimpact.measurements.stated import stated
-from vibroimpact.measurements.tables import damaged, known, library, told
-from vibroimpact.model.quantities import TIME
-from vibroimpact.model.units import to_si
+from vibroimpact.measurements.stated import kind_of, stated
+from vibroimpact.measurements.tables import damaged, described, library, told
 from vibroimpact.records.guard import within
-from vibroimpact.records.stated import parted, spelled
+from vibroimpact.records.stated import parted
 
 _LEAD = 28
 """Bytes before each segment: its mark, and how far off the next one is."""
@@ -75,21 +73,19 @@ def _table(path: Path, group: Any, said: dict[str, str]) -> Columns:
     begun = [c.properties[_STARTED] for c in channels if _STARTED in c.properties]
     first = min((np.datetime64(at) for at in begun), default=None)
     columns: list[Column] = []
+    beside = dict(told(str(key), str(value)) for key, value in group.properties.items())
     for channel in channels:
         bare, unit = parted(channel.name)
-        properties = dict(channel.properties)
-        about = stated(properties, f"measurement: {str(path)!r}, channel {channel.name!r}")
+        about = stated(channel.properties)
         values = np.asarray(channel[:])
         if values.dtype.kind not in "fiubc":
             values = values.astype(str)
         elif values.dtype.kind != "c":
-            values = values.astype(float)
-        step, start = about.step, about.start
-        if about.time_unit and step is not None:
-            size = to_si(f"1 {spelled(about.time_unit)}", TIME, f"{channel.name!r}: wf_increment")
-            step, start = step * size, start * size
-        if step is not None and first is not None and _STARTED in properties:
-            start += (np.datetime64(properties[_STARTED]) - first) / np.timedelta64(1, "s")
-        columns.append(Column(bare, unit or known(about.unit), values, step, start))
-    own = {**said, "group": group.name}
+            values = about.holes(values.astype(float))
+        start = about.start
+        if about.step is not None and first is not None and _STARTED in channel.properties:
+            start += (np.datetime64(channel.properties[_STARTED]) - first) / np.timedelta64(1, "s")
+        columns.append(described(bare, values, about._replace(start=start), unit))
+        beside |= {key: text for key, text in about.others.items() if kind_of(key)[0]}
+    own = {**said, **beside, "group": group.name}
     return Columns(str(path), tuple(columns), own)
