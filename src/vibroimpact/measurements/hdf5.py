@@ -13,6 +13,9 @@ from vibroimpact.measurements.stated import Stated, as_text, kind_of, known, sta
 from vibroimpact.measurements.tables import damaged, tables
 from vibroimpact.records.guard import within
 
+_HEAP = b"GCOL\x01\0\0\0"
+"""The beginning of a heap of texts."""
+
 
 def read(path: Path) -> list[Columns]:
     """The tables of a file.
@@ -67,6 +70,7 @@ def read(path: Path) -> list[Columns]:
         said[group] = dict(found.others) | said.get(group, {})
 
     try:
+        _check_heaps(path.read_bytes())
         with h5py.File(path, "r") as file:
             said[""] = _attributes(file)
             file.visititems(visit)
@@ -75,6 +79,27 @@ def read(path: Path) -> list[Columns]:
     except Exception as error:  # h5py raises whatever it meets in a damaged file
         raise damaged(path, "HDF5", error) from None
     return tables(path, groups, about, said)
+
+
+def _check_heaps(data: bytes) -> None:
+    """Check the heaps of texts: HDF5 never ends at free space that has no size.
+
+    Raises
+    ------
+    ValueError
+        If there is one.
+    """
+    at = data.find(_HEAP)
+    while at >= 0:
+        end = min(at + int.from_bytes(data[at + 8 : at + 16], "little"), len(data))
+        item = at + 16
+        while item + 16 <= end:
+            number = int.from_bytes(data[item : item + 2], "little")
+            size = int.from_bytes(data[item + 8 : item + 16], "little")
+            if number == 0 and size == 0:
+                raise ValueError("free space without a size")
+            item += size if number == 0 else 16 + size + -size % 8
+        at = data.find(_HEAP, at + 1)
 
 
 def _attributes(item: Any) -> dict[str, str]:

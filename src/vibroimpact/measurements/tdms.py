@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 import struct
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +34,7 @@ def read(path: Path) -> list[Columns]:
     nptdms = library("nptdms", "tdms", path)
     _whole(path)
     try:
-        with nptdms.TdmsFile.open(str(path)) as file:
+        with _strict(nptdms), nptdms.TdmsFile.open(str(path)) as file:
             size = sum(8 * len(channel) for group in file.groups() for channel in group.channels())
             within(size, path, "measurement")
             said = dict(told(str(key), str(value)) for key, value in file.properties.items())
@@ -41,6 +44,28 @@ def read(path: Path) -> list[Columns]:
     except Exception as error:  # npTDMS raises whatever it meets in a damaged file
         raise damaged(path, "TDMS", error) from None
     return [table for table in found if table.columns]
+
+
+@contextmanager
+def _strict(nptdms: Any) -> Iterator[None]:
+    """Make errors of what npTDMS logs: data that it crops, or a scale that it leaves out.
+
+    Text that is not UTF-8, as of older programs, is read.
+    """
+
+    def refuse(record: logging.LogRecord) -> bool:
+        if record.name != nptdms.types.__name__:
+            raise ValueError(record.getMessage())
+        return False
+
+    loggers = list(nptdms.log.log_manager.loggers.values())
+    for logger in loggers:
+        logger.addFilter(refuse)
+    try:
+        yield
+    finally:
+        for logger in loggers:
+            logger.removeFilter(refuse)
 
 
 def _whole(path: Path) -> None:
