@@ -439,3 +439,41 @@ def test_a_pipe_is_no_file(tmp_path):
     for read in (vi.read_measurement, vi.Record.read):
         with pytest.raises(vi.InputError, match="is no regular file; a file is accepted"):
             read(tmp_path / "pipe")
+
+
+def test_damage_on_which_scipy_ends_the_process_is_refused(tmp_path):
+    """A kind of numbers that does not exist; complex numbers without imaginary parts."""
+    path = tmp_path / "a.mat"
+    scipy.io.savemat(path, {"time": TIME, "u_mm": U})
+    whole = path.read_bytes()
+    for at, bits in ((177, 0x80), (145, 0x08), (180, 0x01)):
+        damaged = bytearray(whole)
+        damaged[at] ^= bits
+        path.write_bytes(damaged)
+        with pytest.raises(vi.InputError, match="is damaged or no MAT file"):
+            vi.read_measurement(path)
+    scipy.io.savemat(path, {"s": scipy.sparse.csc_array(U[:, np.newaxis])})
+    damaged = bytearray(path.read_bytes())
+    at = damaged.index(np.arange(20, 30, dtype="<i4").tobytes())
+    damaged[at + 3] = 0x40
+    path.write_bytes(damaged)
+    with pytest.raises(vi.InputError, match="is damaged or no MAT file"):
+        vi.read_measurement(path)
+
+
+def test_damage_on_which_hdf5_never_ends_is_refused(tmp_path):
+    path = hdf5(tmp_path / "a.h5", units="mm")
+    damaged = bytearray(path.read_bytes())
+    heap = damaged.index(b"GCOL")
+    damaged[heap + 16 : heap + 48] = bytes(32)
+    path.write_bytes(damaged)
+    with pytest.raises(vi.InputError, match="free space without a size"):
+        vi.read_measurement(path)
+
+
+def test_a_scale_that_nptdms_does_not_know_is_refused(tmp_path, capfd):
+    about = {"NI_Number_Of_Scales": 1, "NI_Scaling_Status": "unscaled", "wf_increment": 0.004,
+             "NI_Scale[0]_Scale_Type": "Cubic"}  # fmt: skip
+    with pytest.raises(vi.InputError, match="Unsupported scale type"):
+        vi.read_measurement(tdms(tmp_path / "a.tdms", ("u_mm", U, about)))
+    assert capfd.readouterr().err == ""

@@ -21,6 +21,9 @@ _HEADER, _TAG = 128, 8
 _DIMENSIONS, _ARRAY, _PACKED = 5, 14, 15
 _KINDS = {*range(1, 8), 9, *range(12, 19)}
 """Of elements: numbers, arrays, packed ones and texts."""
+_NUMERIC = {4: 4, 5: 5} | dict.fromkeys(range(6, 16), 4)
+"""Classes of texts, sparse and full numbers: how many parts they have, or one more if complex."""
+_COMPLEX = 0x800
 _DEEPEST = 50
 """Arrays within arrays."""
 
@@ -109,10 +112,19 @@ def _check_array(
         return
     if depth > _DEEPEST:
         raise ValueError(f"arrays within arrays, more than {_DEEPEST} deep")
-    for number, (inner, first, length) in enumerate(_elements(data, at, end, order)):
+    parts = list(_elements(data, at, end, order))
+    if not parts:  # an empty cell
+        return
+    flags = struct.unpack_from(f"{order}I", data, parts[0][1])[0]
+    numeric = _NUMERIC.get(flags & 0xFF)
+    if numeric and len(parts) < numeric + bool(flags & _COMPLEX):
+        raise ValueError(f"an array of {len(parts)} parts")
+    for number, (inner, first, length) in enumerate(parts):
         if number == 1 and inner == _DIMENSIONS:
             sizes = struct.unpack_from(f"{order}{length // 4}i", data, first)
             within(8 * math.prod(map(abs, sizes)), path, "measurement")
+        if numeric and inner == _ARRAY:
+            raise ValueError("an array in place of numbers")
         _check_array(path, data, inner, first, first + length, order, depth + 1)
 
 
