@@ -471,9 +471,16 @@ def test_damage_on_which_hdf5_never_ends_is_refused(tmp_path):
         vi.read_measurement(path)
 
 
-def test_a_scale_that_nptdms_does_not_know_is_refused(tmp_path, capfd):
+def test_scales_that_nptdms_cannot_apply_are_refused(tmp_path, capfd):
     about = {"NI_Number_Of_Scales": 1, "NI_Scaling_Status": "unscaled", "wf_increment": 0.004,
              "NI_Scale[0]_Scale_Type": "Cubic"}  # fmt: skip
-    with pytest.raises(vi.InputError, match="Unsupported scale type"):
-        vi.read_measurement(tdms(tmp_path / "a.tdms", ("u_mm", U, about)))
+    own = {"NI_Scale[0]_Scale_Type": "Linear", "NI_Scale[0]_Linear_Slope": 2.0,
+           "NI_Scale[0]_Linear_Y_Intercept": 0.0, "NI_Scale[0]_Linear_Input_Source": 0}  # fmt: skip
+    for other, told in (
+        ({}, "Unsupported scale type"),
+        ({"NI_Number_Of_Scales": 2**30}, "NI_Number_Of_Scales = 1073741824"),
+        (own, "is damaged or no TDMS file"),
+    ):
+        with pytest.raises(vi.InputError, match=told):
+            vi.read_measurement(tdms(tmp_path / "a.tdms", ("u_mm", U, about | other)))
     assert capfd.readouterr().err == ""

@@ -20,7 +20,7 @@ from vibroimpact.records.stated import parted
 
 _LEAD = 28
 """Bytes before each segment: its mark, and how far off the next one is."""
-_STARTED = "wf_start_time"
+_STARTED, _SCALES = "wf_start_time", "NI_Number_Of_Scales"
 
 
 def read(path: Path) -> list[Columns]:
@@ -102,6 +102,8 @@ def _table(path: Path, group: Any, said: dict[str, str]) -> Columns:
     for channel in channels:
         bare, unit = parted(channel.name)
         about = stated(channel.properties)
+        if channel.properties.get(_SCALES, 0) > len(channel.properties):
+            raise ValueError(f"{_SCALES} = {channel.properties[_SCALES]}")  # npTDMS counts to it
         values = np.asarray(channel[:])
         if values.dtype.kind not in "fiubc":
             values = values.astype(str)
