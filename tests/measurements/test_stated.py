@@ -51,16 +51,150 @@ def test_scales_and_absent_values_of_hdf5(tmp_path):
 @pytest.mark.parametrize(
     ("about", "told"),
     [
-        ({"units": 3}, "its 'units' is .*3.*, which is no unit"),
+        ({"units": 3}, "states units = 3, which is no unit"),
         ({"units": "furlong-ish"}, "a unit that"),
-        ({"units": "mm", "scale": "twice"}, "its 'scale' is 'twice', which is no scale"),
-        ({"units": "mm", "scale_factor": [1.0, 2.0]}, "its 'scale_factor' is .* no scale"),
+        ({"units": "mm", "scale": "twice"}, "states scale = 'twice', which is no scale"),
+        ({"units": "mm", "scale_factor": [1.0, 2.0]}, r"scale_factor = \[1.0, 2.0\], which is no"),
+        ({"units": "mm", "scale": 2.0, "scale_factor": 3.0}, "scale_factor = 3.0 beside the scale"),
+        ({"units": ["mm", "s"]}, r"states units = \['mm', 's'\], which is no unit"),
+        ({"units": "mm", "unit": "m"}, "beside the unit 'm'"),
+        *(
+            ({"units": "mm", name: 0.5}, f"states {name} = 0.5, which may have been applied")
+            for name in ("gain", "Sensitivity", "offset", "full_scale", "cal_factor", "pre_gain")
+        ),
+        ({"units": "mm", "sensitivity": "100 mV/g"}, "'100 mV/g', which may have been applied"),
     ],
 )
 def test_what_looks_like_a_unit_or_scale_and_is_none_is_refused(tmp_path, about, told):
+    path = hdf5(tmp_path / "a.h5", **about)
     with pytest.raises(vi.InputError, match=told) as refused:
-        vi.read_measurement(hdf5(tmp_path / "a.h5", **about))
+        vi.read_measurement(path)
     assert "\n" not in str(refused.value)
+    data = vi.read_measurement(path, units={"displacement": "cm"})
+    factor = about.get("scale") if about.get("scale") == 2.0 else 1.0
+    np.testing.assert_allclose(data["displacement"], 1e-2 * factor * U, rtol=1e-12)
+
+
+def test_what_changes_no_value_is_no_scale(tmp_path):
+    about = {"gain": 1.0, "offset": 0, "calibration_date": "2024-05-01", "unit_under_test": "B2",
+             "units": "mm", "unit": "millimeter", "calibration_due": 2025}  # fmt: skip
+    data = vi.read_measurement(hdf5(tmp_path / "a.h5", **about))
+    np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
+
+
+def beside(path: Path, where: str, name: str, value) -> Path:
+    """A displacement in mm beside which something is stated, in any format."""
+    counts = np.round(1000.0 * U)
+    if where.startswith("mat"):
+        about = {"values": counts, "units": "mm", name: value}
+        record = {"time": TIME, "displacement": counts, "units": "mm", name: value}
+        signal = {"time": TIME, "displacement": {"name": "displacement", **about}}
+        found = {"mat": record, "mat struct": {"run": record}, "mat signal": signal}[where]
+        scipy.io.savemat(path := path / "a.mat", found)
+    elif where.startswith("h5"):
+        with h5py.File(path := path / "a.h5", "w") as file:
+            group = file.create_group("run") if where == "h5 group" else file
+            group["time"], group["displacement"] = TIME, counts
+            group["displacement"].attrs["units"] = "mm"
+            if where == "h5 beside":
+                group[name] = value
+            else:
+                group.attrs[name] = value
+    elif where.startswith("tdms"):
+        nptdms = pytest.importorskip("nptdms")
+        about = {"wf_increment": 0.004, "unit_string": "mm"}
+        extra = {where.removeprefix("tdms "): {name: value}}
+        with nptdms.TdmsWriter(str(path := path / "a.tdms")) as file:
+            file.write_segment([
+                nptdms.RootObject(extra.get("root", {})),
+                nptdms.GroupObject("run", extra.get("group", {})),
+                nptdms.ChannelObject("run", "displacement", counts, about | extra.get("own", {})),
+            ])  # fmt: skip
+    else:
+        rows = "\n".join(f"{t},{u}" for t, u in zip(TIME, counts, strict=True))
+        path = path / "a.csv"
+        path.write_text(f"# {name} = {value}\ntime (s),displacement (mm)\n{rows}\n")
+    return path
+
+
+PLACES = ["mat", "mat struct", "mat signal", "h5", "h5 group", "h5 beside",
+          "tdms own", "tdms group", "tdms root", "csv"]  # fmt: skip
+
+
+@pytest.mark.parametrize("where", PLACES)
+def test_scales_are_used_wherever_they_are_stated(tmp_path, where):
+    for name in ("scale", "scale_factor", "displacement_scale"):
+        if where == "mat signal" and name == "displacement_scale":
+            continue
+        data = vi.read_measurement(beside(tmp_path, where, name, 0.25))
+        np.testing.assert_allclose(data["displacement"], 0.25e-3 * np.round(1000.0 * U), atol=1e-15)
+    for name, value in (("gain", 0.25), ("sensitivity", 0.25), ("scale", "log")):
+        with pytest.raises(vi.InputError, match=f"'displacement': the file states {name} ="):
+            vi.read_measurement(beside(tmp_path, where, name, value))
+
+
+def test_a_scale_beside_several_channels_is_refused(tmp_path):
+    path = tmp_path / "a.mat"
+    scipy.io.savemat(path, {"time": TIME, "u_mm": U, "acceleration": U, "scale": 0.5})
+    with pytest.raises(vi.InputError, match=r"scale = '0\.5', which is of one channel, and"):
+        vi.read_measurement(path)
+    scipy.io.savemat(path, {"time": TIME, "u_mm": U, "acceleration": U, "force_gain": 0.5})
+    with pytest.raises(vi.InputError, match=r"force_gain = '0\.5', and there is no channel"):
+        vi.read_measurement(path)
+
+
+@pytest.mark.parametrize("name", ["UNITS", "Einheiten", "units"])
+@pytest.mark.parametrize("ending", ["mat", "h5"])
+def test_lists_of_units_that_belong_to_no_channel_are_refused(tmp_path, name, ending):
+    path = tmp_path / f"a.{ending}"
+    for given in (["s", "mm"], ["s", "mm", "mm"]):
+        found = {"time": TIME, "u": U, name: np.array(given, dtype=object)}
+        if ending == "mat":
+            scipy.io.savemat(path, found)
+        else:
+            with h5py.File(path, "w") as file:
+                for key, value in found.items():
+                    file[key] = value
+        with pytest.raises(vi.InputError, match=f"the file states {name} = 's, mm"):
+            vi.read_measurement(path)
+        data = vi.read_measurement(path, units={"time": "s", "u": "mm"})
+        np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
+    matrix = {"data": np.column_stack([TIME, U]), "names": np.array(["time", "u"], dtype=object)}
+    path = tmp_path / "b.mat"
+    scipy.io.savemat(path, {**matrix, name: np.array(["s", "mm", "mm"], dtype=object)})
+    with pytest.raises(vi.InputError, match=f"the file states {name} = 's, mm, mm'"):
+        vi.read_measurement(path)
+    scipy.io.savemat(path, {**matrix, name: np.array(["s", "mm"], dtype=object)})
+    np.testing.assert_allclose(vi.read_measurement(path)["displacement"], 1e-3 * U, rtol=1e-12)
+
+
+def test_units_beside_the_columns_of_a_text(tmp_path):
+    rows = "\n".join(f"{t},{u}" for t, u in zip(TIME, U, strict=True))
+    for said in (
+        "# units: s, mm\n",
+        "# unit = mm\n",
+        "# u_unit = mm\n",
+        "# displacement units: mm\n",
+    ):
+        (tmp_path / "a.csv").write_text(f"{said}time,u\n{rows}\n")
+        data = vi.read_measurement(tmp_path / "a.csv")
+        np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
+    (tmp_path / "a.csv").write_text(f"# units: s, mm, g\ntime,u\n{rows}\n")
+    with pytest.raises(vi.InputError, match="'s, mm, g'"):
+        vi.read_measurement(tmp_path / "a.csv")
+
+
+def test_units_of_steps_beside_the_channels(tmp_path):
+    found = {"u_mm": U, "dt": 4.0, "dt_unit": "ms"}
+    for given in (found, {"u_mm": U, "dt": 4.0, "time_unit": "ms"}):
+        scipy.io.savemat(tmp_path / "a.mat", given)
+        data = vi.read_measurement(tmp_path / "a.mat")
+        np.testing.assert_allclose(data["time"], TIME, rtol=1e-12)
+    scipy.io.savemat(tmp_path / "a.mat", {"u_mm": U, "dt": 0.004, "fs": 200.0})
+    with pytest.raises(vi.InputError, match="two different steps"):
+        vi.read_measurement(tmp_path / "a.mat")
+    scipy.io.savemat(tmp_path / "a.mat", {"u_mm": U, "dt": 0.004, "fs": 250.0})
+    np.testing.assert_allclose(vi.read_measurement(tmp_path / "a.mat")["time"], TIME, rtol=1e-12)
 
 
 def test_units_of_a_compound_table(tmp_path):
@@ -180,6 +314,48 @@ def test_channels_of_tdms_keep_their_own_times(tmp_path):
     np.testing.assert_allclose(data["time"], 0.5 + TIME, rtol=1e-9)
 
 
+def test_units_of_tdms_that_differ_are_refused(tmp_path):
+    pair = {"wf_increment": 0.004, "NI_UnitDescription": "m", "unit_string": "mm"}
+    for name, about in (("u", pair), ("u (mm)", {"wf_increment": 0.004, "unit_string": "m"})):
+        path = tdms(tmp_path / "a.tdms", (name, U, about))
+        with pytest.raises(vi.InputError, match=r"states (the units 'mm' and 'm'|unit_string = )"):
+            vi.read_measurement(path)
+    path = tdms(tmp_path / "a.tdms", ("u", U, pair | {"NI_UnitDescription": "Millimeter"}))
+    with pytest.raises(vi.InputError, match="unit"):
+        vi.read_measurement(path)
+    path = tdms(tmp_path / "a.tdms", ("u", U, pair | {"NI_UnitDescription": "millimeter"}))
+    np.testing.assert_allclose(vi.read_measurement(path)["displacement"], 1e-3 * U, rtol=1e-12)
+    path = tdms(tmp_path / "a.tdms", ("u_mm", U, {"wf_increment": 0.004, "unit_string": "m"}))
+    data = vi.read_measurement(path)
+    np.testing.assert_allclose(data["displacement"], U, rtol=1e-12)
+    assert "'u_mm' is taken in m, not in the mm of its name" in data.attrs["notes"]
+
+
+@pytest.mark.parametrize("name", ["displacement", "time"])
+@pytest.mark.parametrize("about", [{"wf_increment": 0.004}, {}])
+def test_an_empty_channel_hides_no_other(tmp_path, name, about):
+    good = ("u_mm", U, {"wf_increment": 0.004})
+    path = tdms(tmp_path / "a.tdms", (name, np.zeros(0), about), good)
+    data = vi.read_measurement(path)
+    np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
+    np.testing.assert_allclose(data["time"], TIME, rtol=1e-12)
+    assert f"without values, and left out: {name}" in data.attrs["notes"]
+
+
+def test_names_of_files_steer_no_terminal(tmp_path):
+    name = "u\x1b[31m\n[x]\u2028_mm"
+    spare = ("spare\x1b[2J\n|<b>", U, {"wf_increment": 0.004})
+    path = tdms(tmp_path / "a.tdms", (name, U, {"wf_increment": 0.004}), spare, group="r\n\x07")
+    data = vi.read_measurement(path)
+    told = data.attrs["notes"] + data.attrs["left_out"]
+    assert "spare" in told
+    assert not any(letter < " " and letter != "\n" for letter in told)
+    assert all(line.startswith(("the time", "not understood", "spare")) for line in
+               (data.attrs["notes"] + "\n" + data.attrs["left_out"]).splitlines())  # fmt: skip
+    again = vi.read_measurement(path, columns={"acceleration": spare[0]}, units={spare[0]: "g"})
+    np.testing.assert_allclose(again["acceleration"], 9.80665 * U, rtol=1e-12)
+
+
 def uff(path: Path, *sets: dict) -> Path:
     pyuff = pytest.importorskip("pyuff")
     file = pyuff.UFF(str(path))
@@ -263,3 +439,48 @@ def test_a_pipe_is_no_file(tmp_path):
     for read in (vi.read_measurement, vi.Record.read):
         with pytest.raises(vi.InputError, match="is no regular file; a file is accepted"):
             read(tmp_path / "pipe")
+
+
+def test_damage_on_which_scipy_ends_the_process_is_refused(tmp_path):
+    """A kind of numbers that does not exist; complex numbers without imaginary parts."""
+    path = tmp_path / "a.mat"
+    scipy.io.savemat(path, {"time": TIME, "u_mm": U})
+    whole = path.read_bytes()
+    for at, bits in ((177, 0x80), (145, 0x08), (180, 0x01)):
+        damaged = bytearray(whole)
+        damaged[at] ^= bits
+        path.write_bytes(damaged)
+        with pytest.raises(vi.InputError, match="is damaged or no MAT file"):
+            vi.read_measurement(path)
+    scipy.io.savemat(path, {"s": scipy.sparse.csc_array(U[:, np.newaxis])})
+    damaged = bytearray(path.read_bytes())
+    at = damaged.index(np.arange(20, 30, dtype="<i4").tobytes())
+    damaged[at + 3] = 0x40
+    path.write_bytes(damaged)
+    with pytest.raises(vi.InputError, match="is damaged or no MAT file"):
+        vi.read_measurement(path)
+
+
+def test_damage_on_which_hdf5_never_ends_is_refused(tmp_path):
+    path = hdf5(tmp_path / "a.h5", units="mm")
+    damaged = bytearray(path.read_bytes())
+    heap = damaged.index(b"GCOL")
+    damaged[heap + 16 : heap + 48] = bytes(32)
+    path.write_bytes(damaged)
+    with pytest.raises(vi.InputError, match="free space without a size"):
+        vi.read_measurement(path)
+
+
+def test_scales_that_nptdms_cannot_apply_are_refused(tmp_path, capfd):
+    about = {"NI_Number_Of_Scales": 1, "NI_Scaling_Status": "unscaled", "wf_increment": 0.004,
+             "NI_Scale[0]_Scale_Type": "Cubic"}  # fmt: skip
+    own = {"NI_Scale[0]_Scale_Type": "Linear", "NI_Scale[0]_Linear_Slope": 2.0,
+           "NI_Scale[0]_Linear_Y_Intercept": 0.0, "NI_Scale[0]_Linear_Input_Source": 0}  # fmt: skip
+    for other, told in (
+        ({}, "Unsupported scale type"),
+        ({"NI_Number_Of_Scales": 2**30}, "NI_Number_Of_Scales = 1073741824"),
+        (own, "is damaged or no TDMS file"),
+    ):
+        with pytest.raises(vi.InputError, match=told):
+            vi.read_measurement(tdms(tmp_path / "a.tdms", ("u_mm", U, about | other)))
+    assert capfd.readouterr().err == ""

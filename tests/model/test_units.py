@@ -371,6 +371,14 @@ def test_units_in_which_a_quantity_is_written_mean_what_pint_says(quantity):
     ("text", "told"),
     [
         ("1 m%", "has a % beside a unit"),
+        ("1 m %", "has a % beside a unit"),
+        ("1 % m", "has a % beside a unit"),
+        ("1 m*%", "has a % beside a unit"),
+        ("1 m percent", "has a percent beside a unit"),
+        ("1 ppm m", "has a ppm beside a unit"),
+        ("1e-9999999999999999999m", "is smaller than any number that can be kept"),
+        ("1e-9999999999999999999", "is smaller than any number that can be kept"),
+        ("1e9999999999999999999m", "is not finite"),
         ("1e-999999999 m", "is smaller than any number that can be kept"),
         ("-1e-400", "is smaller than any number that can be kept"),
         ("1 " + "m*" * 50_000 + "m", "has 100003 letters, more than the 200 of any quantity"),
@@ -382,6 +390,7 @@ def test_texts_that_say_nothing_sure_are_refused_at_once(text, told):
     assert told in str(refused.value)
     assert len(str(refused.value)) < 300
     assert to_si("0e-999999999 m", LENGTH, "gap") == 0.0
+    assert to_si("0e-9999999999999999999m", LENGTH, "gap") == 0.0
 
 
 @pytest.mark.parametrize("value", [1e-320, 1e-101, "1e-200 Hz", 1e101, 1e308, "1e305 kHz"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import random
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -65,6 +66,19 @@ def test_an_overlap_is_no_gap(tmp_path):
         path = traces(tmp_path / "a", ("AAA", "HNE", 0, values), ("AAA", "HNE", at, -1.0 - values))
         with pytest.raises(vi.InputError, match=told):
             vi.Record.read(path, unit="m/s^2")
+
+
+def test_a_gap_of_years_takes_no_memory(tmp_path):
+    """One flipped bit of a date: obspy would fill the gap with samples."""
+    values = np.sin(0.1 * np.arange(500))
+    for at in (5e5, 1e9):  # 5e7 and 1e11 samples
+        path = traces(tmp_path / "a", ("AAA", "HNE", 0, values), ("AAA", "HNE", at, values))
+        tracemalloc.start()
+        with pytest.raises(vi.InputError, match="has gaps"):
+            vi.Record.read(path, unit="m/s^2")
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert peak < 2**26
 
 
 def test_the_scale_of_sac_is_used_of_counts_and_noted_of_others(tmp_path):

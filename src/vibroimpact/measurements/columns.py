@@ -24,6 +24,12 @@ class Column(NamedTuple):
     """Time between its samples (s), where the channel itself states it."""
     start: float = 0.0
     """Time of its first sample (s)."""
+    scale: float | None = None
+    """What its values are still to be multiplied by; None where nothing states it."""
+    offset: float | None = None
+    """What is to be added after that."""
+    doubt: str = ""
+    """What the file states of its unit or its scale and is not understood, in words."""
 
 
 class Columns(NamedTuple):
@@ -35,6 +41,8 @@ class Columns(NamedTuple):
     """What stands beside the numbers, such as ``amplitude``, as it is written."""
     lines: NDArray[np.int64] | None = None
     """Of a text file, the line of each row, from 1 on."""
+    notes: tuple[str, ...] = ()
+    """What was assumed, and what was left out, in words."""
 
     def row(self, i: int) -> str:
         """Where a row stands, in words."""

@@ -9,9 +9,12 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Columns
-from vibroimpact.measurements.stated import Stated, stated
-from vibroimpact.measurements.tables import as_text, damaged, tables
+from vibroimpact.measurements.stated import Stated, as_text, kind_of, known, stated
+from vibroimpact.measurements.tables import damaged, tables
 from vibroimpact.records.guard import within
+
+_HEAP = b"GCOL\x01\0\0\0"
+"""The beginning of a heap of texts."""
 
 
 def read(path: Path) -> list[Columns]:
@@ -45,28 +48,29 @@ def read(path: Path) -> list[Columns]:
         values = item[()]
         if item.attrs.get("MATLAB_class") == b"char":  # its letters, as numbers
             values = "".join(chr(letter) for letter in np.ravel(values))
-        where = f"measurement: {str(path)!r}, {name!r}"
         own, each = _lists(item)
-        if each and isinstance(values, np.ndarray):
-            titles = values.dtype.names
-            if titles:
-                for field, unit in zip(titles, each, strict=False):
-                    groups.setdefault(group, {})[field] = values[field]
-                    about[f"{group}/{field}" if group else field] = Stated(unit=unit or None)
-                return
+        fields = item.dtype.names or ()
+        if fields and set(fields) != {"real", "imag"}:
+            # A table of a compound type is a group of its fields.
+            groups[name] = {field: values[field] for field in fields}
+            for field, unit in zip(fields, each or [""] * len(fields), strict=True):
+                about[f"{name}/{field}"] = Stated(known(unit))
+            said[name] = {key: _joined(value) for key, value in own.items()}
+            return
+        found = stated(own)
+        if each:
             parts = np.moveaxis(values, int(np.argmax(values.shape)), 0)
-            if values.ndim == 2 and parts.shape[1] == len(each):
-                for i, unit in enumerate(each):
-                    field = f"{last} {i + 1}"
-                    groups.setdefault(group, {})[field] = parts[:, i]
-                    about[f"{group}/{field}" if group else field] = Stated(unit=unit or None)
-                return
-        found = stated(own, where)
+            for i, unit in enumerate(each):
+                groups.setdefault(group, {})[f"{last} {i + 1}"] = parts[:, i]
+                field = f"{group}/{last} {i + 1}".removeprefix("/")
+                about[field] = found._replace(unit=known(unit))
+            return
         groups.setdefault(group, {})[last] = values
         about[name] = found
         said[group] = dict(found.others) | said.get(group, {})
 
     try:
+        _check_heaps(path.read_bytes())
         with h5py.File(path, "r") as file:
             said[""] = _attributes(file)
             file.visititems(visit)
@@ -77,25 +81,50 @@ def read(path: Path) -> list[Columns]:
     return tables(path, groups, about, said)
 
 
+def _check_heaps(data: bytes) -> None:
+    """Check the heaps of texts: HDF5 never ends at free space that has no size.
+
+    Raises
+    ------
+    ValueError
+        If there is one.
+    """
+    at = data.find(_HEAP)
+    while at >= 0:
+        end = min(at + int.from_bytes(data[at + 8 : at + 16], "little"), len(data))
+        item = at + 16
+        while item + 16 <= end:
+            number = int.from_bytes(data[item : item + 2], "little")
+            size = int.from_bytes(data[item + 8 : item + 16], "little")
+            if number == 0 and size == 0:
+                raise ValueError("free space without a size")
+            item += size if number == 0 else 16 + size + -size % 8
+        at = data.find(_HEAP, at + 1)
+
+
 def _attributes(item: Any) -> dict[str, str]:
-    """Single values that stand beside a group."""
-    found = {}
-    for name, value in item.attrs.items():
-        if np.size(value) == 1:
-            found[name] = as_text(np.asarray(value).squeeze()[()])
-    return found
+    """What stands beside a group: single values, and lists of units or scales."""
+    return {
+        name: _joined(value)
+        for name, value in item.attrs.items()
+        if np.size(value) == 1 or kind_of(name)[0]
+    }
+
+
+def _joined(value: Any) -> str:
+    return ", ".join(as_text(one) for one in np.ravel(np.asarray(value)))
 
 
 def _lists(item: Any) -> tuple[dict[str, Any], list[str]]:
     """The attributes of a dataset; and the units of its columns, if a list of them is one."""
-    fields = item.dtype.names
-    own = {}
+    own: dict[str, Any] = {}
     each: list[str] = []
-    count = len(fields) if fields else min(item.shape, default=0) if item.ndim == 2 else 0
+    fields = item.dtype.names
+    count = len(fields) if fields else min(item.shape) if item.ndim == 2 else 0
     for name, value in item.attrs.items():
         listed = np.ravel(np.asarray(value))
-        if "unit" in name.lower() and listed.size == count > 1 and listed.dtype.kind in "OSU":
+        if kind_of(name)[0] == "unit" and listed.size == count > 1 and listed.dtype.kind in "OSU":
             each = [as_text(one).strip() for one in listed]
         else:
-            own[name] = as_text(value) if isinstance(value, bytes) else value
+            own[name] = value
     return own, each

@@ -8,6 +8,7 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.scaling import agreed
 from vibroimpact.records.file import File
 from vibroimpact.records.lvm import recognises, segments
 from vibroimpact.records.stated import parted
@@ -33,7 +34,9 @@ def read(path: Path) -> list[Columns] | None:
     for number, signals in enumerate(found, 1):
         begun = len(tables)
         for signal in signals:
-            column = Column(parted(signal.name)[0], signal.unit, signal.values)
+            bare, own = parted(signal.name)
+            unit, doubt = agreed(own, signal.unit)
+            column = Column(bare, unit, signal.values, doubt=doubt)
             for _, columns in tables[begun:]:
                 if np.array_equal(columns[0].values, signal.times):
                     columns.append(column)

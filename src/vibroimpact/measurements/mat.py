@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import struct
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,15 @@ from vibroimpact.measurements.stated import Stated, stated
 from vibroimpact.measurements.tables import damaged, tables
 from vibroimpact.records.guard import MOST_BYTES, unpacked, within
 
-_HEADER, _TAG, _PACKED = 128, 8, 15
+_HEADER, _TAG = 128, 8
+_DIMENSIONS, _ARRAY, _PACKED = 5, 14, 15
+_KINDS = {*range(1, 8), 9, *range(12, 19)}
+"""Of elements: numbers, arrays, packed ones and texts."""
+_NUMERIC = {4: 4, 5: 5} | dict.fromkeys(range(6, 16), 4)
+"""Classes of texts, sparse and full numbers: how many parts they have, or one more if complex."""
+_COMPLEX = 0x800
+_DEEPEST = 50
+"""Arrays within arrays."""
 
 
 def read(path: Path) -> list[Columns]:
@@ -29,44 +38,94 @@ def read(path: Path) -> list[Columns]:
     """
     import scipy.io
 
+    groups: dict[str, dict[str, Any]] = {}
+    about: dict[str, Stated] = {}
     try:
-        _bounded(path)
+        _checked(path)
         found = scipy.io.loadmat(str(path), simplify_cells=True)
+        _gather(path, found, "", groups, about)
     except NotImplementedError:
         return hdf5.read(path)
     except InputError:
         raise
     except Exception as error:  # scipy raises whatever it meets in a damaged file
         raise damaged(path, "MAT", error) from None
-    groups: dict[str, dict[str, Any]] = {}
-    about: dict[str, Stated] = {}
-    _gather(path, found, "", groups, about)
     return tables(path, groups, about)
 
 
-def _bounded(path: Path) -> None:
-    """See to it that the variables of a file do not become too large when they are unpacked.
+def _checked(path: Path) -> None:
+    """Check that the variables of a file are whole, and not too large when they are unpacked.
+
+    SciPy trusts the kinds of elements: a damaged one ends the process.
 
     Raises
     ------
     InputError
-        If they do.
+        If there is too much.
+    ValueError, struct.error, zlib.error, EOFError
+        If the file is damaged.
     """
     data = path.read_bytes()
     order = {b"IM": "<", b"MI": ">"}.get(data[126:128])
     if order is None:  # of another version
         return
-    at = _HEADER
     size = 0
-    while at + _TAG <= len(data):
-        kind, length = struct.unpack_from(f"{order}2I", data, at)
-        at += _TAG
+    for kind, at, length in _elements(data, _HEADER, len(data), order):
+        part, first = data, at
         if kind == _PACKED:
-            size += len(unpacked(data[at : at + length], path, "measurement", gzip=False))
-        else:
-            size += length
+            part = unpacked(data[at : at + length], path, "measurement", gzip=False)
+            first, length = 0, len(part)
+        size += length
         within(size, path, "measurement")
-        at += length
+        if kind == _PACKED:
+            for inner, where, inside in _elements(part, 0, len(part), order):
+                _check_array(path, part, inner, where, where + inside, order)
+        else:
+            _check_array(path, part, kind, first, first + length, order)
+
+
+def _elements(data: bytes, at: int, end: int, order: str) -> Iterator[tuple[int, int, int]]:
+    """Kind, place and length of each element.
+
+    Raises
+    ------
+    ValueError
+        If one has an unknown kind, or is longer than what holds it.
+    """
+    while at + _TAG <= end:
+        kind, length = struct.unpack_from(f"{order}2I", data, at)
+        first, step = at + _TAG, length if kind == _PACKED else length + -length % _TAG
+        if kind >> 16:  # up to four bytes within the tag itself
+            kind, length, first, step = kind & 0xFFFF, kind >> 16, at + 4, 0
+            if length > 4:
+                raise ValueError(f"{length} bytes in an element of 4")
+        if kind not in _KINDS or first + length > end:
+            raise ValueError(f"an element of kind {kind} and {length} bytes")
+        yield kind, first, length
+        at += _TAG + step
+
+
+def _check_array(
+    path: Path, data: bytes, kind: int, at: int, end: int, order: str, depth: int = 0
+) -> None:
+    if kind != _ARRAY:
+        return
+    if depth > _DEEPEST:
+        raise ValueError(f"arrays within arrays, more than {_DEEPEST} deep")
+    parts = list(_elements(data, at, end, order))
+    if not parts:  # an empty cell
+        return
+    flags = struct.unpack_from(f"{order}I", data, parts[0][1])[0]
+    numeric = _NUMERIC.get(flags & 0xFF)
+    if numeric and len(parts) < numeric + bool(flags & _COMPLEX):
+        raise ValueError(f"an array of {len(parts)} parts")
+    for number, (inner, first, length) in enumerate(parts):
+        if number == 1 and inner == _DIMENSIONS:
+            sizes = struct.unpack_from(f"{order}{length // 4}i", data, first)
+            within(8 * math.prod(map(abs, sizes)), path, "measurement")
+        if numeric and inner == _ARRAY:
+            raise ValueError("an array in place of numbers")
+        _check_array(path, data, inner, first, first + length, order, depth + 1)
 
 
 def _gather(
@@ -89,7 +148,7 @@ def _gather(
                 title, values, others = signal
                 at = f"{name}/{title}" if name else title
                 groups.setdefault(name, {})[title] = values
-                about[at] = stated(others, f"measurement: {str(path)!r}, {title!r}")
+                about[at] = stated(others)
             else:
                 own = f"{place}({number})" if many and len(value) > 1 else place
                 _gather(path, one, own, groups, about)
@@ -100,6 +159,9 @@ def _whole(path: Path, value: Any) -> Any:
     if not hasattr(value, "toarray"):
         return value
     within(8 * int(np.prod(value.shape, dtype=float)), path, "measurement")
+    if value.format == "csc":
+        # SciPy writes where the indices say; a damaged one is outside of the matrix.
+        value.check_format(full_check=True)
     return value.toarray()
 
 
@@ -113,6 +175,5 @@ def _signal(record: Mapping[str, Any]) -> tuple[str, Any, dict[str, Any]] | None
     values = [key for key in ("values", "data") if key in record]
     if not names or not values or not record[names[0]]:
         return None
-    used = {names[0], values[0]}
-    texts = {k: v for k, v in record.items() if k not in used and isinstance(v, str | float | int)}
-    return record[names[0]], record[values[0]], texts
+    others = {key: value for key, value in record.items() if key not in (names[0], values[0])}
+    return record[names[0]], record[values[0]], others

@@ -152,10 +152,14 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
     """
     quantity = QUANTITIES[found.variable]
     unit = said or column.unit or found.unit
+    if unit is not None and unit.strip().upper() == "SI":
+        unit = quantity.symbol or "1"
     values = np.asarray(column.values, dtype=float) * found.factor
     notes = []
     if found.factor != 1.0:
         notes.append(f"{column.name!r} is taken as an amplitude, half an excursion")
+    if unit == column.unit and unit and found.unit and not alike(unit, found.unit):
+        notes.append(f"{column.name!r} is taken in {unit}, not in the {found.unit} of its name")
     if unit is not None and unit.strip() not in ("-", "–", "1", ""):
         where = f"measurement: {path!r}, column {column.name!r}"
         if quantity is DIMENSIONLESS and unit.strip() == "%":
@@ -170,6 +174,23 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
         else:
             notes.append(f"{column.name!r} has no unit: taken as {quantity.symbol}")
     return values, "; ".join(notes) or None
+
+
+def alike(one: str, other: str) -> bool:
+    """Whether two texts are the same unit."""
+    if spelled(one) == spelled(other):
+        return True
+    return any(
+        (size := _size(one, quantity)) is not None and size == _size(other, quantity)
+        for quantity in {each.name: each for each in QUANTITIES.values()}.values()
+    )
+
+
+def _size(unit: str, quantity: Quantity) -> float | None:
+    try:
+        return to_si(f"1 {spelled(unit)}", quantity, "unit")
+    except InputError:
+        return None
 
 
 def direction_of(word: object, path: str, where: str) -> Direction:

@@ -11,7 +11,7 @@ import xarray as xr
 from vibroimpact.arguments import check_path, check_texts
 from vibroimpact.datasets.description import describe
 from vibroimpact.datasets.files import load
-from vibroimpact.errors import InputError, shown, unknown, warn_of_input
+from vibroimpact.errors import InputError, printable, shown, unknown, warn_of_input
 from vibroimpact.measurements import hdf5, lvm, mat, tdms, text, uff
 from vibroimpact.measurements.beside import shaking
 from vibroimpact.measurements.columns import Array, Column, Columns
@@ -19,6 +19,7 @@ from vibroimpact.measurements.curves import curves
 from vibroimpact.measurements.histories import history
 from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
 from vibroimpact.measurements.sampling import timed
+from vibroimpact.measurements.scaling import completed, is_channel
 from vibroimpact.records.commas import Decimal, checked
 from vibroimpact.records.guard import regular
 
@@ -102,13 +103,17 @@ def read_measurement(
     regular(file, "measurement")
     if file.suffix.lower() == ".nc":
         return _checked(load(file))
-    tables = [table for table in _tables(file, checked(decimal)) if table.columns]
-    tables = [part for table in tables for part in _runs(table)]
+    columns = {variable: _clean(name) for variable, name in (columns or {}).items()}
+    units = {_clean(name): unit for name, unit in (units or {}).items()}
+    tables = [_cleaned(table) for table in _tables(file, checked(decimal))]
+    tables = [completed(part) for table in tables for part in _runs(table)]
+    tables = [_filled(table, set(columns.values())) for table in tables]
+    tables = [part for table in tables if table.columns for part in timed(table)]
     notes: list[str] = []
     facts: list[str] = []
-    tables = [part for table in tables for part in timed(table, notes)]
-    table = _chosen(str(path), tables, group, set((columns or {}).values()), notes)
-    known, left = _known(table, columns or {}, units or {}, notes)
+    table = _chosen(str(path), tables, group, set(columns.values()), notes)
+    notes += table.notes
+    known, left = _known(table, columns, units, notes)
     variables = {found.variable for found, _ in known.values()}
     if "frequency" in variables and variables & set(CURVES):
         data, kind = curves(table, known, direction, notes, facts), "curves"
@@ -138,6 +143,37 @@ def _tables(file: Path, decimal: Decimal | None) -> list[Columns]:
         return reader(file)
     found = lvm.read(file)
     return text.read(file, decimal) if found is None else found
+
+
+def _clean(name: str) -> str:
+    """A name on one line, without control characters."""
+    return " ".join(printable(name).split())
+
+
+def _cleaned(table: Columns) -> Columns:
+    """A table whose names, units and other texts are each one line, without control characters."""
+    return table._replace(
+        columns=tuple(
+            one._replace(name=_clean(one.name), unit=one.unit and _clean(one.unit))
+            for one in table.columns
+        ),
+        said={_clean(key): _clean(text) for key, text in table.said.items()},
+    )
+
+
+def _filled(table: Columns, wanted: set[str]) -> Columns:
+    """A table without channels that hold nothing, which would stand for others of their meaning."""
+    empty = [
+        column
+        for column in table.columns
+        if column.name not in wanted and column.values.dtype.kind in "fiub"
+        and np.isnan(column.values).all()
+    ]  # fmt: skip
+    kept = tuple(one for one in table.columns if not any(one is other for other in empty))
+    if not empty or not any(map(is_channel, kept)):
+        return table
+    told = f"without values, and left out: {', '.join(column.name for column in empty)}"
+    return table._replace(columns=kept, notes=(*table.notes, told))
 
 
 def is_measured(data: object) -> bool:
@@ -266,6 +302,12 @@ def _known(
             left.append(f"{column.name}{kind}")
             continue
         unit = units.get(said.variable) or units.get(column.name)
+        if column.doubt and unit is None:
+            raise InputError(
+                f"measurement: {table.path!r}, column {column.name!r}: the file states "
+                f"{column.doubt}; units={{{column.name!r}: UNIT}} (--units), with the unit of the "
+                "values as they stand in the file, is accepted"
+            )
         values, told = in_si(column, said, unit, table.path)
         for row in np.flatnonzero(np.isinf(values))[:1]:
             raise InputError(

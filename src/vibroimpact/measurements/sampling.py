@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Column, Columns, of_one_length
 from vibroimpact.measurements.names import meaning
 from vibroimpact.model.quantities import FREQUENCY, TIME
@@ -16,8 +17,11 @@ _RATES = {"fs", "samplerate", "samplingrate", "samplefrequency", "samplingfreque
 _STEPS = {"dt", "ts", "deltat", "timestep", "samplinginterval", "sampleinterval",
           "samplingperiod", "timeincrement", "increment", "wfincrement"}  # fmt: skip
 
+_SAME = 1e-3
+"""Share of a step by which another one that a file states may differ by rounding."""
 
-def timed(table: Columns, notes: list[str]) -> list[Columns]:
+
+def timed(table: Columns) -> list[Columns]:
     """A table with a time, made of how its channels were sampled where it has none.
 
     Channels that were sampled otherwise than others are tables of their own.
@@ -49,7 +53,7 @@ def timed(table: Columns, notes: list[str]) -> list[Columns]:
                 told = f"the time is made of {given[0]} = {table.said[given[0]]}, from 0 s on"
             else:
                 told = f"the time is made of the step of {step:g} s, from {start:g} s on"
-            notes.append(told)
+            part = part._replace(notes=(*part.notes, told))
         if len(groups) > 1:
             name = table.said.get("group", "")
             how = f"{step:g} s from {start:g} s on" if step is not None else "without times"
@@ -65,7 +69,37 @@ def is_sampling(name: str) -> bool:
 
 def _stated(said: Mapping[str, str]) -> tuple[str, float] | None:
     """What a file calls its sampling, and the seconds between two samples."""
-    return next(((name, step_of(name, said[name])) for name in said if is_sampling(name)), None)
+    own = {name: text for name, text in said.items() if is_sampling(name)}
+    return (next(iter(own)), one_step(own)) if own else None
+
+
+def one_step(said: Mapping[str, str], unit: str | None = None) -> float:
+    """The seconds between two samples that rates and steps state.
+
+    Parameters
+    ----------
+    said
+        Rates and steps, by what a file calls them.
+    unit
+        Of steps that have none of their own; None for s.
+
+    Raises
+    ------
+    InputError
+        If one cannot be read, or is not above 0, or two differ.
+    """
+    found: dict[str, float] = {}
+    for name, text in said.items():
+        bare = isinstance(_number(text), float) and not is_rate(name)
+        found[name] = step_of(name, f"{text} {unit}" if bare and unit else text)
+    (first, step), *others = found.items()
+    for name, other in others:
+        if abs(other - step) > _SAME * step:
+            raise InputError(
+                f"{name}: {said[name]!r:.40} beside {first} = {said[first]!r:.40}: they are two "
+                "different steps; one is accepted"
+            )
+    return step
 
 
 def step_of(name: str, value: str) -> float:
@@ -76,9 +110,14 @@ def step_of(name: str, value: str) -> float:
     InputError
         If it cannot be read, or is not above 0.
     """
-    if re.sub(r"[^a-z]", "", name.lower()) in _RATES:
+    if is_rate(name):
         return 1.0 / to_si(_number(value), FREQUENCY, name, above=0.0)
     return to_si(_number(value), TIME, name, above=0.0)
+
+
+def is_rate(name: str) -> bool:
+    """Whether a name is that of a sampling rate."""
+    return re.sub(r"[^a-z]", "", name.lower()) in _RATES
 
 
 def _number(text: str) -> float | str:

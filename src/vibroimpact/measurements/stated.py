@@ -1,37 +1,67 @@
 """What the attributes of a channel state of it: its unit, its scale, its step, what is absent.
 
 One reader for all formats: HDF5's attributes, TDMS's properties, fields of MATLAB's structures.
-What looks like a unit or a scale and is not understood is an error.
+What looks like a unit or a scale and is not understood is a doubt, which becomes an error where the
+channel is used.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, shown
-from vibroimpact.measurements.sampling import is_sampling, step_of
+from vibroimpact.errors import shown
+from vibroimpact.measurements.beside import is_number
+from vibroimpact.measurements.names import alike
+from vibroimpact.measurements.sampling import is_sampling, one_step, step_of
+from vibroimpact.records.stated import spelled
 
-_UNIT = re.compile(r"unit|einheit", re.IGNORECASE)
-_NO_UNITS = {"niexpectsunit", "unitsystem", "unitsystems", "displayunit"}
-_OF_TIMES = re.compile(r"^(?:t|x|time|wf_?x|abscissa|zeit)_?(?:axis_?)?unit", re.IGNORECASE)
-_SCALES = {"scalefactor", "scale", "scaling", "scalingfactor", "multiplier", "slope"}
-_OFFSETS = {"addoffset", "scaleoffset", "intercept"}
+Kind = Literal["unit", "time_unit", "scale", "offset", "unclear"]
+
+_OF_UNITS = re.compile(
+    r"([^\W\d_]*?)(?:units?|einheit(?:en)?)(?:string|text|label|lab|name|desc(?:ription)?)?"
+)
+_NO_UNITS = {"under", "id", "serial", "number", "system", "systems", "expects", "display", "code"}
+"""Words that make of a unit something else, as in ``unit_under_test``."""
+_OF_TIMES = {"t", "x", "time", "wf x", "x axis", "abscissa", "zeit"}
+_SCALES = {"scalefactor", "scale", "scaling", "scalingfactor", "multiplier"}
+_OFFSETS = {"addoffset", "scaleoffset"}
+_OF_SCALES = re.compile(
+    r"\b(?:full ?)?(?:scales?|scaling|gains?|sensitivity|calibration|cal|conversion|multiplier"
+    r"|slope|intercept|(?:dc|zero|add|scale) ?offset|lsb)(?: ?factors?)?\b"
+)
+_NO_SCALES = {"date", "due", "year", "time", "start"}
+_ONLY_OFFSET = {"offset", "bias"}
+_BESIDE_UNITS = {
+    "string",
+    "text",
+    "label",
+    "lab",
+    "name",
+    "desc",
+    "description",
+    "wf",
+    "ni",
+    "axis",
+}
 _ABSENT = {"fillvalue", "missingvalue"}
 _STARTS = {"wfstartoffset", "tstart", "starttime", "xstart"}
+_APPLIED_BY_READERS = ("ni scale", "ni scaling", "ni number of scales")
+"""Of TDMS: npTDMS applies them."""
 
 
 class Stated(NamedTuple):
     """What is stated of a channel."""
 
     unit: str | None = None
-    time_unit: str | None = None
-    scale: float = 1.0
-    offset: float = 0.0
+    scale: float | None = None
+    offset: float | None = None
+    doubt: str = ""
+    """What looks like a unit or a scale and is not understood, in words."""
     absent: tuple[float, ...] = ()
     step: float | None = None
     """In s."""
@@ -40,94 +70,159 @@ class Stated(NamedTuple):
     others: Mapping[str, str] = {}
     """What is not one of these."""
 
-    @property
-    def changes(self) -> bool:
-        """Whether values are not as they stand in the file."""
-        return self.scale != 1.0 or self.offset != 0.0 or bool(self.absent)
-
-    def applied(self, values: NDArray[Any], where: str) -> NDArray[Any]:
-        """The values with scale and offset, NaN where they are absent.
-
-        Raises
-        ------
-        InputError
-            If they are words or complex numbers.
-        """
-        if not self.changes:
+    def holes(self, values: NDArray[Any]) -> NDArray[Any]:
+        """The values, NaN where they are absent."""
+        if not self.absent or values.dtype.kind not in "fiub":
             return values
-        if values.dtype.kind not in "fiub":
-            raise InputError(f"{where}: it has a scale, and is no list of numbers")
-        gone = np.isin(values, self.absent)
-        found = values.astype(float) * self.scale + self.offset
-        found[gone] = np.nan
-        return np.asarray(found)
+        return np.where(np.isin(values, self.absent), np.nan, values.astype(float))
 
 
-def stated(attributes: Mapping[str, Any], where: str) -> Stated:
+def words_in(name: str) -> list[str]:
+    """The words of the name of an attribute, in small letters: ``NI_UnitDescription`` has three."""
+    parted = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name)
+    return [word.lower() for word in re.findall(r"[^\W\d_]+|\d+", parted)]
+
+
+def kind_of(name: str) -> tuple[Kind | None, str]:
+    """What the name of an attribute looks like, and the channel that it names, if any.
+
+    ``t_unit`` looks like the unit of times and names ``t``; ``gain`` is unclear, since it may have
+    been applied or not.
+    """
+    words = words_in(name)
+    text, key = " ".join(words), "".join(words)
+    if text.startswith(_APPLIED_BY_READERS) or key in _STARTS | _ABSENT:
+        return None, ""
+    units = [found for word in words if (found := _OF_UNITS.fullmatch(word))]
+    if units and not _NO_UNITS & set(words):
+        kept = [found[1] if (found := _OF_UNITS.fullmatch(word)) else word for word in words]
+        about = [word for word in kept if word and word not in _BESIDE_UNITS]
+        spoken = " ".join(word for word in kept if word)
+        timed = " ".join(about) in _OF_TIMES or spoken in _OF_TIMES
+        return ("time_unit" if timed else "unit"), "".join(about)
+    if key in _SCALES:
+        return "scale", ""
+    if key in _OFFSETS:
+        return "offset", ""
+    if _NO_SCALES & set(words):
+        return None, ""
+    if found := _OF_SCALES.search(text):
+        own = found[0].replace(" ", "")
+        rest = "".join((text[: found.start()] + text[found.end() :]).split())
+        return ("scale" if own in _SCALES else "offset" if own in _OFFSETS else "unclear"), rest
+    if words and words[-1] in _ONLY_OFFSET:
+        return "unclear", "".join(words[:-1])
+    return None, ""
+
+
+def stated(attributes: Mapping[str, Any]) -> Stated:
     """Read the attributes of a channel.
 
     Parameters
     ----------
     attributes
         By name; texts, numbers or lists of one.
-    where
-        The channel, as a message names it.
 
     Raises
     ------
     InputError
-        If one looks like a unit or a scale and is not understood.
+        If its step cannot be read.
     """
     found: dict[str, Any] = {}
     others: dict[str, str] = {}
+    steps: dict[str, str] = {}
+    time_unit: tuple[str, str] | None = None
+    doubts = []
     for name, given in attributes.items():
-        value = _single(given)
-        key = re.sub(r"[^a-z]", "", name.lower())
-        if _UNIT.search(name) and key not in _NO_UNITS:
-            text = "" if value is None and np.size(given) == 0 else value
-            if not isinstance(text, str):
-                raise InputError(
-                    f"{where}: its {name!r} is {shown(given)}, which is no unit; a text such as "
-                    "'m/s^2' is accepted"
-                )
-            if text.strip().upper() not in ("", "NONE"):
-                found["time_unit" if _OF_TIMES.match(name) else "unit"] = text.strip()
-        elif key in _SCALES | _OFFSETS:
-            number = _number(value)
-            if number is None or (key in _SCALES and number == 0.0):
-                raise InputError(
-                    f"{where}: its {name!r} is {shown(given)}, which is no scale or offset; a "
-                    "number is accepted"
-                )
-            found["scale" if key in _SCALES else "offset"] = number
+        value = single(given)
+        kind, _ = kind_of(name)
+        key = "".join(words_in(name))
+        if kind == "time_unit":
+            if known(value):
+                time_unit = name, str(value)
+        elif kind is not None:
+            read, doubt = one(kind, value, given)
+            field = str(kind)
+            seen = shown(np.ravel(np.asarray(given)).tolist() if value is None else value)
+            if doubt:
+                doubts.append(f"{name} = {seen}, which {doubt}")
+            elif read is not None and not _agree(found.setdefault(field, read), read):
+                doubts.append(f"{name} = {seen} beside the {field} {found[field]!r}")
         elif key in _ABSENT:
-            numbers = [_number(one) for one in np.ravel(np.asarray(given))]
+            numbers = [number(one) for one in np.ravel(np.asarray(given))]
             found["absent"] = (*found.get("absent", ()), *(n for n in numbers if n is not None))
-        elif key in _STARTS and _number(value) is not None:
-            found["start"] = _number(value)
-        elif is_sampling(name) and value is not None and np.size(given) == 1:
-            found["step"] = step_of(name, str(value))
+        elif key in _STARTS and number(value) is not None:
+            found["start"] = number(value)
+        elif is_sampling(name) and value is not None:
+            steps[name] = str(value)
         elif value is not None:
             others[name] = str(value)
-    return Stated(**found, others=others)
+    if steps:
+        unit = spelled(time_unit[1]) if time_unit else None
+        found["step"] = one_step(steps, unit)
+        if unit and "start" in found:
+            found["start"] *= step_of("dt", f"1 {unit}")
+    elif time_unit:
+        others[time_unit[0]] = time_unit[1]
+    return Stated(**found, doubt="; ".join(doubts), others=others)
 
 
-def _single(value: Any) -> Any:
+def _agree(first: str | float, other: str | float) -> bool:
+    if isinstance(first, str) and isinstance(other, str):
+        return alike(first, other)
+    return first == other
+
+
+def one(kind: Kind, value: Any, given: Any) -> tuple[str | float | None, str]:
+    """A unit, scale or offset that an attribute states; or why it is none, in words."""
+    if kind in ("unit", "time_unit"):
+        text = "" if value is None and np.size(given) == 0 else value
+        if not isinstance(text, str):
+            return None, "is no unit; a text such as 'm/s^2' is accepted"
+        return known(text), ""
+    size = number(value)
+    if kind == "unclear":
+        # A gain of 1, an offset or decibels of 0, and words such as a date change nothing.
+        nothing = size in (0.0, 1.0) or (isinstance(value, str) and not is_number(value))
+        return None, "" if nothing else "may have been applied to the values or not"
+    if size is None or (kind == "scale" and size == 0.0):
+        return None, "is no scale or offset; a number is accepted"
+    return size, ""
+
+
+def known(value: Any) -> str | None:
+    """A text that says something; None of others."""
+    text = "" if value is None else as_text(value).strip()
+    return None if text.upper() in ("", "NONE") else text
+
+
+def as_text(value: Any) -> str:
+    """A text; bytes as UTF-8, or as Latin-1 where they are none."""
+    if not isinstance(value, bytes):
+        return str(value)
+    try:
+        return value.decode()
+    except UnicodeDecodeError:
+        return value.decode("latin-1")
+
+
+def single(value: Any) -> Any:
     """A text or a number; None of lists."""
-    if isinstance(value, bytes):
-        return value.decode("utf-8", "replace")
-    if isinstance(value, str):
-        return value
+    if isinstance(value, str | bytes):
+        return as_text(value)
     array = np.asarray(value)
     if array.size != 1:
         return None
-    one = array.ravel()[0]
-    return one.decode("utf-8", "replace") if isinstance(one, bytes) else one
+    own = array.ravel()[0]
+    if isinstance(own, bytes):
+        return as_text(own)
+    return own.item() if isinstance(own, np.number | np.str_) else own
 
 
-def _number(value: Any) -> float | None:
+def number(value: Any) -> float | None:
+    """A finite number, or a text of one; None of anything else."""
     try:
-        number = float(value)
-    except (TypeError, ValueError):
+        size = float(value)
+    except (TypeError, ValueError, OverflowError):
         return None
-    return number if np.isfinite(number) else None
+    return size if np.isfinite(size) else None

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -14,12 +13,10 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.beside import with_unit
 from vibroimpact.measurements.columns import Column, Columns
-from vibroimpact.measurements.names import AXES, meaning
-from vibroimpact.measurements.stated import Stated
+from vibroimpact.measurements.scaling import agreed, completed, doubtful
+from vibroimpact.measurements.stated import Stated, as_text, kind_of, known
 from vibroimpact.records.guard import few_columns
 from vibroimpact.records.stated import parted
-
-_UNIT_WORDS = {"unit", "units", "einheit", "einheiten"}
 
 
 def tables(
@@ -50,9 +47,8 @@ def _together(path: Path, tables: list[Columns]) -> Columns:
     beside: dict[str, str] = {}
     for table in tables:
         (column,) = table.columns
-        said = {key if key.lower() != "unit" else "unit": text for key, text in table.said.items()}
-        name, unit = said.pop("group", column.name), said.pop("unit", None)
-        found.append(column._replace(name=name, unit=column.unit or unit))
+        said = dict(table.said)
+        found.append(column._replace(name=said.pop("group", column.name)))
         beside |= said
     return Columns(str(path), tuple(found), beside)
 
@@ -79,7 +75,7 @@ def columns(
     Raises
     ------
     InputError
-        If a unit stands beside several channels that have none.
+        If a matrix has too many columns.
     """
     beside = dict(told(name, value) for name, value in said.items())
     vectors: dict[str, NDArray[Any]] = {}
@@ -87,9 +83,6 @@ def columns(
         values = np.asarray(value)
         if values.dtype.names and set(values.dtype.names) == {"real", "imag"}:
             values = np.zeros(values.shape, dtype=complex)  # as MATLAB keeps complex numbers
-        if values.dtype.names:  # a compound type, a field a column
-            vectors |= {field: np.squeeze(values[field]) for field in values.dtype.names}
-            continue
         if values.dtype.kind == "O":
             values = np.array([as_text(one) for one in values.ravel()])
         values = np.squeeze(values)
@@ -99,8 +92,7 @@ def columns(
             unit = about.get(name, Stated()).unit
             beside |= [told(name, with_unit(as_text(values[()]), unit))]
         else:
-            where = f"measurement: {str(path)!r}, {name!r}"
-            vectors[name] = about.get(name, Stated()).applied(values, where)
+            vectors[name] = about.get(name, Stated()).holes(values)
     found: list[Column] = []
     used: set[str] = set()
     for name, values in vectors.items():
@@ -116,48 +108,21 @@ def columns(
         own = about.get(name, Stated())
         for one, unit, column in zip(names, each, table.T, strict=True):
             bare, stated = parted(one)
-            unit = stated or known(unit) or own.unit
-            found.append(Column(bare, unit, column, own.step, own.start))
+            found.append(described(bare, column, own, stated, known(unit)))
     for name, values in vectors.items():
         if (values.ndim == 1 or values.dtype.kind == "c") and name not in used:
             bare, unit = parted(name)
             own = about.get(name, Stated())
             values = values.ravel() if values.dtype.kind in "Uc" else values.astype(float)
-            found.append(Column(bare, unit or own.unit, values, own.step, own.start))
-    found = _with_units(path, found, beside)
-    return Columns(str(path), tuple(found), beside)
+            found.append(described(bare, values, own, unit))
+    return completed(Columns(str(path), tuple(found), beside))
 
 
-def _with_units(path: Path, found: list[Column], beside: dict[str, str]) -> list[Column]:
-    """Columns with the units that texts beside them state: ``t_unit`` of ``t``, or ``unit``."""
-    texts = {re.sub(r"[\W_]+", "", name.lower()): name for name in beside}
-    named = []
-    for column in found:
-        key = re.sub(r"[\W_]+", "", column.name.lower())
-        stated = next((texts[key + u] for u in ("unit", "units") if key + u in texts), None)
-        if stated is not None and column.unit is None:
-            column = column._replace(unit=beside.pop(stated))
-        named.append(column)
-    said = [name for name in beside if name.lower() in _UNIT_WORDS]
-    without = [
-        i
-        for i, column in enumerate(named)
-        if column.unit is None and column.values.dtype.kind not in "Uc" and not _is_axis(column)
-    ]
-    if not said or not without:
-        return named
-    if len(without) > 1:
-        raise InputError(
-            f"measurement: {str(path)!r} states {said[0]} = {beside[said[0]]!r:.40} beside "
-            f"{len(without)} channels; one unit for each is accepted, or units={{CHANNEL: UNIT}}"
-        )
-    named[without[0]] = named[without[0]]._replace(unit=beside.pop(said[0]))
-    return named
-
-
-def _is_axis(column: Column) -> bool:
-    found = meaning(column.name)
-    return found is not None and found.variable in AXES
+def described(name: str, values: NDArray[Any], own: Stated, *units: str | None) -> Column:
+    """A channel with what is stated of it."""
+    unit, doubt = agreed(*units, own.unit)
+    column = Column(name, unit, values, own.step, own.start, own.scale, own.offset, own.doubt)
+    return doubtful(column, doubt)
 
 
 def told(name: str, text: str) -> tuple[str, str]:
@@ -175,24 +140,8 @@ def _words(
         for name, values in vectors.items()
         if values.ndim == 1 and values.dtype.kind == "U" and len(values) == count
     }
-    told = {name: words for name, words in lists.items() if name.lower().startswith("unit")}
+    told = {name: words for name, words in lists.items() if kind_of(name)[0] == "unit"}
     return {name: words for name, words in lists.items() if name not in told}, told
-
-
-def known(value: Any) -> str | None:
-    """A text that says something; None of others."""
-    text = "" if value is None else as_text(value).strip()
-    return None if text.upper() in ("", "NONE") else text
-
-
-def as_text(value: Any) -> str:
-    """A text; bytes as UTF-8, or as Latin-1 where they are none."""
-    if not isinstance(value, bytes):
-        return str(value)
-    try:
-        return value.decode()
-    except UnicodeDecodeError:
-        return value.decode("latin-1")
 
 
 def library(name: str, extra: str, path: Path) -> Any:

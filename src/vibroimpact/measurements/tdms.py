@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 import struct
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -10,16 +13,14 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Column, Columns
-from vibroimpact.measurements.stated import stated
-from vibroimpact.measurements.tables import damaged, known, library, told
-from vibroimpact.model.quantities import TIME
-from vibroimpact.model.units import to_si
+from vibroimpact.measurements.stated import kind_of, stated
+from vibroimpact.measurements.tables import damaged, described, library, told
 from vibroimpact.records.guard import within
-from vibroimpact.records.stated import parted, spelled
+from vibroimpact.records.stated import parted
 
 _LEAD = 28
 """Bytes before each segment: its mark, and how far off the next one is."""
-_STARTED = "wf_start_time"
+_STARTED, _SCALES = "wf_start_time", "NI_Number_Of_Scales"
 
 
 def read(path: Path) -> list[Columns]:
@@ -33,7 +34,7 @@ def read(path: Path) -> list[Columns]:
     nptdms = library("nptdms", "tdms", path)
     _whole(path)
     try:
-        with nptdms.TdmsFile.open(str(path)) as file:
+        with _strict(nptdms), nptdms.TdmsFile.open(str(path)) as file:
             size = sum(8 * len(channel) for group in file.groups() for channel in group.channels())
             within(size, path, "measurement")
             said = dict(told(str(key), str(value)) for key, value in file.properties.items())
@@ -43,6 +44,28 @@ def read(path: Path) -> list[Columns]:
     except Exception as error:  # npTDMS raises whatever it meets in a damaged file
         raise damaged(path, "TDMS", error) from None
     return [table for table in found if table.columns]
+
+
+@contextmanager
+def _strict(nptdms: Any) -> Iterator[None]:
+    """Make errors of what npTDMS logs: data that it crops, or a scale that it leaves out.
+
+    Text that is not UTF-8, as of older programs, is read.
+    """
+
+    def refuse(record: logging.LogRecord) -> bool:
+        if record.name != nptdms.types.__name__:
+            raise ValueError(record.getMessage())
+        return False
+
+    loggers = list(nptdms.log.log_manager.loggers.values())
+    for logger in loggers:
+        logger.addFilter(refuse)
+    try:
+        yield
+    finally:
+        for logger in loggers:
+            logger.removeFilter(refuse)
 
 
 def _whole(path: Path) -> None:
@@ -75,21 +98,21 @@ def _table(path: Path, group: Any, said: dict[str, str]) -> Columns:
     begun = [c.properties[_STARTED] for c in channels if _STARTED in c.properties]
     first = min((np.datetime64(at) for at in begun), default=None)
     columns: list[Column] = []
+    beside = dict(told(str(key), str(value)) for key, value in group.properties.items())
     for channel in channels:
         bare, unit = parted(channel.name)
-        properties = dict(channel.properties)
-        about = stated(properties, f"measurement: {str(path)!r}, channel {channel.name!r}")
+        about = stated(channel.properties)
+        if channel.properties.get(_SCALES, 0) > len(channel.properties):
+            raise ValueError(f"{_SCALES} = {channel.properties[_SCALES]}")  # npTDMS counts to it
         values = np.asarray(channel[:])
         if values.dtype.kind not in "fiubc":
             values = values.astype(str)
         elif values.dtype.kind != "c":
-            values = values.astype(float)
-        step, start = about.step, about.start
-        if about.time_unit and step is not None:
-            size = to_si(f"1 {spelled(about.time_unit)}", TIME, f"{channel.name!r}: wf_increment")
-            step, start = step * size, start * size
-        if step is not None and first is not None and _STARTED in properties:
-            start += (np.datetime64(properties[_STARTED]) - first) / np.timedelta64(1, "s")
-        columns.append(Column(bare, unit or known(about.unit), values, step, start))
-    own = {**said, "group": group.name}
+            values = about.holes(values.astype(float))
+        start = about.start
+        if about.step is not None and first is not None and _STARTED in channel.properties:
+            start += (np.datetime64(channel.properties[_STARTED]) - first) / np.timedelta64(1, "s")
+        columns.append(described(bare, values, about._replace(start=start), unit))
+        beside |= {key: text for key, text in about.others.items() if kind_of(key)[0]}
+    own = {**said, **beside, "group": group.name}
     return Columns(str(path), tuple(columns), own)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.beside import is_number, with_unit
 from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.scaling import agreed
 from vibroimpact.records.commas import Decimal, decimal_mark
 from vibroimpact.records.guard import few_columns
 from vibroimpact.records.stated import are_units, parted
@@ -87,14 +88,10 @@ def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
     columns = []
     for j, name in enumerate(named[-1]):
         cells = [row[j] for _, row in body]
-        bare, unit = parted(name)
-        columns.append(
-            Column(
-                bare,
-                unit or (units[j] if units else None) or None,
-                _values(str(path), bare, cells, [number for number, _ in body], decimal),
-            )
-        )
+        bare, own = parted(name)
+        unit, doubt = agreed(own, units[j] if units else None)
+        values = _values(str(path), bare, cells, [number for number, _ in body], decimal)
+        columns.append(Column(bare, unit, values, doubt=doubt))
     numbers = np.array([number for number, _ in body])
     return [Columns(str(path), tuple(columns), said, numbers)]
 

@@ -12,7 +12,9 @@ import numpy as np
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.names import meaning
-from vibroimpact.measurements.tables import damaged, known, library
+from vibroimpact.measurements.scaling import agreed
+from vibroimpact.measurements.stated import known
+from vibroimpact.measurements.tables import damaged, library
 from vibroimpact.records.stated import parted, spelled
 
 _ORDINATES = {8: "displacement", 9: "force", 11: "velocity", 12: "acceleration"}
@@ -45,12 +47,12 @@ def read(path: Path) -> list[Columns]:
         if len(y) != int(one.get("num_pts") or len(y)):
             raise _cut(path)
         bare, unit = parted(_called(one))
-        unit = unit or known(one.get("ordinate_axis_units_lab"))
+        unit, doubt = agreed(unit, one.get("ordinate_axis_units_lab"))
         kind = int(one.get("ordinate_spec_data_type", 0))
         if unit is None and factors and kind in _FACTORS:
             factor = float(factors.get(_FACTORS[kind]) or 1.0)
             y, unit = y / factor, _SI[kind]
-        column = Column(bare, unit, y if np.iscomplexobj(y) else y.astype(float))
+        column = Column(bare, unit, y if np.iscomplexobj(y) else y.astype(float), doubt=doubt)
         axis = _axis(one, x)
         for other, columns in tables:
             if len(other.values) == len(x) and other.unit == axis.unit:

@@ -45,6 +45,9 @@ pint knows a thousand more, among them constants and prints' measures: its ``zet
 ``c`` the speed of light, its ``a`` a year.
 """
 
+FRACTIONS = ("%", "percent", "permille", "ppm")
+"""Fractions of 1; none is accepted beside another unit."""
+
 
 def two_meanings(name: str) -> str:
     """What to write instead of a word with two meanings; nothing for any other word."""

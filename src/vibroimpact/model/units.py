@@ -28,7 +28,7 @@ from vibroimpact.model.quantities import (
     MASS,
     Quantity,
 )
-from vibroimpact.model.unit_names import accepted_unit, two_meanings
+from vibroimpact.model.unit_names import FRACTIONS, accepted_unit, two_meanings
 
 _TWO_PI = Decimal("6.283185307179586476925286766559")
 
@@ -296,14 +296,16 @@ def _from_text(text: str, quantity: Quantity) -> float:
         finite = _NOT_FINITE.match(clean) is None
         raise _RefusalError("does not start with a number" if finite else "is not finite")
     rest = clean[match.end() :].strip()
-    if not float(match[0]) and Decimal(match[0]):
+    digits = re.split("[eE]", match[0])[0]
+    if not float(match[0]) and digits.strip("+-.0"):
         raise _RefusalError("is smaller than any number that can be kept")
     if not rest:
         return float(clean)
     if rest.startswith(","):
         raise _RefusalError("has a comma; write a decimal point")
-    number = Decimal(match[0])
     try:
+        # Decimal raises an error for exponents beyond its range, also for that of a zero.
+        number = Decimal(match[0] if float(match[0]) else 0)
         return float(number * _size(rest, quantity))
     except ArithmeticError:
         raise _RefusalError("is not finite") from None
@@ -334,8 +336,10 @@ def _measured(number: Decimal, rest: str, quantity: Quantity) -> Decimal | float
     if quantity is MASS and _GRAVITY_SYMBOL.search(rest):
         raise _RefusalError("has a g, which is gravity here; write gram, kg or t")
     names = _NAMES_IN.findall(rest)
-    if any("%" in name and name != "%" for name in names):
-        raise _RefusalError("has a % beside a unit; one of the two is accepted")
+    if rest not in FRACTIONS:
+        for fraction in FRACTIONS:
+            if any(fraction in name for name in names):
+                raise _RefusalError(f"has a {fraction} beside a unit; one of the two is accepted")
     for name in names:
         if meant := two_meanings(name):
             raise _RefusalError(f"has a unit of two meanings, '{name}'; write {meant}")

@@ -1,0 +1,184 @@
+"""Units and scales that stand beside the channels of a table, given to the channels; all formats.
+
+``unit``, ``scale`` and the like are of the only channel, ``u_unit`` is that of ``u``. Where it is
+not clear which channel is meant, or what, the channels have a doubt.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from vibroimpact.errors import shown
+from vibroimpact.measurements.beside import with_unit
+from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.names import AXES, QUANTITIES, alike, meaning
+from vibroimpact.measurements.sampling import is_rate, is_sampling
+from vibroimpact.measurements.stated import Kind, kind_of, known, one, words_in
+
+_NUMBERS = "fiub"
+
+
+def agreed(*units: str | None) -> tuple[str | None, str]:
+    """The unit that all of some statements say; and a doubt, in words, where they differ."""
+    stated = [unit for unit in units if known(unit)]
+    for other in stated[1:]:
+        if not alike(str(stated[0]), str(other)):
+            return stated[0], f"the units {stated[0]!r} and {other!r}"
+    return (stated[0] if stated else None), ""
+
+
+def doubtful(column: Column, doubt: str) -> Column:
+    """A column with one more doubt."""
+    parts = dict.fromkeys(part for part in (*column.doubt.split("; "), doubt) if part)
+    return column._replace(doubt="; ".join(parts))
+
+
+def completed(table: Columns) -> Columns:
+    """A table whose channels have the units and scales that stand beside them, applied."""
+    columns = list(table.columns)
+    said = dict(table.said)
+    for name in table.said:
+        kind, about = kind_of(name)
+        if kind is None:
+            continue
+        text = said.pop(name)
+        number = next((key for key in said if _plain(key) == about and about), None)
+        if "unit" in kind and number is not None:
+            said[number] = with_unit(said[number], text)
+            continue
+        listed = [part for part in re.split(r"[,;\s]+", text) if part]
+        of_each = kind == "unit" and not about and len(listed) == len(columns) > 1
+        if of_each and table.lines is not None:  # of a text file, whose columns have an order
+            columns = [_with(c, kind, name, u) for c, u in zip(columns, listed, strict=True)]
+            continue
+        if kind == "time_unit" and not _named(columns, about):
+            steps = [key for key in said if is_sampling(key)]
+            if steps and not any(_is_time(column) for column in columns):
+                said |= {key: with_unit(said[key], text) for key in steps if not is_rate(key)}
+                continue
+        columns = _given(columns, kind, name, about, text)
+    columns = _listed(columns)
+    scaled = [
+        new
+        for new, old in zip(columns, table.columns, strict=True)
+        if (new.scale, new.offset) != (old.scale, old.offset)
+    ]
+    notes = tuple(
+        f"values of {c.name!r} times {1.0 if c.scale is None else c.scale:g}"
+        f"{f' plus {c.offset:g}' if c.offset else ''}, the scale beside them"
+        for c in scaled
+    )
+    return table._replace(
+        columns=tuple(map(_applied, columns)), said=said, notes=table.notes + notes
+    )
+
+
+def _listed(columns: list[Column]) -> list[Column]:
+    """Columns with a doubt where others are lists of units or scales that belong to none of them.
+
+    A list as long as the channels, such as a gain over frequency, is a channel.
+    """
+    found = columns
+    longest = max((len(column.values) for column in columns), default=0)
+    for column in columns:
+        kind, _ = kind_of(column.name)
+        words = column.values.dtype.kind not in _NUMBERS + "c"
+        units = kind in ("unit", "time_unit")
+        if kind is None or units != words or (not words and len(column.values) == longest):
+            continue
+        some = ", ".join(str(value) for value in column.values[:4])
+        doubt = f"{column.name} = {shown(some)}, which does not say what is of which channel"
+        found = [
+            doubtful(other, doubt)
+            if other.name != column.name and (other.unit is None if units else is_channel(other))
+            else other
+            for other in found
+        ]
+    return found
+
+
+def _given(columns: list[Column], kind: Kind, name: str, about: str, text: str) -> list[Column]:
+    """Columns, of which those that a statement is about have what it says."""
+    free = [c for c in columns if is_channel(c) and ("unit" not in kind or c.unit is None)]
+    meant = _named(columns, about)
+    if not meant and about and "unit" in kind:
+        spoken = meaning(about)
+        quantity = QUANTITIES.get(spoken.variable) if spoken else None
+        if kind == "time_unit":
+            quantity = AXES["time"]
+        meant = [c for c in columns if quantity and c.unit is None and _quantity(c) is quantity]
+    if not meant and not about and len(free) == 1:
+        meant = free
+    if meant:
+        return [_with(c, kind, name, text) if _in(c, meant) else c for c in columns]
+    if not doubted(kind, text):
+        return columns
+    which = (
+        "which is of one channel, and several are there"
+        if not about
+        else (f"and there is no channel {about!r}")
+    )
+    return [doubtful(c, f"{name} = {shown(text)}, {which}") if _in(c, free) else c for c in columns]
+
+
+def doubted(kind: Kind, text: str) -> bool:
+    """Whether a statement says anything, rightly or wrongly."""
+    read, doubt = one(kind, text, text)
+    return bool(doubt) or (read is not None and read not in (1.0 if kind == "scale" else 0.0,))
+
+
+def _with(column: Column, kind: Kind, name: str, text: str) -> Column:
+    """A column with what is stated of it."""
+    read, doubt = one(kind, text, text)
+    if doubt:
+        return doubtful(column, f"{name} = {shown(text)}, which {doubt}")
+    if read is None:
+        return column
+    if isinstance(read, str):
+        unit, doubt = agreed(column.unit, read)
+        return doubtful(column._replace(unit=unit), doubt)
+    already = column.scale if kind == "scale" else column.offset
+    if already is not None:
+        return doubtful(column, f"{name} = {shown(text)} beside the {kind} {already:g}")
+    return column._replace(scale=read) if kind == "scale" else column._replace(offset=read)
+
+
+def _applied(column: Column) -> Column:
+    """A column whose values have its scale."""
+    scale = 1.0 if column.scale is None else column.scale
+    offset = column.offset or 0.0
+    if scale == 1.0 and offset == 0.0:
+        return column._replace(scale=None, offset=None)
+    if column.values.dtype.kind not in _NUMBERS + "c":
+        return doubtful(column._replace(scale=None, offset=None), "a scale of what is no number")
+    values = column.values * scale + offset
+    return column._replace(values=values, scale=None, offset=None)
+
+
+def _in(column: Column, some: Iterable[Column]) -> bool:
+    return any(column is other for other in some)
+
+
+def _named(columns: list[Column], about: str) -> list[Column]:
+    return [column for column in columns if about and _plain(column.name) == about]
+
+
+def _plain(name: str) -> str:
+    return "".join(words_in(name))
+
+
+def _quantity(column: Column) -> object:
+    found = meaning(column.name)
+    return QUANTITIES.get(found.variable) if found else None
+
+
+def _is_time(column: Column) -> bool:
+    return _quantity(column) is AXES["time"]
+
+
+def is_channel(column: Column) -> bool:
+    """Whether a column holds numbers, and is neither a time nor a frequency nor a direction."""
+    found = meaning(column.name)
+    other = found is not None and found.variable in (*AXES, "direction")
+    return column.values.dtype.kind in _NUMBERS and not other
