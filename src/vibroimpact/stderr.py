@@ -23,7 +23,7 @@ def print_line(text: str) -> None:
 
 @contextmanager
 def open_streams() -> Iterator[None]:
-    """Replace a standard stream that is closed, for libraries that take for granted that it is open."""
+    """Replace a standard stream that is closed, for libraries that expect an open one."""
     with ExitStack() as stack:
         for stream, redirect in ((sys.stdout, redirect_stdout), (sys.stderr, redirect_stderr)):
             if stream is None:

@@ -77,6 +77,14 @@ def test_studies_of_similar_names_have_files_of_their_own(tmp_path, capsys):
     assert len(list(tmp_path.glob("a_b*-sweep.nc"))) == 3
 
 
+def test_a_font_that_is_missing_is_reported_once(tmp_path, capsys):
+    with mpl.rc_context({"font.family": "No Such Font"}):
+        assert main(["sweep", study(tmp_path, RIG), *SWEEP, "-o", str(tmp_path)]) == 0
+    lines = [line for line in capsys.readouterr().err.splitlines() if "No Such Font" in line]
+    assert 1 <= len(lines) == len(set(lines))
+    assert all(line.startswith("vibroimpact: warning: ") for line in lines)
+
+
 def test_no_figure_needs_latex(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with mpl.rc_context({"text.usetex": True}):

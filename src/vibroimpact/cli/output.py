@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import logging
 import math
 import sys
 import tempfile
@@ -198,6 +199,26 @@ def input_warnings_in_lines() -> Iterator[None]:
         warnings.showwarning = show
         warnings.simplefilter("always", InputWarning)
         yield
+
+
+@contextmanager
+def font_warnings_once() -> Iterator[None]:
+    """Print each message of matplotlib about a missing font once, not for each text of a figure."""
+    printed: set[str] = set()
+
+    def print_once(record: logging.LogRecord) -> bool:
+        message = record.getMessage()
+        if record.levelno >= logging.WARNING and message not in printed:
+            printed.add(message)
+            warn(message)
+        return False
+
+    log = logging.getLogger("matplotlib.font_manager")
+    log.addFilter(print_once)
+    try:
+        yield
+    finally:
+        log.removeFilter(print_once)
 
 
 def _plain(value: Any) -> Any:
