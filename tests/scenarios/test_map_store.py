@@ -159,7 +159,7 @@ def test_what_is_interrupted_leaves_no_files_of_its_own(tmp_path, monkeypatch):
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
-        patch.setattr(folder.os, "replace", interrupt)
+        patch.setattr(zarr_store.os, "replace", interrupt)
         with pytest.raises(KeyboardInterrupt):
             vi.scenario_map(X, Y, **OPTIONS, store=tmp_path / "map")
     assert list(tmp_path.iterdir()) == []
