@@ -103,3 +103,8 @@ UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2
 def printable(text: str) -> str:
     r"""Write control characters as escapes such as \x1b; line breaks and tabs stay."""
     return UNPRINTABLE.sub(lambda one: one[0] if one[0] in "\n\t" else ascii(one[0])[1:-1], text)
+
+
+def in_one_line(text: str) -> str:
+    """Write a text, such as the name of a file, on one line without control characters."""
+    return " ".join(printable(text).split())

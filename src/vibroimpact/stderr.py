@@ -1,9 +1,11 @@
-"""Lines of the program on standard error, which may be closed or full."""
+"""Standard error and output, which may be closed or full."""
 
 from __future__ import annotations
 
+import os
 import sys
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
 
 from vibroimpact.errors import printable
 
@@ -17,3 +19,14 @@ def print_line(text: str) -> None:
         return
     with suppress(OSError, ValueError):  # a full disk, a stream that was closed
         print(f"vibroimpact: {printable(text)}", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def open_streams() -> Iterator[None]:
+    """Replace a standard stream that is closed, for libraries that expect an open one."""
+    with ExitStack() as stack:
+        for stream, redirect in ((sys.stdout, redirect_stdout), (sys.stderr, redirect_stderr)):
+            if stream is None:
+                nowhere = stack.enter_context(open(os.devnull, "w"))
+                stack.enter_context(redirect(nowhere))
+        yield

@@ -54,7 +54,7 @@ def test_what_cannot_be_read_is_one_line(tmp_path, capsys, text, told):
 def test_a_name_is_never_mathematics(tmp_path, capsys):
     path = study(tmp_path, 'name = "bad $\\\\frac$ name"' + RIG)
     assert main(["sweep", path, *SWEEP, "-o", str(tmp_path), "--figure", "svg"]) == 0
-    assert "bad $\\frac$ name" in (tmp_path / "bad_frac_name-sweep.svg").read_text()
+    assert "bad $\\frac$ name" in next(tmp_path.glob("bad_frac_name-*-sweep.svg")).read_text()
     capsys.readouterr()
 
 
@@ -67,6 +67,22 @@ def test_studies_in_other_scripts_have_files_of_their_own(tmp_path, capsys):
     assert "replaced" not in told.out
     (line,) = [line for line in told.err.splitlines() if "隔" in line]
     assert "boxes are drawn" in line
+
+
+def test_studies_of_similar_names_have_files_of_their_own(tmp_path, capsys):
+    for number, name in enumerate(("a b", "a/b", "a:b")):
+        path = study(tmp_path, f'name = "{name}"' + RIG, f"{number}.toml")
+        assert main(["sweep", path, *SWEEP, "-o", str(tmp_path)]) == 0
+    assert "replaced" not in capsys.readouterr().out
+    assert len(list(tmp_path.glob("a_b*-sweep.nc"))) == 3
+
+
+def test_a_font_that_is_missing_is_reported_once(tmp_path, capsys):
+    with mpl.rc_context({"font.family": "No Such Font"}):
+        assert main(["sweep", study(tmp_path, RIG), *SWEEP, "-o", str(tmp_path)]) == 0
+    lines = [line for line in capsys.readouterr().err.splitlines() if "No Such Font" in line]
+    assert 1 <= len(lines) == len(set(lines))
+    assert all(line.startswith("vibroimpact: warning: ") for line in lines)
 
 
 def test_no_figure_needs_latex(tmp_path, monkeypatch):

@@ -41,6 +41,23 @@ def test_one_command_makes_a_report_and_a_rig_that_sweep_takes(file, tmp_path, c
     assert main(["sweep", str(study), "--step", "0.5Hz", "-o", str(tmp_path), "--json"]) == 0
 
 
+def test_names_of_files_and_columns_stay_text(file, tmp_path, capsys):
+    """They may hold colours of terminals, line breaks and tags."""
+    test = tmp_path / "a\x1b[31m\n# b <i>.csv"
+    test.write_text(file.read_text().replace("Ea [g]", "Ea \x1b[32m [g]"))
+    words = ["identify", str(test), "--rig", "B2-G2-A2", "--free", "gap", "--starts", "1"]
+    assert main([*words, "-o", str(tmp_path)]) == 0
+    told = capsys.readouterr()
+    written = [(tmp_path / f"B2-G2-A2-fit.{ending}").read_text() for ending in ("md", "html")]
+    assert r"a\x1b[31m # b" in told.out
+    assert r"a\\x1b[31m # b" in written[0]
+    assert r"a\x1b[31m # b" in written[1]
+    for text in (told.out, told.err, *written):
+        assert "\x1b" not in text
+        assert "\n# b" not in text
+    assert "<i>" not in written[1]
+
+
 def test_a_study_need_not_say_the_amplitude_that_the_file_says(file, tmp_path, capsys):
     guess = tmp_path / "guess.toml"
     guess.write_text(

@@ -130,6 +130,31 @@ def test_a_closed_stderr(tmp_path, stream):
     assert (wrong.returncode, wrong.stdout) == (2, "")
 
 
+@pytest.mark.parametrize("streams", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_streams_with_processes(tmp_path, streams):
+    """The library that starts processes takes for granted that streams are open."""
+    line = (
+        f"{' '.join(PROGRAM)} ensemble B2-G1-A3 --uncertain gap normal:5% --samples 8"
+        f" --frequencies 1Hz,2Hz --where processes --threads 2 {streams}"
+    )
+    done = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "out/B2-G1-A3-ensemble.nc").is_file()
+    assert ("Files" in done.stdout) == (">&-" not in streams.removeprefix("2>&-"))
+
+
+NAME = "o\x1b[31m\x1b]0;x\x07\nut"
+"""Of a folder: colours, which rich writes itself, a title of the window, a line of its own."""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no such names of files")
+def test_names_of_files_steer_no_terminal(tmp_path, capsys):
+    assert main([*FEW, "--output", str(tmp_path / NAME)]) == 0
+    told = capsys.readouterr()
+    assert told.out.count(r"o\x1b[31m\x1b]0;x\x07\nut/B2-G1-A3") == 3
+    assert "\x1b" not in told.out + told.err
+
+
 def test_a_file_that_fails_beneath(tmp_path, monkeypatch, capsys):
     def broken(*_, **__):
         raise PermissionError(13, "Permission denied", "cache")

@@ -148,7 +148,7 @@ def test_what_was_stopped_is_completed_to_the_same(tmp_path) -> None:
     with pytest.raises(vi.InputError, match="holds another set of demands: scales differ"):
         vi.demands(RIGS["bumpers"], RECORDS, [1.0], **how, store=store)
     shutil.rmtree(store / "status")
-    with pytest.warns(RuntimeWarning, match="is damaged; [0-9]+ of [0-9]+ blocks are computed ag"):
+    with pytest.warns(vi.InputWarning, match="is damaged; [0-9]+ of [0-9]+ blocks are computed ag"):
         mended = vi.demands(*arguments, **how, store=store)
     assert mended.identical(whole)
 

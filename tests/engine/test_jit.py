@@ -146,7 +146,10 @@ def test_code_that_others_may_write_to_is_not_run(cached: tuple[str, Path]) -> N
         assert NOTICE not in run(code, folder)
     (path,) = folder.rglob("*.nbc")
     path.chmod(0o666)  # the file alone is made again
-    assert NOTICE in run(code, folder)
+    error = run(code, folder)
+    assert NOTICE in error
+    assert f"other users may write to {str(path)!r}" in error
+    assert "removed and compiled again" in error
     assert not [path for path in made if path.exists() and path.stat().st_mode & 0o022]
 
 

@@ -136,11 +136,28 @@ def test_an_unknown_argument_is_refused():
         Isolator(1.0)
 
 
-def test_a_rig_beyond_floating_point_is_refused():
-    with pytest.raises(InputError, match="outside the range of floating-point"):
-        Oscillator(1e-200, Isolator(1e200, 0.0))
-    with pytest.raises(InputError, match="outside the range of floating-point"):
-        Oscillator(1e-200, Isolator(1e-200, 0.0))
+@pytest.mark.parametrize(
+    "rig",
+    [
+        {"mass": 1e200},
+        {"mass": 1e-300},
+        {"force": -1e150},
+        {"isolator": {"stiffness": 1.0, "damping": 1e200}},
+        {"right": {"stiffness": 1e200, "damping": 0.0, "gap": 1.0}},
+    ],
+)
+def test_a_size_that_cannot_be_computed_with_is_refused(rig):
+    with pytest.raises(InputError, match=r"outside the range that can be computed "):
+        Oscillator(**{"mass": 1.0, "isolator": {"stiffness": 1.0, "damping": 0.0}, **rig})
+
+
+def test_a_rig_whose_sizes_do_not_go_together_is_refused():
+    with pytest.raises(InputError, match=r"natural frequency of the order 1e\+90 is outside"):
+        Oscillator(1e-90, Isolator(1e90, 0.0))
+    with pytest.raises(InputError, match=r"natural frequency of the order 1e-150 is outside"):
+        Oscillator(1.0, Isolator(1e-300, 0.0))
+    with pytest.raises(InputError, match=r"damping ratio of the order 1e\+90 is outside"):
+        Oscillator(1e-90, Isolator(1e-90, 1.0))
 
 
 def test_frequency_and_damping_ratio():

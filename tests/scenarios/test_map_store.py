@@ -135,7 +135,7 @@ DAMAGES = [remove, replace_by_folder, truncate, flip]
 
 
 def mended(store):
-    with pytest.warns(RuntimeWarning, match=r"is damaged; \d of 2 blocks are computed again"):
+    with pytest.warns(vi.InputWarning, match=r"is damaged; \d of 2 blocks are computed again"):
         return vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
 
 
@@ -152,13 +152,29 @@ def test_a_damaged_file_is_made_again(whole, tmp_path, array, damage):
         vi.scenario_map(None, X, Y, **OPTIONS, store=store)
 
 
+def test_what_is_interrupted_leaves_no_files_of_its_own(tmp_path, monkeypatch):
+    """Neither while the store is created, nor while a block is computed."""
+
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(zarr_store.os, "replace", interrupt)
+        with pytest.raises(KeyboardInterrupt):
+            vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map")
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(KeyboardInterrupt):
+        vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map", progress=interrupt)
+    assert [path.name for path in tmp_path.iterdir()] == ["map"]
+
+
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_a_lost_mark_costs_a_block_at_most(whole, tmp_path, damage):
     shutil.copytree(whole[0], store := tmp_path / "map")
     for file in chunks(store / "done")[::2]:
         damage(file)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)
+        warnings.simplefilter("ignore", vi.InputWarning)
         again = vi.scenario_map(None, X, Y, **OPTIONS, store=store)
     xr.testing.assert_identical(again.load(), whole[1])
 
@@ -204,7 +220,7 @@ def test_every_flipped_bit_of_a_chunk_is_noticed(whole, tmp_path):
         content = bytearray(files[i].read_bytes())
         content[rng.integers(len(content))] ^= 1 << int(rng.integers(8))
         files[i].write_bytes(content)
-        with pytest.warns(RuntimeWarning, match="is damaged"):
+        with pytest.warns(vi.InputWarning, match="is damaged"):
             xr.testing.assert_identical(
                 vi.scenario_map(None, X, Y, **OPTIONS, store=store).load(), whole[1]
             )

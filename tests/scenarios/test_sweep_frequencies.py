@@ -59,11 +59,17 @@ def test_an_undamped_isolator_is_not_held_at_its_resonance(stops):
     case = vi.laboratory.case("B2-G1-A3")
     rig = case.oscillator.replace(isolator=vi.Isolator(case.oscillator.isolator.stiffness, 0.0))
     rig = rig if stops else rig.without_bumpers()
-    ratios = frequencies(*one_sine(rig, case.amplitude, "")) / rig.natural_frequency
+    ratios = frequencies(*one_sine(vi.Rig(rig, case.amplitude))) / rig.natural_frequency
     assert np.abs(ratios - 1.0).min() == pytest.approx(0.005)
     assert np.diff(ratios).min() == pytest.approx(0.005)
     damped = rig.replace(isolator=case.oscillator.isolator)
-    there = frequencies(*one_sine(damped, case.amplitude, "")) / rig.natural_frequency
+    there = frequencies(*one_sine(vi.Rig(damped, case.amplitude))) / rig.natural_frequency
     assert np.count_nonzero(np.abs(there[: len(ratios)] - ratios[: len(there)]) > 1e-9) == 1
     if not stops:
         assert vi.classify_scenario(vi.Rig(rig, case.amplitude)).scenario == "S0"
+
+
+def test_a_range_of_too_many_frequencies_is_refused():
+    rig = vi.Oscillator(550.0, vi.Isolator(1e-12, 0.0), right=vi.Bumper(510e3, 900.0, 0.0075))
+    with pytest.raises(vi.InputError, match=r"^stiffness: .* takes .* frequencies"):
+        vi.classify_scenario(vi.Rig(rig, 0.5))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import logging
 import math
 import sys
 import tempfile
@@ -14,12 +15,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vibroimpact.cli.garbage import search_as_usual
-from vibroimpact.cli.terminal import in_columns, without_commands
-from vibroimpact.errors import InputError, InputWarning
+from vibroimpact.cli.terminal import in_columns
+from vibroimpact.errors import InputError, InputWarning, printable
 from vibroimpact.stderr import print_line
 
 if TYPE_CHECKING:
-    from rich.console import RenderableType
+    from rich.console import Console, RenderableType
 
 WIDTH = 100
 """Columns of a summary in a file."""
@@ -130,18 +131,27 @@ def tell(
     from rich.text import Text
 
     lines = [f"  {path}{' (replaced)' if path in replaced else ''}" for path in files.values()]
+    lines = [line.replace("\n", r"\n") for line in lines]
 
     # A file or a pipe has no width of its own.
     terminal = sys.stdout is None or sys.stdout.isatty()
     console = Console(file=sys.stdout, width=None if terminal else WIDTH, highlight=False)
     console.width = _wide_enough(summary, console.width)
     with console.capture() as captured:
-        console.print(summary, Text(), sep="\n")
+        console.print(_without_commands(console, summary), Text(), sep="\n")
         # A path is never broken, and never cut.
-        console.print(Text("\n".join(["Files", *lines])), soft_wrap=True)
+        console.print(Text(printable("\n".join(["Files", *lines]))), soft_wrap=True)
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
-    for line in without_commands(captured.get()).splitlines():
+    for line in captured.get().splitlines():
         print(in_columns(line if terminal else line.rstrip(), encoding))
+
+
+def _without_commands(console: Console, summary: RenderableType) -> RenderableType:
+    """Write control characters of names as escapes, before rich adds its own for colours."""
+    from rich.segment import Segment, Segments
+
+    parts = console.render(summary)
+    return Segments(Segment(printable(one.text), one.style) for one in parts if not one.control)
 
 
 def _wide_enough(summary: RenderableType, width: int) -> int:
@@ -189,6 +199,26 @@ def input_warnings_in_lines() -> Iterator[None]:
         warnings.showwarning = show
         warnings.simplefilter("always", InputWarning)
         yield
+
+
+@contextmanager
+def font_warnings_once() -> Iterator[None]:
+    """Print each message of matplotlib about a missing font once, not for each text of a figure."""
+    printed: set[str] = set()
+
+    def print_once(record: logging.LogRecord) -> bool:
+        message = record.getMessage()
+        if record.levelno >= logging.WARNING and message not in printed:
+            printed.add(message)
+            warn(message)
+        return False
+
+    log = logging.getLogger("matplotlib.font_manager")
+    log.addFilter(print_once)
+    try:
+        yield
+    finally:
+        log.removeFilter(print_once)
 
 
 def _plain(value: Any) -> Any:

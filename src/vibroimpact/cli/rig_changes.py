@@ -11,7 +11,7 @@ from vibroimpact.cli.options import RigOptions
 from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.excitation import QUANTITIES, sized
-from vibroimpact.model.names import file_stem
+from vibroimpact.model.names import kept_letters
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.units import pretty, to_si
 
@@ -80,7 +80,9 @@ def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
             varied = varied.of(rig)
         quantity = _OTHERS[option] if varied is None else varied.quantity
         text = pretty(to_si(value, quantity, option), quantity)
-    return Change(f"{flag.replace('-', ' ')} {text}", f"{flag}-{file_stem(text.replace(' ', ''))}")
+    return Change(
+        f"{flag.replace('-', ' ')} {text}", f"{flag}-{kept_letters(text.replace(' ', ''))}"
+    )
 
 
 def joined(first: str, found: tuple[Change, ...]) -> str:

@@ -9,10 +9,6 @@ import sys
 import unicodedata
 from contextlib import suppress
 
-from vibroimpact.errors import printable
-
-_COLOUR = re.compile("(\x1b\\[[0-9;]*m)")
-
 _PLAIN = {
     "η": "eta",
     "λ": "lambda",
@@ -82,12 +78,6 @@ def _columns(text: str) -> int:
     return sum(not unicodedata.combining(sign) for sign in text)
 
 
-def without_commands(text: str) -> str:
-    """Write control characters as escapes; colours, which rich sets, stay."""
-    parts = _COLOUR.split(text)
-    return "".join(part if i % 2 else printable(part) for i, part in enumerate(parts))
-
-
 def take_any_encoding() -> None:
     """Let stdout and stderr write what their encoding lacks in plain letters."""
     for stream in (sys.stdout, sys.stderr):
@@ -104,7 +94,8 @@ def hold_closed_streams() -> None:
         try:
             os.fstat(number)
         except OSError:
-            os.open(os.devnull, os.O_RDWR)  # it takes the lowest number that is free
+            held = os.open(os.devnull, os.O_RDWR)  # it takes the lowest number that is free
+            os.set_inheritable(held, True)  # nor may it in the processes that this one starts
 
 
 def flush() -> None:

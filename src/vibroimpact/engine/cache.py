@@ -46,11 +46,19 @@ def seal(directory: Path, name: str) -> None:
                 one.chmod(stat.S_IMODE(one.stat().st_mode) & ~(stat.S_IWGRP | stat.S_IWOTH))
 
 
-def remove_damaged(directory: Path, name: str) -> None:
-    """Remove an entry's files if one has changed, or if another user may write to it."""
+def remove_damaged(directory: Path, name: str) -> Path | None:
+    """Remove an entry's files if one has changed, or if another user may write to it.
+
+    Returns
+    -------
+    Path or None
+        The file or folder that another user may write to.
+    """
     files = list(_code(directory, name))
-    if not all(_is_sealed(path) for path in files):
+    unsafe = next((at for path in files if (at := _unsafe(path))), None)
+    if unsafe or not all(_is_sealed(path) for path in files):
         remove(files)
+    return unsafe
 
 
 def remove(files: Iterable[Path]) -> None:
@@ -65,12 +73,15 @@ def _code(directory: Path, name: str) -> Iterator[Path]:
     yield from directory.glob(f"**/*.{name}-*.nb[ic]")
 
 
-def _is_sealed(path: Path) -> bool:
+def _unsafe(path: Path) -> Path | None:
+    """The file, its digest or their folder, if another user may write to it."""
     sealed = path.with_name(path.name + _DIGEST)
+    return writable_by_others(one for one in (path.parent, path, sealed) if one.exists())
+
+
+def _is_sealed(path: Path) -> bool:
     try:
-        if writable_by_others((path.parent, path, sealed)):
-            return False
-        return sealed.read_text() == _digest(path)
+        return path.with_name(path.name + _DIGEST).read_text() == _digest(path)
     except OSError:
         return False
 

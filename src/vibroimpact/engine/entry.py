@@ -83,7 +83,8 @@ class Entry:
                 lock.release()
 
     def _from_cache(self, directory: Path, signature: Any) -> Callable[..., Any]:
-        cache.remove_damaged(directory, self.__name__)
+        if unsafe := cache.remove_damaged(directory, self.__name__):
+            jit.say_refused(unsafe)
         if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
             jit.say()
         before = config.CACHE_DIR  # type: ignore[attr-defined]

@@ -104,6 +104,16 @@ def say() -> None:
         )
 
 
+def say_refused(path: Path) -> None:
+    """Announce once that compiled code was removed, because others may write to it."""
+    if not _distrusted.is_set():
+        _distrusted.set()
+        announce(
+            f"other users may write to {str(path)!r}, and whoever can write compiled code can run "
+            "it as you; such files are removed and compiled again."
+        )
+
+
 def say_unsafe(path: Path) -> None:
     """Announce once that the cache is not used, because others may write to this part of it."""
     if not _distrusted.is_set():

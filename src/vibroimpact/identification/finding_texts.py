@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from vibroimpact.errors import in_one_line
 from vibroimpact.identification.fit_inputs import BASE
 from vibroimpact.identification.global_search import Found
 from vibroimpact.identification.least_squares import Array, Problem
@@ -138,7 +139,7 @@ def _of(data: xr.Dataset, problem: Problem, number: int, idle: Untouched) -> str
 
 def amplitude_words(shaken: Any, source: str) -> str:
     """The peak base acceleration of a test, and where it is from; that alone if it was measured."""
-    told = f"from {source}" if source else ""
+    told = f"from {in_one_line(source)}" if source else ""
     if source == BASE or not isinstance(shaken, Harmonic):
         return told
     return ", ".join(filter(None, [pretty(shaken.amplitude, ACCELERATION, 4), told]))

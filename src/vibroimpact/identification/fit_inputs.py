@@ -8,7 +8,7 @@ from typing import Any
 
 import xarray as xr
 
-from vibroimpact.errors import InputError, printable, shown, unknown
+from vibroimpact.errors import InputError, in_one_line, shown, unknown
 from vibroimpact.identification.curve_residuals import CurveTest
 from vibroimpact.identification.history_residuals import HistoryTest
 from vibroimpact.identification.least_squares import Test
@@ -62,7 +62,7 @@ def _named(data: Any) -> dict[str, Any]:
         for i, one in enumerate(items, 1):
             source = one.attrs.get("source") if isinstance(one, xr.Dataset) else str(one)
             name = Path(source).stem if source and isinstance(one, xr.Dataset | str | Path) else ""
-            name = printable(name) or f"test {i}"
+            name = in_one_line(name) or f"test {i}"
             named[name if name not in named else f"{name} {i}"] = one
     if not named:
         raise InputError("data: there is none; at least one test is accepted")

@@ -18,7 +18,7 @@ from vibroimpact.arguments import check_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.quantities import ACCELERATION, ANGLE, FORCE, FREQUENCY, LENGTH, Quantity
 from vibroimpact.model.units import one_of, pretty, to_si
-from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.validation import Accepts, Model, check_size, constructor
 
 Of = Literal["acceleration", "displacement", "force"]
 """What an amplitude is one of."""
@@ -269,4 +269,8 @@ def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[floa
     allowed = QUANTITIES if of is None else {of: QUANTITIES[of]}
     least = {"above": 0.0} if positive else {"minimum": 0.0}
     number, quantity = one_of(value, list(allowed.values()), field, **least)
+    try:
+        check_size(value, number)
+    except InputError as error:
+        raise InputError(f"{field}: {error}") from None
     return number, next(name for name, one in allowed.items() if one is quantity)

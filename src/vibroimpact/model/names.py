@@ -62,15 +62,23 @@ def _kept(sign: str) -> bool:
     return sign.isalpha() or sign.isdecimal() or sign in ".+-_" or accent
 
 
+def kept_letters(text: str) -> str:
+    """What of a text may stand in a file's name, with ``_`` for the rest: texts may share it."""
+    signs = [sign if _kept(sign) else " " for sign in text]
+    return re.sub("[ _]+", "_", "".join(signs)).strip("_.")
+
+
 def file_stem(name: str) -> str:
     """A name as the first part of a file's name: letters and digits of any script, ``.+-_``.
 
-    If no letter remains, or the name is long, a hash distinguishes it from others.
+    Blanks become ``_``. If more is left out, or the name is long, a hash distinguishes it from
+    others.
     """
-    signs = [sign if _kept(sign) else " " for sign in unicodedata.normalize("NFC", name)]
-    stem = re.sub("[ _]+", "_", "".join(signs)).strip("_.")
+    whole = unicodedata.normalize("NFC", name)
+    stem = kept_letters(whole)
     if not stem:
         return f"rig-{_digest(name)}" if name else "rig"
     if len(stem.encode()) <= _LONGEST_STEM:
-        return stem
+        is_whole = stem.split("_") == whole.replace("_", " ").split()
+        return stem if is_whole else f"{stem}-{_digest(name)}"
     return f"{stem.encode()[:_LONGEST_STEM].decode(errors='ignore')}-{_digest(name)}"

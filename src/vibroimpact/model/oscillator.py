@@ -22,6 +22,9 @@ from vibroimpact.model.stops.bumper import returning
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
+_LEAST, _MOST = 1e-50, 1e50
+"""Natural frequencies (rad/s) and damping ratios whose powers are floating-point numbers."""
+
 
 class Oscillator(Model):
     """A mass on an isolator, between two stops that may differ or be absent.
@@ -105,15 +108,22 @@ class Oscillator(Model):
 
     @model_validator(mode="after")
     def _frequency_exists(self) -> Self:
-        # Each may be a float while their ratio or product is none.
+        # Each may be moderate while their ratio is not.
         k, m = self.isolator.initial_stiffness, self.mass
         if k == 0.0:
             return self
-        if not (0.0 < k / m < math.inf and 0.0 < k * m < math.inf):
-            raise InputError(
-                f"an isolator of {k:g} N/m under {m:g} kg has a natural frequency or a critical "
-                "damping outside the range of floating-point numbers; moderate values are accepted"
-            )
+        for what, size, least in (
+            ("natural frequency", math.sqrt(k / m), _LEAST),
+            ("damping ratio", self.isolator.damping / math.sqrt(k * m), 0.0),
+        ):
+            if what == "damping ratio" and self.isolator.damping_exponent != 1.0:
+                continue
+            if not least <= size <= _MOST:
+                raise InputError(
+                    f"mass {m:g} kg, stiffness {k:g} N/m and damping {self.isolator.damping:g} "
+                    f"N s/m: the {what} of the order {size:.0e} is outside the range that can be "
+                    f"computed with; one between {least:g} and {_MOST:g} is accepted"
+                )
         return self
 
     @model_validator(mode="after")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
+from urllib.parse import quote
 
 import numpy as np
 import xarray as xr
@@ -14,7 +15,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from vibroimpact._version import __version__
 from vibroimpact.datasets.files import write_whole
-from vibroimpact.errors import InputError, printable
+from vibroimpact.errors import InputError, in_one_line
 from vibroimpact.figures import resonance_curves, save_figure
 from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
 from vibroimpact.identification.finding_texts import amplitude_words
@@ -23,7 +24,7 @@ from vibroimpact.identification.identify import fitted_rig
 from vibroimpact.identification.next_test import next_test
 from vibroimpact.identification.results import setting_of
 from vibroimpact.measurements.read import as_measured
-from vibroimpact.model.names import file_stems
+from vibroimpact.model.names import check_name, file_stems
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS, Quantity
 from vibroimpact.model.rig import Rig
@@ -79,11 +80,12 @@ def fit_report(
     Raises
     ------
     InputError
-        If the dataset is no fit, or a file cannot be written.
+        If the dataset is no fit, the name has control characters, or a file cannot be written.
     """
     if not isinstance(result, xr.Dataset) or "fitted_value" not in result:
         raise InputError("result: this is no fit; a dataset of identify is accepted")
     where = Path(folder)
+    check_name(name, "name")
     files: dict[str, Path] = {}
     figures: list[Figure] = []
 
@@ -128,23 +130,29 @@ def fit_report(
         "correlations": _correlations(result),
     }
     for label, template in (("markdown", "fit.md.jinja"), ("report", "fit.html.jinja")):
-        given = _inert(told) if label == "markdown" else told
-        text = _environment().get_template(template).render(**given)
+        # Names in it are those of files and columns, which may hold anything.
+        written = _each_text(told, _inert if label == "markdown" else in_one_line)
+        text = _environment().get_template(template).render(**written)
         files[label] = write_whole(where / f"{name}{Path(template).stem[3:]}", text)
     return files
 
 
-def _inert(told: Any) -> Any:
-    """The same with what Markdown would take for its own: tables, links, tags."""
-    if isinstance(told, str):
-        return _MARKS.sub(r"\\\g<0>", " ".join(printable(told).split()))
-    if isinstance(told, dict):
-        return {key: _inert(one) for key, one in told.items()}
-    if isinstance(told, Figure):
-        return Figure(told.file, _inert(told.caption))
-    if isinstance(told, list | tuple):
-        return [_inert(one) for one in told]
-    return told
+def _inert(text: str) -> str:
+    """Escape what Markdown would read as tables, links or tags."""
+    return _MARKS.sub(r"\\\g<0>", in_one_line(text))
+
+
+def _each_text(value: Any, change: Callable[[str], str]) -> Any:
+    """Change each text in nested lists and mappings; of a figure its caption, not its file."""
+    if isinstance(value, str):
+        return change(value)
+    if isinstance(value, dict):
+        return {key: _each_text(one, change) for key, one in value.items()}
+    if isinstance(value, Figure):
+        return Figure(quote(value.file), change(value.caption))
+    if isinstance(value, list | tuple):
+        return [_each_text(one, change) for one in value]
+    return value
 
 
 def parameter_rows(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:

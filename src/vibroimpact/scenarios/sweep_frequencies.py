@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, Stop
 from vibroimpact.model.clearance import room
 from vibroimpact.response.analytic_free_response import (
@@ -30,6 +31,8 @@ MOST_HIGH = 20.0
 """Highest frequency over the natural one for a rigid stop, whose stiffness sets no bound: that of
 bumpers with λ = 330."""
 
+MOST = 100_000
+"""Frequencies of a sweep."""
 CLOSE = 1e-3
 """Distance from an orbit, over the motion's size, at which a hold sees that it closes in."""
 MOST_CYCLES = 20_000
@@ -137,5 +140,11 @@ def held(oscillator: Oscillator, high: float, step: float) -> NDArray[np.float64
 def grid(high: float, step: float) -> NDArray[np.float64]:
     """Multiples of `step` above `LOW` up to `high` at least."""
     count = math.ceil((high - LOW) / step - 1e-9)
+    if count > MOST:
+        raise InputError(
+            f"stiffness: with its stops the rig may resonate up to {high:.3g} times its natural "
+            f"frequency, which takes {count:.3g} frequencies; stops that need at most {MOST} are "
+            "accepted"
+        )
     values: NDArray[np.float64] = LOW + step * np.arange(count + 1, dtype=np.float64)
     return values

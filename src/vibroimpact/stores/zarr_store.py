@@ -13,7 +13,7 @@ import os
 import shutil
 import warnings
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from vibroimpact._version import __version__
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, InputWarning
 
 if TYPE_CHECKING:  # it takes long to load: only where a store is made or read
     import zarr
@@ -151,10 +151,11 @@ def folder(
         # A chunk is a file even where all its values are the fill value: one without is lost.
         every = zarr.config.set({"array.write_empty_chunks": True})
         with FileLock(lock).acquire(timeout=0), every:
-            group = _opened(there, template)
-            yield group
-            if finished(group):
-                lock.unlink(missing_ok=True)
+            try:
+                yield _opened(there, template)
+            finally:
+                with suppress(OSError):  # Windows keeps a file that is open
+                    lock.unlink(missing_ok=True)
     except Timeout:
         raise InputError(
             f"store: {str(there)!r} is being written by another process; when that has ended, or "
@@ -220,8 +221,12 @@ def _opened(there: Path, template: Template) -> zarr.Group:
         # Made beside it and renamed: the store is there with all its arrays, or not at all.
         beside = there.with_name(f".{there.name}.making")
         shutil.rmtree(beside, ignore_errors=True)  # one that was killed may have left it
-        template.create(LocalStore(beside))
-        os.replace(beside, there)
+        try:
+            template.create(LocalStore(beside))
+            os.replace(beside, there)
+        except BaseException:
+            shutil.rmtree(beside, ignore_errors=True)
+            raise
         return _group(there, "r+")
     _check(there, template)
     altered = _altered(there, template)
@@ -238,7 +243,7 @@ def _opened(there: Path, template: Template) -> zarr.Group:
         warnings.warn(
             f"store: {str(there)!r} is damaged; {len(damaged)} of {len(template.blocks)} blocks "
             "are computed again",
-            RuntimeWarning,
+            InputWarning,
             stacklevel=5,
         )
     return group

@@ -10,10 +10,10 @@ import time
 
 from vibroimpact.tasks.threads import Progress, stop_if_unwanted
 
-_FIRST = 256
-"""Steps of the first call, a millisecond for most rigs."""
 _SHORT, _LONG = 0.1, 0.4
 """A call that takes less or more than this (s) makes the next one twice or half as long."""
+_VERY_SHORT, _MUCH_LONGER = 0.01, 8
+"""A call that takes less than this (s) makes the next one so many times as long."""
 
 
 class Calls:
@@ -35,7 +35,7 @@ class Calls:
         self._total = total
         self._most = most
         self._progress = progress
-        self._steps = _FIRST
+        self._steps = 1  # of some rigs a step takes a second
         self._begin = 0.0
 
     def end(self, at: int) -> float:
@@ -50,7 +50,9 @@ class Calls:
         now = time.monotonic()
         if at:
             passed = now - self._begin
-            if passed < _SHORT:
+            if passed < _VERY_SHORT:
+                self._steps *= _MUCH_LONGER
+            elif passed < _SHORT:
                 self._steps *= 2
             elif passed > _LONG:
                 self._steps = max(1, self._steps // 2)

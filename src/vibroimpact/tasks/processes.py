@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any, NamedTuple, TypeVar
 
+from vibroimpact.stderr import open_streams
 from vibroimpact.tasks.batching import dealt
 from vibroimpact.tasks.threads import LostError, Progress, Tally, available
 
@@ -89,7 +90,8 @@ class Processes(NamedTuple):
             env={"LOKY_MAX_MEMORY_LEAK_SIZE": "1e15"},  # what a task needs is no leak
         )
         try:
-            return dealt(_Hands(pool, self.width()), task, items, total, progress)
+            with open_streams():  # loky flushes both when it starts a process
+                return dealt(_Hands(pool, self.width()), task, items, total, progress)
         except loky.process_executor.TerminatedWorkerError as died:
             raise LostError(
                 f"where: a process died, perhaps for want of memory ({died}); the same call "

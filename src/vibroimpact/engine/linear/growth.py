@@ -14,6 +14,10 @@ AREA = 6
 """Components of the area that two disturbances span, see `carry.disturb_area`."""
 
 _RANGE = 150.0  # twice this may pass between two looks; the square of exp(−300) is a number
+_MANY, _MOST_PIECES = 1000, 1e15
+"""Pieces of a stretch after which it is checked whether further ones do the same; and at most."""
+_SAME = 1e-9
+"""Relative change of a direction that counts as none."""
 
 
 @kernel
@@ -75,8 +79,11 @@ def grow(plan: Vector, notes: Growth, stretch: Stretch) -> Growth:
     q, w, weight, length, first, both, dissipation, shrunk = notes
     here = damping(plan, before.mode)
     # In pieces over which nothing shrinks below the range of numbers.
-    pieces = 1 + int((here + weight) * step / _RANGE)
-    for piece in range(1, pieces + 1):
+    pieces = 1 + int(min((here + weight) * step / _RANGE, _MOST_PIECES))
+    piece = 0
+    ago, direction, slope = 0, math.nan, math.nan
+    while piece < pieces:
+        piece += 1
         last = piece == pieces
         end, behind = (event, after) if last else (LIMIT, before)
         disturb(plan, before.mode, end, arrival, behind, step / pieces, q, 1)
@@ -87,5 +94,14 @@ def grow(plan: Vector, notes: Growth, stretch: Stretch) -> Growth:
             first += more
             both += more_both
             shrunk = 0.0
+            if pieces > _MANY and not last:
+                # A strongly damped rig: each further piece does the same to both.
+                same = abs(q[0] * slope - q[1] * direction) <= _SAME * abs(q[0] * slope)
+                alike = (pieces - 1 - piece) // (piece - ago)
+                if same and piece > _MANY and alike > 0:
+                    first += alike * more
+                    both += alike * more_both
+                    piece += alike * (piece - ago)
+                ago, direction, slope = piece, q[0], q[1]
     dissipation += here * step + contraction(plan, event, after)
     return Growth(q, w, weight, length, first, both, dissipation, shrunk)
