@@ -34,6 +34,12 @@ def test_a_reversed_sensor_is_suggested_as_the_cause(data, channel):
     (line,) = [line for line in found.findings.splitlines() if "reversed" in line]
     assert told in line
     assert "sign changed in the data" in line
+    # It stands first, for the values mean nothing.
+    assert found.findings.splitlines()[0] == line
+    gaps = found.fitted_value.sel(parameter=["right_gap", "left_gap"])
+    swing = np.ptp(turned["displacement"].values) / 2.0
+    absurd = int((np.abs(gaps) > 100.0 * swing).sum())
+    assert found.findings.count("is absurd") == absurd
 
 
 def test_a_right_sensor_is_not_suspected(data):

@@ -133,3 +133,48 @@ def listed(data) -> list[tuple[float, str, str]]:
     names = ("value", "kind", "contacts")
     rows = zip(*(data[f"bifurcation_{name}"].values for name in names), strict=True)
     return sorted((round(float(value), 7), str(kind), str(told)) for value, kind, told in rows)
+
+
+@pytest.fixture(scope="module")
+def chattering():
+    """Branches from an orbit of sixteen impacts, and from one of five."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(0.6, 0.2))
+    branches = []
+    for frequency in (0.07559, 0.08):
+        forcing = vi.Harmonic(1.0, frequency)
+        start = vi.steady(rig, forcing)
+        branches.append(vi.branch(rig, forcing, start, low=0.0754, high=0.081))
+    return branches
+
+
+def test_a_chatter_loses_its_impacts_one_by_one(chattering):
+    """Each impact is lost in a fold and a grazing; both lie close together in a long chatter."""
+    for data in chattering:
+        assert data.attrs["ended_low"] == "the range ends at 0.0754"
+        assert data.attrs["ended_high"] == "the range ends at 0.081"
+        found = {
+            (kind, contacts): (value, turns)
+            for kind, contacts, value, turns in zip(
+                data["bifurcation_kind"].values,
+                data["bifurcation_contacts"].values,
+                data["bifurcation_value"].values,
+                data["bifurcation_turns"].values,
+                strict=True,
+            )
+        }
+        for impacts in range(6, 23):
+            fold, folds = found["fold", f"{impacts}R 0L"]
+            grazing, turns = found["grazing", f"{impacts - 1}R 0L | {impacts}R 0L"]
+            assert grazing < fold
+            assert folds
+            assert turns
+        assert len(found) == data.sizes["bifurcation"]  # nothing is listed twice
+
+
+def test_a_chattering_branch_is_the_same_from_both_ends(chattering):
+    values = [
+        data["bifurcation_value"].values[data["bifurcation_value"].values > 0.07557485]
+        for data in chattering
+    ]
+    np.testing.assert_allclose(np.sort(values[0]), np.sort(values[1]), rtol=1e-9)
+    assert len(values[0]) == 2 * 17

@@ -93,3 +93,38 @@ def test_a_start_at_rest_beside_attached_bumpers_has_no_size(gap):
     for frequency in (0.7, 1.3, 3.0, 8.0):
         found = vi.orbit(vi.Rig(rig, vi.Harmonic(1.0, frequency)), vi.State())
         assert float(found["residual"]) <= 1e-12
+
+
+def test_a_completed_chatter_forgets_everything():
+    """A spring that yields on its way to the stop rests on its limit, whatever came before."""
+    isolator = vi.BilinearIsolator(
+        damping=0.0,
+        damping_exponent=0.5,
+        elastic_stiffness=1006.7601719594902,
+        post_yield_stiffness=902.9338161496553,
+        yield_force=32.94496326315633,
+    )
+    gap = -0.057891466817895885
+    rig = vi.Oscillator(74.3114677960523, isolator, vi.RigidStop(0.9, gap))
+    shaken = vi.Harmonic(2.153514390835883, 0.0992367688416092)
+    start = vi.State(gap, -0.3209708699329611)
+    found = vi.orbit(rig, shaken, start)
+    assert (np.hypot(found["multiplier_real"], found["multiplier_imag"]) == 0.0).all()
+    assert (vi.steady(rig, shaken, start)["exponents"] == -np.inf).all()
+    growth = vi.lyapunov_exponents((rig, shaken.amplitude), [shaken.frequency], start=start)
+    assert (growth["exponents"] == -np.inf).all()
+
+
+def test_what_an_elastic_spring_remembers_through_a_rest():
+    """One that does not yield on its way to the stop: by differences of the motion itself."""
+    isolator = vi.BilinearIsolator(1.0, 0.2, 0.25, 0.05)
+    rig = vi.Oscillator(1.0, isolator, vi.RigidStop(0.5, -0.1))
+    shaken = vi.Harmonic(0.2, 0.03)
+    found = vi.orbit(rig, shaken, vi.steady(rig, shaken))
+    section = found["final_state"].values
+    ends = []
+    for step in (1e-6, -1e-6):
+        start = vi.State(section[0], section[1], isolator=section[-1] + step)
+        ends.append(vi.simulate(rig, shaken, 1, start)["final_state"].values)
+    slope = (ends[0] - ends[1]) / 2e-6
+    assert slope[-1] == pytest.approx(float(found["monodromy"][4, 4]), rel=1e-5, abs=1e-9)

@@ -29,7 +29,7 @@ _GROWN, _SHRUNK = 1.6, 0.25
 _SHORT = 1e-4  # where so short a step fails there may be a corner
 _SMOOTH = 1e-5  # below this length other coordinates are tried
 _MISS = 0.4  # of a step, by which a solution may miss the prediction
-_CREEP, _CREPT = 100, 0.01  # points that lie within this arclength lead nowhere
+_CREEP, _CREPT = 100, 0.01  # points without a corner that lie within this arclength lead nowhere
 
 
 class Point(Protocol):
@@ -109,6 +109,7 @@ def follow(
     """
     points = [start]
     here = start
+    behind_corner = 0  # of the points, the first one behind the last corner
     length = FIRST
     while len(points) < most_points:
         there, corner = path.step(here, length)
@@ -120,7 +121,8 @@ def follow(
             here = there
             if progress:
                 progress(here)
-            if len(points) > _CREEP and here.arclength - points[-_CREEP].arclength < _CREPT:
+            followed = len(points) - behind_corner
+            if followed > _CREEP and here.arclength - points[-_CREEP].arclength < _CREPT:
                 return Trace(points, path.lost(here))
             if turn > _GENTLE:
                 away = distance(path, here.y, start.y)
@@ -131,6 +133,7 @@ def follow(
                 return Trace([*points, *last[0]], last[1])
             points += behind
             here = behind[-1]
+            behind_corner = len(points) - 1
             length = AGAIN
             continue
         length *= _SHRUNK

@@ -21,7 +21,7 @@ _BLOCK = 1.0625
 """Natural periods: more than one, so that both ends of a swing lie in it."""
 BLOCKS = 2000
 """Natural periods for which the mass is followed at most until it rests."""
-SMALL = 1e-6
+SMALL = 1e-9
 """Share of the largest displacement below which a swing is none."""
 
 

@@ -66,10 +66,10 @@ def seismic_response(
 
         ``residual_displacement`` (m) is where the mass comes to rest. Where the isolator remembers
         or sticks, the free motion is followed behind the tail until it swings by less than a
-        millionth of the peak displacement, for 2,000 natural periods at most, and the middle of its
+        billionth of the peak displacement, for 2,000 natural periods at most, and the middle of its
         last swing is taken: what nothing damps swings about where it would rest.
-        ``residual_swing`` (m) is half the width of that swing, an estimate and not a bound: the
-        place may shift by a few times as much. Elsewhere ``residual_displacement`` is the
+        ``residual_swing`` (m) is half the width of that swing. Once it has fallen below a billionth
+        of the peak, it bounds the error. Elsewhere ``residual_displacement`` is the
         equilibrium, and the swing that is left is not computed.
 
         If the motion was given up all of them are NaN, and ``status`` says why.

@@ -17,7 +17,7 @@ from vibroimpact.identification.sensor_checks import BAD, sensor_doubts
 from vibroimpact.identification.untouched_stops import Untouched
 from vibroimpact.model.excitation import Harmonic
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.model.quantities import ACCELERATION
+from vibroimpact.model.quantities import ACCELERATION, LENGTH
 from vibroimpact.model.units import pretty
 
 _WEAK = 0.25
@@ -28,6 +28,8 @@ _SAME = 1e-3
 """Difference, as a share, up to which a value of another rig is the same."""
 _BLIND = "excursions do not tell right from left; maxima and minima, or time histories, do"
 _FEW = 2
+_ABSURD = 100.0
+"""Gap over the largest displacement that was measured, from which on it is reported as absurd."""
 _FAR = 5.0
 """So many times the noise: something is wrong with what was given, such as the amplitude."""
 
@@ -41,6 +43,7 @@ def findings(
     idle: Untouched,
 ) -> list[str]:
     """Lines about how well a fit is known, what is not determined, and what the model lacks."""
+    first: list[str] = []  # what makes the rest meaningless
     lines = [
         f"{found.alike} of {found.starts} starts came to this fit"
         + ("" if found.alike >= _FEW else "; more starts may find a better one")
@@ -72,7 +75,21 @@ def findings(
         amplitude = "" if source == BASE else amplitude_words(shaken, source)
         lines += _shape(test.name, test.kind, what, amplitude)
         if what.excess > BAD and what.excess_chance < CERTAIN:
-            lines += sensor_doubts(problem, x, number)
+            first += sensor_doubts(problem, x, number)
+    return [*first, *_absurd_gaps(data, problem), *lines]
+
+
+def _absurd_gaps(data: xr.Dataset, problem: Problem) -> list[str]:
+    """Gaps far beyond where the mass was seen: they stand for a fault in what was given."""
+    lines = []
+    for one, value in zip(problem.free, data["fitted_value"].values.tolist(), strict=True):
+        swings = [test.swing for test in problem.tests if one.test in (None, test.name)]
+        swing = max(swings, default=0.0)
+        if one.name.endswith("gap") and swing > 0.0 and abs(value) > _ABSURD * swing:
+            lines.append(
+                f"{one.key} {pretty(value, one.quantity, 3)} is absurd: {abs(value) / swing:.3g} "
+                f"times the largest displacement that was measured, {pretty(swing, LENGTH, 3)}"
+            )
     return lines
 
 

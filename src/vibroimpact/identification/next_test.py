@@ -37,6 +37,8 @@ _MOST = 0.2
 _FACTORS = (0.5, 0.75, 1.0, 1.5, 2.0)
 """Of the amplitude."""
 _POINTS = 121
+_TIE = 1e-6
+"""Share by which two candidates may differ and be as good as each other."""
 _WILD = 0.5
 """Change of a logarithm over one deviation at which a jump may have been passed."""
 _LITTLE = 0.98
@@ -217,6 +219,16 @@ def _swept(setting: Setting, grid: Array) -> tuple[Array, NDArray[np.bool_]]:
     return sizes(rows), rows[..., hold.PERIOD] > 0
 
 
+def _first_least(values: Array) -> tuple[int, ...]:
+    """Where the least value is; of those that rounding may part, the first one.
+
+    Forward and backward sweeps often meet the same motion.
+    """
+    least = float(np.nanmin(values))
+    near = np.argwhere(values <= least + _TIE * abs(least))
+    return tuple(int(i) for i in near[0])
+
+
 def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
     """The best hold for each parameter that is known worst, and for all."""
     lines = []
@@ -231,7 +243,7 @@ def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
     ):
         if not np.isfinite(of.values).any():
             continue
-        best = of.isel(of.argmin(...))
+        best = of.isel(dict(zip(of.dims, _first_least(of.values), strict=True)))
         amplitude = pretty(float(best["candidate_amplitude"]), PARAMETERS["amplitude"].quantity, 3)
         where = (
             f"a hold at {float(best['frequency']):.3g} Hz ({best['direction'].item()}), {amplitude}"

@@ -44,8 +44,9 @@ _CLOSE, _GRAZES = 1e-14, 1e-10
 _HALVINGS = 60
 _PROBE = 1e-7
 _FLAT = 1e-12
-_PROBED = 1e-8
-"""Scaled depth at which the map with the impact is looked at."""
+_PROBED = (1e-8, 1e-10, 1e-12)
+"""Scaled depths at which the map with the impact is evaluated, one after the other. The last impact
+of a long chatter changes little, so that the map is steep only close to the grazing."""
 _STEEP = 30.0
 """How much steeper than without the impact it must be there."""
 _W = (1e-5, 3e-6, 1e-6, 3e-5, 1e-4)
@@ -148,10 +149,12 @@ def taken_up(grazing: Orbit) -> tuple[Orbit, _Array] | None:
     size = float(gradient @ gradient)
     if not _FLAT < size < 1.0 / _FLAT:
         return None
-    depth = _PROBED
-    point = _beside(grazing, -depth / size * gradient)
-    status, hit, image = evaluated(section, point, mode)
-    if status is not Status.DONE or not at_wall(hit, grazing):
+    for depth in _PROBED:
+        point = _beside(grazing, -depth / size * gradient)
+        status, hit, image = evaluated(section, point, mode)
+        if status is Status.DONE and at_wall(hit, grazing):
+            break
+    else:
         return None
     kick = (image - point)[:PARAMETER] / section.scale[:PARAMETER]
     kick -= grazing.jacobian @ (-depth / size * gradient)
@@ -179,14 +182,23 @@ def taken_up(grazing: Orbit) -> tuple[Orbit, _Array] | None:
         found = corrected_at(w, _beside(grazing, w * first + w * w * second))
         if found is not None:
             break
+    if found is None:
+        return None
     seen = [(0.0, grazing.point)]
-    last = found
-    while found is not None:
-        last = found
+    side = _side_of_fold(found)
+    last, way = found, (found.point - grazing.point) / section.scale
+    # A fold close to the grazing is found later, from orbits on both sides of it.
+    while found is not None and _side_of_fold(found) == side:
+        last, way = found, (found.point - seen[-1][1]) / section.scale
         seen.append((math.sqrt(max(-margin_of(found), 0.0)), found.point))
         w = _GROWN * seen[-1][0]
         found = corrected_at(w, _at(seen[-3:], w)) if 0.0 < w < _FAR else None
-    return None if last is None else (last, last.tangent(along))
+    return last, last.tangent(way)
+
+
+def _side_of_fold(orbit: Orbit) -> float:
+    """Sign of det(M − I) of an orbit's map, which changes at a fold."""
+    return float(np.sign(np.linalg.det(orbit.own - np.eye(len(orbit.own)))))
 
 
 def _at(seen: Sequence[tuple[float, _Array]], w: float) -> _Array:

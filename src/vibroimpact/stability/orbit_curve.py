@@ -332,6 +332,7 @@ class Branch:
             return None  # the way back (`dies_out` finds the way on)
         mode = other.facts[section_map.MODE]
         for sign in (1.0, -1.0):
+            elsewhere = None
             # Forwards first: a corner may turn the branch back, but need not.
             along = sign * other.tangent(tangent)
             for reach in _RESTART:
@@ -340,7 +341,12 @@ class Branch:
                 away = distance(self, found.point, last.point)
                 if status is Status.DONE and found.contacts != contacts and away <= 3.0 * reach:
                     arclength = before.arclength + away
-                    return Station(found, found.tangent(along), arclength, before.piece + 1)
+                    there = Station(found, found.tangent(along), arclength, before.piece + 1)
+                    if found.contacts == other.contacts:
+                        return there
+                    elsewhere = elsewhere or there
+            if elsewhere is not None:
+                return elsewhere
         return None
 
     def _refined(self, here: Station, last: Orbit, good: float) -> tuple[Orbit, float]:

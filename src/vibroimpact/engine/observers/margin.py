@@ -13,25 +13,22 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import acceleration_of, begin, expanded, following, more
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner, relaxed
-from vibroimpact.engine.linear.layout import H
+from vibroimpact.engine.linear.layout import ORDER, H
+from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, FLIGHT, LIMIT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
 
 @kernel
-def turning_point(series: Vector, high: float) -> float:
-    """Where a series turns, on [−1/2, high], at whose ends its slope differs."""
-    low = -0.5
-    _, first = horner(series, low)
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        _, slope = horner(series, middle)
-        if slope * first > 0.0:
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
+def slope_series(series: Vector, slope: Vector) -> float:
+    """Write the derivative of a series; return the sign that it has on the first of [−1/2, 1/2]."""
+    for n in range(ORDER - 1):
+        slope[n] = (n + 1) * series[n + 1]
+    slope[ORDER - 1] = 0.0
+    first, second, third = jet(slope, -0.5)
+    leading = first if first != 0.0 else second if second != 0.0 else third
+    return math.copysign(1.0, leading)
 
 
 @kernel
@@ -64,24 +61,28 @@ def margin(plan: Vector, notes: Margin, stretch: Stretch) -> Margin:
     gap_r, rate_r = plan[par.BUMPER + par.GAP], plan[par.BUMPER + par.RATE]
     gap_l, rate_l = plan[par.BUMPER + par.WIDTH + par.GAP], plan[par.BUMPER + par.WIDTH + par.RATE]
     best = notes.least
-    series = workspace()
+    series, slope = workspace(), workspace()
     cursor = begin(plan, before, stretch.step)
     while more(plan, cursor):
         high, _, _ = expanded(plan, cursor, series)
-        _, first = horner(series, -0.5)
-        _, last = horner(series, high)
-        if first * last < 0.0:
-            y = turning_point(series, high)
+        way = slope_series(series, slope)
+        y = -0.5
+        # A short hop between two impacts turns twice within one piece.
+        while True:
+            y = first_root(slope, Clearance(0.0, way, 0.0, 0.0, False), y, high)
+            if y == NONE:
+                break
             value, _ = horner(series, y)
             at = cursor.t + (cursor.i + 0.5 + y) * plan[cursor.table + H]
             if before.mode != FLIGHT:
                 found = -value
-            elif first > 0.0:
+            elif way > 0.0:
                 found = gap_r + relaxed(before.right, rate_r, at) - value
             else:
                 found = gap_l + relaxed(before.left, rate_l, at) + value
             if abs(found) < abs(best):
                 best = found
+            way = -way
         cursor = following(plan, cursor)
     depth = impact_depth(plan, stretch)
     if depth < abs(best):

@@ -42,7 +42,9 @@ from vibroimpact.engine.taylor.frame import (
     creeps,
     curved_stop,
     grip,
+    idle,
     push_of,
+    rounding,
     steep,
     stuck,
     way_of,
@@ -264,6 +266,8 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
     # `still` − A_t is what friction holds against.
     still = without_friction(plan, motion) + value(plan, s, c)
     event, t, slips, most = LIMIT, limit, 0, grip(plan)
+    if idle(plan, motion):
+        most = max(most, rounding(plan, motion))
     after = turned(plan, s, c, limit)
     for way in range(2):
         sign = -1.0 if way == 0 else 1.0  # to the right where −A_t exceeds a level
@@ -336,7 +340,7 @@ def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
 def still(plan: Vector, motion: Motion, limit: float) -> Ended:
     """At rest on a rigid stop, or held by friction, until something lets go of the mass."""
     headed(plan, 0.25 / change_rate(plan), False)  # by which several harmonics find their way
-    if stuck(plan, motion):
+    if stuck(plan, motion) or idle(plan, motion):
         return held(plan, motion, limit)
     return rest(plan, motion, limit)
 
@@ -346,7 +350,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next event, or for the time `limit` if that comes first."""
     if motion.fresh & SETTLING:
         return settle(plan, motion, limit)
-    if resting(plan, motion.mode) or stuck(plan, motion):
+    if resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion):
         return still(plan, motion, limit)
     t = 0.0
     here = motion

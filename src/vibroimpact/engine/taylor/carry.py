@@ -13,7 +13,7 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.tables import resting
-from vibroimpact.engine.motion import DETACHED, LEFT, RIGHT, TURNED, Motion, Stretch
+from vibroimpact.engine.motion import DETACHED, LEFT, RIGHT, SETTLING, TURNED, Motion, Stretch
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY, contraction, rebound, tie
 from vibroimpact.engine.taylor.frame import (
     Frame,
@@ -53,6 +53,9 @@ from vibroimpact.engine.taylor.layout import (
 )
 from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at
 from vibroimpact.engine.taylor.step import Laws, convolved, pushed, raised_to
+
+_YIELDED = 2.0**-40
+"""Share of the largest memory by which rounding may leave a spring short of where it yields."""
 
 
 @kernel
@@ -176,7 +179,9 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
     before, _, event, length, arrival, after = stretch
     mode = before.mode
     lost = 0.0
-    if resting(plan, mode):
+    if before.fresh & SETTLING:
+        _settled(plan, before, q, rows)
+    elif resting(plan, mode):
         for i in range(rows):
             q[i * DISTURBANCE], q[i * DISTURBANCE + 1] = 0.0, 0.0
     elif stuck(plan, before):
@@ -197,6 +202,24 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
     for i in range(rows):
         _event(plan, before, event, arrival, after, q, i * DISTURBANCE)
     return lost + contraction(plan, event, after)
+
+
+@kernel
+def _settled(plan: Vector, before: Motion, q: Vector, rows: int) -> None:
+    """Complete a chatter: the isolator's memory stays what it was at the last impact followed.
+
+    That impact comes later by −δu/u̇, and until then z follows u. A spring that rests where it
+    yields has yielded on its way to the stop, and remembers nothing.
+    """
+    limit = plan[par.YIELD]
+    yielded = limit < math.inf and abs(before.z) >= limit * (1.0 - _YIELDED)
+    rate = 0.0
+    if plan[par.HYSTERETIC] != 0.0:
+        rate = _rate(plan, before, before.v, before.z)
+    for i in range(rows):
+        at = i * DISTURBANCE
+        q[at + MEMORY] = 0.0 if yielded else q[at + MEMORY] - rate * q[at]
+        q[at], q[at + 1] = 0.0, 0.0
 
 
 @kernel
@@ -260,9 +283,10 @@ def _event(
             e, slope = rebound(plan, event, arrival, after)
             q[at], q[at + 1] = -e * u, -e * v + slope * u
             if plan[par.HYSTERETIC] != 0.0 and arrival != 0.0:
-                q[at + MEMORY] -= (
-                    _rate(plan, after, arrival) + e * _rate(plan, after, after.v)
-                ) * u
+                # A spring that has not yielded before follows u up to the impact, also if it
+                # would yield there.
+                met = _rate(plan, before, arrival, after.z)
+                q[at + MEMORY] -= (met + e * _rate(plan, after, after.v, after.z)) * u
             tie(after.mode, q, at)
         elif curved_stop(plan, event):
             # Of its speed where it meets the stop, which it does sooner by δu/u̇.
@@ -289,9 +313,9 @@ def _event(
 
 
 @kernel
-def _rate(plan: Vector, motion: Motion, v: float) -> float:
-    """z′/u̇ at a velocity."""
+def _rate(plan: Vector, motion: Motion, v: float, end: float) -> float:
+    """z′/u̇ at a velocity, on the branch of a motion and where its memory has become `end`."""
     mode, fresh, u, _, right, left, z, age, clock = motion
     moving = Motion(mode, fresh, u, v, right, left, z, age, clock)
     branch = branch_of(plan, moving, 1.0)
-    return branch.slope - branch.bend * z ** int(plan[par.SHARPNESS])
+    return branch.slope - branch.bend * end ** int(plan[par.SHARPNESS])

@@ -216,6 +216,30 @@ def stuck(plan: Vector, motion: Motion) -> bool:
 
 
 @kernel
+def rounding(plan: Vector, motion: Motion) -> float:
+    """How far rounding may be from a balance of the forces on the mass, per unit mass (m/s²)."""
+    size: float = plan[par.STIFFNESS] * abs(motion.u) + plan[par.HYSTERETIC] * abs(motion.z)
+    size += abs(plan[par.LOAD]) + abs(value(plan, motion.clock[0], motion.clock[1]))
+    for side in range(1, 3):
+        if motion.mode & side:
+            size += stop_rounding(plan, motion, side)
+    return _ROUNDING * size
+
+
+@kernel
+def idle(plan: Vector, motion: Motion) -> bool:
+    """Whether an isolator that yields has come to rest: it stands, and forces cancel to rounding.
+
+    It may rest anywhere. Rounding alone would turn it again and again, without end.
+    """
+    if motion.v != 0.0 or plan[par.HYSTERETIC] == 0.0:
+        return False
+    if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED):
+        return False
+    return bool(abs(without_friction(plan, motion)) < rounding(plan, motion))
+
+
+@kernel
 def creeps(plan: Vector, motion: Motion) -> bool:
     """Whether a drag is about to hold a mass that is slower than leaves a trace."""
     if not steep(plan) or motion.v == 0.0 or abs(motion.v) > creep(plan):
@@ -249,29 +273,43 @@ def way_of(plan: Vector, motion: Motion) -> float:
         return 1.0
     if motion.fresh & SLIPS_LEFT:
         return -1.0
-    if balanced(plan, motion):
-        s, c = motion.clock
-        a = value(plan, s, c) - value(plan, s + 1e-8 * c, c - 1e-8 * s)
-    else:
-        a = without_friction(plan, motion)
+    a = -changes(plan, motion) if balanced(plan, motion) else without_friction(plan, motion)
     return math.copysign(1.0, a)
+
+
+@kernel
+def changes(plan: Vector, motion: Motion) -> float:
+    """How much the base's acceleration changes in a moment; only its sign is of use."""
+    s, c = motion.clock
+    before: float = value(plan, s, c)
+    return value(plan, s + 1e-8 * c, c - 1e-8 * s) - before
 
 
 @kernel
 def balanced(plan: Vector, motion: Motion) -> bool:
     """Whether the forces but for friction are zero to rounding.
 
-    A stiff stop turns the rounding of a displacement into a force, which counts.
+    A stiff stop turns the rounding of a displacement into a force, which counts. While the shaking
+    changes, its own rounding counts, too.
     """
+    if changes(plan, motion) == 0.0:
+        return bool(abs(without_friction(plan, motion)) <= rounding(plan, motion))
     size: float = plan[MOST] + abs(plan[par.LOAD])
     for side in range(1, 3):
         if motion.mode & side and curved_stop(plan, side):
-            at = par.BUMPER + par.WIDTH * (side - 1)
-            exponent = plan[at + par.EXPONENT]
-            slope = face(plan, motion, side) ** (exponent - 1.0)
-            slope *= exponent * plan[at + par.BUMPER_STIFFNESS]
-            size += slope * max(abs(motion.u), abs(plan[at + par.GAP]))
+            size += stop_rounding(plan, motion, side)
     return bool(abs(without_friction(plan, motion)) <= _ROUNDING * size)
+
+
+@kernel
+def stop_rounding(plan: Vector, motion: Motion, side: int) -> float:
+    """Force of a pressed stop, of which its deformation's rounding is the same share (m/s²)."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    slope: float = plan[at + par.BUMPER_STIFFNESS]
+    if curved_stop(plan, side):
+        exponent = plan[at + par.EXPONENT]
+        slope *= exponent * face(plan, motion, side) ** (exponent - 1.0)
+    return slope * max(abs(motion.u), abs(plan[at + par.GAP]))
 
 
 @kernel

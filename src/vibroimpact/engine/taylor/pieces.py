@@ -25,6 +25,7 @@ from vibroimpact.engine.taylor.frame import (
     acceleration_of,
     curved_stop,
     frame_of,
+    idle,
     stuck,
     way_of,
 )
@@ -114,7 +115,7 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
     frame = frame_of(plan, motion.mode)
     x = coordinate(plan, motion)
     z = frame.sign * motion.z
-    held = resting(plan, motion.mode) or stuck(plan, motion)
+    held = resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion)
     if held:
         length = min(longest, 1.0 / max(pace(plan), 1e-300))
         stay(plan, frame, x, z, motion.clock, length)

@@ -29,7 +29,7 @@ from vibroimpact.engine.motion import (
 )
 from vibroimpact.engine.motion import LIMIT as NOTHING
 from vibroimpact.engine.taylor.advance import still
-from vibroimpact.engine.taylor.frame import stuck, way_of
+from vibroimpact.engine.taylor.frame import idle, stuck, way_of
 from vibroimpact.engine.yielding.layout import ELASTIC, MOVES_LEFT, MOVES_RIGHT
 from vibroimpact.engine.yielding.leg import (
     BEGUN,
@@ -55,7 +55,7 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     mode, fresh, u, v, right, left, z, age, clock = motion
     if fresh & SETTLING:
         return settle(plan, motion, limit)
-    if resting(plan, mode) or stuck(plan, motion):
+    if resting(plan, mode) or stuck(plan, motion) or idle(plan, motion):
         return still(plan, motion, limit)
     way = way_of(plan, motion)
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
