@@ -171,8 +171,8 @@ def test_where_it_rests_is_right_to_the_swing_that_is_left(seed: int) -> None:
     ]
     for law in laws:
         rig = vi.Oscillator(1.0, law)
-        found = vi.seismic_response(rig, record)
-        motion = vi.simulate(rig, record, tail=300.0, samples=1)
+        found = vi.seismic_response(vi.Rig(rig, record))
+        motion = vi.simulate(vi.Rig(rig, record), tail=300.0, samples=1)
         place, size = motion["displacement"].values[-1], float(found["peak_displacement"])
         assert np.ptp(motion["displacement"].values[-500:]) <= 1e-12 * size
         swing = float(found["residual_swing"])
@@ -190,7 +190,7 @@ def test_free_vibration_that_has_died_out_goes_on(exponent: int) -> None:
         exponent=exponent,
     )
     record = vi.Record(np.random.default_rng(0).normal(size=300) * 0.5, 0.02)
-    motion = vi.simulate(vi.Oscillator(1.0, law), record, tail=200.0, samples=1)
+    motion = vi.simulate(vi.Rig(vi.Oscillator(1.0, law), record), tail=200.0, samples=1)
     assert motion.attrs["status"] == "done"
     u, z = motion["displacement"].values[-1], motion["isolator_memory"].values[-1]
     pulls = 278.913 * u + (1619.78 - 278.913) * z

@@ -142,8 +142,8 @@ def chattering():
     branches = []
     for frequency in (0.07559, 0.08):
         forcing = vi.Harmonic(1.0, frequency)
-        start = vi.steady(rig, forcing)
-        branches.append(vi.branch(rig, forcing, start, low=0.0754, high=0.081))
+        start = vi.steady(vi.Rig(rig, forcing))
+        branches.append(vi.branch(vi.Rig(rig, forcing), start, span=(0.0754, 0.081)))
     return branches
 
 

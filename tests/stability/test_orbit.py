@@ -108,9 +108,9 @@ def test_a_completed_chatter_forgets_everything():
     rig = vi.Oscillator(74.3114677960523, isolator, vi.RigidStop(0.9, gap))
     shaken = vi.Harmonic(2.153514390835883, 0.0992367688416092)
     start = vi.State(gap, -0.3209708699329611)
-    found = vi.orbit(rig, shaken, start)
+    found = vi.orbit(vi.Rig(rig, shaken), start)
     assert (np.hypot(found["multiplier_real"], found["multiplier_imag"]) == 0.0).all()
-    assert (vi.steady(rig, shaken, start)["exponents"] == -np.inf).all()
+    assert (vi.steady(vi.Rig(rig, shaken), start)["exponents"] == -np.inf).all()
     growth = vi.lyapunov_exponents((rig, shaken.amplitude), [shaken.frequency], start=start)
     assert (growth["exponents"] == -np.inf).all()
 
@@ -120,11 +120,11 @@ def test_what_an_elastic_spring_remembers_through_a_rest():
     isolator = vi.BilinearIsolator(1.0, 0.2, 0.25, 0.05)
     rig = vi.Oscillator(1.0, isolator, vi.RigidStop(0.5, -0.1))
     shaken = vi.Harmonic(0.2, 0.03)
-    found = vi.orbit(rig, shaken, vi.steady(rig, shaken))
+    found = vi.orbit(vi.Rig(rig, shaken), vi.steady(vi.Rig(rig, shaken)))
     section = found["final_state"].values
     ends = []
     for step in (1e-6, -1e-6):
         start = vi.State(section[0], section[1], isolator=section[-1] + step)
-        ends.append(vi.simulate(rig, shaken, 1, start)["final_state"].values)
+        ends.append(vi.simulate(vi.Rig(rig, shaken), 1, start)["final_state"].values)
     slope = (ends[0] - ends[1]) / 2e-6
     assert slope[-1] == pytest.approx(float(found["monodromy"][4, 4]), rel=1e-5, abs=1e-9)

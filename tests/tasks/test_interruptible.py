@@ -145,14 +145,14 @@ def test_calls_grow_until_they_take_long_and_tell_how_far_they_are(monkeypatch):
 @pytest.mark.parametrize(
     "call",
     [
-        "vi.simulate(rig, shaken, 3e8, samples=0)",
-        "vi.simulate(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1), samples=0)",
-        "vi.seismic_response(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1))",
+        "vi.simulate(vi.Rig(rig, shaken), 3e8, samples=0)",
+        "vi.simulate(vi.Rig(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1)), samples=0)",
+        "vi.seismic_response(vi.Rig(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1)))",
         "vi.response_spectrum(vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1), range(1, 20))",
-        "vi.sweep(chaotic, shaken, [1.06], window=300_000_000)",
-        "vi.lyapunov_exponents([(rig, shaken)], [0.2], 300_000_000)",
-        "vi.steady(chaotic, shaken, max_cycles=300_000_000)",
-        "vi.steady(chaotic, shaken, exponent_cycles=5_000_000)",
+        "vi.sweep(vi.Rig(chaotic, shaken), [1.06], window=300_000_000)",
+        "vi.lyapunov_exponents([vi.Rig(rig, shaken)], [0.2], 300_000_000)",
+        "vi.steady(vi.Rig(chaotic, shaken), max_cycles=300_000_000)",
+        "vi.steady(vi.Rig(chaotic, shaken), exponent_cycles=5_000_000)",
     ],
 )
 def test_ctrl_c_ends_what_takes_long(call):
@@ -164,13 +164,13 @@ def test_ctrl_c_ends_what_takes_long(call):
         case = vi.laboratory.case("B3-10mm-A3")
         chaotic, shaken = case.oscillator, vi.Harmonic(case.amplitude, 1.06)
         record = vi.Record([0.0, 1.0], 0.1)
-        vi.simulate(rig, shaken, 3)
-        vi.simulate(rig, record)
-        vi.seismic_response(rig, record)
+        vi.simulate(vi.Rig(rig, shaken), 3)
+        vi.simulate(vi.Rig(rig, record))
+        vi.seismic_response(vi.Rig(rig, record))
         vi.response_spectrum(record, [1.0])
-        vi.sweep(rig, shaken, [0.2])
-        vi.lyapunov_exponents([(rig, shaken)], [0.2], 10)
-        vi.steady(chaotic, shaken, exponent_cycles=10)
+        vi.sweep(vi.Rig(rig, shaken), [0.2])
+        vi.lyapunov_exponents([vi.Rig(rig, shaken)], [0.2], 10)
+        vi.steady(vi.Rig(chaotic, shaken), exponent_cycles=10)
         print("begun", flush=True)
         try:
             {call}

@@ -282,7 +282,8 @@ def changes(plan: Vector, motion: Motion) -> float:
     """How much the base's acceleration changes in a moment; only its sign is of use."""
     s, c = motion.clock
     before: float = value(plan, s, c)
-    return value(plan, s + 1e-8 * c, c - 1e-8 * s) - before
+    after: float = value(plan, s + 1e-8 * c, c - 1e-8 * s)
+    return after - before
 
 
 @kernel
@@ -309,7 +310,8 @@ def stop_rounding(plan: Vector, motion: Motion, side: int) -> float:
     if curved_stop(plan, side):
         exponent = plan[at + par.EXPONENT]
         slope *= exponent * face(plan, motion, side) ** (exponent - 1.0)
-    return slope * max(abs(motion.u), abs(plan[at + par.GAP]))
+    size: float = max(abs(motion.u), abs(plan[at + par.GAP]))
+    return slope * size
 
 
 @kernel
