@@ -1,4 +1,4 @@
-"""How a parameter is read from a rig and its forcing, and written into them."""
+"""Read the value of a parameter from a rig, and make the rig at another value."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ import math
 from collections.abc import Callable
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.excitation import Harmonic, Repeated
+from vibroimpact.model.excitation import Harmonic
 from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import Quantity
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import Bumper, Stop
 from vibroimpact.model.validation import Model
 
-Setting = tuple[Oscillator, Repeated]
-"""A rig and its forcing."""
-
-Read = Callable[[Oscillator, Repeated], float]
-Write = Callable[[Oscillator, Repeated, float], Setting]
+Read = Callable[[Rig], float]
+"""The value of a parameter in a rig."""
+Vary = Callable[[Rig, float], Rig]
+"""The rig at another value of a parameter."""
 
 
 def number(part: Model, name: str, whose: str = "stops have") -> float:
@@ -41,11 +41,12 @@ def quantity(part: Model, name: str, whose: str = "stops have") -> Quantity:
     return accepts.quantity
 
 
-def bumpers(name: str) -> tuple[Read, Write]:
-    """Read and write a number that both bumpers share."""
+def bumpers(name: str) -> tuple[Read, Vary]:
+    """Read and vary a number that both bumpers share."""
 
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        stops = [stop for stop in rig.stops if name in type(stop).model_fields] or rig.stops
+    def read(rig: Rig) -> float:
+        oscillator = rig.oscillator
+        stops = [stop for stop in oscillator.stops if name in type(stop).model_fields] or oscillator.stops
         values = {number(stop, name) for stop in stops}
         kinds = {quantity(stop, name) for stop in stops}
         if len(values) != 1 or len(kinds) != 1:
@@ -62,19 +63,20 @@ def bumpers(name: str) -> tuple[Read, Write]:
             )
         return float(values.pop())
 
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
+    def vary(rig: Rig, value: float) -> Rig:
+        oscillator = rig.oscillator
         changed = {
             side: stop.replace(**{name: value})
-            for side, stop in (("right", rig.right), ("left", rig.left))
+            for side, stop in (("right", oscillator.right), ("left", oscillator.left))
             if stop is not None and name in type(stop).model_fields
         }
-        return rig.replace(**changed), shaken
+        return rig.with_parts(oscillator.replace(**changed))
 
-    return read, write
+    return read, vary
 
 
-def one_bumper(side: str, name: str) -> tuple[Read, Write]:
-    """Read and write a number of the stop on one side."""
+def one_bumper(side: str, name: str) -> tuple[Read, Vary]:
+    """Read and vary a number of the stop on one side."""
 
     def bumper(rig: Oscillator) -> Stop:
         found: Stop | None = getattr(rig, side)
@@ -82,39 +84,41 @@ def one_bumper(side: str, name: str) -> tuple[Read, Write]:
             raise InputError(f"parameter: there is no {side} bumper; one that is there is accepted")
         return found
 
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        return number(bumper(rig), name)
+    def read(rig: Rig) -> float:
+        oscillator = rig.oscillator
+        return number(bumper(oscillator), name)
 
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        return rig.replace(**{side: bumper(rig).replace(**{name: value})}), shaken
+    def vary(rig: Rig, value: float) -> Rig:
+        oscillator = rig.oscillator
+        return rig.with_parts(oscillator.replace(**{side: bumper(oscillator).replace(**{name: value})}))
 
-    return read, write
+    return read, vary
 
 
-def rig(name: str) -> tuple[Read, Write]:
-    """Read and write a number of the oscillator itself."""
+def oscillator_number(name: str) -> tuple[Read, Vary]:
+    """Read and vary a number of the oscillator itself."""
     return (
-        lambda rig, shaken: float(getattr(rig, name)),
-        lambda rig, shaken, value: (rig.replace(**{name: value}), shaken),
+        lambda rig: float(getattr(rig.oscillator, name)),
+        lambda rig, value: rig.with_parts(rig.oscillator.replace(**{name: value})),
     )
 
 
-def isolator(name: str) -> tuple[Read, Write]:
-    """Read and write a number of the isolator."""
+def isolator(name: str) -> tuple[Read, Vary]:
+    """Read and vary a number of the isolator."""
+    def vary(rig: Rig, value: float) -> Rig:
+        law = rig.oscillator.isolator.replace(**{name: value})
+        return rig.with_parts(rig.oscillator.replace(isolator=law))
+
+    return lambda rig: number(rig.oscillator.isolator, name, "isolator has"), vary
+
+
+def forcing(name: str) -> tuple[Read, Vary]:
+    """Read and vary a number of what shakes the rig."""
     return (
-        lambda rig, shaken: number(rig.isolator, name, "isolator has"),
-        lambda rig, shaken, value: (
-            rig.replace(isolator=rig.isolator.replace(**{name: value})),
-            shaken,
+        lambda rig: float(getattr(rig.periodic, name)),
+        lambda rig, value: rig.with_parts(
+            rig.oscillator, rig.periodic.replace(**{name: value}), keep_open=name != "frequency"
         ),
-    )
-
-
-def forcing(name: str) -> tuple[Read, Write]:
-    """Read and write a number of what shakes the rig."""
-    return (
-        lambda rig, shaken: float(getattr(shaken, name)),
-        lambda rig, shaken, value: (rig, shaken.replace(**{name: value})),
     )
 
 
@@ -124,52 +128,56 @@ def spring(rig: Oscillator, name: str) -> float:
     return rig.isolator.initial_stiffness
 
 
-def in_proportion(unit: Callable[[Oscillator], float]) -> tuple[Read, Write]:
+def in_proportion(unit: Callable[[Oscillator], float]) -> tuple[Read, Vary]:
     """The bumpers' stiffness over a unit, at a fixed relaxation time C_j/K_j."""
     stiffness_of, _ = bumpers("stiffness")
 
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        return stiffness_of(rig, shaken) / unit(rig)
+    def read(rig: Rig) -> float:
+        oscillator = rig.oscillator
+        return stiffness_of(rig) / unit(oscillator)
 
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
+    def vary(rig: Rig, value: float) -> Rig:
+        oscillator = rig.oscillator
         changed = {}
-        for side, bumper in (("right", rig.right), ("left", rig.left)):
+        for side, bumper in (("right", oscillator.right), ("left", oscillator.left)):
             if isinstance(bumper, Bumper):
-                stiffness = value * unit(rig)
+                stiffness = value * unit(oscillator)
                 time = bumper.damping / bumper.stiffness
                 changed[side] = bumper.replace(stiffness=stiffness, damping=stiffness * time)
-        return rig.replace(**changed), shaken
+        return rig.with_parts(oscillator.replace(**changed))
 
-    return read, write
+    return read, vary
 
 
-def at_restitution() -> tuple[Read, Write]:
+def at_restitution() -> tuple[Read, Vary]:
     """The bumpers' stiffness at a fixed restitution: C_j as √(K_j M), as `from_restitution`."""
     stiffness_of, _ = bumpers("stiffness")
 
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        for stop in rig.stops:
+    def read(rig: Rig) -> float:
+        oscillator = rig.oscillator
+        for stop in oscillator.stops:
             if "stiffness" in type(stop).model_fields and not isinstance(stop, Bumper):
                 raise InputError(
                     f"parameter: {stop} keeps its restitution at any stiffness; "
                     "'bumper_stiffness' is accepted"
                 )
-        return stiffness_of(rig, shaken)
+        return stiffness_of(rig)
 
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
+    def vary(rig: Rig, value: float) -> Rig:
+        oscillator = rig.oscillator
         changed = {
             side: bumper.replace(
                 stiffness=value, damping=bumper.damping * math.sqrt(value / bumper.stiffness)
             )
-            for side, bumper in (("right", rig.right), ("left", rig.left))
+            for side, bumper in (("right", oscillator.right), ("left", oscillator.left))
             if isinstance(bumper, Bumper)
         }
-        return rig.replace(**changed), shaken
+        return rig.with_parts(oscillator.replace(**changed))
 
-    return read, write
+    return read, vary
 
 
-def scale_of(oscillator: Oscillator, shaken: Repeated) -> float:
+def scale_of(rig: Rig) -> float:
     """Return the peak base acceleration (m/s²) by which gaps are scaled whatever shakes the mass.
 
     Of a displacement X of the base it is X ω0², of a force F on the mass F/M: the largest
@@ -180,6 +188,7 @@ def scale_of(oscillator: Oscillator, shaken: Repeated) -> float:
     InputError
         If several harmonics shake it.
     """
+    oscillator, shaken = rig.oscillator, rig.periodic
     if not isinstance(shaken, Harmonic):
         raise InputError(
             "gap_ratio: gaps are scaled by the peak of free flight under one sine, and several "
@@ -188,63 +197,68 @@ def scale_of(oscillator: Oscillator, shaken: Repeated) -> float:
     return float(shaken.acceleration(oscillator.mass, oscillator.angular_frequency))
 
 
-def gap_ratio() -> tuple[Read, Write]:
+def gap_ratio() -> tuple[Read, Vary]:
     """δ0 = G0_j/u_max at a fixed peak of free flight."""
     gap_of, with_gap = bumpers("gap")
 
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        return gap_of(rig, shaken) / peak_displacement(rig, scale_of(rig, shaken))
+    def read(rig: Rig) -> float:
+        return gap_of(rig) / peak_displacement(rig.oscillator, scale_of(rig))
 
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        return with_gap(rig, shaken, value * peak_displacement(rig, scale_of(rig, shaken)))
+    def vary(rig: Rig, value: float) -> Rig:
+        return with_gap(rig, value * peak_displacement(rig.oscillator, scale_of(rig)))
 
-    return read, write
+    return read, vary
 
 
-def relaxation_time() -> tuple[Read, Write]:
+def relaxation_time() -> tuple[Read, Vary]:
     """τ = ω0 C_j/K_j at a fixed stiffness."""
 
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        rig.check_linear("'relaxation_time'")
-        times = [number(stop, "damping") / number(stop, "stiffness") for stop in rig.stops]
+    def read(rig: Rig) -> float:
+        oscillator = rig.oscillator
+        oscillator.check_linear("'relaxation_time'")
+        times = [number(stop, "damping") / number(stop, "stiffness") for stop in oscillator.stops]
         if not times or not math.isclose(min(times), max(times), rel_tol=1e-12):
             told = "there is no bumper" if not times else f"their C/K are {sorted(times)} s"
             raise InputError(
                 f"parameter: 'relaxation_time' is that of both bumpers, but {told}; "
                 "'right_damping' and 'left_damping' are accepted, or a rig in which they agree"
             )
-        return rig.angular_frequency * times[0]
+        return oscillator.angular_frequency * times[0]
 
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
+    def vary(rig: Rig, value: float) -> Rig:
+        oscillator = rig.oscillator
         changed = {
-            side: bumper.replace(damping=value * bumper.stiffness / rig.angular_frequency)
-            for side, bumper in (("right", rig.right), ("left", rig.left))
+            side: bumper.replace(damping=value * bumper.stiffness / oscillator.angular_frequency)
+            for side, bumper in (("right", oscillator.right), ("left", oscillator.left))
             if isinstance(bumper, Bumper)
         }
-        return rig.replace(**changed), shaken
+        return rig.with_parts(oscillator.replace(**changed))
 
-    return read, write
+    return read, vary
 
 
-def isolator_period() -> tuple[Read, Write]:
+def isolator_period() -> tuple[Read, Vary]:
     """T = 2π √(M/K) at fixed mass and damping ratio."""
 
-    def read(rig: Oscillator, shaken: Repeated) -> float:
-        number(rig.isolator, "stiffness", "isolator has")
-        return 1.0 / rig.natural_frequency
+    def read(rig: Rig) -> float:
+        oscillator = rig.oscillator
+        number(oscillator.isolator, "stiffness", "isolator has")
+        return 1.0 / oscillator.natural_frequency
 
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        made = spring_and_dashpot(rig.mass, value, rig.damping_ratio)
-        return rig.replace(isolator=rig.isolator.replace(**made)), shaken
+    def vary(rig: Rig, value: float) -> Rig:
+        oscillator = rig.oscillator
+        made = spring_and_dashpot(oscillator.mass, value, oscillator.damping_ratio)
+        return rig.with_parts(oscillator.replace(isolator=oscillator.isolator.replace(**made)))
 
-    return read, write
+    return read, vary
 
 
-def damping_ratio() -> tuple[Read, Write]:
+def damping_ratio() -> tuple[Read, Vary]:
     """ξ = C/(2√(K M)) at fixed stiffness and mass."""
 
-    def write(rig: Oscillator, shaken: Repeated, value: float) -> Setting:
-        damping = value * rig.critical_damping
-        return rig.replace(isolator=rig.isolator.replace(damping=damping)), shaken
+    def vary(rig: Rig, value: float) -> Rig:
+        oscillator = rig.oscillator
+        damping = value * oscillator.critical_damping
+        return rig.with_parts(oscillator.replace(isolator=oscillator.isolator.replace(damping=damping)))
 
-    return lambda rig, shaken: rig.damping_ratio, write
+    return lambda rig: rig.oscillator.damping_ratio, vary

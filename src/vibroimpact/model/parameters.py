@@ -13,7 +13,7 @@ from typing import NamedTuple, cast
 from vibroimpact.arguments import is_list
 from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.model import access
-from vibroimpact.model.access import Read, Write
+from vibroimpact.model.access import Read, Vary
 from vibroimpact.model.excitation import QUANTITIES, Of
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import (
@@ -67,8 +67,8 @@ class Parameter(NamedTuple):
     long_name: str
     read: Read
     """Its value in a rig; refused where the rig has none."""
-    write: Write
-    """The rig and the forcing at another value."""
+    vary: Vary
+    """The rig at another value."""
     zero: bool = True
     """Whether it may be 0."""
     comment: str = ""
@@ -166,7 +166,7 @@ def _of_stops(
 
     words = field.replace("_", " ")
 
-    def made(name: str, whose: str, how: tuple[Read, Write], side: str) -> Parameter:
+    def made(name: str, whose: str, how: tuple[Read, Vary], side: str) -> Parameter:
         named = f"{words} of {whose}"
         return Parameter(
             name, quantity, named, *how, zero, least=least, most=most, measured=measured(side)
@@ -214,7 +214,7 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "amplitude", ACCELERATION, "peak base acceleration", *access.forcing("amplitude"), False
         ),
-        Parameter("force", FORCE, "constant force on the mass", *access.rig("force"), least=None),
+        Parameter("force", FORCE, "constant force on the mass", *access.oscillator_number("force"), least=None),
         Parameter("gap", LENGTH, "gap of each side", *access.bumpers("gap"), least=None),
         *(
             Parameter(

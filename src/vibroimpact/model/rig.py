@@ -184,14 +184,22 @@ class Rig:
         """Return the rig shaken at a frequency (Hz, or text with a unit)."""
         return Rig(self.oscillator, self.periodic, frequency, self.name)
 
-    def with_parts(self, oscillator: Oscillator, shaking: Repeated | Record | None = None) -> Rig:
-        """Return a copy with another oscillator and shaking; an open frequency stays open."""
-        if shaking is None:
-            shaking = self.shaking
-        changed = Rig(oscillator, shaking, name=self.name)
-        if self.frequency is None:
-            object.__setattr__(changed, "frequency", None)
-        object.__setattr__(changed, "amplitudes", self.amplitudes)
+    def with_parts(
+        self,
+        oscillator: Oscillator,
+        shaking: Repeated | Record | None = None,
+        *,
+        keep_open: bool = True,
+    ) -> Rig:
+        """Return a copy with another oscillator, and perhaps another shaking.
+
+        A frequency that is open stays so, unless `keep_open` is False.
+        """
+        frequency = self.frequency
+        if isinstance(shaking, Harmonic | Periodic) and not (frequency is None and keep_open):
+            frequency = shaking.frequency
+        changed = object.__new__(Rig)
+        changed._set(oscillator, shaking or self.shaking, frequency, self.amplitudes, self.name)
         return changed
 
     def __repr__(self) -> str:

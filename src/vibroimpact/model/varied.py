@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.access import Setting
-from vibroimpact.model.excitation import Repeated
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import doubt_damping_ratio, to_si
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
@@ -71,10 +70,8 @@ def varied(
     return Varied(known.name, np.array(numbers), known.units, known.long_name)
 
 
-def written(
-    rig: Oscillator, shaken: Repeated, values: Iterable[tuple[Parameter, float]]
-) -> Setting:
-    """The rig and its forcing with values of several parameters, in whatever order.
+def vary_all(rig: Rig, values: Iterable[tuple[Parameter, float]]) -> Rig:
+    """Return the rig at values of several parameters, in whatever order.
 
     Raises
     ------
@@ -82,9 +79,9 @@ def written(
         If it cannot have one, or has no such parameter.
     """
     for one, value in sorted(values, key=lambda pair: _turn(pair[0].name)):
-        rig, shaken = one.write(rig, shaken, value)
-        one.read(rig, shaken)  # refuses what the rig does not have
-    return rig, shaken
+        rig = one.vary(rig, value)
+        one.read(rig)  # refuses what the rig does not have
+    return rig
 
 
 def _turn(name: str) -> int:
