@@ -39,7 +39,7 @@ def rig(problem: Smooth) -> vi.Oscillator:
 def engine(problem: Smooth, periods: int) -> Callable[[], tuple[float, float]]:
     """Return a call of the engine from rest over a number of forcing periods."""
     hertz, phase = problem.frequency / math.tau, -0.5 * math.pi
-    vector = engine_rig(rig(problem), vi.Harmonic(problem.amplitude, hertz, phase))
+    vector = engine_rig(vi.Rig(rig(problem), vi.Harmonic(problem.amplitude, hertz, phase)))
     return ours.trajectory(vector, problem.amplitude, hertz, phase, periods)
 
 

@@ -169,12 +169,15 @@ def test_the_reference_is_found_once_along_a_branch(monkeypatch) -> None:
         lambda *given: asked.append(len(given[2])) or found(*given),
     )
     rig, shaken = between(DULL), vi.Periodic(0.45, (1.5, 0.61, 0.9))
-    analytic_free_response.reference_excursions(rig, shaken)
+    analytic_free_response.reference_excursions(vi.Rig(rig, shaken))
     once = len(asked)
     assert once > 10
-    one = analytic_free_response.reference_excursions(rig, shaken)
+    one = analytic_free_response.reference_excursions(vi.Rig(rig, shaken))
     twice = analytic_free_response.reference_excursions(
-        rig.replace(right=None, force=1.0), shaken.replace(amplitude=3.0, frequency=1.0, phase=0.3)
+        vi.Rig(
+            rig.replace(right=None, force=1.0),
+            shaken.replace(amplitude=3.0, frequency=1.0, phase=0.3),
+        )
     )
     np.testing.assert_allclose(twice, 2.0 * np.array(one), rtol=1e-14)
     assert len(asked) == once

@@ -18,7 +18,7 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 EXCITATION = vi.Harmonic(CASE.amplitude, 0.7)
-STAGE = Stage(CASE.oscillator, EXCITATION)
+STAGE = Stage(vi.Rig(CASE.oscillator, EXCITATION))
 WINDOW = (-0.011, 0.011), (-0.104, 0.104)
 SIDES = np.ptp(np.array(WINDOW), axis=1)
 
@@ -177,7 +177,7 @@ def test_tangles_are_found_where_curves_cross():
     points = np.zeros((data.sizes["crossing"], 5))
     points[:, 0], points[:, 1] = data["crossing_displacement"], data["crossing_velocity"]
     saddles = np.column_stack([data["saddle_displacement"], data["saddle_velocity"]]) / sides
-    stage = Stage(rig, shaking)
+    stage = Stage(vi.Rig(rig, shaking))
     states = follow(stage, points, None, NO_TRAPS, 0).states
     nearest = np.full(len(points), np.inf)
     for _ in range(24):

@@ -12,7 +12,7 @@ from vibroimpact.attraction.label_states import NO_TRAPS, Region, Stage, follow,
 from vibroimpact.attraction.state_grid import lattice
 
 CASE = vi.laboratory.case("B3-10mm-A3")
-STAGE = Stage(CASE.oscillator, vi.Harmonic(CASE.amplitude, 0.7))
+STAGE = Stage(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 0.7)))
 BUMPERS = (0.002, -0.001, 0.0)
 
 

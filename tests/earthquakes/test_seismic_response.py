@@ -200,11 +200,11 @@ def test_free_vibration_that_has_died_out_goes_on(exponent: int) -> None:
 
 def test_the_tail_is_two_periods_of_the_softest_spring() -> None:
     rig = vi.Oscillator(2.0, vi.BilinearIsolator(80.0, 8.0, 1.0, 0.3))
-    assert free_tail(rig, RECORD) == pytest.approx(2.0 * math.tau * math.sqrt(2.0 / 8.0))
+    assert free_tail(vi.Rig(rig, RECORD)) == pytest.approx(2.0 * math.tau * math.sqrt(2.0 / 8.0))
     sliding = vi.Oscillator(2.0, vi.FrictionIsolator(0.0, 0.1, 0.6))
-    assert free_tail(sliding, RECORD) == RECORD.duration
+    assert free_tail(vi.Rig(sliding, RECORD)) == RECORD.duration
     slow = vi.Oscillator(2.0, vi.Isolator(1e-9, 0.1))
-    assert free_tail(slow, RECORD) == 60.0
+    assert free_tail(vi.Rig(slow, RECORD)) == 60.0
 
 
 def test_a_case_is_a_rig() -> None:

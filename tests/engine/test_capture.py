@@ -21,7 +21,7 @@ from vibroimpact.response.propagate import moved_on
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 EXCITATION = vi.Harmonic(CASE.amplitude, 0.7, 0.4)
-STAGE = Stage(CASE.oscillator, EXCITATION)
+STAGE = Stage(vi.Rig(CASE.oscillator, EXCITATION))
 STARTS = np.array([[0.0, 0.0], [0.01, 0.05], [-0.004, 0.08], [0.007, -0.02]])
 
 
@@ -47,7 +47,7 @@ def ball(owner: int, centre: np.ndarray, radius: float) -> np.ndarray:
 
 
 def states_after(cycles: int) -> np.ndarray:
-    rig = engine_rig(CASE.oscillator, EXCITATION)
+    rig = engine_rig(vi.Rig(CASE.oscillator, EXCITATION))
     begin = [engine_state(CASE.oscillator, vi.State(u, v)) for u, v in STARTS]
     if not cycles:
         return np.array(begin)

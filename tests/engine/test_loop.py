@@ -64,7 +64,9 @@ def look(given, rig, state, amplitude, frequency, phase, cycles, max_events, out
 # Each flow is compiled once more for it.
 @pytest.mark.parametrize("stop", [*sample([vi.Bumper(20.0, 0.4, 1.0)], []), vi.RigidStop(0.6, 1.0)])
 def test_every_event_is_seen_once_and_has_no_influence(stop: vi.Bumper | vi.RigidStop) -> None:
-    rig = engine_rig(vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop), vi.Harmonic(1.0, 1.0))
+    rig = engine_rig(
+        vi.Rig(vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop), vi.Harmonic(1.0, 1.0))
+    )
     out = np.zeros(6)
     events = look(rig, np.zeros(STATE), AMPLITUDE, FREQUENCY, PHASE, CYCLES, MOST, out)
     contacts, detachments, time, gaps = out[:4]

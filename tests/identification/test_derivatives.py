@@ -7,7 +7,6 @@ import vibroimpact as vi
 from identification.twins import FREE, curves
 from vibroimpact.engine import hold, orbit
 from vibroimpact.engine.section_map import MODE
-from vibroimpact.identification.branch_response import Rig
 from vibroimpact.identification.curve_residuals import CurveTest
 from vibroimpact.identification.free_parameters import frees
 from vibroimpact.identification.least_squares import Problem
@@ -40,7 +39,7 @@ def by_the_implicit_function_theorem(case, frequency, name, state):
     P_z comes from the tangent map; P_p and what is measured over one cycle are differences at a
     fixed state, which nothing has to settle for.
     """
-    fam = family(case.oscillator, shaken(case, frequency), name)
+    fam = family(vi.Rig(case.oscillator, shaken(case, frequency)), name)
     now = fam.value
     found = first_orbit(fam, (0.5 * now, 1.5 * now), vi.State(*state), 1, symmetric=False)
     states = len(found.own)
@@ -86,7 +85,7 @@ def by_the_fit(case, grid, name):
 )
 def test_differences_agree_with_the_implicit_function_theorem(frequency, name):
     grid = np.round(np.arange(1.0, frequency + 0.001, 0.01), 10)
-    _, states = Rig((FOLDED.oscillator, shaken(FOLDED))).sweep(grid)
+    _, states = vi.Rig((FOLDED.oscillator, shaken(FOLDED))).sweep(grid)
     exact = by_the_implicit_function_theorem(FOLDED, frequency, name, states[-1][2:4])
     assert by_the_fit(FOLDED, grid, name) == pytest.approx(exact, rel=5e-6)
 
@@ -94,7 +93,7 @@ def test_differences_agree_with_the_implicit_function_theorem(frequency, name):
 def grazing():
     """The frequency (Hz) above which the mass that comes from below touches its bumpers."""
     low, high = 0.5, 0.8
-    rig = Rig((GRAZED.oscillator, shaken(GRAZED)))
+    rig = vi.Rig((GRAZED.oscillator, shaken(GRAZED)))
     gap = GRAZED.oscillator.right.gap
     while high - low > 1e-12:
         middle = 0.5 * (low + high)
@@ -107,7 +106,7 @@ def grazing():
 @pytest.mark.parametrize("name", ["stiffness", "bumper_stiffness", "bumper_damping", "gap"])
 def test_differences_behind_a_grazing(share, name):
     frequency = grazing() * (1.0 + share)
-    rig = Rig((GRAZED.oscillator, shaken(GRAZED)))
+    rig = vi.Rig((GRAZED.oscillator, shaken(GRAZED)))
     (row,), (state,) = rig.sweep(np.array([frequency]))
     assert 0.0 < row[hold.U_MOST] - GRAZED.oscillator.right.gap < 0.1 * row[hold.U_MOST]
     exact = by_the_implicit_function_theorem(GRAZED, frequency, name, state[2:4])

@@ -102,12 +102,12 @@ def test_each_windows_state_moves_its_own_residuals():
     begin, _ = test.unknowns
     sensors = {"displacement_scale": 1.0, "acceleration_scale": 1.0,
                "displacement_offset": 0.0, "acceleration_offset": 0.0}  # fmt: skip
-    here, _ = test.residuals(test.setting, sensors, begin)
+    here, _ = test.residuals(test.rig, sensors, begin)
     for group in test.groups:
         for number, rows in group:
             other = begin.copy()
             other[number] += 1e-4
-            there, _ = test.residuals(test.setting, sensors, other)
+            there, _ = test.residuals(test.rig, sensors, other)
             assert (there[~rows] == here[~rows]).all()
             assert (there[rows] != here[rows]).any()
 

@@ -175,13 +175,13 @@ def test_the_period_as_a_parameter_keeps_the_damping_ratio():
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.0)
     period = parameter("isolator-period")
-    rig, _ = period.write(case.oscillator, shaken, 2.5)
-    assert period.read(rig, shaken) == pytest.approx(2.5, rel=1e-14)
+    rig = period.vary(vi.Rig(case.oscillator, shaken), 2.5).oscillator
+    assert period.read(vi.Rig(rig, shaken)) == pytest.approx(2.5, rel=1e-14)
     assert rig.damping_ratio == pytest.approx(case.oscillator.damping_ratio, rel=1e-14)
     assert rig.right == case.oscillator.right
     yielding = rig.replace(isolator=vi.BilinearIsolator(2e5, 1e5, 100, 0))
     with pytest.raises(vi.InputError, match="has no stiffness that can be varied; its damping_exp"):
-        period.read(yielding, shaken)
+        period.read(vi.Rig(yielding, shaken))
 
 
 def test_a_branch_follows_the_period_and_a_curve_does_not():
@@ -207,4 +207,4 @@ def test_a_branch_follows_the_period_and_a_curve_does_not():
         after = vi.simulate(vi.Rig(here, shaken), 1, state, samples=0)["final_state"]
         assert after[:2].values == pytest.approx(state[:2].values, abs=1e-9)
     with pytest.raises(vi.InputError, match=r"^parameters: 'isolator_period' does not count in"):
-        plane(case.oscillator, shaken, ("frequency", "isolator_period"))
+        plane(vi.Rig(case.oscillator, shaken), ("frequency", "isolator_period"))

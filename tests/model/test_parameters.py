@@ -8,7 +8,7 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.cli import main
 from vibroimpact.model.parameters import PARAMETERS, parameter, read_span
-from vibroimpact.model.varied import written
+from vibroimpact.model.varied import vary_all
 from vibroimpact.scenarios.axes import NAMES
 
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -46,22 +46,23 @@ def having(name: str) -> vi.Oscillator:
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_what_is_written_is_read(name):
     one = parameter(name)
-    start = having(name)
-    here = one.read(start, SHAKEN)
-    rig, shaken = one.write(start, SHAKEN, 1.5 * here)
-    assert one.read(rig, shaken) == pytest.approx(1.5 * here, rel=1e-12)
-    back = one.write(rig, shaken, here)
-    for found, value in zip(numbers(*back), numbers(start, SHAKEN), strict=True):
+    start = vi.Rig(having(name), SHAKEN)
+    here = one.read(start)
+    moved = one.vary(start, 1.5 * here)
+    assert one.read(moved) == pytest.approx(1.5 * here, rel=1e-12)
+    back = one.vary(moved, here)
+    for found, value in zip(numbers(back), numbers(start), strict=True):
         assert found == pytest.approx(value, rel=1e-12)
     if not one.straight:
         return
     # A straight line, which is what branches are followed along.
-    third = one.write(start, SHAKEN, 2.0 * here)
-    for a, b, c in zip(numbers(start, SHAKEN), numbers(rig, shaken), numbers(*third), strict=True):
+    third = one.vary(start, 2.0 * here)
+    for a, b, c in zip(numbers(start), numbers(moved), numbers(third), strict=True):
         assert c - b == pytest.approx(b - a, rel=1e-9, abs=1e-12 * abs(a))
 
 
-def numbers(rig: vi.Oscillator, shaken: vi.Harmonic) -> list[float]:
+def numbers(whole: vi.Rig) -> list[float]:
+    rig, shaken = whole.oscillator, whole.sine
     sides = [value for stop in rig.stops for value in dict(stop).values()]
     isolator = list(dict(rig.isolator).values())
     found = [rig.mass, *isolator, *sides, *shaken.model_dump().values()]
@@ -84,23 +85,23 @@ def test_sides_that_differ():
     uneven = RIG.replace(left=RIG.left.replace(damping=1.0))
     for name in ("bumper_damping", "relaxation_time"):
         with pytest.raises(vi.InputError, match="'left_damping' are accepted"):
-            parameter(name).read(uneven, SHAKEN)
-    assert parameter("left_damping").read(uneven, SHAKEN) == 1.0
+            parameter(name).read(vi.Rig(uneven, SHAKEN))
+    assert parameter("left_damping").read(vi.Rig(uneven, SHAKEN)) == 1.0
     with pytest.raises(vi.InputError, match="there is no bumper"):
-        parameter("relaxation_time").read(RIG.without_bumpers(), SHAKEN)
+        parameter("relaxation_time").read(vi.Rig(RIG.without_bumpers(), SHAKEN))
 
 
 @pytest.mark.parametrize("name", ["friction", "cubic", "decay", "dissipation", "left_mass"])
 def test_a_rig_without_it_is_refused_in_one_line(name):
     with pytest.raises(vi.InputError, match=rf"has no {name.removeprefix('left_')} that") as caught:
-        parameter(name).read(RIG, SHAKEN)
+        parameter(name).read(vi.Rig(RIG, SHAKEN))
     assert "\n" not in str(caught.value)
 
 
 def test_what_is_given_in_another_way_or_is_a_whole_number_is_not_varied():
     elastic = RIG.replace(right=HERTZ.replace(dissipation=None), left=None)
     with pytest.raises(vi.InputError, match="has no dissipation that can be varied; its exponent"):
-        parameter("dissipation").read(elastic, SHAKEN)
+        parameter("dissipation").read(vi.Rig(elastic, SHAKEN))
     with pytest.raises(vi.InputError, match="one of frequency"):
         parameter("exponent")
 
@@ -123,7 +124,7 @@ def test_a_unit_may_depend_on_an_exponent():
 def test_ratios_are_those_of_linear_laws(name):
     bent = RIG.replace(isolator=ISOLATORS["cubic"])
     with pytest.raises(vi.InputError, match=r"^isolator: its law, polynomial, has no"):
-        parameter(name).read(bent, SHAKEN)
+        parameter(name).read(vi.Rig(bent, SHAKEN))
 
 
 def test_help_names_them_all(capsys, monkeypatch):
@@ -135,12 +136,11 @@ def test_help_names_them_all(capsys, monkeypatch):
 
 @pytest.mark.parametrize("name", ["relaxation_time", "damping_ratio", "right_stiffness"])
 def test_a_branch_over_any_of_them_ends_on_the_orbit_of_that_rig(name):
-    here = parameter(name).read(RIG, SHAKEN)
+    here = parameter(name).read(vi.Rig(RIG, SHAKEN))
     found = vi.branch(vi.Rig(RIG, SHAKEN), span=(0.9 * here, 1.1 * here), parameter=name)
     last = found.isel(point=-1)
     assert float(last[name]) == pytest.approx(1.1 * here)
-    setting = parameter(name).write(RIG, SHAKEN, 1.1 * here)
-    direct = vi.orbit(vi.Rig(*setting), last["section"])
+    direct = vi.orbit(parameter(name).vary(vi.Rig(RIG, SHAKEN), 1.1 * here), last["section"])
     assert float(last["displacement_max"]) == pytest.approx(float(direct["displacement_max"]), 1e-9)
 
 
@@ -181,8 +181,8 @@ def test_of_a_bumper_beside_a_wall_the_numbers_are_its_own() -> None:
         550.0, vi.Isolator(26.0e3, 1.1e3), vi.Bumper(510.0e3, 900.0, 0.01), vi.RigidStop(0.7, 0.01)
     )
     shaken = vi.Harmonic(0.5, 1.0)
-    assert parameter("bumper_stiffness").read(rig, shaken) == 510.0e3
-    assert parameter("restitution").read(rig, shaken) == 0.7
+    assert parameter("bumper_stiffness").read(vi.Rig(rig, shaken)) == 510.0e3
+    assert parameter("restitution").read(vi.Rig(rig, shaken)) == 0.7
 
 
 def test_a_stiffness_at_restitution_is_that_of_bumpers_made_by_it():
@@ -191,13 +191,13 @@ def test_a_stiffness_at_restitution_is_that_of_bumpers_made_by_it():
 
     one = parameter("stiffness-at-restitution")
     begun = RIG.replace(right=wall(5e5), left=None)
-    rig, _ = one.write(begun, SHAKEN, 8e4)
+    rig = one.vary(vi.Rig(begun, SHAKEN), 8e4).oscillator
     assert rig.right.stiffness == 8e4
     assert rig.right.damping == pytest.approx(wall(8e4).damping, rel=1e-14)
     with pytest.raises(vi.InputError, match=r"keeps its restitution at any stiffness; 'bumper_st"):
-        one.read(RIG.replace(right=HERTZ, left=HERTZ), SHAKEN)
+        one.read(vi.Rig(RIG.replace(right=HERTZ, left=HERTZ), SHAKEN))
     # A damping that is named is had, whichever is named first.
     pairs = [(parameter("bumper_damping"), 700.0), (one, 8e4)]
     for order in (pairs, pairs[::-1]):
-        rig, _ = written(begun, SHAKEN, order)
+        rig = vary_all(vi.Rig(begun, SHAKEN), order).oscillator
         assert (rig.right.stiffness, rig.right.damping) == (8e4, 700.0)

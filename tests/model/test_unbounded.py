@@ -40,9 +40,9 @@ LAWS = {
 def test_the_bound_of_one_sine(law):
     rig = vi.Oscillator(MASS, law)
     for share, beyond in ((0.999, False), (1.001, True)):
-        assert has_no_bound(rig, vi.Harmonic(share * BOUND, 1.0)) is beyond
-        assert grows(rig, vi.Harmonic(share * BOUND, 1.0), NATURAL, 1e-12) == int(beyond)
-    assert grows(rig, vi.Harmonic(10.0 * BOUND, 1.0), 1.01 * NATURAL, 1e-12) == 0
+        assert has_no_bound(vi.Rig(rig, vi.Harmonic(share * BOUND, 1.0))) is beyond
+        assert grows(vi.Rig(rig, vi.Harmonic(share * BOUND, 1.0)), NATURAL, 1e-12) == int(beyond)
+    assert grows(vi.Rig(rig, vi.Harmonic(10.0 * BOUND, 1.0)), 1.01 * NATURAL, 1e-12) == 0
 
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
@@ -69,15 +69,21 @@ def test_steady_refuses_it_and_gives_the_one_below(law):
 def test_each_harmonic_counts_by_its_own_size():
     rig = vi.Oscillator(MASS, LAWS["friction"])
     shaken = vi.Periodic(1.0, [0.5 * BOUND, 0.0, 1.5 * BOUND])
-    assert grows(rig, shaken, NATURAL, 1e-12) == 0
-    assert grows(rig, shaken, NATURAL / 3.0, 1e-12) == 3
-    assert has_no_bound(rig, shaken)
+    assert grows(vi.Rig(rig, shaken), NATURAL, 1e-12) == 0
+    assert grows(vi.Rig(rig, shaken), NATURAL / 3.0, 1e-12) == 3
+    assert has_no_bound(vi.Rig(rig, shaken))
 
 
 def test_a_dashpot_a_hardening_spring_and_a_stop_hold_it():
     shaken = vi.Harmonic(10.0 * BOUND, NATURAL)
-    assert not has_no_bound(vi.Oscillator(MASS, vi.FrictionIsolator(SPRING, 1e-3, HELD)), shaken)
-    assert not has_no_bound(vi.Oscillator(MASS, vi.PolynomialIsolator(SPRING, 0.0, 1e-3)), shaken)
-    assert has_no_bound(vi.Oscillator(MASS, vi.PolynomialIsolator(SPRING, 0.0, 0.0)), shaken)
+    assert not has_no_bound(
+        vi.Rig(vi.Oscillator(MASS, vi.FrictionIsolator(SPRING, 1e-3, HELD)), shaken)
+    )
+    assert not has_no_bound(
+        vi.Rig(vi.Oscillator(MASS, vi.PolynomialIsolator(SPRING, 0.0, 1e-3)), shaken)
+    )
+    assert has_no_bound(
+        vi.Rig(vi.Oscillator(MASS, vi.PolynomialIsolator(SPRING, 0.0, 0.0)), shaken)
+    )
     held = vi.Oscillator(MASS, LAWS["friction"], vi.Bumper(30.0, 0.5, 0.2))
     assert vi.steady(vi.Rig(held, shaken))["displacement_max"] < 10.0

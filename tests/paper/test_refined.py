@@ -57,8 +57,12 @@ def misses(isolator) -> np.ndarray:
         rig = vi.Oscillator(laboratory.MASS, isolator)
         wanted = laboratory.case(f"B1-Ginf-{name}").oscillator
         place = wanted.natural_frequency * math.sqrt(1.0 - 2.0 * laboratory.DAMPING_RATIO**2)
-        found.append(resonance(rig, shaken) / place - 1.0)
-        pairs = zip(largest_flight(rig, shaken), reference_excursions(wanted, shaken), strict=True)
+        found.append(resonance(vi.Rig(rig, shaken)) / place - 1.0)
+        pairs = zip(
+            largest_flight(vi.Rig(rig, shaken)),
+            reference_excursions(vi.Rig(wanted, shaken)),
+            strict=True,
+        )
         found += [one / other - 1.0 for one, other in pairs]
     return np.array(found)
 

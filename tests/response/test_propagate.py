@@ -15,7 +15,7 @@ SHAKEN = vi.Harmonic(CASE.amplitude, 1.06, 0.3)
 
 
 def begun():
-    return engine_rig(CASE.oscillator, vi.Harmonic(1.0, 1.0)), engine_state(
+    return engine_rig(vi.Rig(CASE.oscillator, vi.Harmonic(1.0, 1.0))), engine_state(
         CASE.oscillator, vi.State(1e-3, 0.1)
     )
 

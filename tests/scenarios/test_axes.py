@@ -11,7 +11,7 @@ from vibroimpact.scenarios.axes import NAMES, Base, axis, check_pair, logarithmi
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SINE = vi.Harmonic(CASE.amplitude, 1.0)
-BASE = Base(CASE.oscillator, SINE)
+BASE = Base(vi.Rig(CASE.oscillator, SINE))
 
 
 def test_physical_parameters():
@@ -32,10 +32,12 @@ def test_a_name_means_in_maps_what_it_means_along_branches(name):
     oscillator = CASE.oscillator
     if name == "restitution":
         oscillator = oscillator.replace(left=vi.RigidStop(0.5, oscillator.left.gap))
-        assert Base(oscillator, SINE).rig({name: 0.7}).oscillator.left.restitution == 0.7
+        assert Base(vi.Rig(oscillator, SINE)).rig({name: 0.7}).oscillator.left.restitution == 0.7
         return
     value = 1.3 * varied.read(oscillator, SINE)
-    assert Base(oscillator, SINE).rig({name: value}) == varied.write(oscillator, SINE, value)
+    assert Base(vi.Rig(oscillator, SINE)).rig({name: value}) == varied.vary(
+        vi.Rig(oscillator, SINE), value
+    )
 
 
 def test_a_stiffness_keeps_the_dashpot_and_a_proportional_one_the_relaxation_time():
@@ -73,7 +75,7 @@ def test_dimensionless_parameters_one_at_a_time(name, value):
 
 def test_sides_keep_what_is_their_own():
     oscillator = CASE.oscillator.replace(left=None)
-    rig = Base(oscillator, SINE).rig({"gap_ratio": 0.5, "stiffness_ratio": 2.0})
+    rig = Base(vi.Rig(oscillator, SINE)).rig({"gap_ratio": 0.5, "stiffness_ratio": 2.0})
     assert rig.oscillator.left is None
     assert rig.oscillator.right.stiffness == pytest.approx(2.0 * oscillator.isolator.stiffness)
 
@@ -130,7 +132,7 @@ def test_axes_that_do_not_go_together():
 
 def test_a_base_without_bumpers_is_refused():
     with pytest.raises(vi.InputError, match="base: there is no bumper"):
-        Base(CASE.oscillator.without_bumpers(), SINE).rig({"gap": 1e-3})
+        Base(vi.Rig(CASE.oscillator.without_bumpers(), SINE)).rig({"gap": 1e-3})
 
 
 def test_a_physical_and_a_dimensionless_parameter():

@@ -50,7 +50,7 @@ def test_a_primary_resonance_that_is_not_regular_is_unclassified():
 
 def test_a_jump_of_one_direction_alone_is_none():
     """A hysteresis between two frequencies makes both directions jump there."""
-    hidden = evidence(*RIG, made(slope(1.6)), 0.01)
+    hidden = evidence(RIG, made(slope(1.6)), 0.01)
     assert hidden.hysteresis == ()
     assert [jump.direction for jump in hidden.jumps] == ["forward", "backward"]
     assert primary_jumps(hidden)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from scenarios.made import GAP, GRID, RIG, bump, inside, made, named, primary
+from vibroimpact.model.rig import Rig
 from vibroimpact.scenarios.evidence import evidence
 
 
@@ -16,7 +17,7 @@ def test_where_contact_begins_is_no_secondary_resonance():
     peak = np.where(here, 0.3, 0.0)
     touching = np.array([(GRID > 0.985) & (forward > 0.25), (GRID > 0.985) & (backward > 0.25)])
     data = made(forward + peak, backward + peak, touching=touching, period=np.where(here, 0, 1))
-    found = evidence(*RIG, data, 0.01)
+    found = evidence(RIG, data, 0.01)
     assert found.onset == ((1.0, 1.2),)
     assert found.irregular == ()
     assert found.secondary == ()
@@ -24,7 +25,7 @@ def test_where_contact_begins_is_no_secondary_resonance():
     # The same with contact all along: a resonance of its own if the curve falls towards it.
     valley = bump(0.85, 0.06, -0.4)
     alone = made(forward + peak + valley, backward + peak + valley, period=np.where(here, 0, 1))
-    assert evidence(*RIG, alone, 0.01).onset == ()
+    assert evidence(RIG, alone, 0.01).onset == ()
     assert named(alone) == "S4"
 
 
@@ -36,7 +37,7 @@ def test_left_hysteresis_where_contact_begins():
     more = lift + np.where(inside(1.13, 1.2), 0.3, 0.0)
     period = np.where(inside(1.0, 1.12), 3, 1)
     data = made(forward + lift, backward + more, touching=touching, period=period)
-    found = evidence(*RIG, data, 0.01)
+    found = evidence(RIG, data, 0.01)
     assert found.onset == ((1.0, 1.2),)
     assert found.left == ()
     assert named(data) == "S2"
@@ -47,7 +48,7 @@ def test_a_regular_peak_where_contact_begins_is_no_secondary_resonance():
     touching = np.array([GRID > 0.985] * 2) & (np.array([forward, backward]) > 0.25)
     peak = bump(1.05, 0.04, 0.4)
     data = made(forward + peak, backward + peak, touching=touching)
-    assert evidence(*RIG, data, 0.01).secondary == ()
+    assert evidence(RIG, data, 0.01).secondary == ()
     assert named(data) == "S2"
 
 
@@ -61,6 +62,6 @@ def test_a_range_that_begins_the_sweep(share, pressed):
     forward, backward = primary()
     peak = bump(0.5, 0.05, 0.4)
     data = made(forward + peak, backward + peak, period=np.where(inside(0.4, 0.6), 3, 1))
-    found = evidence(oscillator, RIG.shaken, data, 0.01)
+    found = evidence(Rig(oscillator, RIG.shaken), data, 0.01)
     assert bool(found.irregular) == pressed
     assert (found.onset == ()) == pressed

@@ -14,7 +14,7 @@ from vibroimpact.scenarios.thresholds import Thresholds
 
 def test_primary_resonance_alone():
     data = made(*primary())
-    found = evidence(*RIG, data, 0.01)
+    found = evidence(RIG, data, 0.01)
     assert [(h.side, h.low, h.high) for h in found.hysteresis] == [("right", 1.61, 2.2)]
     assert found.contact == (0.4, 2.2)
     assert found.gap_ratio == pytest.approx(0.3)
@@ -27,7 +27,7 @@ def test_regular_secondary_resonance():
     forward, backward = primary()
     peak = bump(0.7, 0.05, 0.5)
     data = made(forward + peak, backward + peak)
-    found = evidence(*RIG, data, 0.01)
+    found = evidence(RIG, data, 0.01)
     ((frequency, share),) = found.secondary_resonances(0.02)
     assert frequency == pytest.approx(0.7, abs=0.02)
     # Above the higher one of its valleys, which is the one beyond it.
@@ -44,7 +44,7 @@ def test_left_hysteresis_counts_by_its_width():
     forward, backward = primary()
     low = np.where(inside(0.66, 0.75), 0.5, 0.0)
     data = made(forward, backward + low)
-    found = evidence(*RIG, data, 0.01)
+    found = evidence(RIG, data, 0.01)
     assert [(h.side, h.low, h.high) for h in found.left] == [("left", 0.66, 0.75)]
     assert found.extent(0.02) == pytest.approx(0.1)
     assert named(data) == "S4"
@@ -69,7 +69,7 @@ def test_irregular_resonance(period, uneven, kind):
         period=np.where(here, period, 1),
         uneven=here & uneven,
     )
-    found = evidence(*RIG, data, 0.01)
+    found = evidence(RIG, data, 0.01)
     assert [(i.low, i.high, i.kinds) for i in found.irregular] == [(1.0, 1.2, (kind,))] * 2
     assert found.irregular[0].prominence > 0.1
     assert found.extent(0.02) == pytest.approx(0.2)
@@ -78,8 +78,8 @@ def test_irregular_resonance(period, uneven, kind):
     flat = made(
         forward + valley, backward + valley, period=np.where(here, period, 1), uneven=here & uneven
     )
-    assert len(evidence(*RIG, flat, 0.01).irregular) == 2
-    assert evidence(*RIG, flat, 0.01).extent(0.02) == 0.0
+    assert len(evidence(RIG, flat, 0.01).irregular) == 2
+    assert evidence(RIG, flat, 0.01).extent(0.02) == 0.0
     assert named(flat) == "S3"  # the valley leaves a regular peak before it
 
 
@@ -87,28 +87,28 @@ def test_a_pair_of_a_rig_that_is_not_symmetric_is_none():
     """There eccentricity tells nothing."""
     oscillator = RIG.oscillator.replace(left=RIG.oscillator.left.replace(gap=1.01 * GAP))
     data = made(*primary(), uneven=inside(1.0, 1.2))
-    assert evidence(oscillator, RIG.shaken, data, 0.01).irregular == ()
-    assert len(evidence(*RIG, data, 0.01).irregular) == 2
+    assert evidence(vi.Rig(oscillator, RIG.shaken), data, 0.01).irregular == ()
+    assert len(evidence(RIG, data, 0.01).irregular) == 2
 
 
 def test_one_direction_is_not_enough():
     data = made(*primary())
     with pytest.raises(vi.InputError, match="one forward and backward is accepted"):
-        evidence(*RIG, data.isel(direction=[0]), 0.01)
+        evidence(RIG, data.isel(direction=[0]), 0.01)
     with pytest.raises(vi.InputError, match="is not the sweep of one rig"):
-        evidence(*RIG, data.isel(direction=0), 0.01)
+        evidence(RIG, data.isel(direction=0), 0.01)
 
 
 def test_a_hysteresis_of_motions_that_did_not_settle_is_none():
     """Two windows of wandering motions differ, too."""
     forward, backward = primary()
     wandering = made(forward, backward, period=np.where(inside(1.55, 2.25), 0, 1))
-    found = evidence(*RIG, wandering, 0.01)
+    found = evidence(RIG, wandering, 0.01)
     assert [item.settled for item in found.hysteresis] == [False]
     assert found.right == ()
     low = np.where(inside(0.66, 0.75), 0.5, 0.0)
     data = made(forward, backward + low, period=np.where(inside(0.6, 0.8), 0, 1))
-    assert evidence(*RIG, data, 0.01).left == ()
+    assert evidence(RIG, data, 0.01).left == ()
 
 
 def test_what_lies_above_the_primary_resonance_does_not_count():
@@ -116,7 +116,7 @@ def test_what_lies_above_the_primary_resonance_does_not_count():
     backward = np.where(inside(2.5, 2.8), 0.28, slope(1.6))
     period = np.where(inside(2.5, 2.8), 0, 1)
     data = made(forward, backward, touching=True, period=period)
-    found = evidence(*RIG, data, 0.01)
+    found = evidence(RIG, data, 0.01)
     assert [item.low for item in found.irregular] == [2.5, 2.5]
     assert found.extent(0.01) == 0.0
     assert named(data) == "S2"
@@ -125,7 +125,7 @@ def test_what_lies_above_the_primary_resonance_does_not_count():
 def test_free_flight_is_that_at_any_frequency():
     """Of a sweep that does not reach the resonance, too."""
     data = made(*primary()).sel(frequency=slice(1.4, 3.0))
-    found = evidence(*RIG, data, 0.01)
+    found = evidence(RIG, data, 0.01)
     assert found.gap_ratio == pytest.approx(0.3)
     assert not found.within
     assert named(data) == "unclassified"

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from scenarios.made import GRID, RIG, bump, inside, made, primary, slope
+from vibroimpact.model.rig import Rig
 from vibroimpact.scenarios.evidence import evidence
 from vibroimpact.scenarios.evidence_text import in_words
 from vibroimpact.scenarios.thresholds import Thresholds
 
 
 def told(data, oscillator=RIG.oscillator) -> str:
-    return in_words(evidence(oscillator, RIG.shaken, data, 0.01), Thresholds())
+    return in_words(evidence(Rig(oscillator, RIG.shaken), data, 0.01), Thresholds())
 
 
 def test_a_hysteresis_and_where_it_is():

@@ -77,8 +77,8 @@ def test_a_part_of_the_branch_tells_what_the_whole_one_tells(monkeypatch):
     asked = []
 
     def both_ways(found, rig, shaken, ended, both):
-        part = with_folds(found, rig, shaken, ended, both)
-        asked.append((with_folds(found, rig, shaken, ended), part))
+        part = with_folds(found, vi.Rig(rig, shaken), ended, both)
+        asked.append((with_folds(found, vi.Rig(rig, shaken), ended), part))
         return part
 
     monkeypatch.setattr(map_node, "with_folds", both_ways)

@@ -33,7 +33,7 @@ def test_nodes_are_classified_as_one_by_one():
             rig = vi.from_dimensionless(
                 float(data["stiffness_ratio"][x]), float(data["gap_ratio"][y]), 0.01, 0.15
             )
-            alone = vi.classify_scenario(rig, frequencies(*one_sine(rig), step))
+            alone = vi.classify_scenario(rig, frequencies(one_sine(rig), step))
             assert Scenario(int(data["scenario"][y, x])).label == alone.scenario, (x, y)
 
 

@@ -29,7 +29,8 @@ def test_a_sweep_without_a_dataset_shows_the_same(gaps):
 
 
 def test_a_bumper_that_stays_pressed_is_touched_in_both():
-    oscillator, shaken = one_sine(vi.from_dimensionless(20.0, 0.5, 0.01, 0.15), "rig")
+    rig = one_sine(vi.from_dimensionless(20.0, 0.5, 0.01, 0.15), "rig")
+    oscillator, shaken = rig.oscillator, rig.sine
     pressed = oscillator.left.replace(gap=-3.0 * oscillator.left.gap)
     rig = one_sine(vi.Rig(oscillator.replace(left=pressed), shaken), "rig")
     grid = np.array([0.5, 0.7]) * oscillator.natural_frequency

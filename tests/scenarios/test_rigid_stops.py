@@ -31,8 +31,8 @@ def test_a_rigid_stop_has_the_scenario_of_very_stiff_bumpers(ratio: float, named
 
 
 def test_the_range_of_a_rigid_stop_is_bounded_by_energy_or_at_last() -> None:
-    assert highest(between(0.6), SINE) < 4.0
-    assert highest(FREE.replace(right=vi.RigidStop(0.6, 0.0)), SINE) >= MOST_HIGH
+    assert highest(vi.Rig(between(0.6), SINE)) < 4.0
+    assert highest(vi.Rig(FREE.replace(right=vi.RigidStop(0.6, 0.0)), SINE)) >= MOST_HIGH
 
 
 def test_a_map_over_what_a_rigid_stop_has() -> None:
@@ -46,12 +46,12 @@ def test_a_map_over_what_a_rigid_stop_has() -> None:
 
 def test_nodes_change_what_each_stop_has() -> None:
     both = between(0.5).replace(left=vi.Bumper(20.0, 0.4, 0.5))
-    rig = Base(both, SINE).rig({"restitution": 0.2, "stiffness_ratio": 30.0}).oscillator
+    rig = Base(vi.Rig(both, SINE)).rig({"restitution": 0.2, "stiffness_ratio": 30.0}).oscillator
     assert rig.right == vi.RigidStop(0.2, rig.right.gap)
     assert rig.right.gap == pytest.approx(0.5 * PEAK)
     assert rig.left.stiffness == pytest.approx(30.0)
     assert rig.left.gap == pytest.approx(0.5)
-    rig = Base(both, SINE).rig({"gap": 0.1, "proportional_stiffness": 30.0}).oscillator
+    rig = Base(vi.Rig(both, SINE)).rig({"gap": 0.1, "proportional_stiffness": 30.0}).oscillator
     assert (rig.right, rig.left) == (vi.RigidStop(0.6, 0.1), vi.Bumper(30.0, 0.6, 0.1))
 
 

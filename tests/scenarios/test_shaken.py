@@ -28,8 +28,8 @@ def test_a_force_on_the_mass_is_an_acceleration_of_the_base() -> None:
         told = getattr(base.features, name), getattr(force.features, name)
         assert told[1] == pytest.approx(told[0], rel=1e-9)
     np.testing.assert_allclose(force.features.folds, base.features.folds, rtol=1e-8)
-    assert highest(*one_sine(CASE.oscillator, FORCE, "")) == highest(
-        *one_sine(CASE.oscillator, CASE.amplitude, "")
+    assert highest(one_sine(vi.Rig(CASE.oscillator, FORCE))) == highest(
+        one_sine(vi.Rig(CASE.oscillator, CASE.amplitude))
     )
 
 
@@ -53,9 +53,9 @@ def test_a_base_that_moves_far_resonates_above_the_natural_frequency() -> None:
     """Where damping is heavy, the sweep goes on to that resonance."""
     heavy = vi.Oscillator(1.0, vi.Isolator(1.0, 1.2))
     at = 1.0 / np.sqrt(1.0 - 2.0 * 0.6**2)
-    held = frequencies(*one_sine(heavy, "1 mm", ""))
+    held = frequencies(one_sine(vi.Rig(heavy, "1 mm")))
     assert held[-1] / heavy.natural_frequency > 1.4 * at
-    assert highest(*one_sine(heavy, "1 N", "")) == 1.5
+    assert highest(one_sine(vi.Rig(heavy, "1 N"))) == 1.5
 
 
 def test_a_constant_force_is_a_pair_of_other_gaps() -> None:
@@ -99,7 +99,9 @@ def test_a_map_is_made_of_such_rigs(shaken: vi.Harmonic) -> None:
     rig = CASE.oscillator.replace(right=bumper, left=bumper)
     for k, size in enumerate(sizes):
         one = shaken.replace(amplitude=size)
-        alone = vi.classify_scenario(vi.Rig(rig, one), frequencies(*one_sine(rig, one, ""), 0.02))
+        alone = vi.classify_scenario(
+            vi.Rig(rig, one), frequencies(one_sine(vi.Rig(rig, one)), 0.02)
+        )
         assert Scenario(int(data["scenario"][1, k])).label == alone.scenario
         wanted = max(p.value for p in alone.features.peaks if p.curve == "eta_d")
         known = data[["peak_eta_d_forward", "peak_eta_d_backward"]].isel(

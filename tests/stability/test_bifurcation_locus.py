@@ -80,7 +80,7 @@ def seen_by(oscillator: vi.Oscillator, shaken: vi.Harmonic, section, period: int
     shaken = shaken.replace(phase=phase)
     scale = np.array([1.0, shaken.angular_frequency, 1.0, 1.0, 1.0, 1.0])
     point = np.array([*state, memory, shaken.frequency])
-    one = Section(family(oscillator, shaken, "frequency"), period, False, scale)
+    one = Section(family(vi.Rig(oscillator, shaken), "frequency"), period, False, scale)
     status, orbit, _ = evaluated(one, point, MODES[int(contact)])
     assert int(status) == 0
     return orbit
@@ -204,16 +204,16 @@ def test_an_orbit_elsewhere_on_the_plane_is_seen_as_it_moves(pair):
     """The family's own forcing is still that with which the plane was made."""
     oscillator, shaken = rig(0.0, 0.4, 1), vi.Harmonic(0.5, 0.3)
     there = {"amplitude": 0.7, "frequency": 0.25, "gap": 0.9}
-    over = plane(oscillator, shaken, pair)
+    over = plane(vi.Rig(oscillator, shaken), pair)
     p, q = (there[name] for name in pair)
-    setting = over.other.write(*over.family.parameter.write(oscillator, shaken, p), q)
-    start = vi.steady(vi.Rig(*setting))["final_state"].values
+    there = over.other.vary(over.family.parameter.vary(vi.Rig(oscillator, shaken), p), q)
+    start = vi.steady(there)["final_state"].values
     section = Section(over.at_vectors(q), 1, False, np.ones(6))
     point = np.array([*start[:4], start[6], p])
     status, orbit, _ = evaluated(section, point, MODES[int(start[5])])
     assert int(status) == 0
     seen, _ = seen_at(orbit, 1.3)
-    expected = vi.simulate(vi.Rig(*setting), 1.3 / TURN, vi.State(start[0], start[1]), samples=0)
+    expected = vi.simulate(there, 1.3 / TURN, vi.State(start[0], start[1]), samples=0)
     np.testing.assert_allclose(seen[:2], expected["final_state"].values[:2], rtol=1e-9)
 
 

@@ -27,7 +27,7 @@ def fold():
     one = data.isel(bifurcation=row)
     state = one["bifurcation_section"].values
     point = np.array([*state[:4], state[6], float(one["bifurcation_value"])])
-    over = plane(CASE.oscillator, SHAKEN, ("frequency", "gap"))
+    over = plane(vi.Rig(CASE.oscillator, SHAKEN), ("frequency", "gap"))
     scale = np.append(scales(over.family, (1.0, 4.0), point), 0.02)
     mirror = bool(int(one["bifurcation_antisymmetric"]))
     return Defining(over, "fold", 1, mirror, 0.0, scale), np.append(point, over.value)

@@ -47,7 +47,7 @@ def test_each_cycle_contracts_by_the_damping_where_memory_has_decayed(motion: Mo
     assume(len(at) == 0 or np.diff(at, append=6.0).min() > 5e-3)
     assume(len(at) == 0 or np.abs(at - np.round(at)).min() > 5e-3)
     state = engine_state(rig, motion.start)
-    _, rows = grown(engine_rig(rig, shaken), shaken, state, 5, 1000, discard=1)
+    _, rows = grown(engine_rig(vi.Rig(rig, shaken)), shaken, state, 5, 1000, discard=1)
     sums = rows[:, : lyapunov.SECTION].sum(axis=1)
     scale = np.abs(rows[:, : lyapunov.SECTION]).max()
     assert np.abs(sums).max() < 1e-10 * max(scale, 1.0)

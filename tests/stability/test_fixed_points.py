@@ -18,7 +18,7 @@ def test_monodromy_against_differences_of_the_map(motion: Motion, phase: float) 
     """At whatever the state at the section: flight, contact, relaxing bumpers."""
     rig = motion.oscillator
     shaken = motion.excitation.replace(phase=phase)
-    fam = family(rig, shaken, "frequency")
+    fam = family(vi.Rig(rig, shaken), "frequency")
     settled = vi.simulate(vi.Rig(rig, shaken), 20, samples=0)["final_state"].values
     size = max(abs(settled[0]), abs(settled[1]) / shaken.angular_frequency, 1e-12)
     scale = np.array([size, size * shaken.angular_frequency, size, size, size, shaken.frequency])
@@ -51,7 +51,7 @@ def test_monodromy_against_differences_of_the_map(motion: Motion, phase: float) 
 
 def test_the_half_cycle_map_squared_is_the_map():
     case = vi.laboratory.case("B2-G1-A3")
-    fam = family(case.oscillator, vi.Harmonic(case.amplitude, 1.3, 0.3), "frequency")
+    fam = family(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.3, 0.3)), "frequency")
     settled = vi.steady(vi.Rig(case.oscillator, fam.excitation))["final_state"].values
     point = np.array([*settled[:4], 0.0, 1.3])
     scale = np.array([7.5e-3, 0.06, 7.5e-3, 7.5e-3, 7.5e-3, 1.0])

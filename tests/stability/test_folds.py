@@ -24,7 +24,8 @@ from vibroimpact.stability import branch as followed
     ],
 )
 def test_free_flight_need_not_be_followed(ratio, gaps, memory, damping, count, monkeypatch):
-    oscillator, shaken = one_sine(vi.from_dimensionless(ratio, gaps, memory, damping), "rig")
+    rig = one_sine(vi.from_dimensionless(ratio, gaps, memory, damping), "rig")
+    oscillator, shaken = rig.oscillator, rig.sine
     natural = oscillator.natural_frequency
     here = shaken.replace(frequency=0.99 * natural)
     begin = vi.steady(vi.Rig(oscillator, here))["final_state"]
@@ -36,7 +37,7 @@ def test_free_flight_need_not_be_followed(ratio, gaps, memory, damping, count, m
         return ended[-1]
 
     def turns() -> list[float]:
-        high = highest(oscillator, shaken) * natural
+        high = highest(vi.Rig(oscillator, shaken)) * natural
         return sorted(followed.turning_points(oscillator, here, begin, 0.4 * natural, high))
 
     monkeypatch.setattr(followed, "turns_into_flight", seen)

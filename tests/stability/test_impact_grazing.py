@@ -82,7 +82,7 @@ def test_the_margin_goes_on_through_the_grazing(side, clear):
     phase = math.pi / 2 + float(np.angle(response)) + (0.0 if sign > 0.0 else math.pi)
     rig = vi.Oscillator(1.0, vi.Isolator(k, c), **{side: vi.RigidStop(0.5, 1.0)})
     swing = 1.0 - clear
-    fam = family(rig, vi.Harmonic(swing * abs(response), w / math.tau, phase), "frequency")
+    fam = family(vi.Rig(rig, vi.Harmonic(swing * abs(response), w / math.tau, phase)), "frequency")
     section = Section(fam, 1, False, np.ones(5))
     point = np.array([-sign * swing, 0.0, 0.0, 0.0, 0.0, w / math.tau])
     status, found, _ = evaluated(section, point, 0.0)

@@ -14,7 +14,7 @@ CASE = vi.laboratory.case("B3-10mm-A3")
 
 
 def test_an_orbit_by_its_multipliers():
-    found = approach(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2), vi.State())
+    found = approach(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)), vi.State())
     kind, damping, cycles, status = judge_orbit(found, 100)
     assert (kind.motion, kind.period, cycles, status) == ("periodic", 1, 2, Status.DONE)
     orbit = vi.orbit(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)))
@@ -25,7 +25,7 @@ def test_an_orbit_by_its_multipliers():
 
 
 def test_an_orbit_that_meets_the_event_limit_is_not_judged():
-    found = approach(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2), vi.State())
+    found = approach(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)), vi.State())
     kind, damping, _, status = judge_orbit(found, 1)
     assert status is Status.TOO_MANY_EVENTS
     assert (kind.motion, kind.evidence) == ("undecided", status.advice)
@@ -34,7 +34,9 @@ def test_an_orbit_that_meets_the_event_limit_is_not_judged():
 
 
 def test_a_wandering_motion_that_meets_the_event_limit():
-    found = approach(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.06), vi.State(), max_cycles=50)
+    found = approach(
+        vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.06)), vi.State(), max_cycles=50
+    )
     assert found.status is Status.NOT_SETTLED
     *_, status = judge_wandering(found, found.state.copy(), 100, 1)
     assert status is Status.TOO_MANY_EVENTS

@@ -20,7 +20,7 @@ SPAN = (1.0, 1.3)
 @pytest.fixture(scope="module")
 def doubling():
     """The branch of the pair, its period doubling, and the branch that is born there."""
-    fam = family(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2), "frequency")
+    fam = family(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)), "frequency")
     pair = follow_both_ways(first_orbit(fam, SPAN, None, 1), SPAN, 1000)
     found = next(b for b in pair.bifurcations if b.kind == "period doubling" and not b.turns)
     (station,) = born(found)

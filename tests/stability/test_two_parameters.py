@@ -31,14 +31,12 @@ def test_pairs_of_parameters(pair, independent):
     for names in (pair, pair[::-1]):
         if not independent:
             with pytest.raises(vi.InputError, match="not independent"):
-                plane(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), names)
+                plane(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)), names)
             continue
-        made = plane(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), names)
+        made = plane(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)), names)
         p, q = 1.3 * made.family.value, 0.8 * made.value
-        setting = made.other.write(
-            *made.family.parameter.write(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0), p),
-            q,
-        )
-        found, expected = made.at_vectors(q).system(p), system_vector(*setting)
+        rig = vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0))
+        there = made.other.vary(made.family.parameter.vary(rig, p), q)
+        found, expected = made.at_vectors(q).system(p), system_vector(there)
         kept = [i for i in range(len(found)) if i not in RATES]
         np.testing.assert_allclose(found[kept], expected[kept], rtol=1e-12)

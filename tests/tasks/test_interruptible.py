@@ -47,7 +47,7 @@ def test_where_the_growth_of_disturbances_is_cut_changes_no_bit(isolator, monkey
     shaken = vi.Harmonic(0.8, 0.15)
 
     def rows():
-        rig, state = engine_rig(one, shaken), engine_state(one, vi.State())
+        rig, state = engine_rig(vi.Rig(one, shaken)), engine_state(one, vi.State())
         status, found = grown(rig, shaken, state, CYCLES, transient=3, discard=5)
         return status, found, state
 

@@ -94,7 +94,7 @@ def _points(found: Settled, stage: Stage) -> _Array | None:
     """Where it is at the section; None if a limit is met."""
     if not found.period:
         state = found.state.copy()
-        rig = engine_rig(stage.oscillator, stage.excitation)
+        rig = engine_rig(stage.rig)
         status, rows = grown(rig, stage.excitation, state, _VISITS, stage.max_events)
         if status is not Status.DONE:
             return None

@@ -18,13 +18,14 @@ from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.match_attractors import matched
 from vibroimpact.attraction.state_window import Window, walls, window
-from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
+from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated, to_si
+from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
@@ -106,26 +107,19 @@ def basin_stability(
     if rig.frequency is None and parameter == "frequency" and isinstance(values, Iterable):
         values = list(values)
         rig = rig.at(values[0]) if values else rig
-    oscillator, excitation = rig.oscillator, rig.harmonic
+    rig.check_frequency()
     check_progress(progress)
     drawn, seed = whole(states, "states", most=MOST_STATES), whole(seed, "seed", 0)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads, where)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
-    varied, given = _values(oscillator, excitation, parameter, values)
+    varied, given = _values(rig, parameter, values)
     searches = []
     for value in given:
-        here, shaken = (
-            varied.write(oscillator, excitation, value)
-            if varied
-            else (
-                oscillator,
-                excitation,
-            )
-        )
-        check_bounded(here, shaken)
-        searches.append(Search(Stage(here, shaken, max_events), max_cycles, workers))
+        here = varied.vary(rig, value) if varied else rig
+        check_bounded(here)
+        searches.append(Search(Stage(here, max_events), max_cycles, workers))
     if wide is None or fast is None:
         every = [window(search) for search in searches]
         wide, fast = wide or _around(w[0] for w in every), fast or _around(w[1] for w in every)
@@ -159,8 +153,7 @@ def basin_stability(
         data,
         "vibroimpact.basin_stability",
         {
-            "oscillator": oscillator_parameters(oscillator),
-            **excitation_parameters(excitation),
+            **rig_parameters(rig),
             "displacement": list(wide),
             "velocity": list(fast),
             "parameter": varied.name if varied else None,
@@ -172,8 +165,7 @@ def basin_stability(
 
 
 def _values(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: Rig,
     name: str | None,
     values: Iterable[float | str] | None,
 ) -> tuple[Parameter | None, list[float]]:
@@ -181,7 +173,7 @@ def _values(
         if values is not None:
             raise InputError("parameter: missing; the name of what is varied is accepted")
         return None, [0.0]
-    varied = parameter(name, of=excitation.of).of(oscillator)
+    varied = parameter(name, of=rig.periodic.of).of(rig.oscillator)
     listed = check_list(values, "values", MOST_VALUES, f"a list of values of {varied.name}")
     given = [to_si(one, varied.quantity, f"values[{i}]") for i, one in enumerate(listed)]
     if not given:

@@ -16,7 +16,10 @@ from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.state_grid import Lattice, lattice
 from vibroimpact.attraction.state_window import walls, window
-from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
+from vibroimpact.datasets.description import (
+    describe,
+    rig_parameters,
+)
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
 from vibroimpact.model import Oscillator, to_si
@@ -105,8 +108,8 @@ def basins(
         If a value cannot be used, or nothing dies out, so that each state has its own motion.
     """
     rig = as_rig(rig, frequency)
-    oscillator, excitation = rig.oscillator, rig.harmonic
-    check_bounded(oscillator, excitation)
+    rig.check_frequency()
+    check_bounded(rig)
     check_progress(progress)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads, where)
@@ -117,8 +120,8 @@ def basins(
     plan = Nodes((((first[1] - 1) << refine) + 1, ((first[0] - 1) << refine) + 1), refine)
     if plan.shape[0] * plan.shape[1] > MOST_NODES:
         raise InputError(f"nodes: {plan.shape[1]} × {plan.shape[0]}; fewer are accepted")
-    others = _others(oscillator, right_bumper, left_bumper, isolator)
-    stage = Stage(oscillator, excitation, max_events)
+    others = _others(rig.oscillator, right_bumper, left_bumper, isolator)
+    stage = Stage(rig, max_events)
     search = Search(stage, max_cycles, workers)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
@@ -133,8 +136,7 @@ def basins(
         data,
         "vibroimpact.basins",
         {
-            "oscillator": oscillator_parameters(oscillator),
-            **excitation_parameters(excitation),
+            **rig_parameters(rig),
             "right_bumper": float(others[0]),
             "left_bumper": -float(others[1]),
             "isolator": float(others[2]),

@@ -122,10 +122,8 @@ class Search:
 
     def _end_of(self, state: _Array) -> tuple[int, int]:
         """The motion that a state leads to, entered if it is new; -1 and why if there is none."""
-        oscillator, excitation, max_events = self.stage
-        found = approach(
-            oscillator, excitation, state, max_cycles=self.max_cycles, max_events=max_events
-        )
+        rig, max_events = self.stage
+        found = approach(rig, state, max_cycles=self.max_cycles, max_events=max_events)
         if found.status not in (Status.DONE, Status.NOT_SETTLED):
             return -1, int(found.status)
         # A motion is described once: what repeats and is known already needs no more.

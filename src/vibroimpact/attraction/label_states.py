@@ -16,6 +16,7 @@ from vibroimpact.engine import capture
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig
 from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
@@ -34,11 +35,20 @@ _WORTH_IT = 16
 
 
 class Stage(NamedTuple):
-    """What vibrates and what shakes it; the section is at the phase of the shaking."""
+    """A rig and its limit of events; the section is at the phase of the shaking."""
 
-    oscillator: Oscillator
-    excitation: Repeated
+    rig: Rig
     max_events: int = 10_000
+
+    @property
+    def oscillator(self) -> Oscillator:
+        """What vibrates."""
+        return self.rig.oscillator
+
+    @property
+    def excitation(self) -> Repeated:
+        """What shakes it."""
+        return self.rig.periodic
 
 
 class Traps(NamedTuple):
@@ -86,7 +96,7 @@ def follow_region(region: Region, tally: Tally) -> Followed:
     states = np.zeros((len(points), layout.STATE)) if begun else np.ascontiguousarray(states).copy()
     results = np.zeros((len(states), capture.RESULT), dtype=np.int64)
     capture.caught(
-        engine_rig(stage.oscillator, stage.excitation),
+        engine_rig(stage.rig),
         stage.excitation.amplitude,
         stage.excitation.frequency,
         stage.excitation.phase,
@@ -132,7 +142,7 @@ def follow(
         return Followed(np.empty((0, layout.STATE)), none, none.astype(np.int32), none)
     where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
-    capture.caught.prepare(engine_rig(stage.oscillator, stage.excitation))
+    capture.caught.prepare(engine_rig(stage.rig))
     if len(regions) < _WORTH_IT and not isinstance(threads, int):
         threads = None
     found = each(follow_region, regions, steps=number, threads=threads, progress=progress)

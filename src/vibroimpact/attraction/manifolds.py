@@ -20,7 +20,10 @@ from vibroimpact.attraction.section_coordinates import forgets
 from vibroimpact.attraction.stable_manifold import stable_curve
 from vibroimpact.attraction.state_window import window
 from vibroimpact.attraction.unstable_manifold import unstable_curve
-from vibroimpact.datasets.description import describe, excitation_parameters, oscillator_parameters
+from vibroimpact.datasets.description import (
+    describe,
+    rig_parameters,
+)
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.model.count_checks import MOST_CYCLES, check_max_events, share, whole
@@ -97,15 +100,15 @@ def manifolds(
         restitution that the saddle presses at the phase of the excitation.
     """
     rig = as_rig(rig, frequency)
-    oscillator, excitation = rig.oscillator, rig.harmonic
-    check_bounded(oscillator, excitation)
+    rig.check_frequency()
+    check_bounded(rig)
     check_progress(progress)
     period = whole(period, "period", most=MOST_CYCLES)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads)
     spacing = share(spacing, "spacing")
     longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)
-    stage = Stage(oscillator, excitation, max_events)
+    stage = Stage(rig, max_events)
     if not forgets(stage):
         raise InputError(
             "oscillator: a bumper or the isolator remembers more than a cycle, so that the curves "
@@ -131,8 +134,7 @@ def manifolds(
         data,
         "vibroimpact.manifolds",
         {
-            "oscillator": oscillator_parameters(oscillator),
-            **excitation_parameters(excitation),
+            **rig_parameters(rig),
             "displacement": list(wide),
             "velocity": list(fast),
             "spacing": spacing,

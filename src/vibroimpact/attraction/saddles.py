@@ -114,7 +114,7 @@ def relaxed(point: _Array) -> _Array:
 
 def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: str) -> Orbit:
     """A saddle from a dataset of `orbit`, or near a state."""
-    fam = family(stage.oscillator, stage.excitation, "frequency")
+    fam = family(stage.rig, "frequency")
     start = orbit
     if isinstance(orbit, xr.Dataset):
         if "monodromy" not in orbit or "final_state" not in orbit:
@@ -197,7 +197,7 @@ def _near(search: Search, edge: _Array, span: _Array) -> Orbit | None:
     if not states:
         return None
     way = np.array(states)[:, [layout.U, layout.V]] / span
-    fam = family(stage.oscillator, stage.excitation, "frequency")
+    fam = family(stage.rig, "frequency")
     closest = {
         period: np.linalg.norm(way[period:] - way[:-period], axis=1)
         for period in range(1, min(_LONGEST, len(way) - 1) + 1)

@@ -16,7 +16,7 @@ FORGOTTEN = 20.0
 
 def remembered(stage: Stage) -> NDArray[np.bool_]:
     """Which of u, u̇, u_R, u_L and z a motion remembers from one section to the next."""
-    rig = engine_rig(stage.oscillator, stage.excitation)
+    rig = engine_rig(stage.rig)
     parts = np.zeros(PARTS, dtype=bool)
     parts[:2] = True
     for i, at in enumerate((par.BUMPER, par.BUMPER + par.WIDTH)):
@@ -32,7 +32,7 @@ def met(stage: Stage, point: NDArray[np.float64]) -> NDArray[np.bool_]:
     A power-law stop with a restitution divides by it as long as it is pressed, and keeps it where
     others keep their deformation.
     """
-    rig = engine_rig(stage.oscillator, stage.excitation)
+    rig = engine_rig(stage.rig)
     parts = np.zeros(PARTS, dtype=bool)
     for i, at in enumerate((par.BUMPER, par.BUMPER + par.WIDTH)):
         curved = rig[at + par.KIND] in (par.POWER_LAW, par.JANKOWSKI)

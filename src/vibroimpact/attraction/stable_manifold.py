@@ -63,7 +63,7 @@ class _Chains:
         self.value = saddle.orbit.value
         along = section.family
         # Where an image presses such a stop it has more to it than the plane of its preimages.
-        self.hidden = met(Stage(along.oscillator, along.excitation), np.ones(5))
+        self.hidden = met(Stage(along.rig), np.ones(5))
         self.origin = saddle.point
         self.way = side * saddle.stable / np.linalg.norm(measure.scaled(saddle.stable))
         self.parameters = list(np.linspace(0.0, 1.0, _FIRST))

@@ -10,6 +10,7 @@ from vibroimpact.attraction.state_grid import lattice
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import RigidStop, State
+from vibroimpact.model.rig import Rig
 from vibroimpact.stability.settle import approach, reach, reach_at_rest
 
 Window = tuple[tuple[float, float], tuple[float, float]]
@@ -42,8 +43,8 @@ def window(search: Search) -> Window:
     """
     stage = search.stage
     excitation = stage.excitation
-    rest = approach(stage.oscillator, excitation, State(phase=excitation.phase))
-    size = reach_at_rest(stage.oscillator, excitation)
+    rest = approach(Rig(stage.oscillator, excitation), State(phase=excitation.phase))
+    size = reach_at_rest(Rig(stage.oscillator, excitation))
     if rest.status in (Status.DONE, Status.NOT_SETTLED):
         size = max(size, reach(rest, rest.state))
     size = _FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops), 0.0)

@@ -180,7 +180,7 @@ def branch(
 
         # Without stiffness or damping there is no free resonance to divide by.
         undefined = not bool(data[quantity].notnull().any()) or (
-            what.repeated is not None and has_no_bound(what.oscillator, what.repeated)
+            what.repeated is not None and has_no_bound(Rig(what.oscillator, what.repeated))
         )
         drawn = _PHYSICAL.get(quantity, quantity) if physical or undefined else quantity
         axes = branch_diagram(data, quantity=drawn, sweep=swept, title=what.title)
@@ -237,7 +237,7 @@ def _basins(
     step = (span[1] - span[0]) / max(count, 1)
     return [
         basins(
-            Rig(*varied.write(what.oscillator, shaken, span[0] + (i + 0.5) * step)),
+            varied.vary(Rig(what.oscillator, shaken), span[0] + (i + 0.5) * step),
             nodes=_NODES,
             progress=progress,
         )
@@ -308,7 +308,7 @@ def _check(what: Subject, parameter: str, span: tuple[float, float], hertz: floa
     from vibroimpact.model.units import pretty
 
     known = varied(parameter, of=what.repeated.of).of(what.oscillator)
-    here = known.read(what.oscillator, what.at(hertz))
+    here = known.read(Rig(what.oscillator, what.at(hertz)))
     if not span[0] <= here <= span[1]:
         low, high, own = (pretty(value, known.quantity) for value in (*span, here))
         raise InputError(

@@ -115,7 +115,8 @@ def _frequencies(
     """The frequencies that were asked for; None for the default."""
     from vibroimpact.scenarios.axes import one_sine
 
-    oscillator, shaken = one_sine(what.rig, "excitation")
+    rig = one_sine(what.rig, "excitation")
+    oscillator = rig.oscillator
     if start is None and stop is None and step is None:
         return None
     import numpy as np
@@ -128,7 +129,7 @@ def _frequencies(
     from vibroimpact.scenarios.sweep_frequencies import LOW, STEP, highest
 
     natural = oscillator.natural_frequency
-    defaults = (LOW * natural, highest(oscillator, shaken) * natural, STEP * natural)
+    defaults = (LOW * natural, highest(rig) * natural, STEP * natural)
     numbers = [
         default if text is None else to_si(text, FREQUENCY, option, above=0.0)
         for option, text, default in zip(

@@ -185,7 +185,7 @@ def _check(
     from vibroimpact.stability.two_parameters import plane
 
     try:
-        over = plane(what.oscillator, shaken, names)
+        over = plane(Rig(what.oscillator, shaken), names)
     except InputError as error:
         raise InputError(re.sub("^parameters?:", "--over:", str(error))) from None
     low, high = spans[1]
@@ -221,7 +221,7 @@ def _curves(
         data = branch(Rig(what.oscillator, shaken), span=spans[0], parameter=names[0])
     found: dict[str, xr.Dataset] = {}
 
-    here = parameter(names[1]).read(what.oscillator, shaken)
+    here = parameter(names[1]).read(Rig(what.oscillator, shaken))
     for i in np.flatnonzero(data["bifurcation_kind"].values == kind):
         value = float(data["bifurcation_value"][i])
         if any(_passes(curve, names, value, here) for curve in found.values()):

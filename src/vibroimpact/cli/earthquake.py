@@ -211,7 +211,7 @@ def _computed(
     from vibroimpact.response.response_spectrum import response_spectrum
     from vibroimpact.response.simulate import simulate
 
-    behind = free_tail(rig, record) if tail is None else tail
+    behind = free_tail(Rig(rig, record)) if tail is None else tail
     motion = simulate(Rig(rig, record), samples=samples, tail=behind, progress=progress)
     if motion.attrs["status"] != Status.DONE.advice:
         raise InputError(f"the motion was given up ({motion.attrs['status']})")

@@ -138,21 +138,20 @@ def ensemble(
         from vibroimpact.response.sweep import sweep, sweeps
         from vibroimpact.uncertainty.ensemble import ensemble as draw
 
-        pair = (what.oscillator, what.repeated)
-        shaken_rig = Rig(*pair)
+        drawn_rig = Rig(what.oscillator, what.repeated)
         response = partial(sweeps, frequencies=held, threads=threads, where=where)
         with warnings.catch_warnings(record=True) as caught, progress_bar("sweeping") as progress:
             warnings.simplefilter("always", RuntimeWarning)
-            data = draw(shaken_rig, given, response, method=way, progress=progress, **options)
+            data = draw(drawn_rig, given, response, method=way, progress=progress, **options)
             data.attrs["title"] = what.name
             from vibroimpact.model.unbounded import has_no_bound
 
             # Without stiffness or damping there is no free resonance to divide by.
-            undefined = not bool(data["eta_d"].notnull().any()) or has_no_bound(*pair)
+            undefined = not bool(data["eta_d"].notnull().any()) or has_no_bound(drawn_rig)
             physical = physical or undefined
             shown = ("peak_acceleration", "peak_displacement") if physical else ("eta_a", "eta_d")
             axes = resonance_bands(
-                data, quantities=shown, nominal=sweep(shaken_rig, held), title=what.title
+                data, quantities=shown, nominal=sweep(drawn_rig, held), title=what.title
             )
             stem = folder / f"{what.slug}-ensemble"
             files = {
@@ -160,7 +159,9 @@ def ensemble(
                 "figure": save_figure(axes, f"{stem}.{out.figure}"),
             }
             indices = (
-                _indices(pair, given, response, shown, options, progress) if sensitivity else {}
+                _indices(drawn_rig, given, response, shown, options, progress)
+                if sensitivity
+                else {}
             )
         for message in dict.fromkeys(str(warning.message) for warning in caught):
             warn(message)
@@ -207,7 +208,7 @@ def _distributions(what: Subject, options: tuple[tuple[str, str], ...]) -> dict[
 
 
 def _indices(
-    pair: Any,
+    rig: Any,
     given: dict[str, str],
     response: Any,
     quantities: tuple[str, ...],
@@ -222,6 +223,6 @@ def _indices(
         return data.max(("direction", "frequency"), keep_attrs=True)
 
     return {
-        name: sensitivity(pair, given, peaks, name, resamples=100, progress=progress, **options)
+        name: sensitivity(rig, given, peaks, name, resamples=100, progress=progress, **options)
         for name in quantities
     }

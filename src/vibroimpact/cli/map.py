@@ -192,7 +192,6 @@ def scenario_map(
 def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
     """What the map does not vary, in words."""
     from vibroimpact.model import Bumper, RigidStop, to_dimensionless
-    from vibroimpact.model.access import scale_of
     from vibroimpact.model.parameters import PARAMETERS
     from vibroimpact.model.quantities import LENGTH, STIFFNESS
     from vibroimpact.model.units import pretty
@@ -225,7 +224,7 @@ def _held(what: Subject, axes: tuple[_Axis, ...]) -> str:
             **rest,
         }
     else:
-        group = to_dimensionless(Rig(what.oscillator, scale_of(what.oscillator, shaken)))
+        group = to_dimensionless(what.rig)
         halves = [b for b in (group.right, group.left) if b is not None]
         quantities = {
             "stiffness_ratio": ("λ =", [_ratio(b.stiffness_ratio) for b in halves]),
@@ -264,9 +263,9 @@ def _check(what: Subject, axes: tuple[_Axis, ...], refine: int) -> None:
     from vibroimpact.scenarios.axes import Base, axis, check_pair, one_sine
 
     try:
-        base = Base(*one_sine(what.rig, "excitation"))
+        base = Base(one_sine(what.rig, "excitation"))
         x, y = (
-            axis(given, option, base.shaken.of)
+            axis(given, option, base.base.sine.of)
             for given, option in zip(axes, ("--x", "--y"), strict=True)
         )
         check_pair(x, y)

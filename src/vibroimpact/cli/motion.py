@@ -175,7 +175,7 @@ def _found(
             Rig(what.oscillator, excitation), random=random, window=window, samples=samples
         )
         return _named([_complete(data) for data in motions])
-    starts = arrivals(what.oscillator, excitation)
+    starts = arrivals(Rig(what.oscillator, excitation))
     if f"{branch} branch" not in starts:
         raise InputError(
             f"--branch: no {branch} sweep reaches {excitation.frequency:g} Hz; "

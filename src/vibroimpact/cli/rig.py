@@ -149,7 +149,7 @@ def subject(
         found.study,
         found.case and oscillator.angular_frequency == found.oscillator.angular_frequency,
     )
-    doubt_gaps(what.oscillator, what.shaking)
+    doubt_gaps(Rig(what.oscillator, what.shaking))
     return what
 
 

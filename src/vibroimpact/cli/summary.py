@@ -28,7 +28,6 @@ from vibroimpact.model import (
     Stop,
     to_dimensionless,
 )
-from vibroimpact.model.access import scale_of
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DAMPING,
@@ -38,7 +37,6 @@ from vibroimpact.model.quantities import (
     STIFFNESS,
     VELOCITY,
 )
-from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 
 _LATELY = 10.0
@@ -215,8 +213,6 @@ _SHAKEN = {"acceleration": "base", "displacement": "base", "force": "force on th
 
 def _dimensionless(subject: Subject) -> Dimensionless | None:
     try:
-        return to_dimensionless(
-            Rig(subject.oscillator, scale_of(subject.oscillator, subject.repeated))
-        )
+        return to_dimensionless(subject.rig)
     except InputError:  # nothing to scale a gap by, or another kind of shaking
         return None

@@ -208,8 +208,10 @@ def design_rig(
             to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),
             None if tail is None else to_si(tail, TIME, "tail", minimum=0.0),
         )
-    oscillator, sine = one_sine(found)
-    return oscillator, BySines(Sines(sine, *_range(frequency_span), share(step, "step")))
+    shaken = one_sine(found)
+    return found.oscillator, BySines(
+        Sines(shaken.sine, *_range(frequency_span), share(step, "step"))
+    )
 
 
 def _range(frequencies: Any) -> tuple[float | None, float | None]:

@@ -15,6 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, equilibrium
 from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
@@ -84,7 +85,7 @@ def _in_closed_form(free: Oscillator, sines: Sines) -> xr.Dataset:
     low = 1e-9 * natural if sines.low is None else sines.low
     high = 1e9 * natural if sines.high is None else sines.high
     at = min(max(worst, low), high)
-    swing, _ = free_flight_excursions(free, sines.shaken, np.array([at]))
+    swing, _ = free_flight_excursions(Rig(free, sines.shaken), np.array([at]))
     rest = equilibrium(free).displacement
     reach = 0.5 * float(swing[0])
     return _sides(reach + rest, reach - rest, displacement_frequency=at)

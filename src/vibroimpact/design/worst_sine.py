@@ -13,6 +13,7 @@ from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, equilibrium
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.scenarios.sweep_frequencies import LOW, cycles, highest
@@ -76,7 +77,7 @@ class Sines(NamedTuple):
         """The frequencies of the coarse sweep (Hz)."""
         natural = rig.natural_frequency
         low = LOW * natural if self.low is None else self.low
-        high = highest(rig, self.shaken) * natural if self.high is None else self.high
+        high = highest(Rig(rig, self.shaken)) * natural if self.high is None else self.high
         step = self.step
         if rig.isolator.linear and rig.damping_ratio > 0.0:
             step = min(step, max(_PEAK * rig.damping_ratio, 0.1 * step))
@@ -88,7 +89,7 @@ class Sines(NamedTuple):
         self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
     ) -> list[Worst]:
         """The worst that each rig does."""
-        vectors = [engine_rig(rig, self.shaken) for rig in rigs]
+        vectors = [engine_rig(Rig(rig, self.shaken)) for rig in rigs]
         starts = [engine_state(rig, equilibrium(rig)) for rig in rigs]
         batch.sweep.prepare(*vectors)
         return each(
@@ -108,7 +109,7 @@ class _Search:
         self.phase = sines.shaken.phase
         self.grid = sines.frequencies(rig)
         high = float(self.grid[-1]) / rig.natural_frequency
-        self.max_cycles = cycles(rig, sines.shaken, high, _LEAST_CYCLES)
+        self.max_cycles = cycles(Rig(rig, sines.shaken), high, _LEAST_CYCLES)
 
     def worst(self) -> Worst:
         swept = [self._held(np.ascontiguousarray(self.grid[::way]), self.start) for way in (1, -1)]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.model import FrictionIsolator, Oscillator, Record
+from vibroimpact.model import FrictionIsolator, Oscillator
+from vibroimpact.model.rig import Rig
 
 _STIFFNESSES = (
     "stiffness",
@@ -25,13 +26,14 @@ SMALL = 1e-9
 """Share of the largest displacement below which a swing is none."""
 
 
-def free_tail(oscillator: Oscillator, record: Record) -> float:
+def free_tail(rig: Rig) -> float:
     """How long a motion is followed behind a record if nobody says it (s).
 
     Two natural periods with the softest of the isolator's springs, or as long as the record if it
     has none; a minute at most, or as long as the record. The free motion has lost energy by then:
     it was largest before.
     """
+    oscillator, record = rig.oscillator, rig.record
     law = dict(oscillator.isolator)
     springs = [law[name] for name in _STIFFNESSES if law.get(name, 0.0) > 0.0]
     most = max(_LONGEST, record.duration)
@@ -47,8 +49,9 @@ def settles(oscillator: Oscillator) -> bool:
     return sticks or isolator.remembers
 
 
-def block(oscillator: Oscillator, record: Record) -> float:
+def block(rig: Rig) -> float:
     """Time over which it is seen whether a free motion still swings (s)."""
+    oscillator, record = rig.oscillator, rig.record
     omega = oscillator.angular_frequency
     most = max(_LONGEST, record.duration)
     return min(_BLOCK * math.tau / omega, most) if omega else record.duration

@@ -16,6 +16,7 @@ from vibroimpact.arguments import check_progress
 from vibroimpact.earthquakes.free_vibration import BLOCKS, SMALL, block, free_tail, settles
 from vibroimpact.engine import earthquakes as found
 from vibroimpact.model import Oscillator, Record, equilibrium
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.tasks.threads import Progress, Tally, Workers, breadth, each
@@ -100,7 +101,7 @@ def peaks(
     # Few rigs with many scales are dealt out, too.
     few = max(1, min(_AT_ONCE, -(-count * len(shaken) // (4 * workers))))
     parts = [(n, slice(i, i + few)) for n in range(len(shaken)) for i in range(0, count, few)]
-    vectors = [engine_rig(one.oscillator, one.record) for one in shaken]
+    vectors = [engine_rig(Rig(one.oscillator, one.record)) for one in shaken]
     starts = [engine_state(one.oscillator, equilibrium(one.oscillator)) for one in shaken]
     found.respond.prepare(*vectors)
     items = [
@@ -117,11 +118,11 @@ def peaks(
             np.array(record.acceleration),  # which is not to be written to: another type, refused
             record.step,
             factors,
-            free_tail(rig, record) if tail is None else tail,
+            free_tail(Rig(rig, record)) if tail is None else tail,
             start,
             max_events,
             int(energies),
-            block(rig, record),
+            block(Rig(rig, record)),
             BLOCKS if rests else 0,
             SMALL,
             tally,

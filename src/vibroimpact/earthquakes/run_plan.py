@@ -13,18 +13,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import VALUES, check_mapping
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Harmonic, Oscillator, Record
+from vibroimpact.model import Oscillator, Record, Rig
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.read_rig import as_rigs, is_one_rig
-from vibroimpact.model.varied import Varied, varied, written
+from vibroimpact.model.varied import Varied, varied, vary_all
 
 _Array = NDArray[np.float64]
 
 NOT_VARIED = ("frequency", "amplitude", "gap_ratio")
 """Parameters of what shakes it, which a record does not have."""
-
-_ANY = Harmonic(1.0, 1.0)
-"""What the registry of parameters asks for beside a rig."""
 
 
 class Runs(NamedTuple):
@@ -60,7 +57,7 @@ class Runs(NamedTuple):
         rig = self.rigs[names[at[0] if self.several else 0]]
         values = dict(zip((one.name for one in self.varied), at[self.several :], strict=True))
         pairs = [(PARAMETERS[v.name], float(v.values[values[v.name]])) for v in self.varied]
-        return written(rig, _ANY, pairs)[0]
+        return vary_all(Rig(rig), pairs).oscillator
 
 
 def runs(rig: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None) -> Runs:

@@ -16,6 +16,7 @@ from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import check_max_events
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.plausibility import doubt_gaps
 from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.tasks.threads import Progress
@@ -83,7 +84,9 @@ def seismic_response(
     oscillator, record = rig.oscillator, rig.record
     check_progress(progress)
     behind = (
-        free_tail(oscillator, record) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
+        free_tail(Rig(oscillator, record))
+        if tail is None
+        else to_si(tail, TIME, "tail", minimum=0.0)
     )
     found = peaks(
         [Shaken(oscillator, record, np.ones(1))],
@@ -105,7 +108,7 @@ def seismic_response(
         "record": record_parameters(record),
         "tail": behind,
     }
-    notes = [*record.about.notes, *doubt_gaps(oscillator, record, data["peak_displacement"])]
+    notes = [*record.about.notes, *doubt_gaps(Rig(oscillator, record), data["peak_displacement"])]
     return describe(data, "vibroimpact.seismic_response", parameters, notes)
 
 

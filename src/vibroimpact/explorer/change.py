@@ -12,6 +12,7 @@ from vibroimpact.model import Oscillator, to_si
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import FREQUENCY
+from vibroimpact.model.rig import Rig
 
 SIDES = ("right", "left")
 DIMENSIONLESS = ("stiffness_ratio", "gap_ratio", "relaxation_time")
@@ -45,8 +46,8 @@ def moved(state: State, path: str, value: float | str) -> State:
         return state._replace(shaking=state.shaking.replace(amplitude=size))
     if path in OF_RIG:
         number = to_si(value, PARAMETERS[path].quantity, path, above=0.0)
-        written, _ = PARAMETERS[path].write(rig, state.shaking, number)
-        return state._replace(oscillator=written)
+        moved = PARAMETERS[path].vary(state.rig, number)
+        return state._replace(oscillator=moved.oscillator)
     if path in ("mass", "force"):
         return state._replace(oscillator=rig.replace(**{path: value}))
     if part == "isolator" and name in type(rig.isolator).model_fields:
@@ -69,8 +70,8 @@ def _stop_moved(
     stop = getattr(rig, side)
     if name in DIMENSIONLESS:
         number = to_si(value, PARAMETERS[name].quantity, name, minimum=0.0)
-        alone, _ = PARAMETERS[name].write(one_sided(rig, side), state.shaking, number)
-        return rig.replace(**{side: getattr(alone, side)})
+        alone = PARAMETERS[name].vary(Rig(one_sided(rig, side), state.shaking), number)
+        return rig.replace(**{side: getattr(alone.oscillator, side)})
     if name not in type(stop).model_fields:
         raise InputError(f"knob: {shown(name)} is unknown; one of the page is accepted")
     return rig.replace(**{side: stop.replace(**{name: value})})

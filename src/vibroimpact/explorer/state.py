@@ -65,8 +65,8 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     InputError
         If it is no rig, is not shaken by one sine, or its mass has no spring.
     """
-    given = as_rig(rig)
-    oscillator, shaken = one_sine(given, "amplitude")
+    given = one_sine(as_rig(rig), "amplitude")
+    oscillator, shaken = given.oscillator, given.sine
     natural = oscillator.natural_frequency
     low, high = span or (_short(LOWEST * natural), _short(HIGHEST * natural))
     if not 0.0 < low < high:

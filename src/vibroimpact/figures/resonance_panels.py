@@ -15,6 +15,7 @@ from vibroimpact.datasets.description import excitation_from
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, equilibrium
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound
 from vibroimpact.model.units import plain
 
@@ -96,7 +97,7 @@ def _spikes(data: xr.Dataset) -> bool:
         return False
     sizes = about[0].get("amplitude")
     most = {"amplitude": max(sizes)} if isinstance(sizes, list) else {}
-    return has_no_bound(rig, excitation_from(about[0], frequency=1.0, **most))
+    return has_no_bound(Rig(rig, excitation_from(about[0], frequency=1.0, **most)))
 
 
 def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Drawn]:

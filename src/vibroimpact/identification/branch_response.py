@@ -28,7 +28,7 @@ from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import DONE
 from vibroimpact.model import State, equilibrium
-from vibroimpact.model.access import Setting
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
 
 Array = NDArray[np.float64]
@@ -75,14 +75,14 @@ class Followed(NamedTuple):
     """The other branch of holds beside a jump that the test does not tell."""
 
 
-class Rig:
+class SteppedRig:
     """A rig that is held at one frequency after the other."""
 
-    def __init__(self, setting: Setting) -> None:
-        oscillator, shaken = setting
+    def __init__(self, rig: Rig) -> None:
+        oscillator = rig.oscillator
         self.oscillator = oscillator
-        self.vector = engine_rig(oscillator, shaken)
-        self.amplitude = float(shaken.amplitude)
+        self.vector = engine_rig(rig)
+        self.amplitude = float(rig.amplitude)
         self.rest = engine_state(oscillator, equilibrium(oscillator))
 
     def sweep(
@@ -140,7 +140,7 @@ def sizes(rows: Array) -> Array:
         return np.nan_to_num(np.log(np.stack([swing, force], axis=-1)), nan=0.0, neginf=-50.0)
 
 
-def follow(rig: Rig, way: Way) -> Followed:
+def follow(rig: SteppedRig, way: Way) -> Followed:
     """Follow one direction of a test, each measured jump matched by one of the rig."""
     rows, states = rig.sweep(way.frequency)
     off = np.zeros(len(way.jumps))
@@ -164,7 +164,7 @@ def follow(rig: Rig, way: Way) -> Followed:
 
 
 def _untold(
-    rig: Rig,
+    rig: SteppedRig,
     way: Way,
     rows: Array,
     states: Array,
@@ -219,7 +219,7 @@ def _matched(change: Array, way: Way) -> list[int | None]:
 
 
 def _mend(
-    rig: Rig,
+    rig: SteppedRig,
     way: Way,
     rows: Array,
     states: Array,
@@ -260,7 +260,7 @@ def _mend(
 
 
 def _carried_on(
-    rig: Rig,
+    rig: SteppedRig,
     f: Array,
     state: Array,
     size: Array,
@@ -301,7 +301,7 @@ def _carried_on(
 
 
 def _halved(
-    rig: Rig,
+    rig: SteppedRig,
     ends: tuple[float, float],
     state: Array,
     size: Array,

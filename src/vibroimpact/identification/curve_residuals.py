@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import hold
 from vibroimpact.errors import InputError
-from vibroimpact.identification.branch_response import Followed, Rig, Way, follow
+from vibroimpact.identification.branch_response import Followed, SteppedRig, Way, follow
 from vibroimpact.identification.overlay import Shown
 from vibroimpact.identification.sensor_channel import sensed
 from vibroimpact.measurements.features import measured_features, noise_of
 from vibroimpact.measurements.names import CURVES
-from vibroimpact.model.access import Setting
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import reference_excursions
 from vibroimpact.response.curve_pair import swept
 from vibroimpact.response.resonance import APART, Jump
@@ -61,7 +61,7 @@ class CurveTest:
         Of the test.
     data
         Curves of `read_measurement`.
-    setting
+    rig
         The rig and its shaking, before the fit.
     noise
         Standard deviation of a value as a share of it; None to estimate it.
@@ -69,8 +69,8 @@ class CurveTest:
 
     kind = "curves"
 
-    def __init__(self, name: str, data: xr.Dataset, setting: Setting, noise: float | None) -> None:
-        self.name, self.data, self.setting = name, data, setting
+    def __init__(self, name: str, data: xr.Dataset, rig: Rig, noise: float | None) -> None:
+        self.name, self.data, self.rig = name, data, rig
         self.names = [variable for variable in CURVES if variable in data]
         self.noise = noise_of(data) if noise is None else noise
         self.weights = dict.fromkeys(self.names, 1.0)
@@ -113,7 +113,7 @@ class CurveTest:
 
     def _check(self, sizes: list[float]) -> None:
         """Refuse values a thousand times too large or too small for the rig."""
-        free = dict(zip(("displacement", "acceleration"), reference_excursions(*self.setting),
+        free = dict(zip(("displacement", "acceleration"), reference_excursions(self.rig),
                         strict=True))  # fmt: skip
         for name, size in zip(self.names, sizes, strict=True):
             reference = free.get(name.split("_")[0])
@@ -136,14 +136,14 @@ class CurveTest:
     @property
     def blind(self) -> bool:
         """Whether only excursions were measured, under shaking that is its own mirror image."""
-        return self.setting[1].half_wave and not set(self.names) & set(_COLUMNS)
+        return self.rig.periodic.half_wave and not set(self.names) & set(_COLUMNS)
 
     def calibrate(self, sensors: dict[str, float]) -> None:
         """Nothing begins with a measured value."""
 
-    def reach(self, setting: Setting, unknowns: Array) -> tuple[float, float]:
+    def reach(self, rig: Rig, unknowns: Array) -> tuple[float, float]:
         """How far the mass goes to the right and to the left at the holds (m)."""
-        rows = np.concatenate([found.rows for found in self.followed(setting)])
+        rows = np.concatenate([found.rows for found in self.followed(rig)])
         right, left = rows[:, hold.U_MOST].max(), -rows[:, hold.U_LEAST].min()
         return float(np.nan_to_num(right, nan=np.inf)), float(np.nan_to_num(left, nan=np.inf))
 
@@ -185,26 +185,26 @@ class CurveTest:
             [self.ways[w].frequency[h] for w, h in zip(*self.points[:2], strict=True)], dtype=float
         )
 
-    def followed(self, setting: Setting) -> list[Followed]:
+    def followed(self, rig: Rig) -> list[Followed]:
         """What a rig does in each direction."""
-        rig = Rig(setting)
-        return [follow(rig, way) for way in self.ways]
+        stepped = SteppedRig(rig)
+        return [follow(stepped, way) for way in self.ways]
 
     def model(
-        self, setting: Setting, sensors: dict[str, float], followed: list[Followed]
+        self, rig: Rig, sensors: dict[str, float], followed: list[Followed]
     ) -> tuple[Array, NDArray[np.bool_]]:
         """What the rig's sensors would show at each point, and whether it settled there."""
         values = np.empty(len(self.points.value))
         settled = np.empty(len(values), dtype=bool)
         normalised = any(name.startswith("eta") for name in self.names)
-        largest = reference_excursions(*setting) if normalised else (1.0, 1.0)
+        largest = reference_excursions(rig) if normalised else (1.0, 1.0)
         for w, found in enumerate(followed):
             here = self.points.way == w
             at = self.points.hold[here]
             settled[here] = found.settled[at]
             shown = self._shown(found.rows, largest, sensors)
             values[here] = shown[at, self.points.variable[here]]
-            for place, row in self._others(setting, found):
+            for place, row in self._others(rig, found):
                 here = (self.points.way == w) & (self.points.hold == place)
                 of = self.points.variable[here]
                 other = self._shown(row[np.newaxis], largest, sensors)[0, of]
@@ -212,13 +212,13 @@ class CurveTest:
                     values[here] = other
         return values, settled
 
-    def _others(self, setting: Setting, found: Followed) -> list[tuple[int, Array]]:
+    def _others(self, rig: Rig, found: Followed) -> list[tuple[int, Array]]:
         """What else the rig may do at a hold: on another branch, or as the mirror image.
 
         Which one of two mirrored motions a mass settles on hangs on the last digits of the rig.
         """
         others = list(found.other.items())
-        oscillator, shaken = setting
+        oscillator, shaken = rig.oscillator, rig.periodic
         if oscillator.symmetric and shaken.half_wave and set(self.names) & set(_COLUMNS):
             most, least = found.rows[:, hold.U_MOST], found.rows[:, hold.U_LEAST]
             uneven = np.flatnonzero(np.abs(most + least) > _UNEVEN * (most - least))
@@ -250,9 +250,9 @@ class CurveTest:
         floor, measured = self.floor[here], self.points.value[here]
         return np.asarray(np.arcsinh(values / floor) - np.arcsinh(measured / floor))
 
-    def shown(self, setting: Setting, sensors: dict[str, float], unknowns: Array) -> Shown:
+    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> Shown:
         """Each point beside what the rig has there."""
-        values, _ = self.model(setting, sensors, self.followed(setting))
+        values, _ = self.model(rig, sensors, self.followed(rig))
         return Shown(
             self.frequency,
             [self.directions[w] for w in self.points.way],
@@ -263,11 +263,11 @@ class CurveTest:
         )
 
     def residuals(
-        self, setting: Setting, sensors: dict[str, float], unknowns: Array
+        self, rig: Rig, sensors: dict[str, float], unknowns: Array
     ) -> tuple[Array, NDArray[np.bool_]]:
         """Of points in shares of their value, of jumps in steps; and which have a derivative."""
-        followed = self.followed(setting)
-        values, settled = self.model(setting, sensors, followed)
+        followed = self.followed(rig)
+        values, settled = self.model(rig, sensors, followed)
         points = self._off(values, np.ones(len(values), dtype=bool))
         lost = ~np.isfinite(points)
         points[lost] = 3.0  # given up: as if it were off by a factor of 20

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, recorded
 from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import DONE
-from vibroimpact.model import Harmonic, Oscillator, Record, State
+from vibroimpact.model import State
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.record_history import straight
 
@@ -50,24 +51,23 @@ class Joined(NamedTuple):
     """How far it goes to the right and to the left (m)."""
 
 
-def under_sine(
-    oscillator: Oscillator, shaken: Harmonic, start: State | Array, time: Array
-) -> Moved | None:
+def under_sine(rig: Rig, start: State | Array, time: Array) -> Moved | None:
     """The motion under a sine from a state at the first of the times; None if it was given up.
 
     The phase is that at the first time. Displacement and velocity between samples are cubics with
     the right slopes; the acceleration, which jumps at contacts, is a straight line.
     """
+    oscillator, shaken = rig.oscillator, rig.sine
     vector = engine_state(oscillator, start) if isinstance(start, State) else start.copy()
     at = (time - time[0]) * shaken.frequency
     length = max(float(at[-1]), 1.0 / _SAMPLES)
     samples = max(_SAMPLES, math.ceil(_FINER * (len(at) - 1) / length))
     out = np.empty((observed.SAMPLE, math.ceil(length * samples - 1e-9) + 1))
     buffer = np.empty((_MAX_EVENTS + 1 + 20_000, observed.EVENT))
-    rig, done, outcome = engine_rig(oscillator, shaken), 0, int(DONE)
+    numbers, done, outcome = engine_rig(rig), 0, int(DONE)
     while done < length and outcome == DONE:
         done, _, outcome = batch.trajectory(
-            rig, shaken.amplitude, shaken.frequency, shaken.phase, vector, float(done), length,
+            numbers, shaken.amplitude, shaken.frequency, shaken.phase, vector, float(done), length,
             samples, _MAX_EVENTS, out, buffer,
         )  # fmt: skip
     if outcome != DONE:
@@ -79,20 +79,21 @@ def under_sine(
     return _between(out, seconds, wanted, base)
 
 
-def under_record(oscillator: Oscillator, record: Record, start: State, time: Array) -> Moved | None:
+def under_record(rig: Rig, start: State, time: Array) -> Moved | None:
     """The motion under a record from a state at its beginning; None if it was given up.
 
     The times are those since the beginning of the record.
     """
+    oscillator, record = rig.oscillator, rig.record
     vector = engine_state(oscillator, start)
     lines = straight(record, 0.0)
     out = np.empty((observed.SAMPLE, len(lines) + 1))
     buffer = np.empty((_MAX_EVENTS + 1 + 20_000, observed.EVENT))
     steepest = float(np.abs(lines[:, recorded.SLOPE]).max())
-    rig, done, outcome = engine_rig(oscillator, record), 0, int(DONE)
+    numbers, done, outcome = engine_rig(rig), 0, int(DONE)
     while done < len(lines) and outcome == DONE:
         done, _, outcome = recorded.follow(
-            rig, record.peak, steepest, lines, vector, done, 1, record.step, _MAX_EVENTS, out,
+            numbers, record.peak, steepest, lines, vector, done, 1, record.step, _MAX_EVENTS, out,
             buffer,
         )  # fmt: skip
     if outcome != DONE:

@@ -70,7 +70,7 @@ def findings(
             )
         if test.kind == "curves":
             lines += stray_values(test.name, test.data)
-        shaken = problem.setting(x, test)[0][1]
+        shaken = problem.rig_of(x, test)[0].periodic
         source = str(test.data.attrs["amplitude_source"])
         amplitude = "" if source == BASE else amplitude_words(shaken, source)
         lines += _shape(test.name, test.kind, what, amplitude)
@@ -115,7 +115,7 @@ def _alternatives(data: xr.Dataset, problem: Problem, x: Array) -> list[str]:
                 else f"another rig fits as well: {told}"
             )
     asked = any(one.name.partition("_")[0] in ("right", "left") for one in problem.free)
-    uneven = any(not problem.setting(x, test)[0][0].symmetric for test in problem.tests)
+    uneven = any(not problem.rig_of(x, test)[0].oscillator.symmetric for test in problem.tests)
     if asked and uneven and not exchanged and all(test.blind for test in problem.tests):
         lines.append(f"which side is the right one rests on the values given: {_BLIND}")
     return lines

@@ -13,7 +13,6 @@ from vibroimpact.identification.curve_residuals import CurveTest
 from vibroimpact.identification.history_residuals import HistoryTest
 from vibroimpact.identification.least_squares import Test
 from vibroimpact.measurements.read import as_measured
-from vibroimpact.model.access import Setting
 from vibroimpact.model.excitation import Harmonic, Periodic
 from vibroimpact.model.names import check_name
 from vibroimpact.model.parameters import PARAMETERS
@@ -42,12 +41,12 @@ def tests_of(rig: Any, data: Any, noise: Any, window: int | None, steady: bool) 
         tested = as_rig(_of(rig, name, list(named), "rig"), oscillator_alone=True)
         share = _of(noise, name, list(named), "noise")
         share = None if share is None else to_si(share, DIMENSIONLESS, "noise", above=0.0)
-        setting, source = _setting(tested, measured, where)
+        shaken, source = _shaken_rig(tested, measured, where)
         measured = measured.assign_attrs(amplitude_source=source)
         if measured.attrs["kind"] == "curves":
-            found.append(CurveTest(name, measured, setting, share))
+            found.append(CurveTest(name, measured, shaken, share))
         else:
-            found.append(HistoryTest(name, measured, setting, share, window, steady))
+            found.append(HistoryTest(name, measured, shaken, share, window, steady))
     return found
 
 
@@ -82,7 +81,7 @@ def _of(given: Any, name: str, names: list[str], field: str) -> Any:
     return given
 
 
-def _setting(rig: Rig, data: xr.Dataset, where: str) -> tuple[Setting, str]:
+def _shaken_rig(rig: Rig, data: xr.Dataset, where: str) -> tuple[Rig, str]:
     """The rig with its shaking, and where that is from: the data, or else the rig."""
     chosen: Any = data.attrs.get("amplitude")
     source = str(data.attrs.get("amplitude_source", "the data"))
@@ -94,7 +93,7 @@ def _setting(rig: Rig, data: xr.Dataset, where: str) -> tuple[Setting, str]:
     if base:
         source = BASE
     if chosen is None and base:
-        return (rig.oscillator, Harmonic(1.0, 1.0)), source
+        return Rig(rig.oscillator, Harmonic(1.0, 1.0)), source
     if chosen is None:
         raise InputError(
             f"rig: an Oscillator alone, and {where} does not say what shook it; the peak base "
@@ -103,7 +102,7 @@ def _setting(rig: Rig, data: xr.Dataset, where: str) -> tuple[Setting, str]:
     shaken, sizes = as_periodic(chosen, "shaking")
     if sizes is not None or not isinstance(shaken, Harmonic | Periodic):
         raise InputError("shaking: a list of amplitudes; a rig for each test is accepted, by name")
-    return (rig.oscillator, shaken), source
+    return Rig(rig.oscillator, shaken), source
 
 
 def ties_of(ties: Mapping[str, str] | None) -> dict[str, str]:

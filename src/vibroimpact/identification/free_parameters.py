@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, meant, shown
-from vibroimpact.model.access import Setting
 from vibroimpact.model.parameters import PARAMETERS, Parameter, parameter
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, Quantity
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import to_si
 
 Array = NDArray[np.float64]
@@ -67,7 +67,7 @@ class Free(NamedTuple):
 
 def frees(
     given: Any,
-    settings: Mapping[str, Setting],
+    rigs: Mapping[str, Rig],
     each: Any,
     priors: Any,
     swings: Mapping[str, float] | None = None,
@@ -79,7 +79,7 @@ def frees(
     given
         Names, as a list or a text with commas; or a mapping from names to a start, a range (low,
         high), None for the rig's own value, or a mapping with ``start``, ``low`` and ``high``.
-    settings
+    rigs
         The rig and shaking of each test.
     each
         Names of those that every test has its own of, as a list or a text with commas.
@@ -112,10 +112,10 @@ def frees(
             )
     found = []
     for name, value in wanted.items():
-        for test in settings if name in own else [None]:
-            first = next(iter(settings)) if test is None else test
+        for test in rigs if name in own else [None]:
+            first = next(iter(rigs)) if test is None else test
             swing = (swings or {}).get(first, 0.0)
-            found.append(_free(name, test, value, settings[first], known.get(name), swing))
+            found.append(_free(name, test, value, rigs[first], known.get(name), swing))
     return found
 
 
@@ -144,9 +144,7 @@ def _name(name: Any, field: str = "free") -> str:
     )
 
 
-def _free(
-    name: str, test: str | None, value: Any, setting: Setting, prior: Any, swing: float
-) -> Free:
+def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: float) -> Free:
     field = f"free[{name!r}]"
     least: float | None = None
     most: float | None = None
@@ -154,10 +152,10 @@ def _free(
     if name in SENSORS:
         quantity, now = SENSORS[name]
     else:
-        of = _parameter(name, setting)
+        of = _parameter(name, rig)
         quantity, least, most = of.quantity, of.least, of.most
         above = None if of.zero or least != 0.0 else 0.0
-        now = of.read(*setting)
+        now = of.read(rig)
     read = {
         key: to_si(
             one,
@@ -184,7 +182,7 @@ def _free(
     start = read.get("start", now if inside else middle)
     if not low <= start <= high:
         raise InputError(f"{field}: the start {start:g} lies outside {low:g} to {high:g}")
-    size = size_of(quantity, setting, swing)
+    size = size_of(quantity, rig, swing)
     small = abs(start) < NEAR_ZERO * size
     scale = size if small else abs(start)
     if "low" in read and "high" in read:
@@ -230,37 +228,36 @@ def _prior(name: str, prior: Any, quantity: Quantity) -> tuple[float, float]:
     return to_si(mean, quantity, f"{field}[0]"), size
 
 
-def _parameter(name: str, setting: Setting) -> Parameter:
-    rig, shaken = setting
-    return parameter(name, of=shaken.of).of(rig)
+def _parameter(name: str, rig: Rig) -> Parameter:
+    return parameter(name, of=rig.periodic.of).of(rig.oscillator)
 
 
-def size_of(quantity: Quantity, setting: Setting, swing: float = 0.0) -> float:
+def size_of(quantity: Quantity, rig: Rig, swing: float = 0.0) -> float:
     """The size of a kind of number, from the rig's mass, its frequency and how far it swings.
 
     Parameters
     ----------
     quantity
         What it is; of its dimensions is the size.
-    setting
-        The rig and its shaking.
+    rig
+        The rig, shaken as in the test.
     swing
         Measured displacement (m), where it is known: the base of a free vibration is at rest.
     """
-    rig, shaken = setting
-    omega = rig.angular_frequency or shaken.angular_frequency
-    driven = float(np.sum(shaken.acceleration(rig.mass, omega))) / omega**2
-    sizes = {"kilogram": rig.mass, "meter": max(driven, swing), "second": 1.0 / omega}
+    oscillator, shaken = rig.oscillator, rig.periodic
+    omega = oscillator.angular_frequency or shaken.angular_frequency
+    driven = float(np.sum(shaken.acceleration(oscillator.mass, omega))) / omega**2
+    sizes = {"kilogram": oscillator.mass, "meter": max(driven, swing), "second": 1.0 / omega}
     return math.prod(sizes.get(unit, 1.0) ** power for unit, power in quantity.base) or 1.0
 
 
 def written(
     given: Sequence[Free],
     values: Array | Sequence[float],
-    setting: Setting,
+    rig: Rig,
     test: str,
     ties: Mapping[str, str],
-) -> tuple[Setting, dict[str, float]]:
+) -> tuple[Rig, dict[str, float]]:
     """The rig and shaking of a test, and its sensors, at some values of what is free."""
     sensors = {name: right for name, (_, right) in SENSORS.items()}
     for one, value in zip(given, values, strict=True):
@@ -269,7 +266,7 @@ def written(
         if one.name in SENSORS:
             sensors[one.name] = float(value)
         else:
-            setting = PARAMETERS[one.name].write(*setting, float(value))
+            rig = PARAMETERS[one.name].vary(rig, float(value))
     for tied, to in ties.items():
-        setting = PARAMETERS[tied].write(*setting, PARAMETERS[to].read(*setting))
-    return setting, sensors
+        rig = PARAMETERS[tied].vary(rig, PARAMETERS[to].read(rig))
+    return rig, sensors

@@ -16,7 +16,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.identification.branch_response import Rig
+from vibroimpact.identification.branch_response import SteppedRig
 from vibroimpact.identification.exact_motion import Joined, Moved, under_record, under_sine
 from vibroimpact.identification.free_parameters import SENSORS
 from vibroimpact.identification.overlay import Shown
@@ -27,8 +27,8 @@ from vibroimpact.identification.sensor_channel import (
     noise_of_channel,
     sensed,
 )
-from vibroimpact.model import Harmonic, Oscillator, Periodic, Record, State
-from vibroimpact.model.access import Setting
+from vibroimpact.model import Harmonic, Periodic, Record, State
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.sine_fit import forcing_sine
 
 Array = NDArray[np.float64]
@@ -66,7 +66,7 @@ class HistoryTest:
         Of the test.
     data
         A history of `read_measurement`.
-    setting
+    rig
         The rig and its shaking; of the shaking the amplitude alone, where the base was not
         measured.
     noise
@@ -83,7 +83,7 @@ class HistoryTest:
         self,
         name: str,
         data: xr.Dataset,
-        setting: Setting,
+        rig: Rig,
         noise: float | None,
         window: int | None,
         steady: bool,
@@ -107,14 +107,14 @@ class HistoryTest:
             for c, v in self.measured.items()
         }
         self._spread = spread
-        self.setting, self.shaking = self._shaken(setting)
+        self.rig, self.shaking = self._shaken(rig)
         self.share, self.window, self._phase = noise, window, 0.0
         self.calibrate({name: right for name, (_, right) in SENSORS.items()})
 
     def reversed(self, names: Iterable[str]) -> HistoryTest:
         """The same test with some channels turned round."""
         turned = self.data.assign({name: -self.data[name] for name in names})
-        test = HistoryTest(self.name, turned, self.setting, self.share, self.window, self.steady)
+        test = HistoryTest(self.name, turned, self.rig, self.share, self.window, self.steady)
         test.weights = self.weights
         test.calibrate(self._sensors)
         return test
@@ -124,9 +124,9 @@ class HistoryTest:
         """Whether the base's phase has to be found."""
         return "base_acceleration" not in self.data
 
-    def _shaken(self, setting: Setting) -> tuple[Setting, Harmonic | Record]:
+    def _shaken(self, rig: Rig) -> tuple[Rig, Harmonic | Record]:
         """The sine of the base, or its record; or a sine of the mass's own frequency."""
-        rig, shaken = setting
+        shaken = rig.periodic
         if isinstance(shaken, Periodic):
             raise InputError("amplitude: several harmonics; one sine, or a measured base, is")
         base = self.data["base_acceleration"].values if not self.free_phase else None
@@ -136,23 +136,23 @@ class HistoryTest:
             raise InputError(f"data: nothing moves in {self.name!r}; a motion is accepted")
         if base is None:
             found = shaken.replace(frequency=sine.frequency)
-            return (rig, found), found
+            return Rig(rig.oscillator, found), found
         still = np.nanmax(np.abs(base)) == 0.0
         if sine.rest < _PURE and not still:
             found = Harmonic(sine.amplitude, sine.frequency, sine.phase % (2.0 * math.pi))
-            return (rig, found), found
+            return Rig(rig.oscillator, found), found
         step = float(np.median(np.diff(self.time)))
         even = np.arange(round(float(self.time[-1]) / step) + 1) * step
         known = np.isfinite(base)
         record = Record(np.interp(even, self.time[known], base[known]), step)
-        return (rig, Harmonic(max(record.peak, 1e-12), sine.frequency)), record
+        return Rig(rig.oscillator, Harmonic(max(record.peak, 1e-12), sine.frequency)), record
 
     def _windows(self) -> list[_Window]:
         """Cut the record where the mass is far from the stops, and read the states there."""
         u, v = self._kinematics()
-        frequency = self.setting[1].frequency
+        frequency = self.rig.periodic.frequency
         if isinstance(self.shaking, Record):
-            frequency = self.setting[0].angular_frequency / (2.0 * math.pi) or frequency
+            frequency = self.rig.oscillator.angular_frequency / (2.0 * math.pi) or frequency
         length = (_CYCLES if self.window is None else self.window) / frequency
         count = 1 if self.steady else max(1, round(float(self.time[-1]) / length))
         step = float(np.median(np.diff(self.time)))
@@ -192,9 +192,7 @@ class HistoryTest:
         states = self.unknowns[0][1:]
         costs = []
         for phase in shares:
-            found, _ = self.residuals(
-                self.setting, self._sensors, np.concatenate([[phase], states])
-            )
+            found, _ = self.residuals(self.rig, self._sensors, np.concatenate([[phase], states]))
             costs.append(np.sum(np.abs(found[: self.points_count])))
         return float(shares[int(np.argmin(costs))])
 
@@ -220,9 +218,9 @@ class HistoryTest:
 
     blind = False
 
-    def reach(self, setting: Setting, unknowns: Array) -> tuple[float, float]:
+    def reach(self, rig: Rig, unknowns: Array) -> tuple[float, float]:
         """How far the mass goes to the right and to the left (m)."""
-        found = self.moved(setting, unknowns)
+        found = self.moved(rig, unknowns)
         return (math.inf, math.inf) if found is None else found.reach
 
     @property
@@ -279,10 +277,8 @@ class HistoryTest:
                 rows[begin + 2 * joint : begin + 2 * joint + 2] = True
         return rows
 
-    def moved(self, setting: Setting, unknowns: Array) -> Joined | None:
+    def moved(self, rig: Rig, unknowns: Array) -> Joined | None:
         """The rig's motion at all times; None if it was given up."""
-        rig, shaken = setting
-        assert isinstance(shaken, Harmonic)
         phase = float(unknowns[0]) if self.free_phase else None
         states = unknowns[1:] if self.free_phase else unknowns
         values = {c: np.empty(len(self.time)) for c in _CHANNELS}
@@ -291,10 +287,10 @@ class HistoryTest:
             last = k + 1 == len(self.windows)
             time = self.time[window.begin : window.end + (0 if last else 1)]
             if self.steady:
-                found = self._settled(rig, shaken, window.state, phase, time)
+                found = self._settled(rig, window.state, phase, time)
             else:
                 state = State(*states[2 * k : 2 * k + 2].tolist())
-                found = self._from(rig, shaken, state, phase, time)
+                found = self._from(rig, state, phase, time)
             if found is None:
                 return None
             reach = (max(reach[0], found.reach[0]), max(reach[1], found.reach[1]))
@@ -305,38 +301,38 @@ class HistoryTest:
                                                strict=True)]  # fmt: skip
         return Joined(values, np.array(gaps), reach)
 
-    def _from(
-        self, rig: Oscillator, shaken: Harmonic, state: State, phase: float | None, time: Array
-    ) -> Moved | None:
+    def _from(self, rig: Rig, state: State, phase: float | None, time: Array) -> Moved | None:
         begin = float(time[0])
         if isinstance(self.shaking, Record):
             step = self.shaking.step
             steps = max(1, math.ceil((float(time[-1]) - begin) / step - 1e-9))
             values = self.shaking.at(begin + step * np.arange(steps + 1))
-            return under_record(rig, Record(values, step), state, time - begin)
+            return under_record(Rig(rig.oscillator, Record(values, step)), state, time - begin)
+        shaken = rig.sine
         at = shaken.phase if phase is None else phase
         turned = shaken.replace(phase=(at + shaken.angular_frequency * begin) % (2.0 * math.pi))
-        return under_sine(rig, turned, state, time)
+        return under_sine(Rig(rig.oscillator, turned), state, time)
 
     def _settled(
         self,
-        rig: Oscillator,
-        shaken: Harmonic,
+        rig: Rig,
         start: tuple[float, float],
         phase: float | None,
         time: Array,
     ) -> Moved | None:
         """The steady motion that the measured state leads to."""
+        shaken = rig.sine
         at = shaken.phase if phase is None else phase % (2.0 * math.pi)
-        found = Rig((rig, shaken)).settled(State(*start), shaken.frequency, at)
-        return None if found is None else under_sine(rig, shaken.replace(phase=at), found, time)
+        found = SteppedRig(rig).settled(State(*start), shaken.frequency, at)
+        turned = Rig(rig.oscillator, shaken.replace(phase=at))
+        return None if found is None else under_sine(turned, found, time)
 
     def model(
-        self, setting: Setting, sensors: dict[str, float], unknowns: Array
+        self, rig: Rig, sensors: dict[str, float], unknowns: Array
     ) -> tuple[dict[str, Array], Array] | None:
         """What the sensors would show of the rig's motion; see `moved`."""
         try:
-            found = self.moved(setting, unknowns)
+            found = self.moved(rig, unknowns)
         except InputError:  # a state that cannot be, such as inside a rigid stop
             return None
         if found is None:
@@ -344,10 +340,10 @@ class HistoryTest:
         return {c: sensed(c, found.values[c], sensors) for c in self.names}, found.gaps
 
     def residuals(
-        self, setting: Setting, sensors: dict[str, float], unknowns: Array
+        self, rig: Rig, sensors: dict[str, float], unknowns: Array
     ) -> tuple[Array, NDArray[np.bool_]]:
         """Of points over the noise of their channel; of the joints over that of the state."""
-        found = self.model(setting, sensors, unknowns)
+        found = self.model(rig, sensors, unknowns)
         if found is None:
             return np.full(self.count, _ROUGH), np.zeros(self.count, dtype=bool)
         values, gaps = found
@@ -364,7 +360,7 @@ class HistoryTest:
     @property
     def _joint(self) -> Array:
         """How well displacement and velocity of a joint have to agree."""
-        omega = 2.0 * math.pi * self.setting[1].frequency
+        omega = 2.0 * math.pi * self.rig.periodic.frequency
         if "displacement" in self.size:
             u = self.size["displacement"]
         elif "velocity" in self.size:
@@ -373,9 +369,9 @@ class HistoryTest:
             u = self.size["acceleration"] / omega**2
         return np.array([u, omega * u])
 
-    def shown(self, setting: Setting, sensors: dict[str, float], unknowns: Array) -> Shown:
+    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> Shown:
         """Each point beside what the rig has there."""
-        found = self.model(setting, sensors, unknowns)
+        found = self.model(rig, sensors, unknowns)
         values = {} if found is None else found[0]
         place, variable, measured, modelled, residual = [], [], [], [], []
         for c in self.names:

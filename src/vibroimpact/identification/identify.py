@@ -25,7 +25,6 @@ from vibroimpact.identification.uncertainty import bootstrap, spread
 from vibroimpact.identification.untouched_stops import untouched
 from vibroimpact.model import Rig
 from vibroimpact.model.count_checks import share, whole
-from vibroimpact.model.excitation import Harmonic
 from vibroimpact.tasks.threads import Progress
 
 _TAIL = 3.0
@@ -132,12 +131,12 @@ def identify(
     threads = (os.cpu_count() or 1) if threads is None else whole(threads, "threads")
     tests = tests_of(rig, data, noise, window, steady)
     swings = {t.name: t.swing for t in tests}
-    given = frees(free, {t.name: t.setting for t in tests}, each, priors, swings)
+    given = frees(free, {t.name: t.rig for t in tests}, each, priors, swings)
     if any(one.name == "amplitude" for one in given):
         for test in tests:
             test.data = test.data.assign_attrs(amplitude_source="the fit")
     for test in tests:
-        test.calibrate(written(given, [one.start for one in given], test.setting, test.name, {})[1])
+        test.calibrate(written(given, [one.start for one in given], test.rig, test.name, {})[1])
     problem = Problem(tests, given, ties_of(ties), [max(t.noise, _COARSE) for t in tests], _TAIL)
     _enough(problem)
     steps = 3 + (len(given) if profiles else 0) + (1 if draws else 0)
@@ -205,9 +204,8 @@ def fitted_rig(result: xr.Dataset, test: str | None = None) -> Rig:
         raise InputError(f"test: missing, and their rigs differ; one of {list(rigs)} is accepted")
     name = next(iter(rigs)) if test is None else test
     check_name(name, rigs, "test")
-    oscillator, shaken = results.setting_of(rigs[name])
-    assert isinstance(shaken, Harmonic)
-    return Rig(oscillator, shaken.amplitude)
+    rig = results.rig_of(rigs[name])
+    return Rig(rig.oscillator, rig.sine.amplitude)
 
 
 def _enough(problem: Problem) -> None:

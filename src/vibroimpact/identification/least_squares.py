@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.identification.free_parameters import Free, written
 from vibroimpact.identification.overlay import Shown
-from vibroimpact.model.access import Setting
+from vibroimpact.model.rig import Rig
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -35,7 +35,7 @@ class Test(Protocol):
     name: str
     kind: str
     data: xr.Dataset
-    setting: Setting
+    rig: Rig
     noise: float
     """Standard deviation of a point, as far as it is known beforehand."""
     weights: dict[str, float]
@@ -52,7 +52,7 @@ class Test(Protocol):
     def calibrate(self, sensors: dict[str, float]) -> None:
         """Begin from what the sensors are taken to show at first."""
 
-    def reach(self, setting: Setting, unknowns: Array) -> tuple[float, float]:
+    def reach(self, rig: Rig, unknowns: Array) -> tuple[float, float]:
         """How far the mass of a rig goes to the right and to the left (m)."""
 
     @property
@@ -80,11 +80,11 @@ class Test(Protocol):
         """Numbers of the test itself that have to be found, such as initial states; their sizes."""
 
     def residuals(
-        self, setting: Setting, sensors: dict[str, float], unknowns: Array
+        self, rig: Rig, sensors: dict[str, float], unknowns: Array
     ) -> tuple[Array, Flags]:
         """Its residuals, and which of them have a derivative."""
 
-    def shown(self, setting: Setting, sensors: dict[str, float], unknowns: Array) -> Shown:
+    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> Shown:
         """Each point beside what the rig has there."""
 
 
@@ -188,10 +188,10 @@ class Problem:
     def _priors(self) -> int:
         return sum(one.prior is not None for one in self.free)
 
-    def setting(self, x: Array, test: Test) -> tuple[Setting, dict[str, float]]:
+    def rig_of(self, x: Array, test: Test) -> tuple[Rig, dict[str, float]]:
         """The rig, shaking and sensors of a test."""
         values = x[: len(self.free)] * self.scale[: len(self.free)]
-        return written(self.free, values, test.setting, test.name, self.ties)
+        return written(self.free, values, test.rig, test.name, self.ties)
 
     def of_test(self, x: Array, number: int) -> Array:
         """The unknowns of a test."""
@@ -207,8 +207,8 @@ class Problem:
         parts, smooth = [], []
         for number, (test, sigma) in enumerate(zip(self.tests, self.sigma, strict=True)):
             try:
-                setting, sensors = self.setting(x, test)
-                found, known = test.residuals(setting, sensors, self.of_test(x, number))
+                rig, sensors = self.rig_of(x, test)
+                found, known = test.residuals(rig, sensors, self.of_test(x, number))
             except InputError:
                 found, known = np.full(test.count, LOST * sigma), np.zeros(test.count, dtype=bool)
             found = found.copy()

@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_list, check_name, check_variables
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine import hold
-from vibroimpact.identification.branch_response import Rig, sizes
+from vibroimpact.identification.branch_response import SteppedRig, sizes
 from vibroimpact.identification.free_parameters import NEAR_ZERO, SENSORS, size_of
-from vibroimpact.identification.results import setting_of
-from vibroimpact.model.access import Setting
+from vibroimpact.identification.results import rig_of
 from vibroimpact.model.count_checks import share as fraction
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.response.sweep import check_frequencies
 
@@ -92,7 +92,8 @@ def next_test(
     rigs = json.loads(result.attrs["rigs"])
     name = next(iter(rigs)) if test is None else test
     check_name(name, rigs, "test")
-    oscillator, shaken = setting_of(rigs[name])
+    rig = rig_of(rigs[name])
+    oscillator, shaken = rig.oscillator, rig.periodic
     natural = oscillator.angular_frequency / (2.0 * np.pi) or float(shaken.frequency)
     grid = (
         np.linspace(0.5 * natural, 5.0 * natural, _POINTS)
@@ -123,10 +124,10 @@ def next_test(
     axes = _axes(covariance)
     before = np.sqrt(np.sum(axes**2, axis=1))
     for a, level in enumerate(levels):
-        setting = (oscillator, shaken.replace(amplitude=level))
-        slopes, known = _slopes(setting, keys, name, grid, axes)
+        here = Rig(oscillator, shaken.replace(amplitude=level))
+        slopes, known = _slopes(here, keys, name, grid, axes)
         if margin:
-            known &= _far_from_jumps(setting, grid, margin)
+            known &= _far_from_jumps(here, grid, margin)
         for d, k in np.argwhere(known):
             rows = slopes[d, k] / share
             seen = np.eye(2) + rows @ rows.T
@@ -157,7 +158,7 @@ def _axes(covariance: Array) -> Array:
 
 
 def _slopes(
-    setting: Setting, keys: list[str], test: str, grid: Array, axes: Array
+    rig: Rig, keys: list[str], test: str, grid: Array, axes: Array
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Changes of both excursions' logarithms by one deviation along each axis of the covariance.
 
@@ -171,10 +172,10 @@ def _slopes(
         for row, (bare, _, whose) in enumerate(key.partition("[") for key in keys)
         if bare not in SENSORS and (not whose or whose == f"{test}]")
     ]
-    now = np.array([of.read(*setting) for _, of in own])
-    size = np.array([size_of(of.of(setting[0]).quantity, setting) for _, of in own])
+    now = np.array([of.read(rig) for _, of in own])
+    size = np.array([size_of(of.of(rig.oscillator).quantity, rig) for _, of in own])
     most = np.where(np.abs(now) < NEAR_ZERO * size, size, _MOST * np.abs(now))
-    here = _swept(setting, grid)
+    here = _swept(rig, grid)
     slopes = np.zeros((2, len(grid), 2, axes.shape[1]))
     known = here[1]
     for column, axis in enumerate(axes.T):
@@ -184,10 +185,10 @@ def _slopes(
         part = float(min(1.0, np.min(most / np.maximum(np.abs(along), 1e-300))))
         ends = []
         for sign in (1.0, -1.0):
-            moved = setting
+            moved = rig
             for (_, of), value in zip(own, now + sign * part * along, strict=True):
                 least = -np.inf if of.least is None else of.least
-                moved = of.write(*moved, max(float(value), least))
+                moved = of.vary(moved, max(float(value), least))
             ends.append(_swept(moved, grid))
         (above, settled), (below, also) = ends
         slopes[..., column] = (above - below) / (2.0 * part)
@@ -196,14 +197,14 @@ def _slopes(
     return slopes, known
 
 
-def _far_from_jumps(setting: Setting, grid: Array, margin: float) -> NDArray[np.bool_]:
+def _far_from_jumps(rig: Rig, grid: Array, margin: float) -> NDArray[np.bool_]:
     """Where a sweep can go on by a share of its frequency without a jump; by direction."""
-    rig = Rig(setting)
+    stepped = SteppedRig(rig)
     clear = np.ones((2, len(grid)), dtype=bool)
     for row, sign in enumerate((1.0, -1.0)):
         ahead = [grid * (1.0 + sign * margin * part) for part in (0.0, 0.5, 1.0)]
         path = np.unique(np.concatenate(ahead))[:: int(sign)]
-        wild = np.abs(np.diff(sizes(rig.sweep(path)[0]), axis=0)).max(axis=1) > _WILD
+        wild = np.abs(np.diff(sizes(stepped.sweep(path)[0]), axis=0)).max(axis=1) > _WILD
         for step in np.flatnonzero(wild):
             first, second = sorted((path[step], path[step + 1]))
             clear[row] &= (np.maximum(ahead[0], ahead[2]) <= first) | (
@@ -212,10 +213,10 @@ def _far_from_jumps(setting: Setting, grid: Array, margin: float) -> NDArray[np.
     return clear
 
 
-def _swept(setting: Setting, grid: Array) -> tuple[Array, NDArray[np.bool_]]:
+def _swept(rig: Rig, grid: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Logarithms of both excursions by direction and frequency, and where the motion settled."""
-    rig = Rig(setting)
-    rows = np.stack([rig.sweep(grid)[0], rig.sweep(grid[::-1])[0][::-1]])
+    stepped = SteppedRig(rig)
+    rows = np.stack([stepped.sweep(grid)[0], stepped.sweep(grid[::-1])[0][::-1]])
     return sizes(rows), rows[..., hold.PERIOD] > 0
 
 

@@ -25,7 +25,7 @@ from vibroimpact.identification.residual_structure import TOLD, Row, Structure, 
 from vibroimpact.identification.uncertainty import Spread
 from vibroimpact.identification.untouched_stops import Untouched
 from vibroimpact.model import Oscillator
-from vibroimpact.model.access import Setting
+from vibroimpact.model.rig import Rig
 
 _SILENT = 1e-6
 """Residuals that are smaller are those of made-up data without noise."""
@@ -98,10 +98,10 @@ def labelled(fit: Fit, samples: dict[str, Array | None], confidence: float) -> x
     data["bayes"] = known * np.log(number) - 2.0 * likelihood
     rigs = {}
     for test in problem.tests:
-        (oscillator, shaken), sensors = problem.setting(x, test)
+        rig, sensors = problem.rig_of(x, test)
         rigs[test.name] = {
-            "oscillator": oscillator_parameters(oscillator),
-            "excitation": excitation_parameters(shaken),
+            "oscillator": oscillator_parameters(rig.oscillator),
+            "excitation": excitation_parameters(rig.periodic),
             "sensors": sensors,
         }
     data.attrs = {
@@ -124,9 +124,10 @@ def labelled(fit: Fit, samples: dict[str, Array | None], confidence: float) -> x
     )
 
 
-def setting_of(rig: dict[str, Any]) -> Setting:
-    """A rig and its shaking from a fit's attributes."""
-    return Oscillator.model_validate(rig["oscillator"]), excitation_from(rig["excitation"])
+def rig_of(numbers: dict[str, Any]) -> Rig:
+    """Read a rig from the attributes of a fit."""
+    oscillator = Oscillator.model_validate(numbers["oscillator"])
+    return Rig(oscillator, excitation_from(numbers["excitation"]))
 
 
 def _intervals(
@@ -161,8 +162,8 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
     judged = []
     used = sum(t.points_count for t in problem.tests)
     for number, test in enumerate(problem.tests):
-        setting, sensors = problem.setting(x, test)
-        shown = test.shown(setting, sensors, problem.of_test(x, number))
+        rig, sensors = problem.rig_of(x, test)
+        shown = test.shown(rig, sensors, problem.of_test(x, number))
         rows["point_test"] += [test.name] * len(shown.place)
         rows["point_direction"] += shown.direction
         rows["point_variable"] += shown.variable

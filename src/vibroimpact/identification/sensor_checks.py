@@ -85,4 +85,4 @@ def _offsets(test: HistoryTest, known: set[str]) -> list[Free]:
              and name.removesuffix("_offset") in test.names]  # fmt: skip
     if not names:
         return []
-    return frees(names, {test.name: test.setting}, (), None, {test.name: test.swing})
+    return frees(names, {test.name: test.rig}, (), None, {test.name: test.swing})

@@ -46,11 +46,11 @@ def untouched(problem: Problem, x: Array) -> Untouched:
 def _idle(problem: Problem, x: Array, number: int) -> dict[str, float]:
     """The sides of a test's rig whose stop is never reached, and how much of the gap is used."""
     test = problem.tests[number]
-    (rig, shaken), _ = problem.setting(x, test)
-    reach = test.reach((rig, shaken), problem.of_test(x, number))
+    rig, _ = problem.rig_of(x, test)
+    reach = test.reach(rig, problem.of_test(x, number))
     found = {}
     for side, far in zip(("right", "left"), reach, strict=True):
-        stop = getattr(rig, side)
+        stop = getattr(rig.oscillator, side)
         if stop is not None and far < stop.gap:
             found[side] = max(far, 0.0) / stop.gap if stop.gap > 0.0 else 1.0
     return found
@@ -61,13 +61,14 @@ def _moved(problem: Problem, x: Array, number: int, one: Free, test: Test) -> se
     if one.name in SENSORS:
         return set()
     other = x.copy()
-    now = float(x[number] * problem.scale[number])
-    other[number] = PARAMETERS[one.name].beside(now) / problem.scale[number]
-    (rig, shaken), _ = problem.setting(x, test)
+    value = float(x[number] * problem.scale[number])
+    other[number] = PARAMETERS[one.name].beside(value) / problem.scale[number]
+    rig, _ = problem.rig_of(x, test)
     try:
-        (changed, also), _ = problem.setting(other, test)
+        changed, _ = problem.rig_of(other, test)
     except InputError:
         return set()
-    if also != shaken or changed.replace(right=rig.right, left=rig.left) != rig:
+    now, then = rig.oscillator, changed.oscillator
+    if changed.shaking != rig.shaking or then.replace(right=now.right, left=now.left) != now:
         return set()
-    return {side for side in ("right", "left") if getattr(changed, side) != getattr(rig, side)}
+    return {side for side in ("right", "left") if getattr(then, side) != getattr(now, side)}

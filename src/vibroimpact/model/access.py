@@ -46,7 +46,9 @@ def bumpers(name: str) -> tuple[Read, Vary]:
 
     def read(rig: Rig) -> float:
         oscillator = rig.oscillator
-        stops = [stop for stop in oscillator.stops if name in type(stop).model_fields] or oscillator.stops
+        stops = [
+            stop for stop in oscillator.stops if name in type(stop).model_fields
+        ] or oscillator.stops
         values = {number(stop, name) for stop in stops}
         kinds = {quantity(stop, name) for stop in stops}
         if len(values) != 1 or len(kinds) != 1:
@@ -90,7 +92,9 @@ def one_bumper(side: str, name: str) -> tuple[Read, Vary]:
 
     def vary(rig: Rig, value: float) -> Rig:
         oscillator = rig.oscillator
-        return rig.with_parts(oscillator.replace(**{side: bumper(oscillator).replace(**{name: value})}))
+        return rig.with_parts(
+            oscillator.replace(**{side: bumper(oscillator).replace(**{name: value})})
+        )
 
     return read, vary
 
@@ -105,6 +109,7 @@ def oscillator_number(name: str) -> tuple[Read, Vary]:
 
 def isolator(name: str) -> tuple[Read, Vary]:
     """Read and vary a number of the isolator."""
+
     def vary(rig: Rig, value: float) -> Rig:
         law = rig.oscillator.isolator.replace(**{name: value})
         return rig.with_parts(rig.oscillator.replace(isolator=law))
@@ -259,6 +264,8 @@ def damping_ratio() -> tuple[Read, Vary]:
     def vary(rig: Rig, value: float) -> Rig:
         oscillator = rig.oscillator
         damping = value * oscillator.critical_damping
-        return rig.with_parts(oscillator.replace(isolator=oscillator.isolator.replace(damping=damping)))
+        return rig.with_parts(
+            oscillator.replace(isolator=oscillator.isolator.replace(damping=damping))
+        )
 
     return lambda rig: rig.oscillator.damping_ratio, vary

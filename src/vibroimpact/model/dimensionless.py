@@ -20,7 +20,7 @@ import math
 from typing import Annotated, ClassVar, TypeAlias
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.excitation import Harmonic
+from vibroimpact.model.access import scale_of
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.largest_free_response import peak_displacement, peak_of
 from vibroimpact.model.law_registry import Kinds, Named
@@ -246,8 +246,8 @@ def to_dimensionless(rig: AnyRig) -> Dimensionless:
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file. The peak of the
-        base acceleration scales the gaps.
+        The rig: a `Rig`, a laboratory case, its code, or the path of a study file. One sine shakes
+        it; its free response scales the gaps.
 
     Returns
     -------
@@ -262,7 +262,7 @@ def to_dimensionless(rig: AnyRig) -> Dimensionless:
         ``peak_displacement``).
     """
     found = as_rig(rig)
-    oscillator, a = found.oscillator, base_acceleration(found)
+    oscillator, a = found.oscillator, scale_of(found)
     oscillator.check_linear("dimensionless parameters")
     k = oscillator.isolator.initial_stiffness
 
@@ -277,23 +277,6 @@ def to_dimensionless(rig: AnyRig) -> Dimensionless:
         return DimensionlessBumper(stop.stiffness / k, gap, time)
 
     return Dimensionless(oscillator.damping_ratio, side(oscillator.right), side(oscillator.left))
-
-
-def base_acceleration(rig: Rig) -> float:
-    """Return the peak A (m/s²) of the sine of base acceleration that shakes a rig.
-
-    Raises
-    ------
-    InputError
-        If something else shakes it.
-    """
-    shaking = rig.periodic
-    if not isinstance(shaking, Harmonic) or shaking.of != "acceleration":
-        raise InputError(
-            f"shaking: {shaking}, but dimensionless parameters are those of a sine of base "
-            'acceleration, such as Rig(oscillator, "0.05 g")'
-        )
-    return shaking.amplitude
 
 
 def _pair(value: PerSide, field: str) -> tuple[float | str | None, float | str | None]:

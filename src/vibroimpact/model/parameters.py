@@ -214,7 +214,13 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "amplitude", ACCELERATION, "peak base acceleration", *access.forcing("amplitude"), False
         ),
-        Parameter("force", FORCE, "constant force on the mass", *access.oscillator_number("force"), least=None),
+        Parameter(
+            "force",
+            FORCE,
+            "constant force on the mass",
+            *access.oscillator_number("force"),
+            least=None,
+        ),
         Parameter("gap", LENGTH, "gap of each side", *access.bumpers("gap"), least=None),
         *(
             Parameter(

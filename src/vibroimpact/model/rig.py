@@ -147,13 +147,23 @@ class Rig:
         InputError
             As of `periodic`, and if the frequency is open.
         """
-        found = self.periodic
+        self.check_frequency()
+        return self.periodic
+
+    def check_frequency(self) -> None:
+        """Refuse a rig without a forcing frequency.
+
+        Raises
+        ------
+        InputError
+            If the frequency is open, or the shaking is not periodic.
+        """
+        as_periodic(self.shaking, "shaking")
         if self.frequency is None:
             raise InputError(
                 "frequency: missing, and the rig leaves it open; a frequency greater than 0 is "
                 'accepted, such as frequency="2 Hz" or Rig(oscillator, Harmonic("0.05 g", "2 Hz"))'
             )
-        return found
 
     @classmethod
     def of_open_frequency(
@@ -163,6 +173,20 @@ class Rig:
         rig = cls(oscillator, shaking, name=name)
         object.__setattr__(rig, "frequency", None)
         return rig
+
+    @property
+    def sine(self) -> Harmonic:
+        """The one sine that shakes the rig.
+
+        Raises
+        ------
+        InputError
+            If several harmonics or a record shake it, or nothing does.
+        """
+        found = self.periodic
+        if not isinstance(found, Harmonic):
+            raise InputError("shaking: several harmonics; one sine is accepted")
+        return found
 
     @property
     def record(self) -> Record:

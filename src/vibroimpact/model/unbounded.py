@@ -14,6 +14,7 @@ import math
 
 from vibroimpact.model.excitation import Periodic, Repeated
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.rig import Rig
 
 
 def undamped_frequency(oscillator: Oscillator) -> float:
@@ -27,7 +28,7 @@ def undamped_frequency(oscillator: Oscillator) -> float:
     return math.sqrt(parts[0] / oscillator.mass) / math.tau
 
 
-def grows(oscillator: Oscillator, shaken: Repeated, frequency: float, within: float) -> int:
+def grows(rig: Rig, frequency: float, within: float) -> int:
     """Harmonic at which free flight has no bound at a frequency (Hz); 0 if there is none.
 
     Parameters
@@ -35,24 +36,26 @@ def grows(oscillator: Oscillator, shaken: Repeated, frequency: float, within: fl
     within
         |1 - r²| up to which the two frequencies are one.
     """
+    oscillator, shaken = rig.oscillator, rig.periodic
     natural = undamped_frequency(oscillator)
     if natural == 0.0:
         return 0
     for n in range(1, _count(shaken) + 1):
         ratio = n * frequency / natural
         near = abs((1.0 - ratio) * (1.0 + ratio)) <= within
-        if near and _exceeds(oscillator, _sizes(oscillator, shaken, frequency)[n - 1]):
+        if near and _exceeds(oscillator, _sizes(rig, frequency)[n - 1]):
             return n
     return 0
 
 
-def has_no_bound(oscillator: Oscillator, shaken: Repeated) -> bool:
+def has_no_bound(rig: Rig) -> bool:
     """Whether free flight grows without bound at some frequency."""
+    oscillator, shaken = rig.oscillator, rig.periodic
     natural = undamped_frequency(oscillator)
     if natural == 0.0:
         return False
     harmonics = range(1, _count(shaken) + 1)
-    return any(grows(oscillator, shaken, natural / n, 1e-12) for n in harmonics)
+    return any(grows(rig, natural / n, 1e-12) for n in harmonics)
 
 
 def _count(shaken: Repeated) -> int:
@@ -60,8 +63,9 @@ def _count(shaken: Repeated) -> int:
     return len(shaken.amplitudes) if isinstance(shaken, Periodic) else 1
 
 
-def _sizes(oscillator: Oscillator, shaken: Repeated, frequency: float) -> list[float]:
+def _sizes(rig: Rig, frequency: float) -> list[float]:
     """Base acceleration (m/s²) of each harmonic, or what does the same."""
+    oscillator, shaken = rig.oscillator, rig.periodic
     found = shaken.replace(frequency=frequency).acceleration(oscillator.mass, math.tau * frequency)
     return [abs(float(one)) for one in (found if isinstance(shaken, Periodic) else [found])]
 

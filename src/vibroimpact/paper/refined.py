@@ -13,6 +13,7 @@ from collections.abc import Callable
 from matplotlib.figure import Figure
 
 from vibroimpact.model import GRAVITY, Harmonic, Oscillator, laboratory
+from vibroimpact.model.rig import Rig
 from vibroimpact.paper import fig03, fig14
 from vibroimpact.paper.campaign import panels_of
 from vibroimpact.paper.curves import S2, S3, curves_of
@@ -28,12 +29,12 @@ def equivalent(isolator: str, acceleration: str) -> tuple[float, float]:
     """
     rig = Oscillator(laboratory.MASS, laboratory.REFINED[isolator])
     shaken = Harmonic(laboratory.ACCELERATIONS[acceleration], 1.0)
-    height = 0.5 * largest_flight(rig, shaken)[1] / shaken.amplitude
+    height = 0.5 * largest_flight(Rig(rig, shaken))[1] / shaken.amplitude
     # H² = (1 + d)/((1 - s)² + d) at s = r² = 2/(1 + √(1 + 8ξ²)), d = 4ξ²s, is H² = 1/(1 - s²)
     square = math.sqrt(1.0 - height**-2)
     ratio = math.sqrt(((2.0 / square - 1.0) ** 2 - 1.0) / 8.0)
     below = math.sqrt(1.0 - 2.0 * ratio**2)
-    omega = math.tau * resonance(rig, shaken) / below
+    omega = math.tau * resonance(Rig(rig, shaken)) / below
     return laboratory.MASS * omega**2, ratio
 
 

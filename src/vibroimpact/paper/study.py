@@ -163,7 +163,7 @@ class PublishedStudy:
         excitation = Harmonic(case.amplitude, frequency)
 
         def make() -> xr.Dataset:
-            start = arrivals(case.oscillator, excitation)[f"{direction} branch"]
+            start = arrivals(Rig(case.oscillator, excitation))[f"{direction} branch"]
             return steady(Rig(case.oscillator, excitation), start, samples)
 
         return self._once(("motion", code, frequency, direction, parameters, samples), make)

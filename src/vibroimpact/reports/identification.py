@@ -22,7 +22,7 @@ from vibroimpact.identification.finding_texts import amplitude_words
 from vibroimpact.identification.free_parameters import SENSORS
 from vibroimpact.identification.identify import fitted_rig
 from vibroimpact.identification.next_test import next_test
-from vibroimpact.identification.results import setting_of
+from vibroimpact.identification.results import rig_of
 from vibroimpact.measurements.read import as_measured
 from vibroimpact.model.names import check_name, file_stems
 from vibroimpact.model.parameters import PARAMETERS
@@ -184,7 +184,7 @@ def amplitude_of(result: xr.Dataset, test: str) -> str:
     """The peak base acceleration that a fit took for a test, and where it is from, as text."""
     known = "amplitude_source" in result  # not in fits of older versions
     source = str(result["amplitude_source"].sel(test=test).values) if known else ""
-    return amplitude_words(setting_of(json.loads(result.attrs["rigs"])[test])[1], source)
+    return amplitude_words(rig_of(json.loads(result.attrs["rigs"])[test]).periodic, source)
 
 
 def _sensor(name: str) -> Quantity:

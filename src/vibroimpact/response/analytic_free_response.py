@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
 from vibroimpact.model.largest_free_response import largest_free_flight
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import grows, has_no_bound, undamped_frequency
 from vibroimpact.response.numerical_free_response import largest_flight, resonance
 
@@ -23,9 +24,7 @@ _Array = NDArray[np.float64]
 _Complex = NDArray[np.complex128]
 
 
-def free_flight_excursions(
-    oscillator: Oscillator, shaken: Repeated, frequencies: _Array
-) -> tuple[_Array, _Array]:
+def free_flight_excursions(rig: Rig, frequencies: _Array) -> tuple[_Array, _Array]:
     """Excursions of displacement (m) and absolute acceleration (m/s²) in steady free flight.
 
     With r = ω/ω₀ and A the peak base acceleration, or what does the same, the displacement's
@@ -39,12 +38,11 @@ def free_flight_excursions(
         If the isolator is not linear; at the natural frequency of an undamped one, where the
         motion has no bound.
     """
+    oscillator, shaken = rig.oscillator, rig.periodic
     oscillator.check_linear("free flight in closed form", stops=False)
-    _check(oscillator, shaken, frequencies, "frequencies[{}]")
+    _check(rig, frequencies, "frequencies[{}]")
     if isinstance(shaken, Periodic):
-        return tuple(
-            np.ptp(extremes(one), axis=0) for one in harmonics(oscillator, shaken, frequencies)
-        )
+        return tuple(np.ptp(extremes(one), axis=0) for one in harmonics(rig, frequencies))
     omega = 2.0 * np.pi * frequencies
     size = 2.0 * shaken.acceleration(oscillator.mass, omega)
     if oscillator.isolator.initial_stiffness == 0.0:
@@ -59,7 +57,7 @@ def free_flight_excursions(
     return gain / oscillator.angular_frequency**2, gain * share
 
 
-def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[float, float]:
+def reference_excursions(rig: Rig) -> tuple[float, float]:
     """Excursions of displacement (m) and absolute acceleration (m/s²) that η is taken over.
 
     Those of the largest free flight at any frequency, whatever range is swept (the maximum of
@@ -71,12 +69,13 @@ def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[floa
     no bound either, as with little friction and no dashpot, those of its spring alone, with
     ω0² = K/M, under a base acceleration that changes slowly.
     """
+    oscillator, shaken = rig.oscillator, rig.periodic
     if not oscillator.isolator.linear:
-        if not has_no_bound(oscillator, shaken):
-            return largest_flight(oscillator, shaken)
+        if not has_no_bound(rig):
+            return largest_flight(rig)
         natural = undamped_frequency(oscillator)
         if isinstance(shaken, Periodic):
-            return _slow(oscillator, shaken, natural)
+            return _slow(rig, natural)
         size = 2.0 * float(shaken.acceleration(oscillator.mass, math.tau * natural))
         return size / (math.tau * natural) ** 2, size
     omega0 = oscillator.angular_frequency
@@ -86,8 +85,8 @@ def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[floa
     peaked = 0.0 < xi < math.sqrt(0.5)
     if isinstance(shaken, Periodic):
         if xi > 0.0:
-            return _largest(oscillator, shaken)
-        return _slow(oscillator, shaken, oscillator.natural_frequency)
+            return _largest(rig)
+        return _slow(rig, oscillator.natural_frequency)
     size = float(shaken.acceleration(oscillator.mass, omega0))
     if xi == 0.0:
         return 2.0 * size / omega0**2, 2.0 * size
@@ -105,17 +104,18 @@ def reference_excursions(oscillator: Oscillator, shaken: Repeated) -> tuple[floa
     return 2.0 * peak * size / omega0**2, 2.0 * peak * size * share
 
 
-def resonance_ratio(oscillator: Oscillator, shaken: Harmonic) -> float:
+def resonance_ratio(rig: Rig) -> float:
     """Where free flight's displacement is largest, over the natural frequency.
 
     Of an isolator that is not linear, in a backward sweep of its own free flight; 1 if none
     settles.
     """
+    oscillator, shaken = rig.oscillator, rig.sine
     if oscillator.isolator.linear:
         return peak_ratio(oscillator.damping_ratio, shaken)
-    if has_no_bound(oscillator, shaken):
+    if has_no_bound(rig):
         return undamped_frequency(oscillator) / oscillator.natural_frequency
-    found = resonance(oscillator, shaken) / oscillator.natural_frequency
+    found = resonance(rig) / oscillator.natural_frequency
     return found if math.isfinite(found) else 1.0
 
 
@@ -132,16 +132,18 @@ def peak_ratio(damping_ratio: float, shaken: Harmonic) -> float:
     return 1.0 / below if below else math.inf
 
 
-def check_bounded(oscillator: Oscillator, shaken: Repeated, field: str = "frequency") -> None:
+def check_bounded(rig: Rig, field: str = "frequency") -> None:
     """Refuse resonance of an undamped mass that no bumper stops."""
+    oscillator, shaken = rig.oscillator, rig.periodic
     if not oscillator.stops:
-        _check(oscillator, shaken, [shaken.frequency], field)
+        _check(rig, [shaken.frequency], field)
 
 
-def check_each_bounded(oscillator: Oscillator, shaken: Repeated, frequencies: _Array) -> None:
+def check_each_bounded(rig: Rig, frequencies: _Array) -> None:
     """The same of each frequency of a sweep, of which the shaking may have any amplitude."""
+    oscillator = rig.oscillator
     if not oscillator.stops:
-        _check(oscillator, shaken, frequencies, "frequencies[{}]")
+        _check(rig, frequencies, "frequencies[{}]")
 
 
 def beside_resonance(oscillator: Oscillator, frequencies: _Array) -> _Array:
@@ -157,16 +159,15 @@ def beside_resonance(oscillator: Oscillator, frequencies: _Array) -> _Array:
     return frequencies + np.where(there, 0.5 * step, 0.0)
 
 
-def _check(
-    oscillator: Oscillator, shaken: Repeated, frequencies: Iterable[float], field: str
-) -> None:
+def _check(rig: Rig, frequencies: Iterable[float], field: str) -> None:
     """Refuse resonance of an undamped isolator; the field may have a place for the position."""
+    oscillator = rig.oscillator
     if undamped_frequency(oscillator) == 0.0:
         return
     bounded = oscillator.isolator.linear_and_bounded
     held = ", whose bounded force is too small to hold it," if bounded and bounded[1] else ""
     for i, frequency in enumerate(frequencies):
-        if n := grows(oscillator, shaken, float(frequency), _RESONANT):
+        if n := grows(rig, float(frequency), _RESONANT):
             which = "" if n == 1 else f" over {n}"
             raise InputError(
                 f"{field.format(i)}: {float(frequency)!r} Hz is the natural frequency{which} "
@@ -175,9 +176,7 @@ def _check(
             )
 
 
-def harmonics(
-    oscillator: Oscillator, shaken: Repeated, frequencies: _Array
-) -> tuple[_Complex, _Complex]:
+def harmonics(rig: Rig, frequencies: _Array) -> tuple[_Complex, _Complex]:
     """Steady free flight: displacement and absolute acceleration are Im Σ z_n exp(inθ).
 
     Returns
@@ -185,6 +184,7 @@ def harmonics(
     tuple of ndarray, shape (frequency, n)
         z_n of both, n = 1, 2, ….
     """
+    oscillator, shaken = rig.oscillator, rig.periodic
     oscillator.check_linear("free flight in closed form", stops=False)
     mass, isolator = oscillator.mass, oscillator.isolator
     k, c = isolator.initial_stiffness, isolator.damping
@@ -258,8 +258,9 @@ def _sampled(phasors: _Complex) -> _Array:
     return np.asarray(top(values) + top(-values))
 
 
-def _slow(oscillator: Oscillator, shaken: Periodic, natural: float) -> tuple[float, float]:
+def _slow(rig: Rig, natural: float) -> tuple[float, float]:
     """What an excitation that changes slowly does to displacement and acceleration."""
+    oscillator, shaken = rig.oscillator, rig.periodic
     here = shaken.replace(frequency=natural)
     sizes = here.acceleration(oscillator.mass, here.angular_frequency)
     low, high = extremes(_turned(shaken, sizes[np.newaxis]))
@@ -267,39 +268,42 @@ def _slow(oscillator: Oscillator, shaken: Periodic, natural: float) -> tuple[flo
     return wave / (math.tau * natural) ** 2, wave
 
 
-def _largest(oscillator: Oscillator, shaken: Periodic) -> tuple[float, float]:
+def _largest(rig: Rig) -> tuple[float, float]:
     """The largest excursion of displacement at any frequency, and of acceleration likewise.
 
     Under a displacement of the base, the acceleration at the frequency of the former. Neither the
     frequency nor the stops matter, and the size only scales it: along a branch it is found once.
     """
+    oscillator, shaken = rig.oscillator, rig.periodic
     bare = oscillator.replace(right=None, left=None, force=0.0)
     shape = shaken.replace(amplitude=1.0, frequency=oscillator.natural_frequency, phase=0.0)
-    swing, acceleration = _largest_of(bare, shape)
+    swing, acceleration = _largest_of(Rig(bare, shape))
     return shaken.amplitude * swing, shaken.amplitude * acceleration
 
 
 @lru_cache(maxsize=64)
-def _largest_of(oscillator: Oscillator, shaken: Periodic) -> tuple[float, float]:
+def _largest_of(rig: Rig) -> tuple[float, float]:
+    oscillator, shaken = rig.oscillator, rig.periodic
+    assert isinstance(shaken, Periodic)
     natural, count = oscillator.natural_frequency, len(shaken.amplitudes)
     grid = natural * np.geomspace(0.02 / count, 5.0, 2000)
-    curves = [_sampled(one) for one in harmonics(oscillator, shaken, grid)]
+    curves = [_sampled(one) for one in harmonics(rig, grid)]
 
     def peak(which: int) -> tuple[float, float]:
         curve = curves[which]
         # Samples fall a little short of an extreme: the best are looked at again, exactly.
         best = np.flatnonzero(curve >= 0.998 * curve.max())
         best = best[np.argsort(-curve[best])][: max(20, 4000 // count**2)]
-        i = int(best[np.argmax(free_flight_excursions(oscillator, shaken, grid[best])[which])])
+        i = int(best[np.argmax(free_flight_excursions(rig, grid[best])[which])])
         low, high = grid[max(i - 1, 0)], grid[min(i + 1, len(grid) - 1)]
         for _ in range(60):
             one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-            pair = free_flight_excursions(oscillator, shaken, np.array([one, other]))[which]
+            pair = free_flight_excursions(rig, np.array([one, other]))[which]
             low, high = (low, other) if pair[0] > pair[1] else (one, high)
         at = 0.5 * (low + high)
-        return at, float(free_flight_excursions(oscillator, shaken, np.array([at]))[which][0])
+        return at, float(free_flight_excursions(rig, np.array([at]))[which][0])
 
     at, swing = peak(0)
     if shaken.of == "displacement":
-        return swing, float(free_flight_excursions(oscillator, shaken, np.array([at]))[1][0])
+        return swing, float(free_flight_excursions(rig, np.array([at]))[1][0])
     return swing, peak(1)[1]

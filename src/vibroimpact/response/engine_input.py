@@ -16,7 +16,8 @@ from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, Periodic, Record, Repeated, RigidStop, State
+from vibroimpact.model import Bumper, Oscillator, Periodic, Record, RigidStop, State
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.law_numbers import isolator_numbers, stop_numbers
 
 TOUCHING = 1e-12
@@ -38,8 +39,9 @@ contact."""
 _TOUCHING = np.array(record.TOUCHING)
 
 
-def engine_rig(oscillator: Oscillator, shaken: Repeated | Record) -> NDArray[np.float64]:
-    """The oscillator and what shakes it as the vector that the engine reads."""
+def engine_rig(rig: Rig) -> NDArray[np.float64]:
+    """The rig as the vector that the engine reads."""
+    oscillator = rig.oscillator
     stiffness, damping, law = isolator_numbers(oscillator.isolator)
     return rig_vector(
         oscillator.mass,
@@ -48,28 +50,29 @@ def engine_rig(oscillator: Oscillator, shaken: Repeated | Record) -> NDArray[np.
         stop_numbers(oscillator.right),
         stop_numbers(oscillator.left),
         oscillator.force,
-        _drive(oscillator, shaken),
+        _drive(rig),
         law,
     )
 
 
-def system_vector(oscillator: Oscillator, excitation: Repeated) -> NDArray[np.float64]:
+def system_vector(rig: Rig) -> NDArray[np.float64]:
     """The same with the size and the frequency of what shakes it: a system of the section's map."""
-    rig = engine_rig(oscillator, excitation)
-    vector = np.resize(rig, max(section_map.SYSTEM, len(rig)))
+    excitation, numbers = rig.periodic, engine_rig(rig)
+    vector = np.resize(numbers, max(section_map.SYSTEM, len(numbers)))
     vector[section_map.AMPLITUDE] = excitation.amplitude
     vector[section_map.FREQUENCY] = excitation.frequency
     return vector
 
 
-def _drive(oscillator: Oscillator, shaken: Repeated | Record) -> Drive:
+def _drive(rig: Rig) -> Drive:
     """What shakes the mass, as the base acceleration that does the same.
 
     A displacement X sin θ of the base is the acceleration −X ω² sin θ, a force F sin θ on the
     mass −F/M sin θ.
     """
-    if isinstance(shaken, Record):
-        return Drive(interval=shaken.step)
+    if isinstance(rig.shaking, Record):
+        return Drive(interval=rig.shaking.step)
+    oscillator, shaken = rig.oscillator, rig.periodic
     scale, power = {
         "acceleration": (1.0, 0.0),
         "displacement": (-1.0, 2.0),

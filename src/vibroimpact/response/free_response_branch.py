@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, hold, orbit, section_map
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Oscillator, Repeated
+from vibroimpact.model import Oscillator
 from vibroimpact.model.equilibrium import equilibrium
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_state, system_vector
 from vibroimpact.response.propagate import hold_once
 
@@ -68,15 +69,20 @@ class Held(NamedTuple):
 class Flight(NamedTuple):
     """What flies, and how hard it is shaken at a frequency."""
 
-    oscillator: Oscillator
-    shaken: Repeated
+    rig: Rig
     system: _Array
     level: Callable[[float], float]
 
+    @property
+    def oscillator(self) -> Oscillator:
+        """What vibrates."""
+        return self.rig.oscillator
 
-def flight(free: Oscillator, shaken: Repeated, level: Callable[[float], float]) -> Flight:
+
+def flight(rig: Rig, level: Callable[[float], float]) -> Flight:
     """Prepare a rig without stops, shaken from phase 0."""
-    return Flight(free, shaken, system_vector(free, shaken.replace(phase=0.0)), level)
+    still = Rig(rig.oscillator, rig.periodic.replace(phase=0.0))
+    return Flight(rig, system_vector(still), level)
 
 
 def from_rest(one: Flight, frequency: float) -> Held:
@@ -210,7 +216,7 @@ def _settled(one: Flight, begin: _Array, frequency: float, cycles: int) -> Held:
     """What the motion from a state does after so many cycles at most."""
     if cycles == SOON:
         return swept(one, begin, [frequency])[0]
-    here = one.shaken.replace(amplitude=one.level(frequency), frequency=frequency, phase=0.0)
+    here = one.rig.periodic.replace(amplitude=one.level(frequency), frequency=frequency, phase=0.0)
     row, reached = hold_once(one.system, here, begin, _TOLERANCE, cycles, _WINDOW, _MAX_EVENTS)
     return Held(frequency, row, reached)
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import hold
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.equilibrium import equilibrium
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.free_response_branch import (
     Flight,
@@ -36,9 +36,7 @@ _SAME = 1e-8
 """Width, over the frequency, down to which the place of the largest motion is narrowed."""
 
 
-def swept_flight(
-    oscillator: Oscillator, shaken: Repeated, frequencies: _Array, levels: _Array
-) -> _Array:
+def swept_flight(rig: Rig, frequencies: _Array, levels: _Array) -> _Array:
     """Excursions of displacement (m) and absolute acceleration (m/s²) in free flight.
 
     Parameters
@@ -51,11 +49,12 @@ def swept_flight(
     ndarray, shape (2, frequency)
         Of a backward sweep; NaN where the motion does not settle.
     """
+    oscillator, shaken = rig.oscillator, rig.periodic
 
     def level(frequency: float) -> float:
         return float(np.interp(frequency, frequencies, levels))
 
-    one = flight(oscillator.without_bumpers(), shaken, level)
+    one = flight(Rig(oscillator.without_bumpers(), shaken), level)
     falling = [float(frequency) for frequency in frequencies[::-1]]
     begin = engine_state(one.oscillator, equilibrium(one.oscillator))
     found = swept(one, begin, falling)
@@ -80,29 +79,31 @@ def _excursions(found: list[Held]) -> _Array:
     return excursions
 
 
-def largest_flight(oscillator: Oscillator, shaken: Repeated) -> tuple[float, float]:
+def largest_flight(rig: Rig) -> tuple[float, float]:
     """Excursions (m, m/s²) of the largest free flight of a backward sweep, each at its own place.
 
     Both are NaN where no free flight settles, or none moves.
     """
-    swing, acceleration, _ = _peaks(oscillator, shaken)
+    swing, acceleration, _ = _peaks(rig)
     return swing, acceleration
 
 
-def resonance(oscillator: Oscillator, shaken: Repeated) -> float:
+def resonance(rig: Rig) -> float:
     """Frequency (Hz) at which the displacement of that free flight is largest; or NaN."""
-    return _peaks(oscillator, shaken)[2]
+    return _peaks(rig)[2]
 
 
-def _peaks(oscillator: Oscillator, shaken: Repeated) -> tuple[float, float, float]:
+def _peaks(rig: Rig) -> tuple[float, float, float]:
+    oscillator, shaken = rig.oscillator, rig.periodic
     key = shaken.replace(frequency=oscillator.natural_frequency, phase=0.0)
-    return _largest(oscillator.without_bumpers(), key)
+    return _largest(Rig(oscillator.without_bumpers(), key))
 
 
 @lru_cache(maxsize=256)
-def _largest(free: Oscillator, shaken: Repeated) -> tuple[float, float, float]:
+def _largest(rig: Rig) -> tuple[float, float, float]:
+    free, shaken = rig.oscillator, rig.periodic
     unit = free.natural_frequency
-    one = flight(free, shaken, lambda _: shaken.amplitude)
+    one = flight(rig, lambda _: shaken.amplitude)
     high = _MOST
     while True:
         found = [from_rest(one, high * unit)]

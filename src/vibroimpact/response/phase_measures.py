@@ -12,6 +12,7 @@ from vibroimpact.engine import measure
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.motion import LEFT, RIGHT
 from vibroimpact.model import Bumper, Record
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig
 from vibroimpact.response.motion_phases import MEMORY, SIDES, Phases, Recorded, touches
 
@@ -43,7 +44,7 @@ def asked(origin: Recorded[Any]) -> tuple[_Array, float, float]:
             frequency = steepest / size / math.tau
     else:
         size, frequency = shaken.amplitude, shaken.frequency
-    return engine_rig(origin.oscillator, shaken), size, frequency
+    return engine_rig(Rig(origin.oscillator, shaken)), size, frequency
 
 
 def table(origin: Recorded[Any], parts: Phases, side: NDArray[np.int64]) -> _Array:

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vibroimpact.errors import warn_of_input
-from vibroimpact.model import Harmonic, Oscillator, Record, Repeated
+from vibroimpact.model import Harmonic
 from vibroimpact.model.quantities import FREQUENCY, LENGTH
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound, undamped_frequency
 from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import reference_excursions
@@ -30,8 +31,7 @@ UNBOUNDED = "free flight has no bound"
 
 
 def doubt_gaps(
-    oscillator: Oscillator,
-    shaking: Repeated | Record | None,
+    rig: Rig,
     displacement: ArrayLike | None = None,
 ) -> list[str]:
     """Issue a warning if a gap is given in metres and has the motion's size in millimetres.
@@ -52,10 +52,11 @@ def doubt_gaps(
     list of str
         What is doubted, for the notes of a dataset.
     """
+    oscillator = rig.oscillator
     gaps = sorted({stop.gap for stop in oscillator.stops if stop.gap >= _LEAST})
     if not gaps:
         return []
-    reach, whose = _free(oscillator, shaking), "of free flight"
+    reach, whose = _free(rig), "of free flight"
     if math.isnan(reach) and displacement is not None and np.size(displacement):
         reach, whose = float(np.abs(displacement).max()), "that was found"
     notes = [
@@ -68,15 +69,16 @@ def doubt_gaps(
     return notes
 
 
-def note_unbounded(oscillator: Oscillator, shaken: Repeated) -> list[str]:
+def note_unbounded(rig: Rig) -> list[str]:
     """What η is taken over where the largest free flight has no bound, for the notes of a dataset.
 
     Without a spring there is no η at all.
     """
-    if not has_no_bound(oscillator, shaken):
+    oscillator = rig.oscillator
+    if not has_no_bound(rig):
         return []
     natural = undamped_frequency(oscillator)
-    size = 0.5 * reference_excursions(oscillator, shaken)[0]
+    size = 0.5 * reference_excursions(rig)[0]
     return [
         f"{UNBOUNDED}: it grows without end at {pretty(natural, FREQUENCY)}, for "
         "nothing damps the isolator enough; η is taken over "
@@ -85,11 +87,12 @@ def note_unbounded(oscillator: Oscillator, shaken: Repeated) -> list[str]:
     ]
 
 
-def _free(oscillator: Oscillator, shaking: Repeated | Record | None) -> float:
+def _free(rig: Rig) -> float:
     """The largest displacement of free flight at any frequency, if it has a closed form; or NaN."""
+    oscillator, shaking = rig.oscillator, rig.shaking
     isolator = oscillator.isolator
     if not isinstance(shaking, Harmonic) or not isolator.linear or oscillator.force:
         return math.nan
     if isolator.damping == 0.0:
         return math.nan  # there is no peak
-    return 0.5 * reference_excursions(oscillator, shaking)[0]
+    return 0.5 * reference_excursions(rig)[0]

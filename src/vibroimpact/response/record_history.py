@@ -14,8 +14,9 @@ from vibroimpact.engine import recorded
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Oscillator, Record, State, equilibrium
+from vibroimpact.model import Record, State, equilibrium
 from vibroimpact.model.count_checks import check_samples
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
 from vibroimpact.response.softening_limit import ended
@@ -26,8 +27,7 @@ _Array = NDArray[np.float64]
 
 
 def through(
-    oscillator: Oscillator,
-    record: Record,
+    rig: Rig,
     tail: float,
     start: State | xr.DataArray | xr.Dataset | None,
     samples: int,
@@ -35,12 +35,13 @@ def through(
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """What `simulate` returns of a record; `tail` in s."""
+    oscillator, record = rig.oscillator, rig.record
     lines = straight(record, tail)
     check_samples(len(lines), samples, "samples")
     state = equilibrium(oscillator) if start is None else as_state(start)
     vector = engine_state(oscillator, state)
     first = components(vector, 0.0)
-    rig = engine_rig(oscillator, record)
+    numbers = engine_rig(rig)
     ends = record.duration + tail
     count = int(np.ceil(ends / record.step * samples - 1e-6)) + 1 if samples else 0
     out = np.empty((observed.SAMPLE, count))
@@ -51,7 +52,7 @@ def through(
     calls = Calls(len(lines), progress)
     while at < len(lines) and outcome == Status.DONE:
         at, events, outcome = recorded.follow(
-            rig,
+            numbers,
             record.peak,
             steepest,
             lines[: int(calls.end(at))],

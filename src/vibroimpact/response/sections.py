@@ -14,6 +14,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import check_samples, whole
 from vibroimpact.model.quantities import ANGLE
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.motion_phases import beginning, recorded
@@ -56,7 +57,7 @@ def stroboscopic_section(
     check_samples(count, 1, "cycles")
     start = beginning(motion)
     state = engine_state(origin.oscillator, start)
-    rig = engine_rig(origin.oscillator, origin.excitation)
+    rig = engine_rig(Rig(origin.oscillator, origin.excitation))
     shaken = origin.excitation
     ahead = ((angle - shaken.phase) / (2.0 * math.pi)) % 1.0
     first = np.array(

@@ -25,6 +25,7 @@ from vibroimpact.model import Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.count_checks import check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
@@ -97,7 +98,7 @@ def simulate(
                 f"cycles: {cycles!r}, but a record has none; tail, a time, is accepted beside it"
             )
         behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
-        return through(oscillator, excitation, behind, start, samples, max_events, progress)
+        return through(Rig(oscillator, excitation), behind, start, samples, max_events, progress)
     if tail is not None:
         raise InputError(f"tail: {tail!r} is for a Record; cycles say how long this shaking lasts")
     if cycles is None:
@@ -105,7 +106,7 @@ def simulate(
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
     check_samples(length, samples, "cycles")
     if oscillator.isolator.linear:  # in closed form about its steady motion, which is none there
-        check_bounded(oscillator, excitation)
+        check_bounded(Rig(oscillator, excitation))
     state = equilibrium(oscillator) if start is None else as_state(start)
     phase = excitation.phase if state.phase is None else state.phase
     vector = engine_state(oscillator, state)
@@ -116,7 +117,7 @@ def simulate(
     capacity = max_events + 1 + (EVENTS_AT_ONCE if samples else 0)
     buffer = np.empty((capacity, record.EVENT))
     found = []
-    vector_of_rig = engine_rig(oscillator, excitation)
+    vector_of_rig = engine_rig(Rig(oscillator, excitation))
     at = 0
     outcome = int(Status.DONE)
     calls = Calls(length, progress)

@@ -194,7 +194,10 @@ def sweeps(
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
         ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
         results[r][..., hold.OUTCOME] = ended
-        doubts += [*doubt_gaps(oscillator, shaken, swing), *note_unbounded(oscillator, shaken)]
+        doubts += [
+            *doubt_gaps(Rig(oscillator, shaken), swing),
+            *note_unbounded(Rig(oscillator, shaken)),
+        ]
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)
     data = held([rig.oscillator for rig in pairs], results, states, free, largest, angle)

@@ -63,20 +63,20 @@ def prepared(rig: Rig, frequencies: _Array, state: State | None = None) -> Prepa
     oscillator, shaken, sizes = rig.oscillator, rig.periodic, rig.amplitudes
     levels = _levels(sizes, shaken, frequencies)
     least = shaken if sizes is None else shaken.replace(amplitude=levels.min())
-    check_each_bounded(oscillator, least, frequencies)
+    check_each_bounded(Rig(oscillator, least), frequencies)
     if oscillator.isolator.linear:
-        free = np.array(free_flight_excursions(oscillator, shaken, frequencies))
+        free = np.array(free_flight_excursions(Rig(oscillator, shaken), frequencies))
         free *= levels / shaken.amplitude
     else:
-        free = np.array(swept_flight(oscillator, shaken, frequencies, levels))
+        free = np.array(swept_flight(Rig(oscillator, shaken), frequencies, levels))
     most = shaken if sizes is None else shaken.replace(amplitude=levels.max())
     return Prepared(
         frequencies,
-        engine_rig(oscillator, shaken),
+        engine_rig(Rig(oscillator, shaken)),
         levels,
         engine_state(oscillator, state or equilibrium(oscillator)),
         free,
-        np.array(reference_excursions(oscillator, most)),
+        np.array(reference_excursions(Rig(oscillator, most))),
     )
 
 

@@ -7,15 +7,14 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model import State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state
 from vibroimpact.response.sweep import DIRECTIONS, check_frequencies, sweep
 
 
 def arrivals(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: Rig,
     frequencies: Iterable[float | str] | None = None,
     max_cycles: int = 2000,
     max_events: int = 10_000,
@@ -24,6 +23,7 @@ def arrivals(
 
     Parameters are those of `coexisting`. A sweep that has no frequency to begin with is left out.
     """
+    oscillator, excitation = rig.oscillator, rig.periodic
     if frequencies is None:
         # Never the natural frequency itself, which an undamped isolator forbids.
         unit = oscillator.angular_frequency / math.tau or excitation.frequency

@@ -13,7 +13,6 @@ from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import (
     Bumper,
     Harmonic,
-    Oscillator,
     RigidStop,
     to_si,
 )
@@ -142,15 +141,8 @@ def check_pair(x: Axis, y: Axis) -> None:
         )
 
 
-class Shaken(NamedTuple):
-    """An oscillator, and what shakes it at whatever frequency."""
-
-    oscillator: Oscillator
-    shaken: Harmonic
-
-
-def one_sine(rig: Rig, where: str = "shaking") -> Shaken:
-    """Read the oscillator and the sine of a rig, whose frequency is left open.
+def one_sine(rig: Rig, where: str = "shaking") -> Rig:
+    """Check that one sine shakes a rig; its frequency is left open.
 
     Raises
     ------
@@ -174,7 +166,8 @@ def one_sine(rig: Rig, where: str = "shaking") -> Shaken:
             "isolator.stiffness: 0 leaves no natural frequency, by which scenarios are scaled; "
             "one greater than 0 is accepted"
         )
-    return Shaken(oscillator, shaken.replace(frequency=ANY_FREQUENCY, phase=0.0))
+    open_sine = shaken.replace(frequency=ANY_FREQUENCY, phase=0.0)
+    return Rig.of_open_frequency(oscillator, open_sine, rig.name)
 
 
 def _turn(name: str) -> int:
@@ -182,17 +175,16 @@ def _turn(name: str) -> int:
     return int(name in ("relaxation_time", "gap_ratio")) - int(name == "isolator_period")
 
 
-def _peak(oscillator: Oscillator, shaken: Harmonic) -> float:
-    return peak_displacement(oscillator, scale_of(oscillator, shaken))
+def _peak(rig: Rig) -> float:
+    return peak_displacement(rig.oscillator, scale_of(rig))
 
 
 class Base(NamedTuple):
     """The rig whose other parameters all nodes share."""
 
-    oscillator: Oscillator
-    shaken: Harmonic
+    base: Rig
 
-    def rig(self, values: Mapping[str, float]) -> Shaken:
+    def rig(self, values: Mapping[str, float]) -> Rig:
         """The rig at a node.
 
         Parameters are set on both sides, where the stop has them, each as `PARAMETERS` does. If
@@ -204,26 +196,24 @@ class Base(NamedTuple):
             If there is no stop to set, or the base has no dimensionless parameters.
         """
         self._check(values)
-        made = Shaken(*self)
+        made = self.base
         # Ratios are over the stiffness that the period sets; the gap ratio scales by what else is
         # set, and the relaxation time sets the damping last.
         for name in sorted(values, key=_turn):
-            oscillator, shaken = PARAMETERS[name].write(*made, values[name])
-            assert isinstance(shaken, Harmonic)
-            made = Shaken(oscillator, shaken)
+            made = PARAMETERS[name].vary(made, values[name])
         physical = any(PARAMETERS[name].physical for name in values)
         if physical or "gap_ratio" in values or "damping_ratio" not in values:
             return made
-        grown = _peak(*made) / _peak(*self)
+        grown = _peak(made) / _peak(self.base)
         sides = {
             side: stop.replace(gap=grown * stop.gap)
             for side, stop in (("right", made.oscillator.right), ("left", made.oscillator.left))
             if stop is not None
         }
-        return made._replace(oscillator=made.oscillator.replace(**sides))
+        return made.with_parts(made.oscillator.replace(**sides))
 
     def _check(self, values: Mapping[str, float]) -> None:
-        stops = self.oscillator.stops
+        stops = self.base.oscillator.stops
         if not stops:
             raise InputError("rig: there is no bumper; a rig with one or two is accepted")
         for name in values:

@@ -19,7 +19,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator
 from vibroimpact.model.rig import ANY_FREQUENCY, Rig
 from vibroimpact.response.sweep import sweep
-from vibroimpact.scenarios.axes import Base, Shaken, one_sine
+from vibroimpact.scenarios.axes import Base, one_sine
 from vibroimpact.scenarios.evidence import evidence
 from vibroimpact.scenarios.map import map_workers
 from vibroimpact.scenarios.map_store import CREATED_BY
@@ -83,7 +83,7 @@ def jump_border(
         base = dict(settings["base"])
         oscillator = Oscillator.model_validate(base.pop("oscillator"))
         shaking = excitation_from(base, frequency=ANY_FREQUENCY)
-        start = Base(*one_sine(Rig(oscillator, shaking), "data"))
+        start = Base(one_sine(Rig(oscillator, shaking), "data"))
         candidates = _beside(data, along, other)
         chosen = np.unique(np.linspace(0, len(candidates) - 1, lines).round().astype(int))
         nodes = [candidates[i] for i in chosen] if candidates else []
@@ -134,14 +134,13 @@ def _cusp_beside(
     return _cusp(start.rig({other: at, along: value}), along, value)
 
 
-def _cusp(rig: Shaken, along: str, value: float) -> float | None:
+def _cusp(rig: Rig, along: str, value: float) -> float | None:
     """Value of a parameter at the cusp of the rig's folds that is nearest; None if not found."""
-    oscillator, shaken = rig
-    held = frequencies(oscillator, shaken)
-    data = sweep(Rig(oscillator, shaken), held)
-    seen = evidence(oscillator, shaken, data, 0.02)
+    held = frequencies(rig)
+    data = sweep(rig, held)
+    seen = evidence(rig, data, 0.02)
     try:
-        orbits = primary_branch(seen, oscillator, shaken, holds(data))
+        orbits = primary_branch(seen, rig, holds(data))
         if orbits is None:
             return None
         kinds = orbits["bifurcation_kind"].values
@@ -150,7 +149,7 @@ def _cusp(rig: Shaken, along: str, value: float) -> float | None:
             return None
         i = int(folds[np.argmax(orbits["bifurcation_value"].values[folds])])
         curve = bifurcation_curve(
-            Rig(oscillator, shaken.replace(frequency=float(orbits["bifurcation_value"][i]))),
+            rig.at(float(orbits["bifurcation_value"][i])),
             orbits.isel(bifurcation=i),
             spans=((float(held[0]), float(held[-1])), (value / _REACH, value * _REACH)),
             parameters=("frequency", along),

@@ -10,7 +10,6 @@ import xarray as xr
 from vibroimpact.errors import InputError
 from vibroimpact.model.html_table import table
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.model.rig import Rig
 from vibroimpact.response.sweep import sweep
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.classification import alternatives, confidence, scenario
@@ -113,19 +112,17 @@ def classify_scenario(
         If a value cannot be used.
     """
     used = checked(thresholds)
-    oscillator, peak = one_sine(as_rig(rig))
-    held = default_frequencies(oscillator, peak) if frequencies is None else frequencies
+    rig = one_sine(as_rig(rig))
+    held = default_frequencies(rig) if frequencies is None else frequencies
     if max_cycles is None:
-        max_cycles = cycles(oscillator, peak, highest(oscillator, peak), MAX_CYCLES)
-    data = sweep(
-        Rig(oscillator, peak), held, max_cycles=max_cycles, threads=threads, progress=progress
-    )
+        max_cycles = cycles(rig, highest(rig), MAX_CYCLES)
+    data = sweep(rig, held, max_cycles=max_cycles, threads=threads, progress=progress)
     if data.sizes["frequency"] < LEAST:
         raise InputError(
             f"frequencies: {data.sizes['frequency']} given; at least {LEAST} are accepted, for "
             "curves are looked at"
         )
-    found = evidence(oscillator, peak, data, 0.5 * used.prominence)
+    found = evidence(rig, data, 0.5 * used.prominence)
     total = data.sizes["frequency"] * data.sizes["direction"]
 
     def check() -> None:
@@ -133,9 +130,9 @@ def classify_scenario(
             progress(total, total)  # which may raise, where the answer is not wanted any more
 
     ended = holds(data)
-    found = with_kinds(found, oscillator, peak, ended, check=check)
+    found = with_kinds(found, rig, ended, check=check)
     check()
-    found = with_folds(found, oscillator, peak, ended)
+    found = with_folds(found, rig, ended)
     return Classification(
         scenario(found, used).label,
         confidence(found, used),

@@ -8,13 +8,13 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.clearance import at_rest, room
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Flags, Swept
 from vibroimpact.response.resonance import Hysteresis, runs
-from vibroimpact.scenarios.axes import Shaken
 
 
 def onset(
-    rig: Shaken,
+    rig: Rig,
     both: Swept,
     irregular: Flags,
     apart: tuple[Hysteresis, ...],
@@ -50,12 +50,12 @@ def foot_in_contact(both: Swept, k: int, i: int, prominence: float) -> bool:
     return bool(both.touching[k, i::-1][known][foot])
 
 
-def _pressed_at_rest(rig: Shaken) -> bool:
+def _pressed_at_rest(rig: Rig) -> bool:
     """Whether the mass presses a bumper at any low frequency.
 
     The isolator is then loaded with M A, or not at all where the displacement of the base is given.
     """
-    oscillator, shaken = rig
+    oscillator, shaken = rig.oscillator, rig.sine
     try:
         swing = at_rest(
             oscillator, oscillator.mass * float(shaken.acceleration(oscillator.mass, 0.0))

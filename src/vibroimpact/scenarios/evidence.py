@@ -16,14 +16,13 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 import xarray as xr
 
-from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.clearance import at_rest, room
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound
 from vibroimpact.response.analytic_free_response import reference_excursions, resonance_ratio
 from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, as_rigs
 from vibroimpact.response.peaks import Peak, peaks
 from vibroimpact.response.resonance import Hysteresis, Jump, hysteresis, jumps_beside, runs
-from vibroimpact.scenarios.axes import Shaken
 from vibroimpact.scenarios.contact_onset import foot_in_contact, onset, within
 from vibroimpact.scenarios.resonance_curves import Curves, each_curves
 
@@ -161,9 +160,7 @@ class Evidence(NamedTuple):
         return total / self.natural_frequency
 
 
-def evidence(
-    oscillator: Oscillator, shaken: Harmonic, data: xr.Dataset, prominence: float
-) -> Evidence:
+def evidence(rig: Rig, data: xr.Dataset, prominence: float) -> Evidence:
     """What the sweep of one rig shows.
 
     Parameters
@@ -180,19 +177,17 @@ def evidence(
     InputError
         If the dataset is not that of the sweep of one rig in both directions.
     """
-    (found,) = each_evidence([Shaken(oscillator, shaken)], as_rigs(data), prominence)
+    (found,) = each_evidence([rig], as_rigs(data), prominence)
     return found
 
 
-def each_evidence(
-    rigs: Sequence[Shaken], data: xr.Dataset, prominence: float
-) -> Iterator[Evidence]:
+def each_evidence(rigs: Sequence[Rig], data: xr.Dataset, prominence: float) -> Iterator[Evidence]:
     """What the sweep of each rig of `sweeps` shows, one after the other."""
     for rig, curves in zip(rigs, each_curves(data), strict=True):
         yield shown(rig, curves, prominence)
 
 
-def shown(rig: Shaken, curves: Curves, prominence: float) -> Evidence:
+def shown(rig: Rig, curves: Curves, prominence: float) -> Evidence:
     """What the curves of one rig show."""
     both, uneven, free, most, least = curves
     uneven = uneven & rig.oscillator.symmetric
@@ -264,16 +259,16 @@ def _place(peak: Peak, both: Swept) -> tuple[int, int]:
     return both.directions.index(peak.direction), int(both.frequency.searchsorted(peak.frequency))
 
 
-def _resonance_within(rig: Shaken, both: Swept) -> bool:
-    at = resonance_ratio(*rig) * rig.oscillator.natural_frequency
+def _resonance_within(rig: Rig, both: Swept) -> bool:
+    at = resonance_ratio(rig) * rig.oscillator.natural_frequency
     low, high = both.frequency[0], both.frequency[-1]
     return bool((at == 0.0 or low <= at) and (math.isinf(at) or at <= high))
 
 
-def _largest(rig: Shaken, free: Array) -> float:
+def _largest(rig: Rig, free: Array) -> float:
     """Largest amplitude of free flight (m); if it has no bound, that at the frequencies swept."""
-    bounded = not has_no_bound(*rig)
-    return 0.5 * reference_excursions(*rig)[0] if bounded else float(np.nanmax(free))
+    bounded = not has_no_bound(rig)
+    return 0.5 * reference_excursions(rig)[0] if bounded else float(np.nanmax(free))
 
 
 def _irregular(

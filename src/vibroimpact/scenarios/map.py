@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import excitation_parameters, oscillator_parameters
+from vibroimpact.datasets.description import rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.grids.refinement import UNKNOWN, Nodes, Scenarios
 from vibroimpact.model import from_dimensionless
@@ -110,15 +110,16 @@ def scenario_map(
         If a value cannot be used, or the store holds something else.
     """
     start = _base(rig)
-    first, second = (axis(given, where, start.shaken.of) for given, where in ((x, "x"), (y, "y")))
+    first, second = (
+        axis(given, where, start.base.sine.of) for given, where in ((x, "x"), (y, "y"))
+    )
     check_pair(first, second)
     used = checked(thresholds)
     settings = {
         "x": {"name": first.name, "values": first.values.tolist(), "log": first.logarithmic},
         "y": {"name": second.name, "values": second.values.tolist(), "log": second.logarithmic},
         "base": {
-            "oscillator": oscillator_parameters(start.oscillator),
-            **excitation_parameters(start.shaken, "frequency", "phase"),
+            **rig_parameters(start.base, "frequency", "phase"),
         },
         "step": (fine_step := share(step, "step")),
         "refine": (refine := _refinement(refine)),
@@ -253,4 +254,4 @@ def _refinement(given: object) -> int:
 def _base(given: AnyRig | None) -> Base:
     if given is None:
         given = from_dimensionless(25.9, 0.5, RELAXATION_TIME, DAMPING_RATIO)
-    return Base(*one_sine(as_rig(given)))
+    return Base(one_sine(as_rig(given)))

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.hold import PATIENT
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Direction
 from vibroimpact.response.peaks import Curve
-from vibroimpact.scenarios.axes import Shaken
 from vibroimpact.scenarios.classification import confidence, scenario
 from vibroimpact.scenarios.evidence import Evidence, shown
 from vibroimpact.scenarios.orbit_evidence import with_folds, with_kinds
@@ -63,7 +63,7 @@ COUNTS: dict[str, Count] = {
 
 
 def classified(
-    rigs: Sequence[Shaken],
+    rigs: Sequence[Rig],
     thresholds: Thresholds,
     step: float,
     max_cycles: int | None,
@@ -97,7 +97,7 @@ def classified(
 
 
 def _seen(
-    rig: Shaken, thresholds: Thresholds, step: float, max_cycles: int | None, tally: Tally
+    rig: Rig, thresholds: Thresholds, step: float, max_cycles: int | None, tally: Tally
 ) -> Evidence:
     """What the sweep of a rig shows, and the orbits behind it where the map needs them."""
 
@@ -105,19 +105,19 @@ def _seen(
         if tally[1]:
             raise Stopped
 
-    high = highest(*rig)
+    high = highest(rig)
     waited, transient = max_cycles, PATIENT
     if waited is None:
-        waited = cycles(*rig, high, MAX_CYCLES)
-        transient = cycles(*rig, high, 1) / (high * rig.oscillator.natural_frequency)
+        waited = cycles(rig, high, MAX_CYCLES)
+        transient = cycles(rig, high, 1) / (high * rig.oscillator.natural_frequency)
     swept = held(rig.oscillator, high, step)
     curves, ended = swept_alone(rig, swept, waited, WINDOW, tally, transient)
     check()
     found = shown(rig, curves, 0.5 * thresholds.prominence)
-    found = with_kinds(found, *rig, ended, KIND_CYCLES, check, brief=True)
+    found = with_kinds(found, rig, ended, KIND_CYCLES, check, brief=True)
     if _rests_on_a_jump(found, thresholds):
         check()
-        found = with_folds(found, *rig, ended, curves.both)
+        found = with_folds(found, rig, ended, curves.both)
     return found
 
 

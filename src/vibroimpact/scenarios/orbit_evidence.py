@@ -35,8 +35,7 @@ Check = Callable[[], None]
 
 def with_kinds(
     found: Evidence,
-    oscillator: Oscillator,
-    shaken: Harmonic,
+    rig: Rig,
     ended: Holds,
     cycles: int = KIND_CYCLES,
     check: Check = lambda: None,
@@ -51,6 +50,7 @@ def with_kinds(
     If `brief`, as a map counts them: of a range of the backward sweep that overlaps a chaotic one
     of the forward sweep nothing is asked where only chaos, already counted, could be found in it.
     """
+    oscillator = rig.oscillator
     named: list[Irregular] = []
     for item in found.irregular:
         told = brief and any(
@@ -61,7 +61,7 @@ def with_kinds(
             named.append(item)
             continue
         check()
-        kind = _kind(item, oscillator, shaken, ended, cycles, check)
+        kind = _kind(item, rig, ended, cycles, check)
         kinds = tuple(kind if known == "not periodic" else known for known in item.kinds)
         named.append(item._replace(kinds=kinds))
     return found._replace(irregular=tuple(named))
@@ -79,13 +79,13 @@ def _forgetful(oscillator: Oscillator, frequency: float) -> bool:
 
 def _kind(
     item: Irregular,
-    oscillator: Oscillator,
-    shaken: Harmonic,
+    rig: Rig,
     ended: Holds,
     cycles: int,
     check: Check,
 ) -> Kind:
     """The kind of the motion in the middle of those of a range that are not periodic."""
+    oscillator, shaken = rig.oscillator, rig.sine
     assert item.not_periodic is not None
     low, high = item.not_periodic
     k = DIRECTIONS.index(item.direction)
@@ -97,7 +97,7 @@ def _kind(
     start = ended.state(item.direction, i)
     excitation = shaken.replace(frequency=float(ended.frequency[i]), phase=start.phase or 0.0)
     followed = Settled(
-        oscillator, excitation, engine_state(oscillator, start), 0, 0, Status.NOT_SETTLED
+        Rig(oscillator, excitation), engine_state(oscillator, start), 0, 0, Status.NOT_SETTLED
     )
 
     def judged(state: NDArray[np.float64], cycles: int) -> str:
@@ -116,8 +116,7 @@ def _kind(
 
 def with_folds(
     found: Evidence,
-    oscillator: Oscillator,
-    shaken: Harmonic,
+    rig: Rig,
     ended: Holds,
     both: Swept | None = None,
 ) -> Evidence:
@@ -126,6 +125,7 @@ def with_folds(
     With the curves of both directions it is followed only between those neighbouring frequencies
     where it may turn unseen, as a map asks; of a hysteresis that shows, folds may then be missing.
     """
+    oscillator, shaken = rig.oscillator, rig.sine
     first = _primary_orbit(found, shaken, ended)
     if first is None:
         return found._replace(folds=None)
@@ -170,14 +170,13 @@ def _within(ended: Holds, shaken: Harmonic, first: int, last: int) -> _Begun | N
     return None
 
 
-def primary_branch(
-    found: Evidence, oscillator: Oscillator, shaken: Harmonic, ended: Holds
-) -> xr.Dataset | None:
+def primary_branch(found: Evidence, rig: Rig, ended: Holds) -> xr.Dataset | None:
     """The branch of orbits through the primary resonance, over the frequencies that were swept.
 
     None where the mass hits no bumper, where the motion there is not of one forcing cycle, or
     where Newton's method finds no orbit, as on the edge of stability.
     """
+    oscillator, shaken = rig.oscillator, rig.sine
     first = _primary_orbit(found, shaken, ended)
     if first is None:
         return None

@@ -21,7 +21,6 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, each_swept
 from vibroimpact.response.engine_input import components
 from vibroimpact.response.sweep_arrays import Patience, prepared, rows
-from vibroimpact.scenarios.axes import Shaken
 from vibroimpact.tasks.threads import Tally
 
 UNEVEN = 1e-6
@@ -110,7 +109,7 @@ def holds(data: xr.Dataset) -> Holds:
 
 
 def swept_alone(
-    rig: Shaken,
+    rig: Rig,
     frequencies: Array,
     max_cycles: int,
     window: int,
@@ -121,7 +120,7 @@ def swept_alone(
 
     A motion that is plainly chaotic behind its transient (s) is measured at once.
     """
-    ready = prepared(Rig(*rig), frequencies)
+    ready = prepared(rig, frequencies)
     patience = Patience(0.0, _TOLERANCE, max_cycles, window, _MAX_EVENTS, transient)
     shape = (2, len(frequencies))
     found, states = np.empty((*shape, hold.RESULTS)), []

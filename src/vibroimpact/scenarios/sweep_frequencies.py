@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, Stop
 from vibroimpact.model.clearance import room
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import (
     beside_resonance,
     peak_ratio,
@@ -41,7 +42,7 @@ ROUND = 0.5
 """Rigs that differ little are swept over the same range, many at once."""
 
 
-def highest(oscillator: Oscillator, shaken: Harmonic) -> float:
+def highest(rig: Rig) -> float:
     """Frequency over the natural one below which the primary resonance lies.
 
     Two bounds, the lower one counts, with a margin, rounded up to a multiple of `ROUND`:
@@ -59,7 +60,8 @@ def highest(oscillator: Oscillator, shaken: Harmonic) -> float:
       the displacement of the base is given. With a rigid stop it is `MOST_HIGH`. Of other laws
       the stiffness counts that they have where the largest free flight would reach.
     """
-    free = max(1.0, resonance_ratio(oscillator, shaken))
+    oscillator, shaken = rig.oscillator, rig.sine
+    free = max(1.0, resonance_ratio(rig))
     least = ROUND * math.ceil(min(LEAST_HIGH * free, MOST_HIGH) / ROUND)
     found = oscillator.stops
     if not found:
@@ -86,7 +88,7 @@ def _in_contact(oscillator: Oscillator, side: str, shaken: Harmonic) -> float:
     if isinstance(stop, Bumper) and oscillator.isolator.linear:
         stiffer = math.sqrt(1.0 + stop.stiffness / spring)
     else:
-        swing = 0.5 * reference_excursions(oscillator, shaken)[0]
+        swing = 0.5 * reference_excursions(Rig(oscillator, shaken))[0]
         depth = max(swing - room(oscillator)[side], 0.0)
         pressed = _tangent(stop.static_force, depth)
         held = max(_tangent(oscillator.isolator.static_force, swing), spring)
@@ -106,18 +108,19 @@ def _tangent(force: Callable[[float], float], at: float) -> float:
     return max((force(at) - force(0.999 * at)) / (0.001 * at), 0.0)
 
 
-def cycles(oscillator: Oscillator, shaken: Harmonic, high: float, least: int) -> int:
+def cycles(rig: Rig, high: float, least: int) -> int:
     """Forcing cycles after which a free transient has decayed enough for a hold to go on waiting.
 
     At f = `high` f0 it decays by exp(-2πξ/high) a cycle; `CLOSE` is reached after
     ln(1/CLOSE) high/(2πξ) of them, and twice as many are given. Of an isolator that is not linear,
     ξ = A/(2 u ω²) is that of the linear one whose free flight is as large at its resonance.
     """
+    oscillator, shaken = rig.oscillator, rig.sine
     if oscillator.isolator.linear:
         ratio = oscillator.damping_ratio
     else:
-        swing = 0.5 * reference_excursions(oscillator, shaken)[0]
-        omega = resonance_ratio(oscillator, shaken) * oscillator.angular_frequency
+        swing = 0.5 * reference_excursions(rig)[0]
+        omega = resonance_ratio(rig) * oscillator.angular_frequency
         ratio = float(shaken.acceleration(oscillator.mass, omega)) / (2.0 * swing * omega**2)
     wanted = (
         2.0 * math.log(1.0 / CLOSE) * high / (2.0 * math.pi * ratio) if ratio > 0.0 else math.inf
@@ -125,11 +128,10 @@ def cycles(oscillator: Oscillator, shaken: Harmonic, high: float, least: int) ->
     return int(min(max(wanted, least), MOST_CYCLES))
 
 
-def frequencies(
-    oscillator: Oscillator, shaken: Harmonic, step: float = STEP
-) -> NDArray[np.float64]:
+def frequencies(rig: Rig, step: float = STEP) -> NDArray[np.float64]:
     """Frequencies (Hz) from `LOW` by `step` to `highest`, all over the natural frequency."""
-    return held(oscillator, highest(oscillator, shaken), step)
+    oscillator = rig.oscillator
+    return held(oscillator, highest(rig), step)
 
 
 def held(oscillator: Oscillator, high: float, step: float) -> NDArray[np.float64]:

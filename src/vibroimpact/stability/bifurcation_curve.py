@@ -37,6 +37,7 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.stability.bifurcation_locus import Locus, Place
 from vibroimpact.stability.bifurcations import BREAKING
 from vibroimpact.stability.branch_dataset import state_of
@@ -109,7 +110,7 @@ def bifurcation_curve(
     most_points = whole(most_points, "most_points")
     kind = start["bifurcation_kind"].item()
     phase = float(start["bifurcation_section"].sel(component="phase"))
-    over = plane(oscillator, excitation.replace(phase=phase), (parameters[0], parameters[1]))
+    over = plane(Rig(oscillator, excitation.replace(phase=phase)), (parameters[0], parameters[1]))
     if not is_list(spans) or len(spans) != 2:
         raise InputError(
             f"spans: {shown(spans)}; a (low, high) pair for each of the two parameters is accepted"

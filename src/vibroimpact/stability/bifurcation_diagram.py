@@ -20,8 +20,7 @@ from vibroimpact.datasets.description import (
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, State
-from vibroimpact.model.access import Setting
+from vibroimpact.model import Oscillator, Rig, State
 from vibroimpact.model.count_checks import check_max_events, share, whole
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.parameters import read_span
@@ -29,7 +28,7 @@ from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.sweep_dataset import sizes
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
-from vibroimpact.stability.parameter_sweep import Patience, random_states, settings, stepped
+from vibroimpact.stability.parameter_sweep import Patience, random_states, rigs_along, stepped
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Tally, each
 
@@ -147,12 +146,12 @@ def bifurcation_diagram(
     )
     random, workers = whole(random, "random", 0), placed(threads, where)
     ways = _ways(directions, starts, random, oscillator)
-    every = settings(varied, oscillator, excitation, values)
-    vectors = [engine_rig(*one) for one in every]
+    every = rigs_along(varied, rig, values)
+    vectors = [engine_rig(one) for one in every]
     for entry in (batch.sweep, lyapunov.growth, lyapunov.monodromy):
         entry.prepare(*vectors)
 
-    def seen(item: tuple[list[Setting], _Part], tally: Tally) -> list[Seen]:
+    def seen(item: tuple[list[Rig], _Part], tally: Tally) -> list[Seen]:
         mine, part = item
         found: list[Seen] = []
         order = slice(None, None, -1 if part.down else 1)

@@ -177,9 +177,8 @@ class Locus:
         if seen is None or carried is None:
             return None
         aim = np.append(seen[0][:PARAMETER], here.y[PARAMETER:])
-        turned = over.family.excitation.replace(phase=phase)
         system = here.system._replace(
-            plane=over._replace(family=over.family._replace(excitation=turned)), mode=seen[1]
+            plane=over._replace(family=over.family.with_phase(phase)), mode=seen[1]
         )
         spot = solve(system, aim, carried)
         if spot is None or not _same(here, spot.orbit):

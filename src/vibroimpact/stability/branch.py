@@ -121,7 +121,7 @@ def _first_orbit(
     period: int | None,
 ) -> tuple[Family, tuple[float, float], Orbit]:
     """What is varied, over which range, and the first orbit."""
-    fam = family(rig.oscillator, rig.harmonic, parameter)
+    fam = family(Rig(rig.oscillator, rig.harmonic), parameter)
     ends = read_span(fam.parameter, span)
     if not ends[0] <= fam.value <= ends[1]:
         raise InputError(

@@ -101,7 +101,7 @@ def as_dataset(
             "low": span[0],
             "high": span[1],
         },
-        note_unbounded(fam.oscillator, fam.excitation),
+        note_unbounded(fam.rig),
     )
 
 
@@ -184,4 +184,4 @@ def _measured(one: Orbit) -> _Array:
 
 def _reference(one: Orbit) -> tuple[float, float]:
     """Excursions of displacement and absolute acceleration that η is taken over."""
-    return reference_excursions(*one.setting)
+    return reference_excursions(one.rig)

@@ -103,9 +103,7 @@ def coexisting_motions(
     options = (samples, window, exponent_cycles, max_events)
 
     def go(name: str, start: State | NDArray[np.float64]) -> None:
-        found = approach(
-            oscillator, excitation, start, max_cycles=max_cycles, max_events=max_events
-        )
+        found = approach(rig, start, max_cycles=max_cycles, max_events=max_events)
         if found.status in (Status.DONE, Status.NOT_SETTLED):
             found = _at_phase(found, excitation, max_events)
         if found.status in (Status.DONE, Status.NOT_SETTLED):
@@ -114,14 +112,12 @@ def coexisting_motions(
             given_up.setdefault(found.status, (start, []))[1].append(name)
 
     go("rest", State(phase=excitation.phase))
-    for name, start in arrivals(
-        oscillator, excitation, frequencies, max_cycles, max_events
-    ).items():
+    for name, start in arrivals(rig, frequencies, max_cycles, max_events).items():
         go(name, start)
     for name, state in named.items():
         go(name, as_state(state))
     size = max((reach(one.found, one.found.state) for one in kept), default=0.0)
-    size = size or reach_at_rest(oscillator, excitation)
+    size = size or reach_at_rest(rig)
     generator = np.random.default_rng(seed)
     for number in range(random):
         u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
@@ -172,12 +168,13 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
 def _at_phase(found: Settled, excitation: Repeated, max_events: int) -> Settled:
     """The motion at the section of the given excitation, wherever its start had its own."""
     ahead = ((excitation.phase - found.excitation.phase) / (2.0 * math.pi)) % 1.0
+    there = Rig(found.oscillator, excitation)
     if ahead == 0.0:
-        return found._replace(excitation=excitation)
+        return found._replace(rig=there)
     status, state = later(found, found.state, ahead, max_events)
     if status is not Status.DONE:
         return found._replace(status=status)
-    return found._replace(state=state, excitation=excitation)
+    return found._replace(state=state, rig=there)
 
 
 def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int, int, int]) -> None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig
 from vibroimpact.response.propagate import grown
 from vibroimpact.stability.exponents import DISCARD
@@ -101,7 +102,7 @@ def _wandering(found: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
 def _followed(
     found: Settled, cycles: int, max_events: int, discard: int = 0
 ) -> tuple[Status, _Array]:
-    rig = engine_rig(found.oscillator, found.excitation)
+    rig = engine_rig(found.rig)
     state = found.state.copy()
     return grown(rig, found.excitation, state, cycles, max_events, discard=discard)
 
@@ -114,7 +115,7 @@ def _impacts(found: Settled, cycles: int, max_events: int) -> tuple[_Array, Stat
     while number < cycles and not outcome:
         events = np.empty((max_events + _ROOM, record.EVENT))
         number, count, outcome = batch.trajectory(
-            engine_rig(found.oscillator, shaken),
+            engine_rig(Rig(found.oscillator, shaken)),
             shaken.amplitude,
             shaken.frequency,
             shaken.phase,

@@ -61,7 +61,7 @@ def distance(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
 
 def _displacements(found: Settled, max_events: int) -> NDArray[np.float64]:
     """Displacements at the section over many cycles, sorted."""
-    rig, state = engine_rig(found.oscillator, found.excitation), found.state.copy()
+    rig, state = engine_rig(found.rig), found.state.copy()
     status, rows = grown(rig, found.excitation, state, _SEEN, max_events)
     # Fewer if it is given up: then it is another motion than one that goes on.
     return np.sort(rows[:, lyapunov.SECTION]) if status is Status.DONE else np.empty(0)

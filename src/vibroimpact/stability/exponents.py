@@ -16,12 +16,11 @@ from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Rig, State, equilibrium, to_si
-from vibroimpact.model.access import Setting
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.model.varied import Varied, varied, written
+from vibroimpact.model.varied import Varied, varied, vary_all
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
 from vibroimpact.response.propagate import grow
@@ -125,17 +124,18 @@ def lyapunov_exponents(
     )
     shape = (len(pairs), len(grid), *(len(one.values) for one in every))
     items = [
-        _setting(pairs[r], grid, i, angle, zip(every, at, strict=True))
+        _rig_at(pairs[r], grid, i, angle, zip(every, at, strict=True))
         for r, i, *at in np.ndindex(shape)
     ]
-    vectors = [engine_rig(*item) for item in items]
+    vectors = [engine_rig(item) for item in items]
 
     steps = transient + DISCARD + cycles
 
-    def follow(item: tuple[Setting, NDArray[np.float64]], tally: Tally) -> _Grown:
-        (rig, here), vector = item
+    def follow(item: tuple[Rig, NDArray[np.float64]], tally: Tally) -> _Grown:
+        rig, vector = item
+        oscillator, here = rig.oscillator, rig.periodic
         frequency = here.frequency
-        begin = engine_state(rig, state or equilibrium(rig))
+        begin = engine_state(oscillator, state or equilibrium(oscillator))
         kept = Averaged(cycles)
 
         def count(done: int, _: int | None) -> None:
@@ -215,16 +215,16 @@ def lyapunov_exponents(
     return data
 
 
-def _setting(
+def _rig_at(
     rig: Rig,
     grid: NDArray[np.float64],
     i: int,
     phase: float,
     values: Iterable[tuple[Varied, int]],
-) -> Setting:
+) -> Rig:
     """A rig and its forcing at one of the frequencies and a value of each parameter."""
     numbers = [(PARAMETERS[one.name], float(one.values[k])) for one, k in values]
     here = rig.periodic.replace(frequency=float(grid[i]), phase=phase)
-    setting = written(rig.oscillator, here, numbers)
-    check_bounded(*setting, f"frequencies[{i}]")
-    return setting
+    moved = vary_all(Rig(rig.oscillator, here), numbers)
+    check_bounded(moved, f"frequencies[{i}]")
+    return moved

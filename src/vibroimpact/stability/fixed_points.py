@@ -16,7 +16,7 @@ from vibroimpact.engine import orbit, section_map
 from vibroimpact.engine.flows import carries
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
-from vibroimpact.model.access import Setting
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.propagate import moved_on
 from vibroimpact.stability.parameter_family import Family
 
@@ -79,8 +79,7 @@ class Section:
 
     def turned(self, phase: float) -> Section:
         """The same at another forcing phase of the section."""
-        turned = self.family.excitation.replace(phase=phase)
-        return replace(self, family=self.family._replace(excitation=turned))
+        return replace(self, family=self.family.with_phase(phase))
 
     def times(self, factor: int) -> Section:
         """The map repeated."""
@@ -176,8 +175,8 @@ class Orbit:
         return float(seen.facts[section_map.RESIDUAL]), miss
 
     @property
-    def setting(self) -> Setting:
-        """The rig and its forcing."""
+    def rig(self) -> Rig:
+        """The rig of the orbit."""
         return self.section.family.at(self.value)
 
 

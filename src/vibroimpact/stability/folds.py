@@ -17,6 +17,7 @@ from vibroimpact.engine.motion import FLIGHT
 from vibroimpact.engine.section_map import MODE, PARAMETER
 from vibroimpact.model import Harmonic
 from vibroimpact.model.clearance import room
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, resonance_ratio
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.impact_grazing import has_rigid_stop
@@ -90,7 +91,7 @@ class InContact(Branch):
 
 def grazing_frequency(orbit: Orbit) -> float:
     """Where free flight just reaches a stop, near an orbit's frequency (Hz); NaN if nowhere."""
-    rig, shaken = orbit.setting
+    rig, shaken = orbit.rig.oscillator, orbit.rig.periodic
     assert isinstance(shaken, Harmonic)
     if not (rig.isolator.initial_stiffness > 0.0 and rig.isolator.damping > 0.0):
         return math.nan
@@ -98,7 +99,7 @@ def grazing_frequency(orbit: Orbit) -> float:
     here = orbit.value
     for _ in range(_STEPS):
         beside = np.array([here, here * (1.0 + 1e-6)])
-        swing, more = free_flight_excursions(rig, shaken, beside)[0]
+        swing, more = free_flight_excursions(Rig(rig, shaken), beside)[0]
         slope = (more - swing) / (beside[1] - here)
         away = (free - swing) / slope if slope else math.nan
         here += away
@@ -109,8 +110,8 @@ def grazing_frequency(orbit: Orbit) -> float:
 
 def turns_into_flight(last: Station, sense: float) -> bool:
     """Whether a branch that leaves the stops turns back; `sense` is -1 at its beginning."""
-    rig, shaken = last.orbit.setting
+    rig, shaken = last.orbit.rig.oscillator, last.orbit.rig.periodic
     assert isinstance(shaken, Harmonic)
-    resonance = resonance_ratio(rig, shaken) * rig.natural_frequency
+    resonance = resonance_ratio(Rig(rig, shaken)) * rig.natural_frequency
     outwards = 1.0 if last.orbit.value > resonance else -1.0
     return bool(sense * outwards * last.tangent[PARAMETER] < 0.0)

@@ -62,7 +62,7 @@ def first_orbit(
     else:
         state = as_state(start)
         if state.phase is not None:
-            fam = fam._replace(excitation=fam.excitation.replace(phase=state.phase))
+            fam = fam.with_phase(state.phase)
         bumpers = (state.right_bumper or 0.0, state.left_bumper or 0.0)
         point = np.array([state.displacement, state.velocity, *bumpers, state.isolator, fam.value])
         mode = float(record.TOUCHING.index(state.contact or 0))
@@ -115,7 +115,7 @@ def _least(
 def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Orbit:
     """The orbit on which the motion from rest settles, or one of a given period close to it."""
     begin = engine_state(fam.oscillator, equilibrium(fam.oscillator))
-    rest = approach(fam.oscillator, fam.excitation, begin)
+    rest = approach(fam.rig, begin)
     if rest.status not in (Status.DONE, Status.NOT_SETTLED):
         raise InputError(f"start: the motion from rest is given up: {rest.status.advice}")
     if period is None and not rest.period:
@@ -213,7 +213,7 @@ def symmetric_if_so(found: Orbit) -> Orbit:
 
 def _least_size(fam: Family) -> float:
     """Of a displacement where nothing else tells one."""
-    return 1e-3 * reach_at_rest(fam.oscillator, fam.excitation)
+    return 1e-3 * reach_at_rest(fam.rig)
 
 
 def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:

@@ -33,7 +33,7 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
     rates = []
     for _ in range(2):  # the second time tells how far rounding and the rest of a transient go
         outcome = lyapunov.monodromy(
-            engine_rig(found.oscillator, found.excitation),
+            engine_rig(found.rig),
             found.excitation.amplitude,
             found.excitation.frequency,
             found.excitation.phase,
@@ -86,7 +86,7 @@ def _second(found: Settled, state: _Array, max_events: int) -> float:
     number, and a mass that sticks, or comes to rest, minus infinity.
     """
     status, rows = grown(
-        engine_rig(found.oscillator, found.excitation),
+        engine_rig(found.rig),
         found.excitation,
         state.copy(),
         found.period,
@@ -111,7 +111,7 @@ def judge_wandering(
         The damping per unit mass is the integral over a cycle, on average.
     """
     status, rows = grown(
-        engine_rig(found.oscillator, found.excitation),
+        engine_rig(found.rig),
         found.excitation,
         state,
         cycles,

@@ -56,10 +56,10 @@ def orbit(
         If a value cannot be used, or Newton's method finds no orbit near the start.
     """
     rig = as_rig(rig, frequency)
-    oscillator, excitation = rig.oscillator, rig.harmonic
+    rig.check_frequency()
     period = None if period is None else whole(period, "period", most=MOST_CYCLES)
     samples = whole(samples, "samples")
-    fam = family(oscillator, excitation, "frequency")
+    fam = family(rig, "frequency")
     found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
     data = describe_motion(settled_on(found), samples, 1, 1, MAX_EVENTS)
     multipliers = found.multipliers

@@ -181,7 +181,7 @@ class Branch:
         if abs(left) > _STANDS * abs(value - self.first.orbit.value):
             return None
         name = there.orbit.section.family.parameter.name
-        damped = there.orbit.setting[0].isolator.damping > 0.0
+        damped = there.orbit.rig.oscillator.isolator.damping > 0.0
         beyond = f"beyond {times:.1g} times the first" if damped else "without bound"
         limit = "the isolator's dashpot may limit it" if damped else f"{times:.1g} times the first"
         return f"the motion grows {beyond} near {name} = {value + left:.6g} ({limit})"

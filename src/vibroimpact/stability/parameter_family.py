@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.model import Oscillator, Repeated
-from vibroimpact.model.access import Setting
 from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import system_vector
 
 _Array = NDArray[np.float64]
@@ -33,8 +33,7 @@ class Family(NamedTuple):
     """A rig and its forcing along one parameter."""
 
     parameter: Parameter
-    oscillator: Oscillator
-    excitation: Repeated
+    rig: Rig
     value: float
     """The parameter where the family was made."""
     base: _Array
@@ -42,6 +41,16 @@ class Family(NamedTuple):
     """The engine's system vector is base + p · direction, here at least."""
     straight: bool = True
     """Whether it is so at any p."""
+
+    @property
+    def oscillator(self) -> Oscillator:
+        """What vibrates."""
+        return self.rig.oscillator
+
+    @property
+    def excitation(self) -> Repeated:
+        """What shakes it."""
+        return self.rig.periodic
 
     def near(self, value: float) -> Family:
         """The same family with the line that touches at a value of the parameter."""
@@ -53,6 +62,11 @@ class Family(NamedTuple):
         direction = np.subtract(on, back, out=np.zeros_like(here), where=moves) / (2.0 * step)
         base = np.subtract(here, value * direction, out=here.copy(), where=moves)
         return self._replace(base=base, direction=direction)
+
+    def with_phase(self, phase: float) -> Family:
+        """Return the family at another forcing phase of the section."""
+        turned = self.rig.periodic.replace(phase=phase)
+        return self._replace(rig=self.rig.with_parts(self.rig.oscillator, turned))
 
     @property
     def one_flow(self) -> bool:
@@ -68,22 +82,22 @@ class Family(NamedTuple):
     @property
     def phase(self) -> float:
         """Forcing phase of the section, rad."""
-        return self.excitation.phase
+        return self.rig.periodic.phase
 
     @property
     def symmetric(self) -> bool:
         """Whether each motion's mirror image is a motion, all along."""
-        here = self.oscillator.symmetric and self.excitation.half_wave
+        here = self.rig.oscillator.symmetric and self.rig.periodic.half_wave
         return here and not self.parameter.name.startswith(("right_", "left_", "force"))
 
-    def at(self, value: float) -> Setting:
-        """The rig and its forcing at a value of the parameter."""
-        return self.parameter.write(self.oscillator, self.excitation, value)
+    def at(self, value: float) -> Rig:
+        """The rig at a value of the parameter."""
+        return self.parameter.vary(self.rig, value)
 
     def system(self, value: float) -> _Array:
         """The engine's vector at a value of the parameter."""
         if not self.straight:
-            return system_vector(*self.at(value))
+            return system_vector(self.at(value))
         vector = self.base.copy()
         moving = self.direction != 0.0
         vector[moving] += value * self.direction[moving]
@@ -94,7 +108,7 @@ class Family(NamedTuple):
         return vector
 
 
-def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
+def family(rig: Rig, name: str) -> Family:
     """Prepare a rig for being followed along a parameter.
 
     Raises
@@ -102,18 +116,18 @@ def family(oscillator: Oscillator, excitation: Repeated, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    varied = parameter(name, of=excitation.of).of(oscillator)
-    value = varied.read(oscillator, excitation)
+    varied = parameter(name, of=rig.periodic.of).of(rig.oscillator)
+    value = varied.read(rig)
     step = varied.beside(value) - value
-    here = system_vector(oscillator, excitation)
-    there = system_vector(*varied.write(oscillator, excitation, value + step))
+    here = system_vector(rig)
+    there = system_vector(varied.vary(rig, value + step))
     # A rate follows from stiffness and damping, and is infinite without damping.
     here[RATES] = there[RATES] = np.inf
     same = here == there
     difference = np.subtract(there, here, out=np.zeros_like(here), where=~same)
     direction = difference / step
     base = np.subtract(here, value * direction, out=here.copy(), where=~same)
-    made = Family(varied, oscillator, excitation, value, base, direction)
+    made = Family(varied, rig, value, base, direction)
     straight = varied.straight and (not here[par.CURVED] or _straight(made, step))
     return made._replace(straight=straight)
 
@@ -126,6 +140,6 @@ def _straight(made: Family, step: float) -> bool:
 
 def _vector(made: Family, value: float) -> _Array:
     """The engine's vector; rates follow from stiffness and damping, and move along no line."""
-    vector = system_vector(*made.at(value))
+    vector = system_vector(made.at(value))
     vector[RATES] = made.base[RATES]
     return vector

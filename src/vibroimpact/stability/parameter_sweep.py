@@ -17,9 +17,9 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, Repeated, RigidStop, State, equilibrium
-from vibroimpact.model.access import Setting
+from vibroimpact.model import Bumper, RigidStop, State, equilibrium
 from vibroimpact.model.parameters import Parameter
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.propagate import hold_once
@@ -51,27 +51,26 @@ class Held(NamedTuple):
     """A row of `engine.hold`."""
 
 
-def settings(
-    varied: Parameter, oscillator: Oscillator, excitation: Repeated, values: Iterable[float]
-) -> list[Setting]:
-    """The rig and its forcing at each value of a parameter.
+def rigs_along(varied: Parameter, rig: Rig, values: Iterable[float]) -> list[Rig]:
+    """Return the rig at each value of a parameter.
 
     Raises
     ------
     InputError
         If the rig has no such parameter, cannot have such a value, or is undamped at resonance.
     """
-    varied.read(oscillator, excitation)  # refuses what the rig does not have
-    found = [varied.write(oscillator, excitation, float(value)) for value in values]
-    for rig, shaken in found:
-        check_bounded(rig, shaken)
+    varied.read(rig)  # refuses what the rig does not have
+    found = [varied.vary(rig, float(value)) for value in values]
+    for one in found:
+        check_bounded(one)
+        shaken = one.periodic
         if not (shaken.amplitude > 0.0 and shaken.frequency > 0.0):
-            raise InputError(f"low: {varied.name} of 0; a value greater than 0 is accepted")
+            raise InputError(f"span[0]: {varied.name} of 0; a value greater than 0 is accepted")
     return found
 
 
 def stepped(
-    every: Sequence[Setting],
+    every: Sequence[Rig],
     start: _Array | None,
     patience: Patience,
     seen: Callable[[Held], None],
@@ -79,12 +78,12 @@ def stepped(
     *,
     carry: bool = True,
 ) -> None:
-    """Hold one setting after the other.
+    """Hold one rig after the other.
 
     Parameters
     ----------
     every
-        The rig and its forcing at each value, in the order in which they are held.
+        The rig at each value, in the order in which they are held.
     start
         Where the first begins, as the engine's vector, put where it can be; None for the rest.
     patience
@@ -97,53 +96,52 @@ def stepped(
         Whether the next goes on where one has ended; if not, it begins where the first did.
     """
     before: Held | None = None
-    for rig, shaken in every:
+    for rig in every:
         if tally[1]:
             raise Stopped
         going_on = carry and before is not None and before.found.status in _SOUND
         if going_on and before is not None:
             state = before.found.state
-            if rig != before.found.oscillator:
-                state = placed(rig, shaken, state)
+            if rig.oscillator != before.found.rig.oscillator:
+                state = placed(rig, state)
         elif start is None:
-            state = engine_state(rig, equilibrium(rig))
+            state = engine_state(rig.oscillator, equilibrium(rig.oscillator))
         else:
-            state = placed(rig, shaken, start)
-        before = _held(rig, shaken, state, patience)
+            state = placed(rig, start)
+        before = _held(rig, state, patience)
         seen(before)
         tally[0] += 1
 
 
-def _held(rig: Oscillator, shaken: Repeated, state: _Array, patience: Patience) -> Held:
-    row, reached = hold_once(engine_rig(rig, shaken), shaken, state, *patience)
+def _held(rig: Rig, state: _Array, patience: Patience) -> Held:
+    row, reached = hold_once(engine_rig(rig), rig.periodic, state, *patience)
     swing = np.abs(row[[hold.U_LEAST, hold.U_MOST]]).max()
-    status = Status(int(judged(rig, row[hold.OUTCOME], swing)))
-    found = Settled(rig, shaken, reached, int(row[hold.PERIOD]), int(row[hold.CYCLES]), status)
+    status = Status(int(judged(rig.oscillator, row[hold.OUTCOME], swing)))
+    found = Settled(rig, reached, int(row[hold.PERIOD]), int(row[hold.CYCLES]), status)
     return Held(found, row)
 
 
-def placed(rig: Oscillator, shaken: Repeated, state: _Array) -> _Array:
+def placed(rig: Rig, state: _Array) -> _Array:
     """The nearest state that a rig can have: no mass inside a stop, no memory beyond its bounds."""
+    oscillator = rig.oscillator
     u, v = float(state[layout.U]), float(state[layout.V])
-    if isinstance(rig.right, RigidStop):
-        u = min(u, rig.right.gap)
-    if isinstance(rig.left, RigidStop):
-        u = max(u, -rig.left.gap)
+    if isinstance(oscillator.right, RigidStop):
+        u = min(u, oscillator.right.gap)
+    if isinstance(oscillator.left, RigidStop):
+        u = max(u, -oscillator.left.gap)
     right, left = (
         sign * max(float(state[at]), sign * u - stop.gap, 0.0) if isinstance(stop, Bumper) else None
         for stop, sign, at in (
-            (rig.right, 1.0, layout.RIGHT_BUMPER),
-            (rig.left, -1.0, layout.LEFT_BUMPER),
+            (oscillator.right, 1.0, layout.RIGHT_BUMPER),
+            (oscillator.left, -1.0, layout.LEFT_BUMPER),
         )
     )
-    most = engine_rig(rig, shaken)[par.YIELD]
+    most = engine_rig(rig)[par.YIELD]
     memory = min(max(float(state[layout.ISOLATOR]), -most), most)
-    return engine_state(rig, State(u, v, right, left, isolator=memory))
+    return engine_state(oscillator, State(u, v, right, left, isolator=memory))
 
 
-def random_states(
-    met: Iterable[Held], every: Sequence[Setting], count: int, seed: int
-) -> list[_Array]:
+def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: int) -> list[_Array]:
     """Random states up to 1.5 times as large as what was met, or as the widest gap if that is more.
 
     Vectors of the engine. Where there is neither, they are as large as the mass is moved by what
@@ -154,9 +152,9 @@ def random_states(
         for one in met
         if one.found.status in _SOUND
     ]
-    gaps = [stop.gap for rig, _ in every for stop in rig.stops]
-    size = max([0.0, *sizes, *gaps]) or max(reach_at_rest(*one) for one in every)
-    omega = float(np.median([shaken.angular_frequency for _, shaken in every]))
+    gaps = [stop.gap for rig in every for stop in rig.oscillator.stops]
+    size = max([0.0, *sizes, *gaps]) or max(reach_at_rest(one) for one in every)
+    omega = float(np.median([rig.periodic.angular_frequency for rig in every]))
     generator = np.random.default_rng(seed)
     states = []
     for _ in range(count):

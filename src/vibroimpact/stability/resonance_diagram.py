@@ -15,6 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import PARAMETERS, read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.rig import Rig
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
 from vibroimpact.stability.branch import follow_both_ways
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
@@ -98,7 +99,7 @@ def resonance_diagram(
                 "parameter is"
             )
         rig = rig.at(read_span(PARAMETERS["frequency"], span)[1])
-    fam = family(rig.oscillator, rig.harmonic.replace(phase=phase), parameter)
+    fam = family(Rig(rig.oscillator, rig.harmonic.replace(phase=phase)), parameter)
     ends = read_span(fam.parameter, span)
     longest, starts = whole(longest, "longest"), whole(starts, "starts")
     most_branches = whole(most_branches, "most_branches")

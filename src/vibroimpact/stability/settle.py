@@ -12,6 +12,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.count_checks import share
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.propagate import hold_once, moved_on
@@ -25,9 +26,8 @@ _Array = NDArray[np.float64]
 class Settled(NamedTuple):
     """Where a motion went."""
 
-    oscillator: Oscillator
-    excitation: Repeated
-    """Its phase is that of the section."""
+    rig: Rig
+    """The phase of its shaking is that of the section."""
     state: _Array
     """At the section behind the last cycle, as the engine's vector."""
     period: int
@@ -37,14 +37,23 @@ class Settled(NamedTuple):
     status: Status
 
     @property
+    def oscillator(self) -> Oscillator:
+        """What vibrates."""
+        return self.rig.oscillator
+
+    @property
+    def excitation(self) -> Repeated:
+        """What shakes it."""
+        return self.rig.periodic
+
+    @property
     def symmetric(self) -> bool:
         """Whether its mirror image, half a cycle later, is a motion as well."""
         return self.oscillator.symmetric and self.excitation.half_wave
 
 
 def approach(
-    oscillator: Oscillator,
-    excitation: Repeated,
+    rig: Rig,
     start: State | _Array,
     tolerance: float = 1e-12,
     max_cycles: int = 2000,
@@ -61,19 +70,17 @@ def approach(
         If the start cannot be, or an undamped mass that no bumper stops is at resonance.
     """
     tolerance = share(tolerance, "tolerance")
-    check_bounded(oscillator, excitation)
+    check_bounded(rig)
     if isinstance(start, State):
         if start.phase is not None:
-            excitation = excitation.replace(phase=start.phase)
-        start = engine_state(oscillator, start)
-    rig = engine_rig(oscillator, excitation)
+            rig = rig.with_parts(rig.oscillator, rig.periodic.replace(phase=start.phase))
+        start = engine_state(rig.oscillator, start)
     result, reached = hold_once(
-        rig, excitation, start, tolerance, max_cycles, 1, max_events, progress
+        engine_rig(rig), rig.periodic, start, tolerance, max_cycles, 1, max_events, progress
     )
-    outcome = Status(int(judged(oscillator, result[hold.OUTCOME], np.nan)))
+    outcome = Status(int(judged(rig.oscillator, result[hold.OUTCOME], np.nan)))
     return Settled(
-        oscillator,
-        excitation,
+        rig,
         reached if np.isfinite(reached).all() else start,
         int(result[hold.PERIOD]),
         int(result[hold.CYCLES]),
@@ -85,8 +92,7 @@ def later(
     found: Settled, state: _Array, cycles: float, max_events: int = 10_000
 ) -> tuple[Status, _Array]:
     """The state some forcing cycles later; of use only if `Status.DONE`."""
-    rig = engine_rig(found.oscillator, found.excitation)
-    return moved_on(rig, found.excitation, state, cycles, max_events)
+    return moved_on(engine_rig(found.rig), found.excitation, state, cycles, max_events)
 
 
 def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:
@@ -111,14 +117,15 @@ def reach(found: Settled, state: _Array) -> float:
     """Size of a motion near a state, as a displacement (m); never zero."""
     speed = abs(float(state[layout.V])) / found.excitation.angular_frequency
     size = max(abs(float(state[layout.U])), speed)
-    return max(size, 1e-3 * reach_at_rest(found.oscillator, found.excitation), 1e-300)
+    return max(size, 1e-3 * reach_at_rest(found.rig), 1e-300)
 
 
-def reach_at_rest(oscillator: Oscillator, excitation: Repeated) -> float:
+def reach_at_rest(rig: Rig) -> float:
     """Displacement (m) of a mass that the peak of the shaking moves against the isolator alone.
 
     Without a spring, against its inertia.
     """
+    oscillator, excitation = rig.oscillator, rig.periodic
     omega = excitation.angular_frequency
     peak = float(np.sum(excitation.acceleration(oscillator.mass, omega)))
     return peak / (oscillator.angular_frequency or omega) ** 2
@@ -126,5 +133,4 @@ def reach_at_rest(oscillator: Oscillator, excitation: Repeated) -> float:
 
 def settled_on(found: Orbit) -> Settled:
     """An orbit as a motion that has settled on it."""
-    rig, shaken = found.setting
-    return Settled(rig, shaken, vector_of(found), found.section.period, 0, Status.DONE)
+    return Settled(found.rig, vector_of(found), found.section.period, 0, Status.DONE)

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import excitation_from, motion_parameters
 from vibroimpact.engine import batch, hold
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated, State
-from vibroimpact.model.access import Setting
+from vibroimpact.model import Oscillator, State
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import extremes, harmonics
 from vibroimpact.response.engine_input import engine_rig, state_from, system_vector
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.parameter_family import Family, family
-from vibroimpact.stability.parameter_sweep import Held, Patience, random_states, settings, stepped
+from vibroimpact.stability.parameter_sweep import Held, Patience, random_states, rigs_along, stepped
 from vibroimpact.tasks.threads import Tally, each
 
 _Array = NDArray[np.float64]
@@ -39,7 +39,7 @@ class Values(NamedTuple):
     fam: Family
     span: tuple[float, float]
     grid: _Array
-    every: list[Setting]
+    every: list[Rig]
 
     def family_at(self, i: int) -> Family:
         """The family, made at one of the values."""
@@ -48,30 +48,31 @@ class Values(NamedTuple):
 
 def _made(fam: Family, value: float) -> Family:
     """The family, made at a value."""
-    rig, shaken = fam.at(value)
+    rig = fam.at(value)
     if not fam.straight:
-        return family(rig, shaken, fam.parameter.name)
-    return fam._replace(value=value, oscillator=rig, excitation=shaken)
+        return family(rig, fam.parameter.name)
+    return fam._replace(value=value, rig=rig)
 
 
 def values(fam: Family, span: tuple[float, float], count: int) -> Values:
     """So many values over a range of a family's parameter."""
     grid = np.linspace(*span, count)
     grid[0], grid[-1] = span
-    return Values(fam, span, grid, settings(fam.parameter, fam.oscillator, fam.excitation, grid))
+    return Values(fam, span, grid, rigs_along(fam.parameter, fam.rig, grid))
 
 
 def free(at: Values) -> Iterator[Orbit]:
     """Steady free flight where it reaches no stop: at the ends of each such range."""
-    swings = [_swing(*one) for one in at.every]
-    flies = [_clear(one[0], swing) for one, swing in zip(at.every, swings, strict=True)]
+    swings = [_swing(one) for one in at.every]
+    flies = [_clear(one.oscillator, swing) for one, swing in zip(at.every, swings, strict=True)]
     edges = np.flatnonzero(np.diff(np.array([False, *flies, False]).astype(int)))
     for i in sorted({int(k) for a, b in edges.reshape(-1, 2) for k in (a, b - 1)}):
-        swing, (rig, shaken) = swings[i], at.every[i]
+        swing, rig = swings[i], at.every[i]
+        oscillator, shaken = rig.oscillator, rig.periodic
         assert swing is not None
         order = np.arange(1, len(swing) + 1)
         turned = swing * np.exp(1j * order * shaken.phase)
-        u = rig.force / rig.isolator.initial_stiffness + turned.imag.sum()
+        u = oscillator.force / oscillator.isolator.initial_stiffness + turned.imag.sum()
         v = shaken.angular_frequency * (order * turned).real.sum()
         try:
             yield first_orbit(
@@ -81,12 +82,13 @@ def free(at: Values) -> Iterator[Orbit]:
             continue  # undamped, at resonance
 
 
-def _swing(rig: Oscillator, shaken: Repeated) -> _Phasors | None:
+def _swing(rig: Rig) -> _Phasors | None:
     """Phasors of the displacement in free flight; None of laws that have none in closed form."""
-    if rig.isolator.initial_stiffness == 0.0 or not rig.isolator.linear:
+    isolator = rig.oscillator.isolator
+    if isolator.initial_stiffness == 0.0 or not isolator.linear:
         return None
     with np.errstate(divide="ignore", invalid="ignore"):
-        found: _Phasors = harmonics(rig, shaken, np.array([shaken.frequency]))[0][0]
+        found: _Phasors = harmonics(rig, np.array([rig.periodic.frequency]))[0][0]
     return found
 
 
@@ -105,7 +107,7 @@ def settled(at: Values, longest: int, random: int, seed: int) -> Iterator[Orbit]
 
     Each once at each value, mirror images left out.
     """
-    batch.sweep.prepare(*(engine_rig(*one) for one in at.every))
+    batch.sweep.prepare(*(engine_rig(one) for one in at.every))
     count = len(at.grid)
     known: list[list[tuple[int, float, float]]] = [[] for _ in range(count)]
     ways = [_Way(None, 1), _Way(None, -1)]
@@ -196,11 +198,11 @@ def _value_of(fam: Family, span: tuple[float, float], one: xr.Dataset, field: st
     if not isinstance(one, xr.Dataset) or "basin" not in one or "section_attractor" not in one:
         raise InputError(f"{field}: it has no basins; a dataset of basins is accepted")
     given = motion_parameters(one)
-    rig, shaken = Oscillator.model_validate(given["oscillator"]), excitation_from(given)
-    value = fam.parameter.read(rig, shaken)
+    rig = Rig(Oscillator.model_validate(given["oscillator"]), excitation_from(given))
+    value = fam.parameter.read(rig)
     there = fam.at(value)
-    alike = np.allclose(system_vector(rig, shaken), system_vector(*there), 1e-9, 0.0, True)
-    if not alike or abs(np.sin(0.5 * (shaken.phase - fam.phase))) > 1e-9:
+    alike = np.allclose(system_vector(rig), system_vector(there), 1e-9, 0.0, True)
+    if not alike or abs(np.sin(0.5 * (rig.periodic.phase - fam.phase))) > 1e-9:
         raise InputError(
             f"{field}: they are of another rig, shaking or phase; those of this one at a value of "
             f"{fam.parameter.name} are accepted"

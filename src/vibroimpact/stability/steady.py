@@ -18,7 +18,6 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import State, equilibrium
 from vibroimpact.model.count_checks import check_max_events, check_samples, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.model.rig import Rig
 from vibroimpact.response.contacts import contact_log
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.motion_phases import Recorded, cut
@@ -110,7 +109,7 @@ def steady(
         If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
     """
     rig = as_rig(rig, frequency)
-    oscillator, excitation = rig.oscillator, rig.harmonic
+    oscillator = rig.oscillator
     samples, window = whole(samples, "samples"), whole(window, "window")
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     exponent_cycles = whole(exponent_cycles, "exponent_cycles")
@@ -121,7 +120,7 @@ def steady(
         )
     check_progress(progress)
     state = equilibrium(oscillator) if start is None else as_state(start)
-    found = approach(oscillator, excitation, state, tolerance, max_cycles, max_events, progress)
+    found = approach(rig, state, tolerance, max_cycles, max_events, progress)
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
         return _given_up(found, samples, max_events)
     data = describe_motion(found, samples, window, exponent_cycles, max_events, progress)
@@ -185,7 +184,7 @@ def describe_motion(
 
 def approached(found: Settled, period: int) -> Settled | None:
     """The stable orbit that a motion settles on slowly, by Newton's method."""
-    along = family(found.oscillator, found.excitation, "frequency")
+    along = family(found.rig, "frequency")
     here = state_from(found.state, found.excitation.phase)
     try:
         orbit = first_orbit(along, (0.0, 1.0), here, period, symmetric=False)
@@ -207,7 +206,7 @@ def _record(
     found: Settled, state: _Array, samples: int, cycles: int, max_events: int
 ) -> xr.Dataset:
     return simulate(
-        Rig(found.oscillator, found.excitation),
+        found.rig,
         cycles,
         state_from(state, found.excitation.phase),
         samples,
@@ -248,7 +247,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
     ends = [values["displacement_max"], values["displacement_min"]]
-    notes = doubt_gaps(found.oscillator, found.excitation, ends)
+    notes = doubt_gaps(found.rig, ends)
     return describe(data, "vibroimpact.steady", notes=notes)
 
 
@@ -291,7 +290,7 @@ def _until_the_last_event(data: xr.Dataset, found: Settled, samples: int) -> xr.
         length = float(data["event_cycle_time"][-1]) * found.excitation.frequency
     length = max(length, 1e-12)
     return simulate(
-        Rig(found.oscillator, found.excitation),
+        found.rig,
         length,
         state_from(found.state, found.excitation.phase),
         samples,

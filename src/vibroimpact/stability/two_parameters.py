@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import system_vector
 from vibroimpact.stability.parameter_family import RATES, Family, family
 
@@ -38,7 +38,7 @@ class Plane(NamedTuple):
         return self.family._replace(base=np.where(change != 0.0, base + change, base))
 
 
-def plane(oscillator: Oscillator, excitation: Repeated, names: tuple[str, str]) -> Plane:
+def plane(rig: Rig, names: tuple[str, str]) -> Plane:
     """Prepare a rig for being followed over two parameters.
 
     Raises
@@ -46,11 +46,11 @@ def plane(oscillator: Oscillator, excitation: Repeated, names: tuple[str, str]) 
     InputError
         If there is no such parameter, the rig has none, or the two do not go together.
     """
-    first = family(oscillator, excitation, names[0])
-    other = parameter(names[1], "parameters", excitation.of).of(oscillator)
+    first = family(rig, names[0])
+    other = parameter(names[1], "parameters", rig.periodic.of).of(rig.oscillator)
     if other.name == first.parameter.name:
         raise InputError(f"parameters: {names[0]!r} twice; two different ones are accepted")
-    second = family(oscillator, excitation, names[1])
+    second = family(rig, names[1])
     for one in (first, second):
         if not one.straight:
             raise InputError(
@@ -65,10 +65,10 @@ def plane(oscillator: Oscillator, excitation: Repeated, names: tuple[str, str]) 
     writes = [(first.parameter, p), (other, q)]
     straight = np.ones(len(guess), dtype=bool)
     for order in (writes, writes[::-1]):
-        setting = (oscillator, excitation)
+        there = rig
         for varied, value in order:
-            setting = varied.write(*setting, value)
-        true = system_vector(*setting)
+            there = varied.vary(there, value)
+        true = system_vector(there)
         with np.errstate(invalid="ignore"):
             error = np.abs(guess - true)
         straight &= (guess == true) | (error <= _AGREE * np.maximum(np.abs(true), np.abs(guess)))

@@ -11,12 +11,12 @@ from scipy.stats import qmc
 
 from vibroimpact.datasets.description import excitation_parameters, oscillator_parameters
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, Repeated
+from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.varied import written
+from vibroimpact.model.varied import vary_all
 from vibroimpact.uncertainty.distributions import (
     Distribution,
     check_names,
@@ -29,9 +29,6 @@ _Array = NDArray[np.float64]
 
 Method = Literal["sobol", "latin", "random"]
 METHODS: tuple[Method, ...] = ("sobol", "latin", "random")
-
-_ANY = Harmonic(1.0, 1.0)
-"""What the registry of parameters asks for beside a rig without one."""
 
 _ROUNDING = 1e-9
 
@@ -85,8 +82,7 @@ class Uncertain(NamedTuple):
         pairs = [
             (varied, float(value)) for varied, value in zip(self.parameters, values, strict=True)
         ]
-        oscillator, shaken = written(self.oscillator, self.shaken or _ANY, pairs)
-        return self.base.with_parts(oscillator, None if self.shaken is None else shaken)
+        return vary_all(self.base, pairs)
 
     def rigs(self, values: _Array) -> list[Rig]:
         """A rig for each row of values.
@@ -98,9 +94,8 @@ class Uncertain(NamedTuple):
         """
         found = [self.rig(row) for row in values]
         first = found[0]
-        rig, shaken = first.oscillator, _ANY if first.shaking is None else first.periodic
         for varied, value in zip(self.parameters, values[0], strict=True):
-            if not math.isclose(varied.read(rig, shaken), value, rel_tol=_ROUNDING, abs_tol=1e-300):
+            if not math.isclose(varied.read(first), value, rel_tol=_ROUNDING, abs_tol=1e-300):
                 raise InputError(
                     f"distributions: {varied.name!r} and another one set the same number of the "
                     "rig; one of them is accepted"
@@ -143,7 +138,7 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
             )
 
         def own(varied: Parameter = varied) -> float:
-            return varied.read(oscillator, shaken or _ANY)
+            return varied.read(base)
 
         own()  # refuses what the rig does not have
         parameters.append(varied)

@@ -71,7 +71,7 @@ def pieces_of(mode: int, damping: float, given: np.random.Generator, first: Encl
     stop = vi.Bumper(200.0, damping, -0.5)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), *(stop if mode == m else None for m in (1, 2)))
     plan, out = np.zeros(PLAN), np.zeros((5000, QUANTITIES, 7))
-    plan[:SIZE] = engine_rig(rig, vi.Harmonic(1.0, 1.0))
+    plan[:SIZE] = engine_rig(vi.Rig(rig, vi.Harmonic(1.0, 1.0)))
     frequency, phase = FREQUENCY * given.uniform(0.2, 5.0), given.uniform(0.0, math.tau)
     build(plan, given.uniform(0.1, 3.0), math.tau * frequency)
     u, v = given.normal(size=2)
@@ -143,7 +143,7 @@ def test_a_piece_that_turns_twice_is_not_taken_for_one_that_only_rises(phase: fl
     amplitude, omega, k, c = 1.0, 1.3, 1.0, 0.1
     rig = vi.Oscillator(1.0, vi.Isolator(k, c))
     plan, out = np.zeros(PLAN), np.zeros((5000, QUANTITIES, 7))
-    plan[:SIZE] = engine_rig(rig, vi.Harmonic(1.0, 1.0))
+    plan[:SIZE] = engine_rig(vi.Rig(rig, vi.Harmonic(1.0, 1.0)))
     build(plan, amplitude, omega)
     clock = math.sin(phase), math.cos(phase)
 

@@ -53,7 +53,7 @@ def laid_out(plan: Vector, motion: Motion, length: float, out: Vector) -> int:
 
 def check(rig: vi.Oscillator, amplitude: float, motion: Motion, length: float) -> np.ndarray:
     plan, out = np.zeros(PLAN), np.empty((5000, 5))
-    plan[:SIZE] = engine_rig(rig, vi.Harmonic(1.0, 1.0))
+    plan[:SIZE] = engine_rig(vi.Rig(rig, vi.Harmonic(1.0, 1.0)))
     build(plan, amplitude, math.tau * FREQUENCY)
     pieces = out[: laid_out(plan, motion, length, out)]
     starts, ends = pieces[:, 0], pieces[:, 1]

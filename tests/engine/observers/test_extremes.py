@@ -10,7 +10,7 @@ import pytest
 from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.observers import extremes
 from vibroimpact.engine.observers.extremes import series_extremes
-from vibroimpact.engine.observers.margin import turning_point
+from vibroimpact.engine.observers.margin import slope_series
 
 
 def series(*coefficients: float) -> np.ndarray:
@@ -60,6 +60,10 @@ def test_no_sample_lies_outside_and_the_ends_are_values() -> None:
         assert (least, most) == pytest.approx((p(at_least), p(at_most)), abs=1e-13 * size)
 
 
-def test_where_a_series_turns() -> None:
-    assert turning_point(series(0.0, -0.2, 1.0), 0.5) == pytest.approx(0.1, abs=1e-15)
-    assert turning_point(series(0.0, 0.2, 1.0), 0.3) == pytest.approx(-0.1, abs=1e-15)
+def test_the_slope_of_a_series_and_its_first_sign() -> None:
+    slope = np.empty(ORDER)
+    assert slope_series(series(0.0, -0.2, 1.0), slope) == -1.0
+    np.testing.assert_array_equal(slope[:3], [-0.2, 2.0, 0.0])
+    assert slope_series(series(0.0, 1.2, 1.0), slope) == 1.0
+    # Flat at the beginning: what follows decides.
+    assert slope_series(series(0.0, 1.0, 1.0), slope) == 1.0

@@ -25,7 +25,7 @@ def derivative(rig, shaken, start, cycles=1):
     state = engine_state(rig, start)
     phase = shaken.phase if start.phase is None else start.phase
     outcome = lyapunov.monodromy(
-        engine_rig(rig, vi.Harmonic(1.0, 1.0)),
+        engine_rig(vi.Rig(rig, vi.Harmonic(1.0, 1.0))),
         shaken.amplitude,
         shaken.frequency,
         phase,

@@ -56,7 +56,7 @@ def followed(
     curved: bool = True,
 ) -> np.ndarray:
     """The state behind so many cycles, by Taylor steps whatever the laws."""
-    vector = engine_rig(rig, shaken).copy()
+    vector = engine_rig(vi.Rig(rig, shaken)).copy()
     if curved:
         vector[par.CURVED] = 1.0
     end = state.copy()

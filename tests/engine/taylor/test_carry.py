@@ -9,6 +9,7 @@ from engine.taylor.rigs import HYSTERETIC, ISOLATORS, SHAKEN, STOPS, between, fo
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.motion import ISOLATOR, LEFT_BUMPER, MODE, RIGHT_BUMPER, U, V
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig
 
 ORDER = [U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR]
@@ -20,7 +21,7 @@ def carried(rig, state, cycles, shaken=SHAKEN):
     """Unit disturbances behind so many cycles, the damping's integral, and the end."""
     rows, damping, end = np.empty((DISTURBANCE, DISTURBANCE)), np.empty(1), state.copy()
     outcome = lyapunov.monodromy(
-        engine_rig(rig, shaken), shaken.amplitude, shaken.frequency, shaken.phase, end, cycles,
+        engine_rig(Rig(rig, shaken)), shaken.amplitude, shaken.frequency, shaken.phase, end, cycles,
         10_000, rows, damping,
     )  # fmt: skip
     assert outcome == 0

@@ -18,7 +18,7 @@ from vibroimpact.response.engine_input import engine_rig
 
 
 def plan_of(isolator: str, stop: str | None = None) -> np.ndarray:
-    rig = engine_rig(between(isolator, stop), SHAKEN)
+    rig = engine_rig(vi.Rig(between(isolator, stop), SHAKEN))
     plan = planned(flow_of(rig), rig)
     build(plan, 0.6, 0.9)
     return plan

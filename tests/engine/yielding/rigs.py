@@ -59,7 +59,7 @@ def random_rig(
 
 def vectors(rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic) -> tuple[np.ndarray, np.ndarray]:
     """The rig for tables, and for Taylor steps: a spring that is next to nothing is no line."""
-    tables = engine_rig(rig, shaken)
+    tables = engine_rig(vi.Rig(rig, shaken))
     taylor = tables.copy()
     taylor[par.CUBIC] = 1e-300
     return tables, taylor

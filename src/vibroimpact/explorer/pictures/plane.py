@@ -10,9 +10,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.explorer.pictures.numbers import short
 from vibroimpact.explorer.state import State
 from vibroimpact.model import from_dimensionless, to_dimensionless
-from vibroimpact.model.access import scale_of
 from vibroimpact.model.dimensionless import DimensionlessBumper
-from vibroimpact.model.rig import Rig
 from vibroimpact.scenarios.map import scenario_map
 from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.tasks.threads import Progress
@@ -40,7 +38,7 @@ def plane(state: State) -> Plane:
         If the rig has no λ, δ0, τ and ξ that are those of both sides.
     """
     rig = state.oscillator
-    scaled = to_dimensionless(Rig(rig, scale_of(rig, state.shaking)))
+    scaled = to_dimensionless(state.rig)
     stops = [stop for stop in (scaled.right, scaled.left) if stop is not None]
     if not stops or not all(isinstance(stop, DimensionlessBumper) for stop in stops):
         raise InputError("map: it needs a bumper of spring and dashpot on some side")

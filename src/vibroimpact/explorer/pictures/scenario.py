@@ -9,6 +9,7 @@ import xarray as xr
 from vibroimpact.explorer.pictures.numbers import one
 from vibroimpact.explorer.state import State
 from vibroimpact.facts import scenario as told
+from vibroimpact.model.rig import Rig
 from vibroimpact.scenarios.classification import scenario
 from vibroimpact.scenarios.classify import classify_scenario
 from vibroimpact.scenarios.evidence import evidence
@@ -20,7 +21,7 @@ from vibroimpact.tasks.threads import Progress
 def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
     """Return what a coarse sweep shows, while a knob is turned."""
     used = Thresholds()
-    found = evidence(state.oscillator, state.shaking, data, 0.5 * used.prominence)
+    found = evidence(Rig(state.oscillator, state.shaking), data, 0.5 * used.prominence)
     label = scenario(found, used).label
     return {
         "picture": "scenario",
