@@ -16,8 +16,8 @@ from vibroimpact.attraction.label_states import (
 )
 from vibroimpact.engine.capture import CENTRE, FORM, OWNER, REACH, TRAP
 from vibroimpact.engine.status import Status
-from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.response.propagate import moved_on
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.prepared_rig import prepare
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 EXCITATION = vi.Harmonic(CASE.amplitude, 0.7, 0.4)
@@ -47,11 +47,11 @@ def ball(owner: int, centre: np.ndarray, radius: float) -> np.ndarray:
 
 
 def states_after(cycles: int) -> np.ndarray:
-    rig = engine_rig(vi.Rig(CASE.oscillator, EXCITATION))
+    engine = prepare(vi.Rig(CASE.oscillator, EXCITATION))
     begin = [engine_state(CASE.oscillator, vi.State(u, v)) for u, v in STARTS]
     if not cycles:
         return np.array(begin)
-    return np.array([moved_on(rig, EXCITATION, one, cycles)[1] for one in begin])
+    return np.array([engine.propagate(one, cycles)[1] for one in begin])
 
 
 @pytest.mark.parametrize("cycles", [0, 1, 5])

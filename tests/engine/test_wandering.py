@@ -9,7 +9,8 @@ import vibroimpact as vi
 from samples import sample
 from vibroimpact.engine import hold
 from vibroimpact.engine.status import Status
-from vibroimpact.response.sweep_arrays import Patience, prepared, rows
+from vibroimpact.response.prepared_rig import Settling
+from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.resonance_curves import swept_alone
 
@@ -20,9 +21,10 @@ SOON = 20.0 / CASE.oscillator.natural_frequency
 def held(frequency: float, transient: float, max_cycles: int):
     """The row of a hold in which a motion may be told to be chaotic."""
     shaken = vi.Harmonic(CASE.amplitude, frequency)
-    ready = prepared(CASE.oscillator, shaken, np.array([frequency]))
-    patience = Patience(0.0, 1e-12, max_cycles, 100, 10_000, transient)
-    found, _ = rows(ready, "forward", patience, np.zeros(2, dtype=np.int64))
+    ready = plan_sweep(vi.Rig(CASE.oscillator, shaken), np.array([frequency]))
+    settling = Settling(1e-12, max_cycles, 100, 10_000)
+    tally = np.zeros(2, dtype=np.int64)
+    found, _ = rows(ready, "forward", 0.0, settling, tally, transient)
     return found[0]
 
 

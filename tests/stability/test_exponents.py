@@ -11,8 +11,8 @@ from hypothesis import assume, given
 import vibroimpact as vi
 from properties.strategies import Motion, examples, motions, simulated
 from vibroimpact.engine import lyapunov
-from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.response.propagate import grown
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.prepared_rig import prepare
 
 CASES = ["B2-G1-A3", "B3-10mm-A3", "B4-G2-A1", "B3-0mm-A3", "B1-G4-A2"]
 FREQUENCIES = [0.58, 0.9, 1.02, 1.06, 1.1, 1.2, 2.0, 3.1]
@@ -47,7 +47,7 @@ def test_each_cycle_contracts_by_the_damping_where_memory_has_decayed(motion: Mo
     assume(len(at) == 0 or np.diff(at, append=6.0).min() > 5e-3)
     assume(len(at) == 0 or np.abs(at - np.round(at)).min() > 5e-3)
     state = engine_state(rig, motion.start)
-    _, rows = grown(engine_rig(vi.Rig(rig, shaken)), shaken, state, 5, 1000, discard=1)
+    _, rows = prepare(vi.Rig(rig, shaken)).sections(state, 5, 1000, discard=1)
     sums = rows[:, : lyapunov.SECTION].sum(axis=1)
     scale = np.abs(rows[:, : lyapunov.SECTION]).max()
     assert np.abs(sums).max() < 1e-10 * max(scale, 1.0)

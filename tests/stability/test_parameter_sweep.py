@@ -10,7 +10,8 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.stability.parameter_sweep import Patience, placed, rigs_along, stepped
+from vibroimpact.response.prepared_rig import Settling
+from vibroimpact.stability.parameter_sweep import placed, rigs_along, stepped
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 2.5)
@@ -65,7 +66,7 @@ def test_frequencies_in_steps_are_a_sweep():
         PARAMETERS["frequency"], vi.Rig(CASE.oscillator, SHAKEN.replace(phase=0.3)), grid
     )
     held = []
-    stepped(every, None, Patience(), held.append, np.zeros(2, dtype=np.int64))
+    stepped(every, None, Settling(), held.append, np.zeros(2, dtype=np.int64))
     swept = vi.sweep(CASE, grid, "forward", phase=0.3).isel(direction=0)
     np.testing.assert_array_equal(
         [one.found.state[layout.U] for one in held], swept["section"].sel(component="displacement")

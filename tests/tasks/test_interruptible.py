@@ -15,8 +15,8 @@ import xarray as xr
 
 import vibroimpact as vi
 from engine.taylor.rigs import ISOLATORS, between
-from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.response.propagate import grown
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Stopped, each, watched
 
@@ -36,9 +36,9 @@ def test_where_a_motion_is_cut_changes_no_bit(isolator, shaken, monkeypatch):
         if shaken == "sine"
         else (vi.Record(noise, 0.4), None, None, 2)
     )
-    whole = vi.simulate(one, *how)
+    whole = vi.simulate(vi.Rig(one, how[0]), *how[1:])
     monkeypatch.setattr(Calls, "end", lambda self, at: min(self._total, at + 1))
-    xr.testing.assert_identical(vi.simulate(one, *how), whole)
+    xr.testing.assert_identical(vi.simulate(vi.Rig(one, how[0]), *how[1:]), whole)
 
 
 @pytest.mark.parametrize("isolator", ISOLATORS)
@@ -47,8 +47,9 @@ def test_where_the_growth_of_disturbances_is_cut_changes_no_bit(isolator, monkey
     shaken = vi.Harmonic(0.8, 0.15)
 
     def rows():
-        rig, state = engine_rig(vi.Rig(one, shaken)), engine_state(one, vi.State())
-        status, found = grown(rig, shaken, state, CYCLES, transient=3, discard=5)
+        state = engine_state(one, vi.State())
+        engine = prepare(vi.Rig(one, shaken))
+        status, found = engine.sections(state, CYCLES, transient=3, discard=5)
         return status, found, state
 
     whole = rows()

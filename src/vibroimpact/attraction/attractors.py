@@ -14,8 +14,8 @@ from vibroimpact.attraction.label_states import PLACES, Stage
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
-from vibroimpact.response.propagate import grown
+from vibroimpact.response.engine_input import as_state, engine_state
+from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.stability.settle import Settled, later, reach
 from vibroimpact.stability.steady import describe_motion
 
@@ -94,8 +94,7 @@ def _points(found: Settled, stage: Stage) -> _Array | None:
     """Where it is at the section; None if a limit is met."""
     if not found.period:
         state = found.state.copy()
-        rig = engine_rig(stage.rig)
-        status, rows = grown(rig, stage.excitation, state, _VISITS, stage.max_events)
+        status, rows = prepare(stage.rig).sections(state, _VISITS, stage.max_events)
         if status is not Status.DONE:
             return None
         points = rows[:, lyapunov.SECTION : lyapunov.SECTION + 5].copy()

@@ -21,7 +21,7 @@ from vibroimpact.model import Oscillator
 from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_state, system_vector
-from vibroimpact.response.propagate import hold_once
+from vibroimpact.response.prepared_rig import PreparedRig, Settling
 
 _Array = NDArray[np.float64]
 
@@ -217,7 +217,8 @@ def _settled(one: Flight, begin: _Array, frequency: float, cycles: int) -> Held:
     if cycles == SOON:
         return swept(one, begin, [frequency])[0]
     here = one.rig.periodic.replace(amplitude=one.level(frequency), frequency=frequency, phase=0.0)
-    row, reached = hold_once(one.system, here, begin, _TOLERANCE, cycles, _WINDOW, _MAX_EVENTS)
+    engine = PreparedRig(Rig(one.oscillator, here), one.system)
+    row, reached = engine.dwell(begin, Settling(_TOLERANCE, cycles, _WINDOW, _MAX_EVENTS))
     return Held(frequency, row, reached)
 
 

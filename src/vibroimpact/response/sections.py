@@ -16,9 +16,8 @@ from vibroimpact.model.count_checks import check_samples, whole
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.contacts import contacts
-from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.motion_phases import beginning, recorded
-from vibroimpact.response.propagate import grown, moved_on
+from vibroimpact.response.prepared_rig import prepare
 
 _MAX_EVENTS = 10_000
 _NAMES = ("displacement", "velocity", "right_bumper", "left_bumper")
@@ -56,8 +55,8 @@ def stroboscopic_section(
     count = max(1, math.floor(origin.cycles)) if cycles is None else whole(cycles, "cycles")
     check_samples(count, 1, "cycles")
     start = beginning(motion)
-    state = engine_state(origin.oscillator, start)
-    rig = engine_rig(Rig(origin.oscillator, origin.excitation))
+    engine = prepare(Rig(origin.oscillator, origin.excitation))
+    state = engine.state(start)
     shaken = origin.excitation
     ahead = ((angle - shaken.phase) / (2.0 * math.pi)) % 1.0
     first = np.array(
@@ -65,11 +64,11 @@ def stroboscopic_section(
     )
     status = Status.DONE
     if ahead > 0.0:
-        status, state = moved_on(rig, shaken, state, ahead, _MAX_EVENTS)
+        status, state = engine.propagate(state, ahead, _MAX_EVENTS)
         first = np.array([*state[2:5], -state[5]])
     points = np.empty((0, len(_NAMES)))
     if status is Status.DONE:
-        status, rows = grown(rig, shaken.replace(phase=angle), state, count, _MAX_EVENTS)
+        status, rows = engine.at_phase(angle).sections(state, count, _MAX_EVENTS)
         known = rows[:, lyapunov.SECTION :][:, : len(_NAMES)]
         points = np.vstack([first, known])[:count]
     if len(points) < count:

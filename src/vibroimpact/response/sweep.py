@@ -30,8 +30,9 @@ from vibroimpact.model.read_rig import AnyRig, as_rig, as_rigs
 from vibroimpact.model.rig import Rig, as_periodic
 from vibroimpact.response.engine_input import as_state
 from vibroimpact.response.plausibility import doubt_gaps, note_unbounded
+from vibroimpact.response.prepared_rig import Settling
 from vibroimpact.response.softening_limit import judged
-from vibroimpact.response.sweep_arrays import Patience, prepared, rows
+from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.response.sweep_dataset import held
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, each
@@ -172,13 +173,13 @@ def sweeps(
     max_events = check_max_events(max_events)
     workers = placed(threads, where)
 
-    ready = [prepared(rig, grid, state) for rig in pairs]
-    patience = Patience(angle, tolerance, max_cycles, window, max_events)
+    ready = [plan_sweep(rig, grid, state) for rig in pairs]
+    settling = Settling(tolerance, max_cycles, window, max_events)
 
     batch.sweep.prepare(*(one.rig for one in ready))  # once, before the threads would queue for it
     items = [(one, direction) for one in ready for direction in directions]
     done = each(
-        lambda item, tally: rows(*item, patience, tally),
+        lambda item, tally: rows(*item, angle, settling, tally),
         items,
         steps=len(grid) * len(items),
         threads=workers,

@@ -18,12 +18,13 @@ from vibroimpact.response.analytic_free_response import (
 )
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.numerical_free_response import swept_flight
+from vibroimpact.response.prepared_rig import Settling
 from vibroimpact.tasks.threads import Tally
 
 _Array = NDArray[np.float64]
 
 
-class Prepared(NamedTuple):
+class SweepPlan(NamedTuple):
     """A rig, ready to be swept over some frequencies."""
 
     frequencies: _Array
@@ -40,19 +41,7 @@ class Prepared(NamedTuple):
     """The largest ones at any frequency."""
 
 
-class Patience(NamedTuple):
-    """How each frequency is held; see `sweeps`."""
-
-    phase: float
-    tolerance: float
-    max_cycles: int
-    window: int
-    max_events: int
-    transient: float = hold.PATIENT
-    """Time (s) after which a motion that is plainly chaotic is waited for no longer."""
-
-
-def prepared(rig: Rig, frequencies: _Array, state: State | None = None) -> Prepared:
+def plan_sweep(rig: Rig, frequencies: _Array, state: State | None = None) -> SweepPlan:
     """Prepare a rig once, before it is swept in either direction.
 
     Raises
@@ -70,9 +59,9 @@ def prepared(rig: Rig, frequencies: _Array, state: State | None = None) -> Prepa
     else:
         free = np.array(swept_flight(Rig(oscillator, shaken), frequencies, levels))
     most = shaken if sizes is None else shaken.replace(amplitude=levels.max())
-    return Prepared(
+    return SweepPlan(
         frequencies,
-        engine_rig(Rig(oscillator, shaken)),
+        engine_rig(rig),
         levels,
         engine_state(oscillator, state or equilibrium(oscillator)),
         free,
@@ -80,8 +69,17 @@ def prepared(rig: Rig, frequencies: _Array, state: State | None = None) -> Prepa
     )
 
 
-def rows(one: Prepared, direction: str, patience: Patience, tally: Tally) -> tuple[_Array, _Array]:
+def rows(
+    one: SweepPlan,
+    direction: str,
+    phase: float,
+    settling: Settling,
+    tally: Tally,
+    transient: float = hold.PATIENT,
+) -> tuple[_Array, _Array]:
     """Sweep a rig in one direction.
+
+    A motion that is plainly chaotic after `transient` (s) is not waited for.
 
     Returns
     -------
@@ -91,14 +89,14 @@ def rows(one: Prepared, direction: str, patience: Patience, tally: Tally) -> tup
     order = slice(None, None, 1 if direction == "forward" else -1)
     found = np.empty((len(one.frequencies), hold.RESULTS))
     reached = np.zeros((len(one.frequencies), layout.STATE))
-    phase, *waits = patience
     batch.sweep(
         one.rig,
         np.ascontiguousarray(one.levels[order]),
         np.ascontiguousarray(one.frequencies[order]),
         phase,
         one.start.copy(),
-        *waits,
+        *settling,
+        transient,
         found,
         reached,
         tally,

@@ -15,6 +15,7 @@ from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Swept
 from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.scenarios.evidence import Evidence, Irregular, Kind
 from vibroimpact.scenarios.hidden_folds import unseen
 from vibroimpact.scenarios.resonance_curves import DIRECTIONS, Holds
@@ -97,7 +98,11 @@ def _kind(
     start = ended.state(item.direction, i)
     excitation = shaken.replace(frequency=float(ended.frequency[i]), phase=start.phase or 0.0)
     followed = Settled(
-        Rig(oscillator, excitation), engine_state(oscillator, start), 0, 0, Status.NOT_SETTLED
+        prepare(Rig(oscillator, excitation)),
+        engine_state(oscillator, start),
+        0,
+        0,
+        Status.NOT_SETTLED,
     )
 
     def judged(state: NDArray[np.float64], cycles: int) -> str:

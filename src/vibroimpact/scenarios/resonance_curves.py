@@ -20,7 +20,8 @@ from vibroimpact.model import State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, each_swept
 from vibroimpact.response.engine_input import components
-from vibroimpact.response.sweep_arrays import Patience, prepared, rows
+from vibroimpact.response.prepared_rig import Settling
+from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.tasks.threads import Tally
 
 UNEVEN = 1e-6
@@ -120,12 +121,12 @@ def swept_alone(
 
     A motion that is plainly chaotic behind its transient (s) is measured at once.
     """
-    ready = prepared(rig, frequencies)
-    patience = Patience(0.0, _TOLERANCE, max_cycles, window, _MAX_EVENTS, transient)
+    ready = plan_sweep(rig, frequencies)
+    settling = Settling(_TOLERANCE, max_cycles, window, _MAX_EVENTS)
     shape = (2, len(frequencies))
     found, states = np.empty((*shape, hold.RESULTS)), []
     for k, direction in enumerate(DIRECTIONS):
-        found[k], reached = rows(ready, direction, patience, tally)
+        found[k], reached = rows(ready, direction, 0.0, settling, tally, transient)
         states.append(reached)
     each = found.transpose(2, 0, 1).copy()  # what was measured, one quantity behind the other
     low, high = each[hold.U_LEAST], each[hold.U_MOST]

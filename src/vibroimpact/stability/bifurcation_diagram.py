@@ -26,9 +26,10 @@ from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
+from vibroimpact.response.prepared_rig import Settling
 from vibroimpact.response.sweep_dataset import sizes
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
-from vibroimpact.stability.parameter_sweep import Patience, random_states, rigs_along, stepped
+from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Tally, each
 
@@ -135,14 +136,14 @@ def bifurcation_diagram(
     values[0], values[-1] = ends
     if section not in POINT:
         raise InputError(f"section: {section!r}; one of {', '.join(POINT)} is accepted")
-    patience = Patience(
+    settling = Settling(
         share(tolerance, "tolerance"),
         whole(max_cycles, "max_cycles"),
         whole(points, "points"),
         check_max_events(max_events),
     )
     look = Look(
-        section, patience.window, whole(exponent_cycles, "exponent_cycles"), patience.max_events
+        section, settling.window, whole(exponent_cycles, "exponent_cycles"), settling.max_events
     )
     random, workers = whole(random, "random", 0), placed(threads, where)
     ways = _ways(directions, starts, random, oscillator)
@@ -158,7 +159,7 @@ def bifurcation_diagram(
         stepped(
             mine[order],
             part.start,
-            patience,
+            settling,
             lambda held: found.append(look_at(held, look)),
             tally,
             carry=part.start is None,
@@ -194,7 +195,7 @@ def bifurcation_diagram(
             "low": span[0],
             "high": span[1],
             "seed": seed,
-            **patience._asdict(),
+            **settling._asdict(),
             **look._asdict(),
         },
     )

@@ -168,13 +168,13 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
 def _at_phase(found: Settled, excitation: Repeated, max_events: int) -> Settled:
     """The motion at the section of the given excitation, wherever its start had its own."""
     ahead = ((excitation.phase - found.excitation.phase) / (2.0 * math.pi)) % 1.0
-    there = Rig(found.oscillator, excitation)
+    there = found.engine.at_phase(excitation.phase)
     if ahead == 0.0:
-        return found._replace(rig=there)
+        return found._replace(engine=there)
     status, state = later(found, found.state, ahead, max_events)
     if status is not Status.DONE:
         return found._replace(status=status)
-    return found._replace(state=state, rig=there)
+    return found._replace(state=state, engine=there)
 
 
 def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int, int, int]) -> None:

@@ -11,9 +11,6 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
-from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_rig
-from vibroimpact.response.propagate import grown
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_exponents import judge_orbit
 from vibroimpact.stability.motion_type import Judgement, judge
@@ -102,9 +99,7 @@ def _wandering(found: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
 def _followed(
     found: Settled, cycles: int, max_events: int, discard: int = 0
 ) -> tuple[Status, _Array]:
-    rig = engine_rig(found.rig)
-    state = found.state.copy()
-    return grown(rig, found.excitation, state, cycles, max_events, discard=discard)
+    return found.engine.sections(found.state.copy(), cycles, max_events, discard=discard)
 
 
 def _impacts(found: Settled, cycles: int, max_events: int) -> tuple[_Array, Status]:
@@ -115,7 +110,7 @@ def _impacts(found: Settled, cycles: int, max_events: int) -> tuple[_Array, Stat
     while number < cycles and not outcome:
         events = np.empty((max_events + _ROOM, record.EVENT))
         number, count, outcome = batch.trajectory(
-            engine_rig(Rig(found.oscillator, shaken)),
+            found.engine.vector,
             shaken.amplitude,
             shaken.frequency,
             shaken.phase,

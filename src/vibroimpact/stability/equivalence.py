@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
-from vibroimpact.response.engine_input import engine_rig
-from vibroimpact.response.propagate import grown
 from vibroimpact.stability.settle import Settled, apart, later, reach
 
 SAME = 1e-6
@@ -61,7 +59,6 @@ def distance(one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
 
 def _displacements(found: Settled, max_events: int) -> NDArray[np.float64]:
     """Displacements at the section over many cycles, sorted."""
-    rig, state = engine_rig(found.rig), found.state.copy()
-    status, rows = grown(rig, found.excitation, state, _SEEN, max_events)
+    status, rows = found.engine.sections(found.state.copy(), _SEEN, max_events)
     # Fewer if it is given up: then it is another motion than one that goes on.
     return np.sort(rows[:, lyapunov.SECTION]) if status is Status.DONE else np.empty(0)

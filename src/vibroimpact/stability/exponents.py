@@ -15,15 +15,15 @@ from vibroimpact.arguments import VALUES, check_mapping
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Rig, State, equilibrium, to_si
+from vibroimpact.model import Rig, State, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.varied import Varied, varied, vary_all
 from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
-from vibroimpact.response.propagate import grow
+from vibroimpact.response.engine_input import as_state
+from vibroimpact.response.prepared_rig import PreparedRig, prepare
 from vibroimpact.response.sweep import check_frequencies, periodic_rigs
 from vibroimpact.stability.block_averages import Averaged
 from vibroimpact.tasks.executors import THREADS, placed
@@ -127,24 +127,20 @@ def lyapunov_exponents(
         _rig_at(pairs[r], grid, i, angle, zip(every, at, strict=True))
         for r, i, *at in np.ndindex(shape)
     ]
-    vectors = [engine_rig(item) for item in items]
+    engines = [prepare(item) for item in items]
 
     steps = transient + DISCARD + cycles
 
-    def follow(item: tuple[Rig, NDArray[np.float64]], tally: Tally) -> _Grown:
-        rig, vector = item
-        oscillator, here = rig.oscillator, rig.periodic
+    def follow(engine: PreparedRig, tally: Tally) -> _Grown:
+        here = engine.shaking
         frequency = here.frequency
-        begin = engine_state(oscillator, state or equilibrium(oscillator))
         kept = Averaged(cycles)
 
         def count(done: int, _: int | None) -> None:
             tally[DONE] = done
 
-        status = grow(
-            vector,
-            here,
-            begin,
+        status = engine.grow(
+            engine.state(state),
             cycles,
             kept.add,
             max_events,
@@ -167,10 +163,12 @@ def lyapunov_exponents(
             kept.is_settling(size),
         )
 
-    lyapunov.growth.prepare(*vectors)  # once, before threads would queue
+    lyapunov.growth.prepare(
+        *(engine.vector for engine in engines)
+    )  # once, before threads would queue
     found = each(
         follow,
-        list(zip(items, vectors, strict=True)),
+        engines,
         steps=steps * len(items),
         threads=workers,
         progress=progress,

@@ -17,7 +17,7 @@ from vibroimpact.engine.flows import carries
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.propagate import moved_on
+from vibroimpact.response.prepared_rig import PreparedRig
 from vibroimpact.stability.parameter_family import Family
 
 _Array = NDArray[np.float64]
@@ -322,7 +322,9 @@ def seen_at(found: Orbit, phase: float) -> tuple[_Array, float] | None:
     ahead = ((phase - here.phase) / (2.0 * math.pi)) % 1.0
     state = vector_of(found)
     if ahead > 0.0:
-        status, state = moved_on(system, here, state, ahead, MAX_EVENTS)
+        status, state = PreparedRig(Rig(section.family.oscillator, here), system).propagate(
+            state, ahead, MAX_EVENTS
+        )
         if status is not Status.DONE:
             return None
     right, left = state[layout.RIGHT_BUMPER], -state[layout.LEFT_BUMPER]

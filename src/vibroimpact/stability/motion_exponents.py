@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
-from vibroimpact.response.engine_input import engine_rig
-from vibroimpact.response.propagate import grown
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_type import Judgement, judge, repeats
 from vibroimpact.stability.settle import Settled
@@ -33,7 +31,7 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
     rates = []
     for _ in range(2):  # the second time tells how far rounding and the rest of a transient go
         outcome = lyapunov.monodromy(
-            engine_rig(found.rig),
+            found.engine.vector,
             found.excitation.amplitude,
             found.excitation.frequency,
             found.excitation.phase,
@@ -85,9 +83,7 @@ def _second(found: Settled, state: _Array, max_events: int) -> float:
     It is followed cycle by cycle, as for a motion that is not periodic: strong damping leaves a
     number, and a mass that sticks, or comes to rest, minus infinity.
     """
-    status, rows = grown(
-        engine_rig(found.rig),
-        found.excitation,
+    status, rows = found.engine.sections(
         state.copy(),
         found.period,
         max_events,
@@ -110,9 +106,7 @@ def judge_wandering(
     judgement, damping, cycles, status
         The damping per unit mass is the integral over a cycle, on average.
     """
-    status, rows = grown(
-        engine_rig(found.rig),
-        found.excitation,
+    status, rows = found.engine.sections(
         state,
         cycles,
         max_events,

@@ -22,7 +22,7 @@ from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.response.propagate import hold_once
+from vibroimpact.response.prepared_rig import Settling, prepare
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.stability.settle import Settled, reach_at_rest
 from vibroimpact.tasks.threads import Stopped, Tally
@@ -31,16 +31,6 @@ _Array = NDArray[np.float64]
 
 _RANDOM_SIZE = 1.5
 _SOUND = (Status.DONE, Status.NOT_SETTLED)
-
-
-class Patience(NamedTuple):
-    """How long a value is held."""
-
-    tolerance: float = 1e-12
-    max_cycles: int = 2000
-    window: int = 500
-    """Cycles over which a motion that did not settle is measured."""
-    max_events: int = 10_000
 
 
 class Held(NamedTuple):
@@ -72,7 +62,7 @@ def rigs_along(varied: Parameter, rig: Rig, values: Iterable[float]) -> list[Rig
 def stepped(
     every: Sequence[Rig],
     start: _Array | None,
-    patience: Patience,
+    settling: Settling,
     seen: Callable[[Held], None],
     tally: Tally,
     *,
@@ -86,7 +76,7 @@ def stepped(
         The rig at each value, in the order in which they are held.
     start
         Where the first begins, as the engine's vector, put where it can be; None for the rest.
-    patience
+    settling
         How long each is held.
     seen
         Called with what was found of each.
@@ -108,16 +98,17 @@ def stepped(
             state = engine_state(rig.oscillator, equilibrium(rig.oscillator))
         else:
             state = placed(rig, start)
-        before = _held(rig, state, patience)
+        before = _held(rig, state, settling)
         seen(before)
         tally[0] += 1
 
 
-def _held(rig: Rig, state: _Array, patience: Patience) -> Held:
-    row, reached = hold_once(engine_rig(rig), rig.periodic, state, *patience)
+def _held(rig: Rig, state: _Array, settling: Settling) -> Held:
+    engine = prepare(rig)
+    row, reached = engine.dwell(state, settling)
     swing = np.abs(row[[hold.U_LEAST, hold.U_MOST]]).max()
     status = Status(int(judged(rig.oscillator, row[hold.OUTCOME], swing)))
-    found = Settled(rig, reached, int(row[hold.PERIOD]), int(row[hold.CYCLES]), status)
+    found = Settled(engine, reached, int(row[hold.PERIOD]), int(row[hold.CYCLES]), status)
     return Held(found, row)
 
 

@@ -14,8 +14,8 @@ from vibroimpact.model import Oscillator, Repeated, State
 from vibroimpact.model.count_checks import share
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.response.propagate import hold_once, moved_on
+from vibroimpact.response.engine_input import engine_state
+from vibroimpact.response.prepared_rig import PreparedRig, Settling, prepare
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.stability.fixed_points import Orbit, vector_of
 from vibroimpact.tasks.threads import Progress
@@ -26,7 +26,7 @@ _Array = NDArray[np.float64]
 class Settled(NamedTuple):
     """Where a motion went."""
 
-    rig: Rig
+    engine: PreparedRig
     """The phase of its shaking is that of the section."""
     state: _Array
     """At the section behind the last cycle, as the engine's vector."""
@@ -35,6 +35,11 @@ class Settled(NamedTuple):
     cycles: int
     """Forcing cycles used."""
     status: Status
+
+    @property
+    def rig(self) -> Rig:
+        """What vibrates and what shakes it."""
+        return self.engine.rig
 
     @property
     def oscillator(self) -> Oscillator:
@@ -75,16 +80,14 @@ def approach(
         if start.phase is not None:
             rig = rig.with_parts(rig.oscillator, rig.periodic.replace(phase=start.phase))
         start = engine_state(rig.oscillator, start)
-    result, reached = hold_once(
-        engine_rig(rig), rig.periodic, start, tolerance, max_cycles, 1, max_events, progress
-    )
-    outcome = Status(int(judged(rig.oscillator, result[hold.OUTCOME], np.nan)))
+    engine = prepare(rig)
+    result, reached = engine.dwell(start, Settling(tolerance, max_cycles, 1, max_events), progress)
     return Settled(
-        rig,
+        engine,
         reached if np.isfinite(reached).all() else start,
         int(result[hold.PERIOD]),
         int(result[hold.CYCLES]),
-        outcome,
+        Status(int(judged(rig.oscillator, result[hold.OUTCOME], np.nan))),
     )
 
 
@@ -92,7 +95,7 @@ def later(
     found: Settled, state: _Array, cycles: float, max_events: int = 10_000
 ) -> tuple[Status, _Array]:
     """The state some forcing cycles later; of use only if `Status.DONE`."""
-    return moved_on(engine_rig(found.rig), found.excitation, state, cycles, max_events)
+    return found.engine.propagate(state, cycles, max_events)
 
 
 def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:
@@ -133,4 +136,4 @@ def reach_at_rest(rig: Rig) -> float:
 
 def settled_on(found: Orbit) -> Settled:
     """An orbit as a motion that has settled on it."""
-    return Settled(found.rig, vector_of(found), found.section.period, 0, Status.DONE)
+    return Settled(prepare(found.rig), vector_of(found), found.section.period, 0, Status.DONE)

@@ -17,10 +17,11 @@ from vibroimpact.model import Oscillator, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import extremes, harmonics
 from vibroimpact.response.engine_input import engine_rig, state_from, system_vector
+from vibroimpact.response.prepared_rig import Settling
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.parameter_family import Family, family
-from vibroimpact.stability.parameter_sweep import Held, Patience, random_states, rigs_along, stepped
+from vibroimpact.stability.parameter_sweep import Held, random_states, rigs_along, stepped
 from vibroimpact.tasks.threads import Tally, each
 
 _Array = NDArray[np.float64]
@@ -148,7 +149,7 @@ def _held(at: Values, way: _Way, tally: Tally) -> list[Held]:
     """What motions settle on at each value, in rising order of them."""
     found: list[Held] = []
     every = at.every[:: way.sense]
-    stepped(every, way.start, Patience(), found.append, tally, carry=way.start is None)
+    stepped(every, way.start, Settling(), found.append, tally, carry=way.start is None)
     return found[:: way.sense]
 
 

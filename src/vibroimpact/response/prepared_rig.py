@@ -1,0 +1,223 @@
+"""The prepared rig: what the engine needs of a rig, made once, and what it can be asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import batch, hold, lyapunov
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.memory import TERMS
+from vibroimpact.engine.observers import record
+from vibroimpact.engine.status import Status
+from vibroimpact.model import Repeated, Rig, State, equilibrium
+from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.tasks.interruptible import Calls
+from vibroimpact.tasks.threads import CYCLES, Progress, Tally, watched
+
+_Array = NDArray[np.float64]
+
+_ROWS = 16_384
+"""Cycles of one call of the engine, at most: their rows take 1 MB."""
+
+MAX_EVENTS = 10_000
+"""Contacts and releases in one forcing cycle at which a motion is given up, unless stated."""
+
+
+class Settling(NamedTuple):
+    """How long a frequency is held until the motion has settled."""
+
+    tolerance: float = 1e-12
+    """Distance between stroboscopic states, relative to the motion, at which it has settled."""
+    max_cycles: int = 2000
+    """Forcing cycles after which the wait ends."""
+    window: int = 500
+    """Forcing cycles over which a motion that did not settle is measured."""
+    max_events: int = MAX_EVENTS
+
+
+class PreparedRig(NamedTuple):
+    """A rig under a periodic shaking, as the engine follows it.
+
+    States are vectors of the engine at the phase of the shaking.
+    """
+
+    rig: Rig
+    vector: _Array
+    """The rig as the engine reads it."""
+
+    @property
+    def shaking(self) -> Repeated:
+        """What shakes it; the phase is that of the section."""
+        return self.rig.periodic
+
+    def state(self, start: State | None = None) -> _Array:
+        """Return the engine's vector of a state. Default: at rest at the static equilibrium."""
+        oscillator = self.rig.oscillator
+        return engine_state(oscillator, start or equilibrium(oscillator))
+
+    def at_phase(self, phase: float) -> PreparedRig:
+        """Return the same rig with its section at another forcing phase."""
+        turned = self.shaking.replace(phase=phase)
+        return self._replace(rig=self.rig.with_parts(self.rig.oscillator, turned))
+
+    def propagate(
+        self, state: _Array, cycles: float, max_events: int = MAX_EVENTS
+    ) -> tuple[Status, _Array]:
+        """Return the state some forcing cycles later; of use only if `Status.DONE`."""
+        later, shaking = state.copy(), self.shaking
+        _, _, outcome = batch.trajectory(
+            self.vector,
+            shaking.amplitude,
+            shaking.frequency,
+            shaking.phase,
+            later,
+            0.0,
+            cycles,
+            0,
+            max_events,
+            np.empty((record.SAMPLE, 0)),
+            np.empty((max_events + 1, record.EVENT)),
+        )
+        return Status(outcome), later
+
+    def dwell(
+        self, state: _Array, settling: Settling, progress: Progress | None = None
+    ) -> tuple[_Array, _Array]:
+        """Hold the frequency until the motion has settled; Ctrl-C ends it.
+
+        Parameters
+        ----------
+        state
+            Where the motion begins.
+        settling
+            How long to wait.
+        progress
+            Called with the cycles done and ``settling.max_cycles``.
+
+        Returns
+        -------
+        result, reached
+            As `engine.batch.sweep` writes them for one frequency.
+        """
+        result, reached = np.empty((1, hold.RESULTS)), np.zeros((1, layout.STATE))
+        shaking = self.shaking
+
+        def hold_it(tally: Tally) -> None:
+            batch.sweep(
+                self.vector,
+                np.array([shaking.amplitude]),
+                np.array([shaking.frequency]),
+                shaking.phase,
+                state.copy(),
+                *settling,
+                hold.PATIENT,
+                result,
+                reached,
+                tally,
+            )
+
+        watched(hold_it, settling.max_cycles, progress, CYCLES)
+        return result[0], reached[0]
+
+    def sections(
+        self,
+        state: _Array,
+        cycles: int,
+        max_events: int = MAX_EVENTS,
+        *,
+        transient: int = 0,
+        discard: int = 0,
+        progress: Progress | None = None,
+    ) -> tuple[Status, _Array]:
+        """Return sections of a motion, and the growth of perturbations, cycle by cycle.
+
+        Parameters
+        ----------
+        state
+            Where the motion begins; it becomes the state at the end.
+        cycles
+            How many rows.
+        max_events
+            Contacts and releases in one forcing cycle at which the motion is given up.
+        transient, discard
+            Cycles before the first row, without and with perturbations.
+        progress
+            Called now and then with the cycles done and all there are.
+
+        Returns
+        -------
+        status, rows
+            Rows of `engine.lyapunov.growth`: fewer than asked for unless `Status.DONE`.
+        """
+        rows = np.empty((cycles, lyapunov.GROWTH))
+        done = 0
+
+        def keep(some: _Array) -> None:
+            nonlocal done
+            rows[done : done + len(some)] = some
+            done += len(some)
+
+        status = self.grow(
+            state,
+            cycles,
+            keep,
+            max_events,
+            transient=transient,
+            discard=discard,
+            progress=progress,
+        )
+        return status, rows[:done]
+
+    def grow(
+        self,
+        state: _Array,
+        cycles: int,
+        keep: Callable[[_Array], None],
+        max_events: int = MAX_EVENTS,
+        *,
+        transient: int = 0,
+        discard: int = 0,
+        progress: Progress | None = None,
+    ) -> Status:
+        """As `sections`, in parts, so that no more rows are in memory than are kept.
+
+        Parameters
+        ----------
+        keep
+            Called with the next rows, which are overwritten afterwards.
+        """
+        rows = np.empty((min(cycles, _ROWS), lyapunov.GROWTH))
+        perturbations, shaking = np.zeros((2, TERMS)), self.shaking
+        first = -transient - discard
+        calls = Calls(cycles - first, progress, _ROWS)
+        at, outcome = first, int(Status.DONE)
+        while at < cycles and outcome == Status.DONE:
+            outcome, after = lyapunov.growth(
+                self.vector,
+                shaking.amplitude,
+                shaking.frequency,
+                shaking.phase,
+                state,
+                perturbations,
+                at == first,
+                at,
+                first + int(calls.end(at - first)),
+                discard,
+                max_events,
+                rows,
+            )
+            if after > 0:
+                keep(rows[: after - max(at, 0)])
+            at = after
+        if progress and at == cycles:
+            progress(cycles - first, cycles - first)
+        return Status(outcome)
+
+
+def prepare(rig: Rig) -> PreparedRig:
+    """Prepare a rig that a periodic shaking moves."""
+    return PreparedRig(rig, engine_rig(rig))
