@@ -1,8 +1,9 @@
-"""Draw which motion a mass settles on that bounces on a stop, hard or soft.
+"""Draw the basins of attraction of a mass that bounces on a stop, rigid or soft.
 
     python examples/basins.py [FOLDER] [NODES]
 
-draws docs/images/basins.png and manifolds.png, and writes basins.nc, into FOLDER (out).
+The script writes basins.png and manifolds.png, which docs/images contains, and basins.nc to FOLDER.
+Defaults: out, and 700 nodes along each axis.
 """
 
 from __future__ import annotations
@@ -19,8 +20,8 @@ folder.mkdir(parents=True, exist_ok=True)
 
 wall = vi.RigidStop(restitution=0.9, gap=0.0)
 isolator = vi.Isolator(stiffness=1.0, damping=0.02)
-rig = vi.Oscillator(mass=1.0, isolator=isolator, right=wall, left=None)
-found = vi.basins(vi.Rig(rig, vi.Harmonic(1.0, 0.5252)), (-1.05, 0.0), (-1.25, 1.25), nodes=nodes)
+ball = vi.Oscillator(mass=1.0, isolator=isolator, right=wall, left=None)
+found = vi.basins(vi.Rig(ball, 1.0, 0.5252), (-1.05, 0.0), (-1.25, 1.25), nodes=nodes)
 vi.save(found, folder / "basins.nc")
 save_figure(basin_portrait(found), folder / "basins.png")
 for number in found["attractor"].values:
@@ -28,9 +29,9 @@ for number in found["attractor"].values:
     share = f"{one['share'].item():.1%} ({one['share_low'].item():.1%} to"
     print(number + 1, "period", one["period"].item(), share, f"{one['share_high'].item():.1%})")
 
-# A softer stop: the borders are the stable curves of a saddle.
-soft = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), vi.Bumper(30.0, 0.6, 0.5), None)
-shaking = vi.Harmonic(1.0, 0.5411)
-curves = vi.manifolds(vi.Rig(soft, shaking), longest=40.0)
-softly = vi.basins(vi.Rig(soft, shaking), nodes=nodes)
-save_figure(basin_portrait(softly, manifolds=curves), folder / "manifolds.png")
+# A softer stop. The borders are the stable curves of a saddle.
+softer = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), vi.Bumper(30.0, 0.6, 0.5), None)
+rig = vi.Rig(softer, 1.0, 0.5411)
+curves = vi.manifolds(rig, longest=40.0)
+found = vi.basins(rig, nodes=nodes)
+save_figure(basin_portrait(found, manifolds=curves), folder / "manifolds.png")

@@ -1,4 +1,4 @@
-"""Sweep one laboratory rig up and down, list its jumps, and draw its resonance curves.
+"""Sweep the frequency of one laboratory rig up and down, list the jumps, draw the resonance curves.
 
 python first_sweep.py [FOLDER]
 """
@@ -15,9 +15,9 @@ folder.mkdir(parents=True, exist_ok=True)
 
 case = vi.laboratory.case("B2-G1-A3", parameters="identified")
 frequencies = [k / 100 for k in range(50, 501)]  # 0.5 to 5 Hz by 0.01 Hz
-data = vi.sweep(vi.Rig(case.oscillator, case.amplitude), frequencies)
+data = vi.sweep(case, frequencies)
 
-# The dataset has labelled dimensions: this is η_a at 2 Hz on the way up and on the way down.
+# The dataset has labelled dimensions. This is η_a at 2 Hz in the forward and the backward sweep.
 up, down = data["eta_a"].sel(frequency=2.0)
 print(f"at 2 Hz, acceleration over that of free flight: {up:.3f} up, {down:.3f} down")
 

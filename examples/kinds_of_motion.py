@@ -1,4 +1,4 @@
-"""Name the steady motions of two laboratory rigs, list their contacts, and draw them on one page.
+"""Classify the steady motions of two laboratory rigs, list their contacts, draw them on one page.
 
 python kinds_of_motion.py [FOLDER]
 """
@@ -14,14 +14,12 @@ folder.mkdir(parents=True, exist_ok=True)
 
 columns = {}
 for code, frequency in (("B2-G1-A3", 2.6), ("B3-10mm-A3", 1.06)):
-    case = vi.laboratory.case(code)
-    shaking = vi.Harmonic(case.amplitude, frequency)
-    for number, motion in enumerate(vi.coexisting_motions(vi.Rig(case.oscillator, shaking)), 1):
+    for number, motion in enumerate(vi.coexisting_motions(code, frequency=frequency), 1):
         kind = motion["motion"].item()
         columns[f"{code}, {frequency:g} Hz, motion {number}:\n{kind}"] = motion
         print(f"{code} at {frequency:g} Hz, motion {number}: {kind}")
         print(f"  because {motion.attrs['evidence']}")
-        # Each contact with its force, impulse and loss; the first ones of a motion that wanders.
+        # The first three contacts, with force and energy loss.
         log = vi.contacts(motion).isel(contact_number=slice(3))
         for force, lost in zip(log["contact_peak_force"], log["contact_dissipated"], strict=True):
             print(f"  contact with up to {float(force) / 1e3:.2f} kN, {float(lost):.2f} J lost")

@@ -1,4 +1,4 @@
-"""Draw the pictures of the pages on theory: docs/images/theory-*.png.
+"""Draw the figures of the theory pages: docs/images/theory-*.png.
 
 python theory.py [FOLDER]
 """
@@ -19,14 +19,14 @@ RED, BLUE = "#c8102e", "#1f4fbf"
 
 
 def spring(ax, start, end, y, turns=5):
-    """A zigzag from start to end."""
+    """Draw a zigzag from start to end."""
     x = np.concatenate([[start], np.linspace(start + 0.12, end - 0.12, 2 * turns + 1), [end]])
     up = np.concatenate([[0.0, 0.0], np.tile([0.09, -0.09], turns)[:-1], [0.0, 0.0]])
     ax.plot(x, y + up, color="black", linewidth=1.1)
 
 
 def dashpot(ax, start, end, y):
-    """A piston in its cylinder."""
+    """Draw a piston in its cylinder."""
     middle = 0.5 * (start + end)
     ax.plot([start, middle], [y, y], color="black", linewidth=1.1)
     ax.plot([middle, middle], [y - 0.07, y + 0.07], color="black", linewidth=1.1)
@@ -40,7 +40,7 @@ def dashpot(ax, start, end, y):
 
 
 def model():
-    """The mass, its isolator and its bumpers."""
+    """Draw the mass, its isolator and its bumpers."""
     figure = Figure(figsize=(8.0, 3.0), layout="constrained")
     ax = figure.subplots()
     ax.add_patch(Rectangle((-0.6, 0.85), 1.2, 0.75, facecolor="0.88", edgecolor="black"))
@@ -79,7 +79,7 @@ def model():
 
 
 def first_contact():
-    """A node test that proves that nothing is hit, and how a clearance opens."""
+    """Draw the node test that excludes a contact, and how a clearance opens after a detachment."""
     figure = Figure(figsize=(9.0, 3.4), layout="constrained")
     left, right = figure.subplots(1, 2)
     nodes = np.linspace(0.0, 4.0, 5)
@@ -98,7 +98,7 @@ def first_contact():
             "-" if sure else ":",
             color=BLUE if sure else RED,
             linewidth=2.5,
-            label="least that can be" if sure else "not sure: look closer",
+            label="lower bound, positive" if sure else "lower bound, negative: refine",
         )
     left.axhline(0.0, color="0.5", linewidth=0.8)
     left.set_xlabel("time (steps $h$)")
@@ -113,27 +113,25 @@ def first_contact():
         right.plot(time, opened, dashes, color="black", label=f"$q$ = {share}")
     right.axhline(0.0, color="0.5", linewidth=0.8)
     right.set_ylim(-0.25, 1.2)
-    right.set_xlabel("time behind the detachment, $\\gamma t$")
-    right.set_ylabel("least clearance, over $r_0$")
+    right.set_xlabel("time after the detachment, $\\gamma t$")
+    right.set_ylabel("lower bound of the clearance, over $r_0$")
     right.legend(fontsize="small", frameon=False)
     return figure
 
 
 def growth():
-    """Two starts a billionth apart: on a periodic and on a chaotic motion."""
+    """Draw how two motions diverge that start very close, for a periodic and a chaotic motion."""
     figure = Figure(figsize=(7.0, 3.6), layout="constrained")
     ax = figure.subplots()
     case = vi.laboratory.case("B3-10mm-A3")
     for hertz, colour, dashes in ((1.12, BLUE, "--"), (1.06, RED, "-")):
-        shaking = vi.Harmonic(case.amplitude, hertz, phase=0.3 * np.pi)
-        begun = vi.simulate(vi.Rig(case.oscillator, shaking), 1000, samples=0)["final_state"]
-        pushed = begun.copy()
+        rig = vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, hertz, phase=0.3 * np.pi))
+        settled = vi.simulate(rig, 1000, samples=0)["final_state"]
+        pushed = settled.copy()
         pushed.loc[{"component": "displacement"}] += 1e-11
         one, other = (
-            vi.simulate(vi.Rig(case.oscillator, shaking), 60, start=start, samples=1)[
-                "displacement"
-            ]
-            for start in (begun, pushed)
+            vi.simulate(rig, 60, start=start, samples=1)["displacement"]
+            for start in (settled, pushed)
         )
         apart = np.maximum(abs((one - other).values), 1e-16)
         kind = "chaotic" if hertz == 1.06 else "periodic"
@@ -146,10 +144,9 @@ def growth():
 
 
 def branches():
-    """Orbits along a branch, through both folds."""
+    """Draw the orbits along a branch, through both folds."""
     case = vi.laboratory.case("B2-G1-A3")
-    shaking = vi.Harmonic(case.amplitude, "4 Hz")
-    branch = vi.branch(vi.Rig(case.oscillator, shaking), span=("1 Hz", "4 Hz"))
+    branch = vi.branch(case, frequency="4 Hz", span=("1 Hz", "4 Hz"))
     ax = branch_diagram(branch, quantity="eta_a")
     inside = branch["frequency"] < 4.0
     ax.plot(branch["frequency"][inside], branch["eta_a"][inside], "|", color=BLUE, markersize=9)
@@ -158,15 +155,15 @@ def branches():
 
 
 def chatter():
-    """A mass that bounces on a wall ever less, and rests on it."""
+    """Draw a mass that bounces on a wall with decreasing height, and rests on it."""
     wall = vi.RigidStop(restitution=0.6, gap=0.0)
-    rig = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.05), right=wall, left=None)
-    motion = vi.steady(vi.Rig(rig, vi.Harmonic(1.0, 0.05)), samples=2048)
+    ball = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.05), right=wall, left=None)
+    motion = vi.steady(vi.Rig(ball, 1.0, 0.05), samples=2048)
     return time_history(motion, cycles=1.0)
 
 
 def record():
-    """A record as it is taken: lines between samples, and what is largest between them."""
+    """Draw a record with straight lines between samples, and a response maximum between them."""
     figure = Figure(figsize=(7.0, 3.6), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True)
     samples = np.array([0.0, 1.0, -0.6, -1.2, 0.8, 1.1, -0.3, 0.0])
@@ -174,8 +171,8 @@ def record():
     time = step * np.arange(len(samples))
     above.plot(time, samples, "o-", color="black")
     above.set_ylabel("$A_t$ (m/s²)")
-    rig = vi.Oscillator(1.0, vi.Isolator((2 * np.pi / 0.6) ** 2, 1.0), None, None)
-    motion = vi.simulate(vi.Rig(rig, vi.Record(samples, step)), samples=64, tail=0.0)
+    linear = vi.Oscillator(1.0, vi.Isolator((2 * np.pi / 0.6) ** 2, 1.0), None, None)
+    motion = vi.simulate(vi.Rig(linear, vi.Record(samples, step)), samples=64, tail=0.0)
     at = motion["time"].values
     swing = 1e3 * motion["displacement"].values
     below.plot(at, swing, color="black")

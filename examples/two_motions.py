@@ -1,9 +1,9 @@
-"""Draw two motions that coexist at one frequency: the picture of the README.
+"""Draw two motions that coexist at one frequency: the figure of the README.
 
 python two_motions.py [FOLDER]
 
-On the left all orbits of the rig B2-G1-A3 over the frequency, with a sweep up and one down; on the
-right the two motions at 2 Hz, one of which hits both bumpers.
+The left panel shows all orbits of the rig B2-G1-A3 over the frequency, with an upward and a
+downward sweep. The right panel shows the two motions at 2 Hz, one of which hits both bumpers.
 """
 
 import sys
@@ -18,12 +18,11 @@ folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
 folder.mkdir(parents=True, exist_ok=True)
 
 case = vi.laboratory.case("B2-G1-A3")
-curves = vi.sweep(vi.Rig(case.oscillator, case.amplitude), [k / 100 for k in range(60, 361, 6)])
-orbits = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), ("0.6 Hz", "3.6 Hz"))
-shaking = vi.Harmonic(case.amplitude, "2 Hz")
+curves = vi.sweep(case, [k / 100 for k in range(60, 361, 6)])
+orbits = vi.resonance_diagram(case, ("0.6 Hz", "3.6 Hz"))
 motions = {
     ("forward" if motion["impacts_right"] else "backward"): motion
-    for motion in vi.coexisting_motions(vi.Rig(case.oscillator, shaking), samples=1024)
+    for motion in vi.coexisting_motions(case, frequency="2 Hz", samples=1024)
 }
 
 figure = Figure(figsize=(10.0, 4.2), layout="constrained")

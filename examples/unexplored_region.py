@@ -1,12 +1,12 @@
 """Map the part of the (λ, δ0) plane that the published study leaves to future work.
 
-Below δ0 = 0.2 the gaps are small, below λ = 2 the bumpers soft. Draws the scenarios, and how many
-left hystereses, ranges of irregular and of chaotic motions each rig has.
+Below δ0 = 0.2 the gaps are small; below λ = 2 the bumpers are soft. The script draws the scenarios,
+and the numbers of left hystereses, irregular, chaotic and subharmonic ranges of each rig.
 
 python unexplored_region.py [FOLDER] [NODES]
 
-With 49 nodes along λ, as in docs/unexplored-region.md, it takes some minutes; stopped and started
-again it goes on where it was.
+With 49 nodes along λ, as in docs/unexplored-region.md, it takes some minutes. An interrupted run
+resumes when the script is started again.
 """
 
 import sys
@@ -42,11 +42,11 @@ for name, (stiffness, gap) in bands.items():
     kinds = data["scenario"].values
     for kind in Scenario:
         if (kinds == kind).any():
-            told = [f"{(kinds == kind).mean():.1%}"]
+            words = [f"{(kinds == kind).mean():.1%}"]
             for count in COUNTS:
                 values = data[count].values[kinds == kind]
-                told.append(f"{count.removesuffix('_count')} {values.min()} to {values.max()}")
-            print(f"  {kind.label}: {', '.join(told)}")
+                words.append(f"{count.removesuffix('_count')} {values.min()} to {values.max()}")
+            print(f"  {kind.label}: {', '.join(words)}")
     print(save_figure(scenario_map(data, border=jump_border(data)), folder / f"{name}.png"))
     figure = Figure(figsize=(11.0, 8.4), layout="constrained")
     for count, axes in zip(COUNTS, figure.subplots(2, 2).flat, strict=True):

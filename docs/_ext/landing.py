@@ -1,4 +1,4 @@
-"""What the first page shows of the program and of the benchmarks."""
+"""Collect the program and the benchmark figures that the first page shows."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _TRAJECTORY = {row["Solver"]: row for row in rows("One trajectory")}
 _HEYOKA = _TRAJECTORY["heyoka, specialised to P"]
 _TIMES = "Times the engine's"
 
-# Without its text, which stands in the docstring and behind the picture.
+# The page shows the code only: the text is in the docstring and in the comments after it.
 _PROGRAM = _CODE.split('"""')[2].split("# %%")[0].strip()
 
 CONTEXT = {
