@@ -99,3 +99,25 @@ def test_every_exception_is_one():
     for (function, name), default in EXCEPTIONS.items():
         assert _named(function)[name] == default, f"{function}({name}=)"
         assert name in FORBIDDEN or WORDS[name] != default, f"{function}({name}=) is as usual"
+
+
+def test_names_lists_parameters_as_they_are():
+    page = (Path(__file__).parents[1] / "docs/names.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^\| `([\w.]+)\((.*?)\)` \|", page, re.M)
+    assert {name for name, _ in shown} >= {name for name in FUNCTIONS if "figures" not in name}
+    for name, text in shown:
+        thing = vi
+        for part in name.split("."):
+            thing = getattr(thing, part)
+        parameters = inspect.signature(thing).parameters
+        words = [word.strip() for word in text.split(",")]
+        listed = [word for word in words if word not in {"*", "…"}]
+        order = [parameter for parameter in parameters if parameter in listed]
+        assert listed == order, name
+        if "…" not in words:
+            assert listed == list(parameters), name
+        if "*" in words:
+            first = words[words.index("*") + 1]
+            after = words[: words.index("*")]
+            assert parameters[first].kind is inspect.Parameter.KEYWORD_ONLY, (name, first)
+            assert all(parameters[one].kind is not inspect.Parameter.KEYWORD_ONLY for one in after)
