@@ -121,3 +121,18 @@ def test_names_lists_parameters_as_they_are():
             after = words[: words.index("*")]
             assert parameters[first].kind is inspect.Parameter.KEYWORD_ONLY, (name, first)
             assert all(parameters[one].kind is not inspect.Parameter.KEYWORD_ONLY for one in after)
+
+
+def test_calls_of_the_changes_are_possible():
+    """The new calls in the table that moves a script over bind to the signatures."""
+    page = (Path(__file__).parents[1] / "CHANGELOG.md").read_text(encoding="utf-8")
+    table = page.split("| Before | Now |\n")[1].split("\n\n")[0]
+    checked = set()
+    for row in table.splitlines()[1:]:
+        for text in re.findall(r"`([^`]*\(.*?\))`", row.strip("|").split("|")[1]):
+            for call in ast.walk(ast.parse(text)):
+                if isinstance(call, ast.Call) and isinstance(call.func, ast.Name):
+                    words = {word.arg: None for word in call.keywords if word.arg}
+                    inspect.signature(getattr(vi, call.func.id)).bind(*call.args, **words)
+                    checked.add(call.func.id)
+    assert len(checked) > 25
