@@ -1,9 +1,10 @@
 """
-Order and chaos in one number
-=============================
+Lyapunov exponents over the frequency
+=====================================
 
-The largest Lyapunov exponent over the frequency: the rate at which two neighbouring motions part.
-Where it is above zero, no forecast lasts. The bands are twice the uncertainty of the average.
+The largest Lyapunov exponent is the rate at which two neighbouring motions separate. Where it is
+positive, the motion is chaotic and cannot be predicted for long. The bands are twice the
+uncertainty of the average.
 """
 
 import numpy as np
