@@ -13,5 +13,5 @@ import vibroimpact as vi
 from vibroimpact.figures import exponent_curves
 
 rigs = {"gap 5 mm": "B3-10mm-A3", "gap 7.5 mm": "B3-G1-A3"}
-exponents = vi.lyapunov_exponents(rigs, np.linspace(0.9, 1.3, 161), cycles=1500)
+exponents = vi.lyapunov_exponents(rigs, np.linspace(0.9, 1.3, 171), cycles=1500)
 exponent_curves(exponents)
