@@ -56,8 +56,8 @@ def test_describing_a_rig_needs_no_compiler():
         ("State", "displacement velocity right_bumper left_bumper"),
         ("from_dimensionless", "stiffness_ratio gap relaxation_time damping_ratio"),
         ("laboratory.case", "code parameters"),
-        ("simulate", "oscillator excitation cycles start samples"),
-        ("sweep", "oscillator amplitude frequencies directions"),
+        ("simulate", "rig cycles start samples"),
+        ("sweep", "rig frequencies directions"),
     ],
 )
 def test_names_and_arguments_that_users_rely_on(name, arguments):

@@ -1,19 +1,19 @@
 """
-Up and down are two ways
-========================
+Sweeping up and down gives different curves
+===========================================
 
-A sweep upwards holds on to a motion that hits both bumpers until it is lost; a sweep downwards
-flies free until it cannot. Between the two jumps, shaded, two motions exist at every frequency.
+A frequency sweep upwards follows the motion that hits both bumpers until this motion is lost. A
+sweep downwards stays in free flight as long as it can. Between the two jumps (shaded: the
+hysteresis), two motions exist at every frequency.
 """
 
 import vibroimpact as vi
 from vibroimpact.figures import resonance_curves
 
 # A published rig: bumper 2, gap 1, acceleration 3.
-case = vi.laboratory.case("B2-G1-A3")
-curves = vi.sweep(case, [k / 50 for k in range(25, 201)])
+curves = vi.sweep("B2-G1-A3", [k / 50 for k in range(25, 201)])
 resonance_curves(curves)
 
 # %%
-# η compares with the largest excursion without bumpers: here the bumpers keep the displacement to
-# a third, and pay for it with nearly three times the acceleration.
+# η is the excursion divided by the largest excursion without bumpers. Here the bumpers reduce the
+# displacement to a third and increase the acceleration nearly three times.

@@ -1,19 +1,19 @@
 """
-The same in millimetres and g
-=============================
+Resonance curves in millimetres and g
+=====================================
 
-For a drawing office: the largest acceleration, displacement and contact force at each frequency,
-with the gaps as dotted lines, and any frequency marked that matters to the plant: here A is the
-isolator's own, B that of a pump.
+The largest acceleration, displacement and contact force at each frequency, for engineering use.
+Dotted lines are the gaps. Labels mark frequencies that matter to the plant: A is the natural
+frequency of the isolator, B that of a pump.
 """
 
 import vibroimpact as vi
 from vibroimpact.figures import frequency_marks, resonance_curves
 
 bumper = vi.Bumper(stiffness="510 kN/m", damping="0.9 kN s/m", gap="7.5 mm")
-rig = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"), right=bumper, left=bumper)
-curves = vi.sweep(vi.Rig(rig, "0.05 g"), [k / 50 for k in range(25, 201)])
+machine = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"), right=bumper, left=bumper)
+curves = vi.sweep(vi.Rig(machine, "0.05 g"), [k / 50 for k in range(25, 201)])
 
 axes = resonance_curves(curves, physical=True)
-frequency_marks(axes, {"A": rig.natural_frequency, "B": "3 Hz"})
+frequency_marks(axes, {"A": machine.natural_frequency, "B": "3 Hz"})
 axes

@@ -1,9 +1,9 @@
 """
-From a lean to a jump
-=====================
+From a bent resonance to a jump
+===============================
 
-Soft bumpers bend the resonance without breaking it: the curve is the same up and down. Beyond
-some stiffness it folds over. The legend stands beside the panels, for it serves both.
+Soft bumpers bend the resonance curve without folding it: sweeps up and down give the same curve.
+Above some stiffness the curve folds over. One legend beside the panels serves both.
 """
 
 from matplotlib.figure import Figure

@@ -1,9 +1,9 @@
 """
-A test over the model
-=====================
+A measured test and the model
+=============================
 
-Points are a test, curves the model with the parameters that were identified from it. The step of
-a jump is known no better than the test's own steps, and the figure says so.
+Points are a test; curves are the model with the parameters that were identified from it. The test
+locates a jump only to within one of its frequency steps, and the figure shows this interval.
 """
 
 import numpy as np

@@ -1,15 +1,15 @@
 """
-What opens and closes
-=====================
+Clearances: how a contact begins and ends
+=========================================
 
-The distance of the mass from each bumper. Below, magnified: when the mass leaves, the bumper is
-still deformed and comes back behind it, so that the clearance begins to open with no speed at
-all. That is why a sign test at fixed steps sees contacts that are none, or misses those that are.
+The distance of the mass from each bumper. The lower panel magnifies a detachment: when the mass
+leaves, the bumper is still deformed and follows it, so that the clearance opens with zero speed.
+A sign test at fixed time steps therefore detects contacts that do not exist and misses some that
+do.
 """
 
 import vibroimpact as vi
 from vibroimpact.figures import clearances
 
-case = vi.laboratory.case("B3-10mm-A3")
-motion = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, "1.12 Hz")), samples=2048)
+motion = vi.steady("B3-10mm-A3", samples=2048, frequency="1.12 Hz")
 clearances(motion)

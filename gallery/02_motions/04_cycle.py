@@ -1,16 +1,14 @@
 """
-Where the energy goes
-=====================
+Hysteresis cycle: where the energy goes
+=======================================
 
-Absolute acceleration over displacement is, but for the mass, the force on it; the area inside is
-what isolator and bumpers take in a period. The spikes are the bumpers.
+Absolute acceleration over displacement. Times the mass, the acceleration is the force on it, and
+the area of the cycle is the energy that isolator and bumpers dissipate in one period. The spikes
+are the bumpers.
 """
 
 import vibroimpact as vi
 from vibroimpact.figures import hysteresis_cycle
 
-case = vi.laboratory.case("B2-G1-A3")
-first, second = vi.coexisting_motions(
-    vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, "2 Hz")), samples=1024
-)
+first, second = vi.coexisting_motions("B2-G1-A3", frequency="2 Hz", samples=1024)
 hysteresis_cycle({"forward": first, "backward": second})

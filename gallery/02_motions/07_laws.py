@@ -1,10 +1,9 @@
 """
-Laws of force
-=============
+Force-displacement laws
+=======================
 
-Isolators that rub, yield, harden or soften, and stops with a hard contact, as force over
-displacement. Any of them goes with any other, on either side, in everything that this package
-does.
+Force over displacement of isolators that slide, yield, harden or soften, and of stops with a hard
+contact. All functions of this package accept any isolator with any stop on either side.
 """
 
 from matplotlib.figure import Figure
@@ -15,7 +14,7 @@ from vibroimpact.figures import force_loop
 laws = {
     "friction pendulum": (vi.FrictionIsolator.from_pendulum("550 kg", "0.5 m", 0.05), "30 mm"),
     "lead-rubber, bilinear": (vi.BilinearIsolator("100 kN/m", "20 kN/m", "400 N", 0), "20 mm"),
-    "Bouc and Wen": (vi.BoucWenIsolator("100 kN/m", "20 kN/m", "400 N", 0, exponent=2), "20 mm"),
+    "Bouc-Wen": (vi.BoucWenIsolator("100 kN/m", "20 kN/m", "400 N", 0, exponent=2), "20 mm"),
     "wire rope, exponential": (
         vi.ExponentialIsolator("100 kN/m", "15 kN/m", "150 1/m", 0, "120 1/m", "30 N"),
         "20 mm",
@@ -24,7 +23,7 @@ laws = {
         vi.PolynomialIsolator("30 kN/m", "300 N s/m", "-40 MN/m^3", "40 GN/m^5"),
         "25 mm",
     ),
-    "bumper of Kelvin and Voigt": (vi.Bumper("510 kN/m", "3 kN s/m", 0), "3 mm"),
+    "Kelvin-Voigt bumper": (vi.Bumper("510 kN/m", "3 kN s/m", 0), "3 mm"),
     "Hertz, Hunt and Crossley": (vi.PowerBumper("50 MN/m^1.5", 0, restitution=0.6), "3 mm"),
     "Jankowski": (vi.JankowskiBumper("50 MN/m^1.5", 0, 0.6, "550 kg"), "3 mm"),
 }

@@ -2,9 +2,9 @@
 A strange attractor
 ===================
 
-Chaos, looked at once a cycle: forty thousand points of one motion. Folded sheets within sheets
-come from stretching between impacts and folding at them; each fold ends where the mass just
-grazes.
+A chaotic motion, sampled once per forcing cycle: forty thousand points. Stretching between
+impacts and folding at them produce sheets within sheets. Each fold ends where the mass just
+grazes the wall.
 """
 
 from matplotlib.figure import Figure
@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 import vibroimpact as vi
 
 wall = vi.RigidStop(restitution=0.8, gap=0.0)
-rig = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.05), right=wall, left=None)
-motion = vi.steady(vi.Rig(rig, vi.Harmonic(1.0, 0.445)))
+ball = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.05), right=wall, left=None)
+motion = vi.steady(vi.Rig(ball, vi.Harmonic(1.0, 0.445)))
 print(motion["motion"].item(), f"largest exponent {float(motion['exponents'][0]):+.3f} 1/s")
 points = vi.stroboscopic_section(motion, phase=1.0, cycles=40_000)
 

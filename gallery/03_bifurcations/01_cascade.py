@@ -1,18 +1,17 @@
 """
-The road to chaos
-=================
+Bifurcation diagram: period doubling to chaos
+=============================================
 
-The gap of a rig is turned up and down again, and the motion is looked at once a cycle when it has
-settled. One point becomes two, two become four; below 4.7 mm there is chaos, with windows of
-order in it. The exponent below says the same in one number: above zero, disturbances grow.
+The gap of a rig is varied up and down, and each steady motion is sampled once per forcing cycle.
+One point becomes two, two become four: a period-doubling cascade. Below 4.7 mm the motion is
+chaotic, with periodic windows. The lower panel shows the largest Lyapunov exponent: above zero,
+disturbances grow.
 """
 
 import vibroimpact as vi
 from vibroimpact.figures import section_diagram
 
-case = vi.laboratory.case("B3-10mm-A3")
-shaking = vi.Harmonic(case.amplitude, "1.12 Hz")
 diagram = vi.bifurcation_diagram(
-    vi.Rig(case.oscillator, shaking), "gap", (0.0034, 0.0054), 321, points=100
+    "B3-10mm-A3", "gap", (0.0034, 0.0054), 321, frequency="1.12 Hz", points=100
 )
 section_diagram(diagram)

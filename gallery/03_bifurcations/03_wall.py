@@ -1,19 +1,19 @@
 """
-A mass against a wall
-=====================
+A mass against a rigid wall
+===========================
 
-A rigid wall in place of a bumper, and the velocity at each impact over the frequency. Cascades of
-doublings stand side by side, with chaos between them; where red and blue part, the way up and the
-way down hold different motions.
+The velocity at each impact over the frequency, with a rigid wall instead of a bumper. Period-
+doubling cascades stand side by side, with chaos between them. Where red and blue differ, the
+sweeps up and down lead to different motions.
 """
 
 import vibroimpact as vi
 from vibroimpact.figures import section_diagram
 
 wall = vi.RigidStop(restitution=0.8, gap=0.0)
-rig = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.02), right=wall, left=None)
+ball = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.02), right=wall, left=None)
 diagram = vi.bifurcation_diagram(
-    vi.Rig(rig, vi.Harmonic(1.0, 0.6)),
+    vi.Rig(ball, vi.Harmonic(1.0, 0.6)),
     "frequency",
     (0.415, 0.545),
     261,

@@ -1,9 +1,10 @@
 """
-Order and chaos in one number
-=============================
+Lyapunov exponents over the frequency
+=====================================
 
-The largest Lyapunov exponent over the frequency: the rate at which two neighbouring motions part.
-Where it is above zero, no forecast lasts. The bands are twice the uncertainty of the average.
+The largest Lyapunov exponent is the rate at which two neighbouring motions separate. Where it is
+positive, the motion is chaotic and cannot be predicted for long. The bands are twice the
+uncertainty of the average.
 """
 
 import numpy as np
@@ -12,5 +13,5 @@ import vibroimpact as vi
 from vibroimpact.figures import exponent_curves
 
 rigs = {"gap 5 mm": "B3-10mm-A3", "gap 7.5 mm": "B3-G1-A3"}
-exponents = vi.lyapunov_exponents(rigs, np.linspace(0.9, 1.3, 161), cycles=1500)
+exponents = vi.lyapunov_exponents(rigs, np.linspace(0.9, 1.3, 171), cycles=1500)
 exponent_curves(exponents)

@@ -1,17 +1,17 @@
 """
-Four motions of a ball on a wall
-================================
+Basins of four motions of a ball on a wall
+==========================================
 
-Each point is a start: a place and a speed. Its colour is the motion that it leads to, and there
-are four of them, with periods of 4 to 24 cycles. Knowing the start better hardly helps to tell
-which: the borders are fractal.
+Each point is an initial state, a displacement and a velocity. Its colour is the motion that it
+leads to; there are four motions, with periods of 4 to 24 cycles. The basin borders are fractal: a
+more accurate initial state hardly improves the prediction.
 """
 
 import vibroimpact as vi
 from vibroimpact.figures import basin_portrait
 
 wall = vi.RigidStop(restitution=0.9, gap=0.0)
-rig = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.02), right=wall, left=None)
-found = vi.basins(vi.Rig(rig, vi.Harmonic(1.0, 0.5252)), (-1.05, 0.0), (-1.25, 1.25), nodes=300)
+ball = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.02), right=wall, left=None)
+found = vi.basins(vi.Rig(ball, vi.Harmonic(1.0, 0.5252)), (-1.05, 0.0), (-1.25, 1.25), nodes=300)
 print(f"uncertainty exponent {found['uncertainty_exponent'].item():.2f}, of 1 for a smooth border")
 basin_portrait(found)

@@ -1,10 +1,10 @@
 """
-How much of a basin is left
-===========================
+Basin stability along a sweep
+=============================
 
-A sweep upwards follows the motion with impacts until it is lost. Its basin has shrunk long
-before: the share of random starts that lead to it, with its uncertainty, says how safe it is from
-a push.
+A sweep upwards follows the motion with impacts until this motion is lost. Its basin shrinks long
+before. The share of random initial states that lead to it, shown with its uncertainty, measures
+how well the motion withstands a disturbance.
 """
 
 import numpy as np

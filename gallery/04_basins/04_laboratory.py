@@ -1,10 +1,10 @@
 """
-A rig of the laboratory
-=======================
+Basins of a laboratory rig
+==========================
 
-At 0.7 Hz two motions of nearly the same size coexist in a published rig. Here the border is
-smooth: a start that is known a little better is told a little better. Darker colours take more
-cycles until it is sure where a start leads.
+At 0.7 Hz, two motions of nearly the same size coexist in a published rig. Here the border is
+smooth: a slightly more accurate initial state gives a slightly better prediction. Darker colours
+need more cycles until the final motion is certain.
 """
 
 import vibroimpact as vi

@@ -1,10 +1,10 @@
 """
-Seven scenarios
-===============
+Map of the seven scenarios
+==========================
 
-All rigs at a glance: stiffness of the bumpers to the right, gap upwards, both without units.
-Where does a resonance jump (S2), has it secondary resonances (S3), motions that are not regular
-(S4)? On the dashed line, which is exact, jumps begin.
+Scenarios over the stiffness of the bumpers (horizontal) and the gap (vertical), both
+dimensionless. The map shows where a resonance jumps (S2), where there are secondary resonances
+(S3), and where motions are not regular (S4). Jumps begin on the dashed line, which is exact.
 """
 
 import numpy as np

@@ -1,10 +1,10 @@
 """
-How far the peak is carried
-===========================
+Frequency of the jump down
+==========================
 
-The same plane, and one number of each rig: the frequency at which a sweep up falls off, over the
-natural one. Hard bumpers with a small gap carry the resonance to several times where it would be
-without them.
+The same plane, with one number for each rig: the frequency at which a sweep up jumps down,
+divided by the natural frequency. Stiff bumpers with a small gap shift the resonance to several
+times the natural frequency.
 """
 
 import numpy as np

@@ -1,9 +1,9 @@
 """
-Forty-eight published tests
-===========================
+Scenarios of forty-eight published tests
+========================================
 
-Each test of the study, classified from its computed curves: four bumpers, four gaps, three
-strengths of shaking.
+Each test of the study, classified from its computed curves: four bumpers, four gaps and three
+levels of shaking.
 """
 
 import vibroimpact as vi

@@ -1,9 +1,8 @@
 """
-A map for one rig
-=================
+Scenario map in physical units
+==============================
 
-The same question in the units of a drawing: gap and stiffness of the bumpers of one laboratory
-rig.
+The same map over gap and stiffness of the bumpers of one laboratory rig, in physical units.
 """
 
 from pathlib import Path

@@ -1,9 +1,9 @@
 """
-A record and its spectrum
-=========================
+A record and its response spectrum
+==================================
 
-What the ground does, and below it what oscillators of any period make of it. The spectrum is
-exact for the record: what is largest between two samples counts.
+The ground acceleration, and below it the peak responses of linear oscillators of any period. The
+spectrum is exact for the record: it includes maxima between two samples.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from vibroimpact.figures import accelerogram
 
 
 def quake(seed, peak="0.3 g"):
-    """A made-up strong motion; ``vi.Record.read`` reads a real one."""
+    """Make a synthetic strong motion; ``vi.Record.read`` reads a measured one."""
     rng = np.random.default_rng(seed)
     time = np.arange(2000) * 0.01
     waves = np.sin(2 * np.pi * np.outer(time, np.linspace(0.2, 8, 80)) + rng.uniform(0, 6.28, 80))

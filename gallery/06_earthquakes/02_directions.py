@@ -1,9 +1,9 @@
 """
-Two components, all directions
-==============================
+Two components: RotD50 and RotD100
+==================================
 
-An instrument stands as it was put down, but a building may stand otherwise. RotD50 and RotD100
-are the median and the largest over all directions in the plane.
+An instrument records two fixed directions, but a building may be oriented otherwise. RotD50 and
+RotD100 are the median and the largest response over all directions in the plane.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from vibroimpact.figures import response_spectra
 
 
 def quake(seed, peak="0.3 g"):
-    """A made-up strong motion; ``vi.Record.read`` reads a real one."""
+    """Make a synthetic strong motion; ``vi.Record.read`` reads a measured one."""
     rng = np.random.default_rng(seed)
     time = np.arange(2000) * 0.01
     waves = np.sin(2 * np.pi * np.outer(time, np.linspace(0.2, 8, 80)) + rng.uniform(0, 6.28, 80))

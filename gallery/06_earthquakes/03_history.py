@@ -1,9 +1,9 @@
 """
-Through an earthquake
-=====================
+A base-isolated building in an earthquake
+=========================================
 
 A building on yielding isolators between two moat walls. Bands are contacts, between their exact
-times; the mass comes to rest beside where it began.
+times. At the end, the mass has a residual displacement.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from vibroimpact.figures import record_history
 
 
 def quake(seed, peak="0.3 g"):
-    """A made-up strong motion; ``vi.Record.read`` reads a real one."""
+    """Make a synthetic strong motion; ``vi.Record.read`` reads a measured one."""
     rng = np.random.default_rng(seed)
     time = np.arange(2000) * 0.01
     waves = np.sin(2 * np.pi * np.outer(time, np.linspace(0.2, 8, 80)) + rng.uniform(0, 6.28, 80))

@@ -3,8 +3,8 @@ An earthquake on one page
 =========================
 
 The record, the displacement between the walls, the acceleration with each impact marked, the
-force over the displacement, and the spectrum of the ground beside that of the floor: what stands
-in the building feels the impacts at short periods.
+force over the displacement, and the spectra of ground and floor. The floor spectrum shows that
+equipment in the building feels the impacts at short periods.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from vibroimpact.figures import earthquake_page
 
 
 def quake(seed, peak="0.3 g"):
-    """A made-up strong motion; ``vi.Record.read`` reads a real one."""
+    """Make a synthetic strong motion; ``vi.Record.read`` reads a measured one."""
     rng = np.random.default_rng(seed)
     time = np.arange(2000) * 0.01
     waves = np.sin(2 * np.pi * np.outer(time, np.linspace(0.2, 8, 80)) + rng.uniform(0, 6.28, 80))

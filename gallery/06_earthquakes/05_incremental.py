@@ -1,9 +1,9 @@
 """
-From a breeze to a disaster
-===========================
+Incremental dynamic analysis
+============================
 
-Incremental dynamic analysis: twelve records, each made stronger step by step. Where the fractiles
-reach the gap the walls are hit, and displacements grow more slowly; accelerations do.
+Twelve records, each scaled up step by step. Where the fractiles reach the gap, the mass hits the
+walls. Beyond, displacements grow more slowly, while accelerations keep growing.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from vibroimpact.figures import incremental_curves
 
 
 def quake(seed, peak="0.3 g"):
-    """A made-up strong motion; ``vi.Record.read`` reads a real one."""
+    """Make a synthetic strong motion; ``vi.Record.read`` reads a measured one."""
     rng = np.random.default_rng(seed)
     time = np.arange(2000) * 0.01
     waves = np.sin(2 * np.pi * np.outer(time, np.linspace(0.2, 8, 80)) + rng.uniform(0, 6.28, 80))

@@ -1,9 +1,10 @@
 """
-How likely is a hit?
-====================
+Fragility: how likely is a hit?
+===============================
 
-The same records on the building with three gaps: marks are the shares that hit a wall, and through
-them goes a lognormal fragility curve with its median θ, its dispersion β and its confidence band.
+The same records on the building with three gaps. Marks are the shares of records that hit a wall.
+The curve is a lognormal fragility curve with its median θ, its dispersion β and its confidence
+band.
 """
 
 import numpy as np
@@ -13,7 +14,7 @@ from vibroimpact.figures import fragility_curves
 
 
 def quake(seed, peak="0.3 g"):
-    """A made-up strong motion; ``vi.Record.read`` reads a real one."""
+    """Make a synthetic strong motion; ``vi.Record.read`` reads a measured one."""
     rng = np.random.default_rng(seed)
     time = np.arange(2000) * 0.01
     waves = np.sin(2 * np.pi * np.outer(time, np.linspace(0.2, 8, 80)) + rng.uniform(0, 6.28, 80))

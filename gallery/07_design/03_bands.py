@@ -1,9 +1,9 @@
 """
-Curves of a rig that is not known exactly
-=========================================
+Resonance curves of an uncertain rig
+====================================
 
-Gaps set by hand, rubber from another batch: resonance curves as bands that hold nine rigs of ten.
-Where the band is widest the jump may be, or may not.
+Gaps that are set by hand, rubber from another batch: bands of resonance curves that contain nine
+rigs of ten. Where a band is widest, some rigs jump and others do not.
 """
 
 from functools import partial

@@ -1,10 +1,10 @@
 """
-Which parameter matters
-=======================
+Sobol indices: which parameter matters
+======================================
 
-Sobol's indices share out the variance of the largest acceleration among what is uncertain: how
-much a parameter makes alone, and how much together with others. The bumpers' stiffness is worth
-measuring.
+Sobol indices divide the variance of the largest acceleration among the uncertain parameters: the
+contribution of a parameter alone, and its total contribution with interactions. Here the
+stiffness of the bumpers is worth measuring.
 """
 
 import numpy as np

@@ -1,10 +1,10 @@
 """
-How well is it known?
-=====================
+Profile likelihood: how accurate is a fit?
+==========================================
 
-A fit gives a number; a profile says what it is worth. One parameter is held away from its best
-value, all others are fitted again, and the fit grows worse: where the curve passes the dotted
-line the interval ends. The bumpers' damping is known ten times less well than their stiffness.
+A profile shows the uncertainty of a fitted parameter. One parameter is fixed at values away from
+its optimum, and all others are fitted again. The interval ends where the curve passes the dotted
+line. The damping of the bumpers is ten times less certain than their stiffness.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ import vibroimpact as vi
 from vibroimpact.figures import fit_profiles
 from vibroimpact.measurements.read import as_measured
 
-# A test with 2 % of noise, and a guess that is far off.
+# A test with 2 % of noise, and starting values that are far off.
 case = vi.laboratory.case("B2-G2-A2", "identified")
 swept = vi.sweep(case, [k / 10 for k in range(8, 35)])
 noise = np.random.default_rng(0).normal(1.0, 0.02, size=(2, 2, 27))

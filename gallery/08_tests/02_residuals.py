@@ -1,10 +1,10 @@
 """
-What a wrong law leaves
-=======================
+Residuals of a wrong contact law
+================================
 
-The same test fitted with hard contacts after Hertz, which the rig has not. If a model is right,
-what it leaves is noise within the band. Here neighbours agree: the law is missing something, and
-the picture says where.
+The same test, fitted with Hertz contacts, which the rig does not have. If a model is right, the
+residuals are noise within the band. Here neighbouring residuals are correlated: the law lacks
+something, and the figure shows at which frequencies.
 """
 
 import numpy as np

@@ -1,9 +1,9 @@
 """
-A fit of a time history
-=======================
+Fit of a time history
+=====================
 
-Dots were measured, with noise; the line is the motion of the rig that explains them, contacts
-included, from an initial state that is found as well.
+Dots are noisy measurements. The line is the motion of the fitted rig, with its contacts, from a
+fitted initial state.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from vibroimpact.figures import fit_history
 from vibroimpact.measurements.read import as_measured
 
 case = vi.laboratory.case("B2-G1-A3")
-motion = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, "2 Hz")), 12, samples=48)
+motion = vi.simulate(case, 12, samples=48, frequency="2 Hz")
 noise = np.random.default_rng(3).normal(size=(2, motion.sizes["time"]))
 test = as_measured(
     motion[["base_acceleration"]].assign(

@@ -2,9 +2,9 @@
 What to test next
 =================
 
-Each hold that might be tried next, by frequency and by strength of shaking, and how much it would
-tell about all parameters together. The bright ridges are where the table should stand: just where
-bumpers begin to be touched, and just short of a jump.
+Every possible next dwell, by frequency and level of shaking, with its information about all
+parameters together. The bright ridges are the best choices: just above the level at which the
+mass touches the bumpers, and just before a jump.
 """
 
 import numpy as np

@@ -1,16 +1,17 @@
 """
-One knob
-========
+One slider: the gap
+===================
 
-Turn the gap of a rig, and see the resonance bend, jump, and straighten again. The page below has
-its curves within it and asks no server: it can be mailed, or put into a report.
+Move the slider for the gap of a rig, and see the resonance curve bend, jump and straighten again.
+The page below contains its curves and needs no server, so that you can mail it or put it into a
+report.
 
 .. raw:: html
 
    <iframe src="../../explorer.html" title="One knob: the gap of a rig" loading="lazy"
      style="width: 100%; height: 44rem; border: 1px solid var(--pst-color-border)"></iframe>
 
-`Open it alone <../../explorer.html>`_. The program writes a page like it, of three gaps.
+`Open the page alone <../../explorer.html>`_. The program writes a similar page for three gaps.
 """
 
 # sphinx_gallery_thumbnail_path = 'docs/images/explorer-strip.png'

@@ -1,15 +1,15 @@
 """
-All knobs
-=========
+The explorer: all parameters
+============================
 
-``vibroimpact explore`` opens this page in a browser. Every number of the rig is a knob; curves,
-motion and scenario follow it within a tenth of a second, and a click on a curve shows the motion
-there, with its sound.
+``vibroimpact explore`` opens this page in a browser. Every parameter of the rig has a slider.
+Curves, motion and scenario follow within a tenth of a second. A click on a curve shows the motion
+at that point, with its sound.
 
 .. image:: /docs/images/explorer.png
    :alt: Knobs on the left, resonance curves in the middle, the motion on the right.
 
-What the page says in words is what Python says:
+Python gives the same text as the page:
 """
 
 # sphinx_gallery_thumbnail_path = 'docs/images/explorer.png'

@@ -2,8 +2,9 @@
 One trajectory
 ==============
 
-A mass that meets two bumpers a period, by this package and by general integrators that were tuned
-for the same accuracy or better. The scale is logarithmic; the error stands behind each bar.
+A mass that meets two bumpers in each period, computed by this package and by general integrators
+that were tuned for at most 10⁻¹¹ error. The scale is logarithmic; the error is printed after each
+bar.
 """
 
 from benchmarks.results import number, rows

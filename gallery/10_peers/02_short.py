@@ -1,10 +1,10 @@
 """
-Where this package loses: short runs
-====================================
+Short runs, where this package is slower
+========================================
 
-``vi.simulate`` checks its input and labels what it returns, which takes some tenths of a
-millisecond however short the run. A few periods alone are over sooner in a bare integrator; many
-sweeps belong in one ``vi.sweeps``.
+``vi.simulate`` checks its input and labels its result, which takes some tenths of a millisecond
+even for a short run. For a few periods alone, a bare integrator is faster. Combine many sweeps in
+one ``vi.sweeps``.
 """
 
 from benchmarks.results import number, rows

@@ -1,9 +1,10 @@
 """
-How many times as long others take
-==================================
+Time of other programs relative to this package
+===============================================
 
-Every comparison of the benchmarks with a program of others, on problems that both can do. To the
-left of the line the other one is faster. Loops over scipy stand for what one would write oneself.
+Every comparison of the benchmarks with another program, on problems that both can solve. To the
+left of the line, the other program is faster. Loops over scipy stand for code that one would
+write oneself.
 """
 
 from benchmarks.results import against_others

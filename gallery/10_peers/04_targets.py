@@ -1,9 +1,9 @@
 """
-What was aimed at, and what was missed
-======================================
+Benchmark targets, met and missed
+=================================
 
-Each target of the benchmarks, and how far the last full run was from it. Crosses to the left of
-the line are targets that were not met.
+Each target of the benchmarks, and the margin of the last full run. Crosses to the left of the
+line are targets that were not met.
 """
 
 from benchmarks.results import margins

@@ -48,6 +48,7 @@ from .response.response_spectrum import response_spectrum as response_spectrum
 from .response.sections import impact_section as impact_section
 from .response.sections import stroboscopic_section as stroboscopic_section
 from .response.simulate import simulate as simulate
+from .response.spectrum import fourier_spectrum as fourier_spectrum
 from .response.sweep import sweep as sweep
 from .response.sweep import sweeps as sweeps
 from .response.totals import totals as totals
