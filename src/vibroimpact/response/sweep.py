@@ -29,7 +29,7 @@ from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.read_rig import AnyRig, as_rig, as_rigs
 from vibroimpact.model.rig import Rig, as_periodic
 from vibroimpact.response.engine_input import as_state
-from vibroimpact.response.plausibility import doubt_gaps, note_unbounded
+from vibroimpact.response.plausibility import doubt_gaps, note_stiff_stops, note_unbounded
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import Patience, prepared, rows
 from vibroimpact.response.sweep_dataset import held
@@ -194,7 +194,11 @@ def sweeps(
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
         ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
         results[r][..., hold.OUTCOME] = ended
-        doubts += [*doubt_gaps(oscillator, shaken, swing), *note_unbounded(oscillator, shaken)]
+        doubts += [
+            *doubt_gaps(oscillator, shaken, swing),
+            *note_unbounded(oscillator, shaken),
+            *note_stiff_stops(oscillator, shaken, float(grid[0])),
+        ]
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)
     data = held([rig.oscillator for rig in pairs], results, states, free, largest, angle)
