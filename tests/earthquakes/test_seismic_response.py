@@ -225,11 +225,15 @@ def test_what_is_given_up_is_told() -> None:
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        ({"record": vi.Harmonic(1.0, 1.0)}, "record: .*; a Record is accepted"),
-        ({"record": RECORD, "tail": -1.0}, "tail: -1"),
-        ({"record": RECORD, "max_events": 0}, "max_events: 0"),
+        (
+            {"shaking": vi.Harmonic(1.0, 1.0)},
+            r"shaking: .* is not a Record; Rig\(oscillator, record\)",
+        ),
+        ({"tail": -1.0}, "tail: -1"),
+        ({"max_events": 0}, "max_events: 0"),
     ],
 )
 def test_wrong_input(arguments: dict, line: str) -> None:
+    rig = vi.Rig(RIGS["bumpers"], arguments.pop("shaking", RECORD))
     with pytest.raises(vi.InputError, match=f"^{line}"):
-        vi.seismic_response(RIGS["bumpers"], **arguments)
+        vi.seismic_response(rig, **arguments)

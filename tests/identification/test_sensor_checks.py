@@ -97,5 +97,5 @@ def test_a_free_vibration_has_the_size_of_its_motion():
         xr.Dataset({"displacement": ("time", u), "base_acceleration": ("time", 0.0 * u)},
                    {"time": time})
     )  # fmt: skip
-    (test,) = fit_inputs.tests_of(data, RIG, None, None, None, False)
+    (test,) = fit_inputs.tests_of(RIG, data, None, None, False)
     assert 0.01 < test.swing < 0.02

@@ -1,9 +1,13 @@
-"""Gaps that a motion shows to be absurd, and damping ratios that were meant in percent."""
+"""Gaps that a motion shows to be absurd, damping ratios that were meant in percent, stiff stops."""
+
+import math
 
 import numpy as np
 import pytest
 
 import vibroimpact as vi
+import vibroimpact.model
+from vibroimpact.response.plausibility import STIFF, note_stiff_stops
 
 RIG = vi.Oscillator("5000 t", vi.Isolator.from_period("5000 t", "2.5 s", 0.15))
 SLIDING = vi.Oscillator("5000 t", vi.FrictionIsolator("30 MN/m", "4 MN s/m", "100 kN"))
@@ -46,3 +50,53 @@ def test_a_damping_ratio_of_percent_is_doubted():
         )
     vi.Isolator.from_period("5000 t", "2.5 s", 1.5)
     vi.Isolator.from_period("5000 t", "2.5 s", "15 %")
+
+
+PRESSED = vi.Oscillator(
+    10562.25,
+    vi.Isolator(194441191.0, 772.108, damping_exponent=1.5),
+    right=vi.PowerBumper(
+        144839414.0, -0.000546019, 1.5, relation="hunt-crossley", restitution=0.532464
+    ),
+    left=vi.JankowskiBumper(2.6469e16, -0.00779594, 0.272852, 25447.5),
+)
+"""Two stops pressed at rest, one 1e8 times as stiff as the isolator."""
+QUICKER = PRESSED.replace(left=PRESSED.left.replace(stiffness=6e15))
+SHAKEN = vi.Harmonic(18.4087, 3.33011)
+
+
+@pytest.mark.parametrize(
+    "of",
+    [
+        lambda rig: vi.simulate(rig, 1, samples=0),
+        lambda rig: vi.sweep(rig, [3.33011], max_cycles=1, window=1),
+        lambda rig: vi.steady(rig, samples=8, max_cycles=1, exponent_cycles=1, window=1),
+    ],
+    ids=["simulate", "sweep", "steady"],
+)
+def test_a_pressed_stop_that_makes_a_computation_slow_is_named(of):
+    notes = of(vi.Rig(QUICKER, SHAKEN)).attrs["notes"]
+    assert [notes] == note_stiff_stops(QUICKER, SHAKEN, SHAKEN.frequency)
+
+
+@pytest.mark.parametrize("rig", [PRESSED, QUICKER])
+def test_the_frequency_of_a_pressed_stop_is_that_of_its_law(rig):
+    (note,) = note_stiff_stops(rig, SHAKEN, SHAKEN.frequency)
+    assert note.startswith(STIFF)
+    # The tangent stiffness of a Hertz law with the deformation at rest, 0.16 um and 0.42 um.
+    deep = -vi.model.equilibrium(rig).displacement - rig.left.gap
+    own = math.sqrt(1.5 * rig.left.stiffness * math.sqrt(deep) / rig.mass) / (2.0 * math.pi)
+    assert f"the left stop is pressed at rest and vibrates at {own / 1e3:.3g} kHz" in note
+    assert f"{own / 3.33011:.3g} times the forcing frequency of 3.33011 Hz" in note
+
+
+def test_a_stop_that_is_not_much_faster_than_the_forcing_is_not_named():
+    def notes(oscillator):
+        return note_stiff_stops(oscillator, SHAKEN, SHAKEN.frequency)
+
+    assert notes(PRESSED)
+    assert not notes(PRESSED.replace(left=PRESSED.left.replace(stiffness=1e10)))
+    assert not notes(PRESSED.replace(left=PRESSED.left.replace(gap=1e-4)))  # touched, not pressed
+    # Linear laws are followed in closed form, however stiff a stop is.
+    wall = vi.Bumper(2.6e15, 1e9, -0.0078)
+    assert not notes(vi.Oscillator(10562.25, vi.Isolator(2e8, 772.0), right=wall, left=wall))

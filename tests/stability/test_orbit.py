@@ -60,8 +60,8 @@ def test_a_longer_period():
     [
         ({"period": 0}, "period"),
         ({"samples": True}, "samples"),
-        ({"guess": "rest"}, "start"),
-        ({"guess": vi.State(0.5, 3.0)}, "no orbit"),
+        ({"start": "rest"}, "start"),
+        ({"start": vi.State(0.5, 3.0)}, "no orbit"),
     ],
 )
 def test_refused(wrong, told):
@@ -111,10 +111,11 @@ def test_a_completed_chatter_forgets_everything():
     found = vi.orbit(vi.Rig(rig, shaken), start)
     assert (np.hypot(found["multiplier_real"], found["multiplier_imag"]) == 0.0).all()
     assert (vi.steady(vi.Rig(rig, shaken), start)["exponents"] == -np.inf).all()
-    growth = vi.lyapunov_exponents((rig, shaken.amplitude), [shaken.frequency], start=start)
+    growth = vi.lyapunov_exponents(vi.Rig(rig, shaken), [shaken.frequency], start=start)
     assert (growth["exponents"] == -np.inf).all()
 
 
+@pytest.mark.filterwarnings("ignore:steady. its largest multiplier is 1:RuntimeWarning")
 def test_what_an_elastic_spring_remembers_through_a_rest():
     """One that does not yield on its way to the stop: by differences of the motion itself."""
     isolator = vi.BilinearIsolator(1.0, 0.2, 0.25, 0.05)
@@ -128,3 +129,43 @@ def test_what_an_elastic_spring_remembers_through_a_rest():
         ends.append(vi.simulate(vi.Rig(rig, shaken), 1, start)["final_state"].values)
     slope = (ends[0] - ends[1]) / 2e-6
     assert slope[-1] == pytest.approx(float(found["monodromy"][4, 4]), rel=1e-5, abs=1e-9)
+
+
+@pytest.mark.filterwarnings("ignore:steady. its largest multiplier is 1:RuntimeWarning")
+def test_a_spring_that_just_yields_has_a_derivative_on_each_side():
+    """The motion has settled where the spring just reaches its yield force in each cycle.
+
+    One side of that memory yields and is forgotten in part; on the other side nothing yields and
+    all of it is kept. The multiplier is that of the second side; central differences give the mean.
+    """
+    isolator = vi.BilinearIsolator(1.0, 0.2, 0.25, 0.05)
+    rig = vi.Rig(vi.Oscillator(1.0, isolator, vi.RigidStop(0.5, -0.3)), vi.Harmonic(0.3, 0.03))
+    found = vi.orbit(rig, vi.steady(rig))
+    u, v, memory = found["final_state"].sel(component=["displacement", "velocity", "isolator"]).data
+    kept = float(found["monodromy"][4, 4])
+
+    def slope(step):
+        end = vi.simulate(rig, 1, vi.State(u, v, isolator=memory + step), samples=0)
+        return (float(end["final_state"].sel(component="isolator")) - memory) / step
+
+    assert kept == pytest.approx(1.0, abs=1e-12)
+    for step in (1e-3, 1e-5, 1e-7):
+        assert slope(step) == pytest.approx(kept, rel=1e-6)
+    assert slope(-1e-6) == pytest.approx(slope(-1e-5), rel=1e-4)
+    assert 0.4 < slope(-1e-6) < 0.45
+
+
+@pytest.mark.parametrize("phase", [0.0, 1.5, 3.0, 4.5])
+def test_exponents_do_not_depend_on_where_the_section_lies(phase):
+    """Where the section lies in a rest, what the spring remembers moves nothing at once."""
+    isolator = vi.BilinearIsolator(1.0, 0.2, 0.25, 0.05)
+    oscillator = vi.Oscillator(1.0, isolator, vi.RigidStop(0.5, -0.1))
+    rig = vi.Rig(oscillator, vi.Harmonic(0.2, 0.03, phase))
+    with pytest.warns(RuntimeWarning, match="its largest multiplier is 1"):
+        found = vi.steady(rig)
+    assert found["exponents"].values[0] == pytest.approx(0.0, abs=1e-12)
+    assert found["exponents"].values[1] == -np.inf
+    assert int(found["stable"]) == -1
+    orbit = vi.orbit(rig, found)
+    np.testing.assert_allclose(orbit["exponents"], found["exponents"], atol=1e-12)
+    assert float(orbit["multiplier_real"][0]) == pytest.approx(1.0, abs=1e-12)

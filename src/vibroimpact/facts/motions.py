@@ -10,6 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from vibroimpact.datasets.description import noted
 from vibroimpact.model.quantities import (
     ACCELERATION,
     ENERGY,
@@ -21,6 +22,7 @@ from vibroimpact.model.quantities import (
 )
 from vibroimpact.model.units import plain
 from vibroimpact.response.motion_phases import touches
+from vibroimpact.response.plausibility import STIFF
 
 _MOST_CONTACTS = 12
 """Contacts that are printed of a motion; the file has them all."""
@@ -132,6 +134,7 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
     _, g, gravity = fitting((floor, ceiling), ACCELERATION.scales)
     rows = [
         ("evidence", data.attrs["evidence"]),
+        *(("note", line) for line in noted(data) if line.startswith(STIFF)),
         ("exponents", _exponents(data)),
         ("displacement", f"{plain(low / size, 5)} to {plain(high / size, 5)} {metres}"),
         ("eccentricity", f"{plain(middle / size, 4)} {metres}"),

@@ -11,7 +11,7 @@ from rich.text import Text
 from vibroimpact.facts import largest
 from vibroimpact.facts.tables import titled_table
 from vibroimpact.model.units import plain
-from vibroimpact.response.plausibility import UNBOUNDED
+from vibroimpact.response.plausibility import STIFF, UNBOUNDED
 from vibroimpact.response.resonance import Features, Range
 
 _CURVES = {"eta_a": "η_a", "eta_d": "η_d"}
@@ -63,7 +63,7 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
         _ranges("Not settled", found.unsettled, "nowhere"),
     ]
     notes = str(data.attrs.get("notes", "")).splitlines()
-    parts += [Text(f"Note: {line}") for line in notes if line.startswith(UNBOUNDED)]
+    parts += [Text(f"Note: {line}") for line in notes if line.startswith((UNBOUNDED, STIFF))]
     parts += [Text(f"Advice: {line}", style="yellow") for line in advice]
     return Group(*parts)
 

@@ -1,4 +1,4 @@
-"""Values that a rig's motion shows to be absurd: gaps in metres that were meant in millimetres."""
+"""What a user should know of a rig before its results: absurd gaps, no bound, stops that ring."""
 
 from __future__ import annotations
 
@@ -7,13 +7,15 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vibroimpact.errors import warn_of_input
-from vibroimpact.model import Harmonic
+from vibroimpact.engine import parameters as par
+from vibroimpact.errors import InputError, warn_of_input
+from vibroimpact.model import Harmonic, RigidStop, equilibrium
 from vibroimpact.model.quantities import FREQUENCY, LENGTH
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound, undamped_frequency
 from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import reference_excursions
+from vibroimpact.response.engine_input import engine_rig
 
 _FACTOR = 1000.0
 """Between a metre and a millimetre."""
@@ -26,8 +28,15 @@ In millimetres they are then from a tenth to ten times as large as it.
 """
 
 
+_STIFF = 1000.0
+"""Vibrations of a pressed stop in one forcing cycle from which a computation is slow."""
+_NUDGE = 1e-6
+"""Change of a stop's deformation that gives its stiffness, as a share of the deformation."""
+
 UNBOUNDED = "free flight has no bound"
 """How a note begins that says what η is taken over instead."""
+STIFF = "slow to compute"
+"""How a note begins that names a stop that vibrates much faster than the rig is shaken."""
 
 
 def doubt_gaps(
@@ -85,6 +94,49 @@ def note_unbounded(rig: Rig) -> list[str]:
         f"{pretty(float(f'{size:.4g}'), LENGTH)}, which a slowly changing excitation of this size "
         "gives"
     ]
+
+
+def note_stiff_stops(rig: Rig, frequency: float) -> list[str]:
+    """Say why a computation is slow: pressed stops that vibrate thousands of times in a forcing cycle.
+
+    Only where a law of the rig is not linear: elsewhere the motion is known in closed form, however
+    fast it is.
+
+    Parameters
+    ----------
+    rig
+        The rig.
+    frequency
+        The lowest forcing frequency (Hz).
+
+    Returns
+    -------
+    list of str
+        One line for each such stop, for the notes of a dataset.
+    """
+    oscillator = rig.oscillator
+    preloaded = oscillator.force or any(stop.gap < 0.0 for stop in oscillator.stops)
+    if not preloaded or par.laws(engine_rig(rig)) == par.LINEAR:
+        return []
+    try:
+        u = equilibrium(oscillator).displacement
+    except InputError:
+        return []  # nothing holds the mass
+    notes = []
+    for name, stop, side in (("right", oscillator.right, 1.0), ("left", oscillator.left, -1.0)):
+        if stop is None or isinstance(stop, RigidStop) or side * u <= stop.gap:
+            continue
+        deep, step = side * u - stop.gap, _NUDGE * (side * u - stop.gap)
+        rise = stop.static_force(deep + step) - stop.static_force(deep - step)
+        own = math.sqrt(rise / (2.0 * step) / oscillator.mass) / (2.0 * math.pi)
+        if own >= _STIFF * frequency:
+            notes.append(
+                f"{STIFF}: the {name} stop is pressed at rest and vibrates at "
+                f"{pretty(float(f'{own:.3g}'), FREQUENCY)}, {own / frequency:.3g} times the "
+                f"forcing frequency of {pretty(frequency, FREQUENCY)}, and each vibration takes "
+                "steps of its own; a smaller stiffness of this stop makes it faster"
+            )
+    return notes
 
 
 def _free(rig: Rig) -> float:

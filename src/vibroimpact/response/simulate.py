@@ -29,6 +29,7 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
+from vibroimpact.response.plausibility import note_stiff_stops
 from vibroimpact.response.record_history import through
 from vibroimpact.response.softening_limit import ended
 from vibroimpact.tasks.interruptible import Calls
@@ -173,6 +174,7 @@ def simulate(
             **excitation_parameters(excitation.replace(phase=phase)),
             "cycles": length,
         },
+        note_stiff_stops(oscillator, excitation, excitation.frequency),
     )
 
 

@@ -29,7 +29,7 @@ from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.read_rig import AnyRig, as_rig, as_rigs
 from vibroimpact.model.rig import Rig, as_periodic
 from vibroimpact.response.engine_input import as_state
-from vibroimpact.response.plausibility import doubt_gaps, note_unbounded
+from vibroimpact.response.plausibility import doubt_gaps, note_stiff_stops, note_unbounded
 from vibroimpact.response.prepared_rig import Settling
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
@@ -191,13 +191,14 @@ def sweeps(
     del done  # as large as both
     doubts: list[str] = []
     for r, rig in enumerate(pairs):
-        oscillator, shaken = rig.oscillator, rig.periodic
+        oscillator = rig.oscillator
         swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
         ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
         results[r][..., hold.OUTCOME] = ended
         doubts += [
-            *doubt_gaps(Rig(oscillator, shaken), swing),
-            *note_unbounded(Rig(oscillator, shaken)),
+            *doubt_gaps(rig, swing),
+            *note_unbounded(rig),
+            *note_stiff_stops(rig, float(grid[0])),
         ]
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
+from vibroimpact.engine.observers.tangent import MEMORY
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.exponents import DISCARD
@@ -65,10 +66,12 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
 def _rates(carried: _Array) -> _Array:
     """Logarithms of the two largest multipliers of an orbit; NaN if the second is lost in rounding.
 
-    A bumper that is never touched only relaxes; it is left out.
+    A bumper that is never touched only relaxes; it is left out. What an isolator remembers is
+    kept: during a rest on a stop it is not coupled to the motion, and the motion still depends on
+    it later in the cycle.
     """
-    touched = [j for j in (2, 3, 4) if carried[:2, j].any() or carried[j, :2].any()]
-    kept = [0, 1, *touched]
+    touched = [j for j in (2, 3) if carried[:2, j].any() or carried[j, :2].any()]
+    kept = [0, 1, *touched, *([MEMORY] if carried[MEMORY].any() else [])]
     moduli = np.sort(np.abs(np.linalg.eigvals(carried[np.ix_(kept, kept)])))[::-1]
     with np.errstate(divide="ignore"):
         logarithms: _Array = np.log(moduli[:2])

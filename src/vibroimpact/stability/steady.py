@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_progress
-from vibroimpact.datasets.description import describe
+from vibroimpact.datasets.description import describe, noted
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -247,7 +247,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
     ends = [values["displacement_max"], values["displacement_min"]]
-    notes = doubt_gaps(found.rig, ends)
+    notes = [*doubt_gaps(found.rig, ends), *noted(data)]
     return describe(data, "vibroimpact.steady", notes=notes)
 
 
