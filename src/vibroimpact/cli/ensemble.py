@@ -121,7 +121,7 @@ def ensemble(
     default = frequency_grid.default_range(what, _COARSER)
     held = frequency_grid.frequencies(start, stop, step, frequencies, swept, default)
     options: dict[str, Any] = {
-        "samples": (table and table.samples) or 128 if samples is None else samples,
+        "draws": (table and table.samples) or 128 if samples is None else samples,
         "seed": (table and table.seed) or 0 if seed is None else seed,
     }
     way = method or (table and table.method) or "sobol"
@@ -138,8 +138,7 @@ def ensemble(
         from vibroimpact.response.sweep import sweep, sweeps
         from vibroimpact.uncertainty.ensemble import ensemble as draw
 
-        pair = (what.oscillator, what.repeated)
-        shaken_rig = Rig(*pair)
+        shaken_rig = Rig(what.oscillator, what.repeated)
         response = partial(sweeps, frequencies=held, threads=threads, where=where)
         with warnings.catch_warnings(record=True) as caught, progress_bar("sweeping") as progress:
             warnings.simplefilter("always", RuntimeWarning)
@@ -148,7 +147,7 @@ def ensemble(
             from vibroimpact.model.unbounded import has_no_bound
 
             # Without stiffness or damping there is no free resonance to divide by.
-            undefined = not bool(data["eta_d"].notnull().any()) or has_no_bound(*pair)
+            undefined = not bool(data["eta_d"].notnull().any()) or has_no_bound(what.oscillator, what.repeated)
             physical = physical or undefined
             shown = ("peak_acceleration", "peak_displacement") if physical else ("eta_a", "eta_d")
             axes = resonance_bands(
@@ -160,7 +159,9 @@ def ensemble(
                 "figure": save_figure(axes, f"{stem}.{out.figure}"),
             }
             indices = (
-                _indices(pair, given, response, shown, options, progress) if sensitivity else {}
+                _indices(shaken_rig, given, response, shown, options, progress)
+                if sensitivity
+                else {}
             )
         for message in dict.fromkeys(str(warning.message) for warning in caught):
             warn(message)
@@ -207,7 +208,7 @@ def _distributions(what: Subject, options: tuple[tuple[str, str], ...]) -> dict[
 
 
 def _indices(
-    pair: Any,
+    rig: Rig,
     given: dict[str, str],
     response: Any,
     quantities: tuple[str, ...],
@@ -222,6 +223,6 @@ def _indices(
         return data.max(("direction", "frequency"), keep_attrs=True)
 
     return {
-        name: sensitivity(pair, given, peaks, name, resamples=100, progress=progress, **options)
+        name: sensitivity(rig, given, peaks, name, resamples=100, progress=progress, **options)
         for name in quantities
     }
