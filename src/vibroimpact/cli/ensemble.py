@@ -147,7 +147,9 @@ def ensemble(
             from vibroimpact.model.unbounded import has_no_bound
 
             # Without stiffness or damping there is no free resonance to divide by.
-            undefined = not bool(data["eta_d"].notnull().any()) or has_no_bound(what.oscillator, what.repeated)
+            undefined = not bool(data["eta_d"].notnull().any()) or has_no_bound(
+                what.oscillator, what.repeated
+            )
             physical = physical or undefined
             shown = ("peak_acceleration", "peak_displacement") if physical else ("eta_a", "eta_d")
             axes = resonance_bands(
