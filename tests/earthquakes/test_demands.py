@@ -177,8 +177,8 @@ def test_it_is_saved_and_read(tmp_path) -> None:
         ({"records": []}, "records: none given"),
         ({"records": [3]}, r"records\['0'\]: 3; a Record"),
         ({"records": vi.Record([0.0, 0.0], 0.1), "intensity": "PGA"}, r"records\[0\]: it is 0"),
-        ({"oscillator": []}, "oscillator: none given"),
-        ({"oscillator": 3}, "oscillator: "),
+        ({"rig": []}, "rig: none given"),
+        ({"rig": 3}, r"rig\[0\]: 3 is not a rig"),
         ({"scales": []}, "scales: none given"),
         ({"scales": [1.0, 0.5]}, r"scales\[1\]: 0.5 follows 1"),
         ({"scales": [0.0]}, r"scales\[0\]: 0"),
@@ -199,6 +199,6 @@ def test_it_is_saved_and_read(tmp_path) -> None:
     ],
 )
 def test_wrong_input(arguments: dict, line: str) -> None:
-    given = {"oscillator": RIGS["bumpers"], "records": RECORDS["a"], **arguments}
+    given = {"rig": RIGS["bumpers"], "records": RECORDS["a"], **arguments}
     with pytest.raises(vi.InputError, match=f"^{line}"):
-        vi.demands(given.pop("oscillator"), given.pop("records"), **given)
+        vi.demands(**given)

@@ -49,6 +49,21 @@ def test_bands_hold_the_fractiles():
     assert "(mm)" in axes[1].get_ylabel()
 
 
+def test_a_single_frequency_is_drawn_as_points():
+    """Without a warning of matplotlib about an axis whose ends are one."""
+    data = vi.ensemble(CASE, SPREAD, partial(vi.sweeps, frequencies=[2.0]), 8)
+    axes = resonance_bands(data, shares=(0.1, 0.9))
+    for ax, name in zip(axes, ("eta_a", "eta_d"), strict=True):
+        low, high = ax.get_xlim()
+        assert low < 2.0 < high
+        assert {line.get_marker() for line in ax.lines} <= {"o", "_"}
+        known = vi.fractiles(data, name, (0.1, 0.9))[name]
+        ends = [one.vertices[:, 1] for bar in ax.collections for one in bar.get_paths()]
+        np.testing.assert_allclose(np.ravel(ends), np.ravel(known.values.squeeze(-1).T))
+    curve = indices().isel(frequency=[0])
+    assert all(line.get_marker() for line in sensitivity_bars(curve).lines)
+
+
 def test_bars_of_one_number():
     data = indices(10).isel(frequency=0)
     ax = sensitivity_bars(data)

@@ -62,3 +62,15 @@ def test_what_is_damaged_is_refused_in_one_line(tmp_path, at):
         except (vi.InputError, vi.InputWarning) as refused:
             line = str(refused)
         assert "\n" not in line
+
+
+def test_a_label_and_a_name_that_differ_are_refused(tmp_path):
+    lines = [line.replace("North", "North (mm/s^2)") for line in lvm()]
+    path = written(tmp_path, lines)
+    with pytest.raises(vi.InputError, match=r"states the units 'mm/s\^2' and '.+' of 'North"):
+        vi.Record.read(path, 1)
+    with pytest.warns(vi.InputWarning, match=r"unit g, not the file's mm/s\^2"):
+        assert vi.Record.read(path, 1, unit="g").about.unit == "g"
+    lines = [line.replace("North", "North_g") for line in lvm()]
+    with pytest.warns(vi.InputWarning, match="taken in .+, not in the g of its name"):
+        vi.Record.read(written(tmp_path, lines), 1)

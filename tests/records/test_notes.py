@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 
 import numpy as np
@@ -175,3 +176,53 @@ def test_datasets_keep_what_was_noted(tmp_path):
     vi.save(motion, tmp_path / "motion.nc")
     assert vi.load(tmp_path / "motion.nc").attrs["notes"] == told
     assert "notes" not in vi.seismic_response(vi.Rig(RIG, vi.Record(SWAY, 0.01))).attrs
+
+
+ROWS = "".join(f"{0.01 * n:.2f},{n % 7 - 3}\n" for n in range(40))
+
+
+@pytest.mark.parametrize(
+    ("head", "said"),
+    [
+        ("t (s),a (g)\ns,cm/s^2\n", "states the units 'g' and 'cm/s^2'"),
+        ("# units: cm/s^2\nt (s),a (g)\n", "states the units 'g' and 'cm/s^2'"),
+        ("units: cm/s^2\nunits: g\n", "states the units 'g' and 'cm/s^2'"),
+        ("t (ms),a (g)\ns,g\n", "its times are in 'ms' and in 's'; one unit is accepted, or step="),
+    ],
+)
+def test_two_units_that_differ_are_refused(tmp_path, head, said):
+    path = written(tmp_path, head + ROWS)
+    with pytest.raises(vi.InputError) as error:
+        vi.Record.read(path)
+    assert said in str(error.value)
+    settled, _ = noted(path, unit="g", step=0.01)
+    assert settled.peak == pytest.approx(3.0 * 9.80665)
+
+
+@pytest.mark.parametrize(
+    "head", ["t (s),a (gal)\ns,cm/s^2\n", "units: cm/s2\nt (s),a (CM/SEC/SEC)\n"]
+)
+def test_two_spellings_of_one_unit_are_no_conflict(tmp_path, head):
+    record, told = noted(written(tmp_path, head + ROWS))
+    assert record.peak == pytest.approx(0.03)
+    assert "unit" not in told
+    assert "name" not in told
+
+
+def test_the_ending_of_a_name_yields_to_a_line_of_units_and_is_noted(tmp_path):
+    record, told = noted(written(tmp_path, "time,acc_g\ns,cm/s^2\n" + ROWS))
+    assert record.peak == pytest.approx(0.03)
+    assert "taken in cm/s^2, not in the g of its name" in told
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such names of files")
+def test_names_of_files_stations_and_components_are_text(tmp_path):
+    path = tmp_path / "q\x1b[31m.csv"
+    path.write_text("t (s),No\x1b[31mrth (g),East (g)\n" + ROWS.replace("\n", ",1\n"))
+    record, _ = noted(str(path), component="No\x1b[31mrth")
+    assert record.about.component == r"No\x1b[31mrth"
+    assert record.about.source.endswith(r"q\x1b[31m.csv")
+    assert vi.Record.read(path, r"No\x1b[31mrth") == record
+    with pytest.raises(vi.InputError) as error:
+        vi.Record.read(path)
+    assert "\x1b" not in str(record) + str(error.value)

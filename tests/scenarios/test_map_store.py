@@ -9,6 +9,7 @@ import subprocess
 import sys
 import textwrap
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -40,14 +41,14 @@ def test_a_finished_map_is_read_and_not_computed(tmp_path):
         ({"refine": 2}, "refine"),
         ({"step": 0.03}, "step"),
         ({"thresholds": vi.Thresholds(extent=0.1)}, "thresholds"),
-        ({"base": vi.from_dimensionless(1.0, 1.0, 0.02, 0.15)}, "base"),
+        ({"rig": vi.from_dimensionless(1.0, 1.0, 0.02, 0.15)}, "base"),
     ],
 )
 def test_a_store_with_another_map_is_refused_and_kept(tmp_path, changes, field):
     store = tmp_path / "map"
     first = vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
     with pytest.raises(vi.InputError, match=rf"store: .* holds another map: {field} differ"):
-        vi.scenario_map(None, X, Y, **{**OPTIONS, **changes}, store=store)
+        vi.scenario_map(x=X, y=Y, store=store, **{"rig": None, **OPTIONS, **changes})
     xr.testing.assert_identical(vi.scenario_map(None, X, Y, **OPTIONS, store=store).load(), first)
 
 
@@ -91,7 +92,9 @@ def test_what_a_killed_process_leaves_does_no_harm(tmp_path):
         def kill(done, total):
             if done:
                 os.kill(os.getpid(), signal.SIGKILL)
-        vi.scenario_map({X!r}, {Y!r}, **{OPTIONS!r}, store={str(store)!r}, progress=kill)
+        vi.scenario_map(
+            None, {X!r}, {Y!r}, **{OPTIONS!r}, store={str(store)!r}, progress=kill
+        )
     """
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=False)
     assert done.returncode == -signal.SIGKILL
@@ -152,6 +155,35 @@ def test_a_damaged_file_is_made_again(whole, tmp_path, array, damage):
         vi.scenario_map(None, X, Y, **OPTIONS, store=store)
 
 
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_damage_after_opening_is_an_error_in_one_line(whole, tmp_path, damage):
+    """Values of a map with a store are read when they are used, which may be much later."""
+    shutil.copytree(whole[0], store := tmp_path / "map")
+    opened = vi.scenario_map(None, X, Y, **OPTIONS, store=store)
+    damage(chunks(store / "extent")[0])
+    said = r"store: '.*map' was damaged after it was opened \(extent: .+\); .* computed again"
+    for part in (opened.extent, opened.extent[1, :2], opened.isel(gap_ratio=[0, 2]).extent):
+        with pytest.raises(vi.InputError, match=said) as error:
+            part.load()
+        assert "\n" not in str(error.value)
+    xr.testing.assert_identical(opened.scenario.load(), whole[1].scenario)
+    xr.testing.assert_identical(mended(store), whole[1])
+
+
+def test_parts_that_are_read_later_are_those_of_the_map(whole):
+    """In every way of indexing that xarray has."""
+    opened = vi.scenario_map(None, X, Y, **OPTIONS, store=whole[0])
+    rows, columns = xr.DataArray([0, 2, 1], dims="k"), xr.DataArray([1, 1, 0], dims="k")
+    for part in (
+        lambda data: data.extent[1:, ::2],
+        lambda data: data.extent[::-1, 0],
+        lambda data: data.scenario[2, [0, 2]],
+        lambda data: data.extent.isel(gap_ratio=rows, stiffness_ratio=columns),
+        lambda data: data.sel(gap_ratio=0.6).extent,
+    ):
+        xr.testing.assert_identical(part(opened).load(), part(whole[1]))
+
+
 def test_what_is_interrupted_leaves_no_files_of_its_own(tmp_path, monkeypatch):
     """Neither while the store is created, nor while a block is computed."""
 
@@ -159,7 +191,8 @@ def test_what_is_interrupted_leaves_no_files_of_its_own(tmp_path, monkeypatch):
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
-        patch.setattr(zarr_store.os, "replace", interrupt)
+        # Its own only: an interrupt within the threads of zarr would never come back.
+        patch.setattr(zarr_store, "os", SimpleNamespace(replace=interrupt))
         with pytest.raises(KeyboardInterrupt):
             vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map")
     assert list(tmp_path.iterdir()) == []

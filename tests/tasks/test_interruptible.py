@@ -32,13 +32,13 @@ def test_where_a_motion_is_cut_changes_no_bit(isolator, shaken, monkeypatch):
     one = between(isolator, "bumper", "hunt-crossley")
     noise = np.random.default_rng(0).normal(size=40)
     how = (
-        (vi.Harmonic(0.8, 0.15), CYCLES, None, 8)
+        (vi.Rig(one, vi.Harmonic(0.8, 0.15)), CYCLES, None, 8)
         if shaken == "sine"
-        else (vi.Record(noise, 0.4), None, None, 2)
+        else (vi.Rig(one, vi.Record(noise, 0.4)), None, None, 2)
     )
-    whole = vi.simulate(vi.Rig(one, how[0]), *how[1:])
+    whole = vi.simulate(*how)
     monkeypatch.setattr(Calls, "end", lambda self, at: min(self._total, at + 1))
-    xr.testing.assert_identical(vi.simulate(vi.Rig(one, how[0]), *how[1:]), whole)
+    xr.testing.assert_identical(vi.simulate(*how), whole)
 
 
 @pytest.mark.parametrize("isolator", ISOLATORS)

@@ -149,10 +149,12 @@ def test_all_functions_tell_the_same(monkeypatch):
     counted_and_ended(told)
     told.clear()
     fold = found.isel(bifurcation=0)
-    span = {"low": (1.0, 7e-3), "high": (4.0, 8e-3)}
-    over = ("frequency", "gap")
     vi.bifurcation_curve(
-        vi.Rig(CASE.oscillator, shaken), fold, parameters=over, **span, progress=note
+        vi.Rig(CASE.oscillator, shaken),
+        fold,
+        parameters=("frequency", "gap"),
+        spans=((1.0, 4.0), (7e-3, 8e-3)),
+        progress=note,
     )
     counted_and_ended(told)
 

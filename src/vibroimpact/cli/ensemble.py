@@ -121,7 +121,7 @@ def ensemble(
     default = frequency_grid.default_range(what, _COARSER)
     held = frequency_grid.frequencies(start, stop, step, frequencies, swept, default)
     options: dict[str, Any] = {
-        "samples": (table and table.samples) or 128 if samples is None else samples,
+        "draws": (table and table.samples) or 128 if samples is None else samples,
         "seed": (table and table.seed) or 0 if seed is None else seed,
     }
     way = method or (table and table.method) or "sobol"
@@ -208,7 +208,7 @@ def _distributions(what: Subject, options: tuple[tuple[str, str], ...]) -> dict[
 
 
 def _indices(
-    rig: Any,
+    rig: Rig,
     given: dict[str, str],
     response: Any,
     quantities: tuple[str, ...],

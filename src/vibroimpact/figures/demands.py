@@ -13,7 +13,7 @@ from vibroimpact.earthquakes.fragility import lacking
 from vibroimpact.earthquakes.suites import fractiles, known
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.style import LEGEND
+from vibroimpact.figures.style import LEGEND, fit_x_axis
 from vibroimpact.model import GRAVITY, to_si
 from vibroimpact.model.quantities import LENGTH
 
@@ -84,7 +84,7 @@ def incremental_curves(
         )
     if limit is not None:
         ax.axhline(factor * limit, color="#c8102e", linestyle=":", linewidth=1.2, label="limit")
-    ax.set_xlim(level[0], level[-1])
+    fit_x_axis(ax, level)
     ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
     ax.set_xlabel(_level_label(demands, symbol))
     ax.set_ylabel(label)
@@ -178,7 +178,7 @@ def fragility_curves(
                 fine, lower, upper, color=colour, alpha=0.15, linewidth=0.0, label=band, zorder=1
             )
         ax.plot(level, shares, label="share of the records" if whole is None else None, **marks)
-    ax.set_xlim(level[0], level[-1])
+    fit_x_axis(ax, level)
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(_level_label(fragility, symbol))
     ax.set_ylabel("probability of exceeding the limit (–)")

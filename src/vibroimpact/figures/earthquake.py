@@ -14,7 +14,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.motion_style import SIDES, Shown, named, shown
 from vibroimpact.figures.notebook import Drawing, Panel, Panels
 from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
-from vibroimpact.figures.style import EDGE, LEGEND, also_in_g
+from vibroimpact.figures.style import EDGE, LEGEND, also_in_g, fit_x_axis
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, fitting
@@ -164,7 +164,7 @@ def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
     periods = next(iter(spectra.values()))["natural_period"].values
     ax.set_xscale("log")
     ax.xaxis.set_major_formatter("{x:g}")
-    ax.set_xlim(periods.min(), periods.max())
+    fit_x_axis(ax, periods)
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel("natural period (s)")
     ax.set_ylabel("spectral acceleration (g)")

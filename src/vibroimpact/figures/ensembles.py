@@ -15,7 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, panels
+from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, fit_x_axis, panels
 from vibroimpact.model.parameters import PARAMETERS
 
 _HATCHES = {"forward": "", "backward": "////"}
@@ -78,7 +78,13 @@ def resonance_bands(
                 "hatch": _HATCHES[str(direction)],
                 "linewidth": 0.6,
             }
-            ax.fill_between(frequency, lower, upper, zorder=2, **style)
+            if len(frequency) > 1:
+                ax.fill_between(frequency, lower, upper, zorder=2, **style)
+            else:
+                reach = [middle - lower, upper - middle]
+                ax.errorbar(
+                    frequency, middle, reach, ecolor=look.colour, fmt="none", capsize=3.0, zorder=2
+                )
             handles += ax.plot(
                 frequency,
                 middle,
@@ -102,7 +108,7 @@ def resonance_bands(
         if nominal is not None:
             handles += line
         ax.set_ylabel(label)
-        ax.set_xlim(frequency[0], frequency[-1])
+        fit_x_axis(ax, frequency)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
     drawn[0].legend(handles=handles, ncols=3, **LEGEND)
     drawn[-1].set_xlabel("excitation frequency (Hz)")
@@ -192,7 +198,7 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
             markerfacecolor=look.colour if look.filled else "none",
             label=_words(str(name)),
         )
-    ax.set_xlim(x[0], x[-1])
+    fit_x_axis(ax, x)
     # Beyond 0 and 1 an estimate is nothing but its error.
     ax.set_ylim(-0.1, 1.1)
     meaning = data[over].attrs if over in data.coords else {}

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.style import LEGEND, MOTIONS
+from vibroimpact.figures.style import LEGEND, MOTIONS, fit_x_axis
 from vibroimpact.model.names import literal
 
 _WIDE = 2.0
@@ -84,7 +84,7 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
                 linewidth=0,
             )
     ax.axhline(0.0, color="0.3", linewidth=0.7, zorder=1)
-    ax.set_xlim(x[0], x[-1])
+    fit_x_axis(ax, x)
     ax.set_xlabel(f"{found[name].attrs['long_name']} ({unit})")
     ax.set_ylabel("Lyapunov exponents (1/s)")
     ax.legend(ncols=2, **LEGEND)

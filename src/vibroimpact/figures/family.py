@@ -14,7 +14,7 @@ from matplotlib.patches import FancyArrowPatch
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.style import FREE, LEGEND, SWEEPS
+from vibroimpact.figures.style import FREE, LEGEND, SWEEPS, fit_x_axis
 from vibroimpact.model.names import literal
 from vibroimpact.response.resonance import features
 
@@ -130,7 +130,6 @@ def resonance_family(
     ax = axes_or_new(ax, (8.4, 5.0), title)
     factor, label, flight, normalised = _QUANTITIES[quantity]
     frequency = data["frequency"].values
-    ax.set_xlim(frequency[0], frequency[-1])
     references = factor * data[flight].values
     if normalised:
         references = references / data[f"largest_{flight}"].values[:, np.newaxis]
@@ -151,6 +150,7 @@ def resonance_family(
         look = _look((markers or {}).get(name, i), (colours or {}).get(name))
         called = (labels or {}).get(name, literal(name))
         _curves(ax, data.isel(rig=i, drop=True), quantity, factor, look, called)
+    fit_x_axis(ax, frequency)
     ax.set_xlabel("excitation frequency $f$ (Hz)")
     ax.set_ylabel(label)
     if legend:

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.style import LEGEND, also_in_g
+from vibroimpact.figures.style import LEGEND, also_in_g, fit_x_axis
 
 _LABELS = {
     "spectral_displacement": (1e3, "largest $|u|$ (mm)"),
@@ -88,7 +88,7 @@ def response_spectra(
     ax.xaxis.set_major_formatter("{x:g}")
     ax.set_ylim(bottom=0.0)
     periods = spectrum["natural_period"].values
-    ax.set_xlim(periods[periods > 0.0].min(), periods.max())
+    fit_x_axis(ax, periods[periods > 0.0])
     ax.set_xlabel("natural period (s)")
     ax.set_ylabel(label)
     if "acceleration" in quantity:

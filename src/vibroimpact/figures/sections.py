@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import MARKS, axis_unit
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.style import LEGEND, SWEEPS, Look, panels
+from vibroimpact.figures.style import LEGEND, SWEEPS, Look, fit_x_axis, panels
 
 _Array = NDArray[np.float64]
 
@@ -106,7 +106,7 @@ def section_diagram(
     for ax in drawn:
         if len(x) > 2 and not np.allclose(spacing, spacing[0], rtol=1e-6):
             ax.set_xscale("log")
-        ax.set_xlim(x[0], x[-1])
+        fit_x_axis(ax, x)
     handles = [
         _handle(_WAYS.get(start, _ELSE))
         for start in dict.fromkeys(s if s in _WAYS else "" for s in map(str, data["start"].values))

@@ -151,6 +151,18 @@ def panels(
     return given
 
 
+def fit_x_axis(ax: Axes, values: ArrayLike) -> None:
+    """End the x axis at the smallest and the largest value; a single one stands in the middle."""
+    x = np.asarray(values, dtype=float)
+    if x.min() < x.max():
+        ax.set_xlim(x.min(), x.max())
+        return
+    for line in ax.lines:  # a point alone makes no line
+        if line.get_marker() in ("None", "none", "", None):
+            line.set_marker("o")
+            line.set_markersize(4.0)
+
+
 def also_in_g(ax: Axes) -> None:
     """Give axes of an acceleration in m/s² a second scale on the right, in g."""
     scale = ax.secondary_yaxis("right", functions=(_in_g, _from_g))

@@ -35,7 +35,7 @@ def read(path: Path) -> list[Columns] | None:
         begun = len(tables)
         for signal in signals:
             bare, own = parted(signal.name)
-            unit, doubt = agreed(own, signal.unit)
+            unit, doubt = agreed(own, signal.label)
             column = Column(bare, unit, signal.values, doubt=doubt)
             for _, columns in tables[begun:]:
                 if np.array_equal(columns[0].values, signal.times):

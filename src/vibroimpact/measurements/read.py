@@ -127,7 +127,7 @@ def read_measurement(
     if "amplitude" in data.attrs:
         data.attrs["amplitude_source"] = file.name if amplitude is None else CALL
     data.attrs |= {
-        "source": file.name,
+        "source": _clean(file.name),
         "kind": kind,
         "notes": "\n".join([*facts, *notes]),
         "left_out": "\n".join(left),

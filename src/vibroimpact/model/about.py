@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, in_one_line
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME, Quantity
 from vibroimpact.model.units import one_of, pretty, to_si
 from vibroimpact.records.channel import Channel
@@ -55,7 +55,7 @@ def read_values(
     taken, factor, quantity = _unit(found, unit, str(path), notes)
     notes += of_end(found.values)
     notes += of_times(spacing, len(found.values))
-    about = About(str(path), form, found.station, found.component, taken, tuple(notes))
+    about = About(in_one_line(str(path)), form, found.station, found.component, taken, tuple(notes))
     return found.values * factor, spacing, quantity, about
 
 
@@ -96,6 +96,15 @@ def _unit(
         if unit is not None:
             raise
         raise InputError(f"record: {path!r}: {error}") from None
+    for other in () if unit else found.others:
+        if not _same(other, factor, quantity):
+            of = f" of {found.component!r}" if found.component else ""
+            raise InputError(
+                f"record: {path!r} states the units {taken!r} and {other!r}{of}; unit= (--unit), "
+                "with the unit of the values, is accepted"
+            )
+    if unit is None and found.of_name and not _same(found.of_name, factor, quantity):
+        notes.append(f"taken in {taken}, not in the {found.of_name} of its name")
     if unit is not None and found.unit is not None and not _same(found.unit, factor, quantity):
         notes.append(f"unit {unit}, not the file's {found.unit}")
     return taken, factor, quantity

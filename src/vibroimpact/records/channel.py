@@ -29,6 +29,10 @@ class Channel(NamedTuple):
     unclear: str = ""
     """What the values are if no unit may be guessed for them, such as ``"counts"``."""
 
+    others: tuple[str, ...] = ()
+    """Units that the file states of the values elsewhere."""
+    of_name: str | None = None
+    """The unit that the name of the column ends in, where another place states one."""
     notes: tuple[str, ...] = ()
     """What was assumed of the values or their times."""
     uneven: str = ""

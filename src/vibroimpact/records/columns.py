@@ -20,12 +20,14 @@ from vibroimpact.records.commas import Decimal, decimal_mark, pointed
 from vibroimpact.records.file import File
 from vibroimpact.records.guard import few_columns
 from vibroimpact.records.stated import (
+    Units,
     are_units,
+    is_acceleration,
     parted,
-    spelled,
     stated_acceleration,
     stated_unit,
     unit_of,
+    units_of,
 )
 
 _EVEN = 0.01
@@ -67,17 +69,23 @@ def read(file: File) -> list[Channel]:
     for i, j in np.argwhere(~np.isfinite(table))[:1]:
         at = lines[i] if len(lines) == len(table) else lines[0]
         raise file.refused(at, f"{table[i, j]} is not finite; finite samples are accepted")
-    general = next((unit for line in reversed(words) if (unit := stated_unit(line))), None)
+    stated = [unit for line in reversed(words) if (unit := stated_unit(line))]
+    general = stated[0] if stated else None
+    # Others may be of the times.
+    above = tuple(unit for unit in stated if is_acceleration(unit))
     if table.shape[1] == 1:
-        return [Channel(table[:, 0], step, general or _of_one(words))]
+        own = general or _of_one(words)
+        return [Channel(table[:, 0], step, own, others=above)]
     names, units = _names(words, table.shape[1])
     spacing, note, uneven = _spacing(file, table[:, 0], lines, units[0])
     return [
         Channel(
             table[:, column],
             spacing,
-            units[column] or general,
+            units[column].unit or general,
             component=parted(names[column])[0] if table.shape[1] > 2 else "",
+            others=(*above, *(unit for unit in units[column][1:2] if unit)),
+            of_name=units[column].of_name,
             notes=(note,) if note else (),
             uneven=uneven,
         )
@@ -134,7 +142,7 @@ def _of_one(words: list[str]) -> str | None:
     return None if re.search(r"[:=]", last) else unit_of(last)
 
 
-def _names(words: list[str], columns: int) -> tuple[list[str], list[str | None]]:
+def _names(words: list[str], columns: int) -> tuple[list[str], list[Units]]:
     """The names of the columns and their units; none where no line has as many."""
     under: list[str] | None = None
     for line in reversed(words):
@@ -148,15 +156,10 @@ def _names(words: list[str], columns: int) -> tuple[list[str], list[str | None]]
         if under is None and columns > 1 and are_units(names):
             under = [name.strip("[]() ") for name in names]
             continue
-        units = [unit_of(name) for name in names]
-        if under:
-            units = [
-                own or (spelled(u) if u else None) for own, u in zip(units, under, strict=True)
-            ]
-        return names, units
+        return names, list(map(units_of, names, under or [None] * columns))
     return (
         ["", *(str(column) for column in range(1, columns))],
-        [spelled(unit) if unit else None for unit in under or [""] * columns],
+        [units_of("", unit) for unit in under or [None] * columns],
     )
 
 
@@ -171,7 +174,7 @@ def _table(file: File, rows: list[list[float]], lines: list[int]) -> _Array:
 
 
 def _spacing(
-    file: File, times: _Array, lines: list[int], unit: str | None
+    file: File, times: _Array, lines: list[int], stated: Units
 ) -> tuple[float | None, str, str]:
     """The time between samples; what is noted of it; or why there is none that is the same.
 
@@ -182,11 +185,16 @@ def _spacing(
     """
     if len(times) < 2:
         raise InputError(f"record: {file.path!r} has one sample; at least 2 are accepted")
+    unit = stated.unit
     each = _IN_A_SECOND.get(unit or "s")
     if each is None:
         raise InputError(
             f"record: {file.path!r}: its times are in {unit!r}; s, ms and us are accepted"
         )
+    for other in (stated.other, stated.of_name):
+        if other and _IN_A_SECOND.get(other) != each:
+            told = f"its times are in {unit!r} and in {other!r}; one unit is accepted, or step= "
+            return None, "", f"{told}(--step), which replaces the times"
     step = float((times[-1] - times[0]) / (len(times) - 1))
     off = times - (times[0] + step * np.arange(len(times)))
     worst = int(np.abs(off).argmax()) if step > 0.0 else 0

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.file import File
-from vibroimpact.records.stated import spelled, unit_of
+from vibroimpact.records.stated import spelled, units_of
 
 _MARKS = {"tab": "\t", "comma": ",", "space": " ", "semicolon": ";"}
 _END = "***end_of_header***"
@@ -26,7 +26,6 @@ class Signal(NamedTuple):
     """One channel of a segment."""
 
     name: str
-    unit: str | None
     times: NDArray[np.float64]
     """In s."""
     step: float | None
@@ -34,6 +33,8 @@ class Signal(NamedTuple):
     values: NDArray[np.float64]
     axis: str = "time"
     """What the times are, if not times."""
+    label: str | None = None
+    """The unit that the header states."""
 
 
 def recognises(file: File) -> bool:
@@ -150,7 +151,7 @@ def _signal(
         x = start + step * np.arange(count)
     stated = float(step) if step > 0.0 else None
     axis = own("x_dimension").lower() or "time"
-    return Signal(name, spelled(unit) if unit else unit_of(name), x, stated, y[:count], axis)
+    return Signal(name, x, stated, y[:count], axis, spelled(unit) if unit else None)
 
 
 def _number(file: File, at: int, cell: str, decimal: str) -> float:
@@ -181,8 +182,17 @@ def read(file: File) -> list[Channel]:
                 step = mean
         if not np.isfinite(signal.values).all():
             raise file.refused(0, f"{signal.name!r} has gaps; a record without gaps is accepted")
+        unit, other, of_name = units_of(signal.name, signal.label)
         channels.append(
-            Channel(signal.values, step, signal.unit, component=signal.name, where="its header")
+            Channel(
+                signal.values,
+                step,
+                unit,
+                component=signal.name,
+                where="its header",
+                others=(other,) if other else (),
+                of_name=of_name,
+            )
         )
     return channels
 

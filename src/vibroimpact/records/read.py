@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, in_one_line
 from vibroimpact.records import columns, cosmos, csmip, esm, geonet, knet, lvm, peer, seismic, smc
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.commas import Decimal
@@ -61,7 +61,7 @@ def read_channel(
     form = next(form for form in FORMATS if form.recognises(file))
     channels = form.read(file)
     last = tuple(of_last_line(file))
-    channels = [channel._replace(notes=channel.notes + last) for channel in channels]
+    channels = [_cleaned(one)._replace(notes=one.notes + last) for one in channels]
     names = tuple(channel.component for channel in channels)
     if component is None and len(channels) == 1:
         return Found(form.name, channels[0], names)
@@ -74,7 +74,7 @@ def read_channel(
     numbered = f"{listed}, or a number from 1 to {len(names)}, is accepted"
     if component is None:
         raise InputError(f"component: missing, and {file.path!r} has {len(channels)}; {numbered}")
-    wanted = str(component).strip()
+    wanted = in_one_line(str(component))
     chosen = [channel for channel in channels if channel.called(wanted)]
     if not chosen and wanted.isdecimal() and 1 <= int(wanted) <= len(channels):
         chosen = [channels[int(wanted) - 1]]
@@ -82,3 +82,14 @@ def read_channel(
         how = "is none" if not chosen else f"are {len(chosen)}"
         raise InputError(f"component: {component!r} {how} of {file.path!r}; {numbered}")
     return Found(form.name, chosen[0], names)
+
+
+def _cleaned(channel: Channel) -> Channel:
+    """A channel whose names and units are each one line, without control characters."""
+    return channel._replace(
+        station=in_one_line(channel.station),
+        component=in_one_line(channel.component),
+        also=tuple(map(in_one_line, channel.also)),
+        unit=channel.unit and in_one_line(channel.unit),
+        others=tuple(map(in_one_line, channel.others)),
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import NamedTuple
 
 _ENDS = {
     "hz": "Hz", "khz": "kHz", "rpm": "rpm", "radps": "rad/s", "mm": "mm", "cm": "cm", "um": "µm",
@@ -72,6 +73,11 @@ def stated_acceleration(line: str) -> str | None:
     return None
 
 
+def is_acceleration(unit: str) -> bool:
+    """Whether a text is a usual unit of accelerations."""
+    return _ACCELERATIONS.fullmatch(spelled(unit)) is not None
+
+
 def parted(name: str) -> tuple[str, str | None]:
     """A name, and the unit in brackets at its end."""
     name = name.strip().strip('"').strip()
@@ -126,6 +132,25 @@ def unit_of(name: str) -> str | None:
         return spelled(unit)
     sure = re.search(r"/ *[A-Za-z0-9]+$", plain(bare)) is not None
     return ending(words_of(bare), sure=sure)
+
+
+class Units(NamedTuple):
+    """The units that a file states of a column, in more than one place."""
+
+    unit: str | None
+    other: str | None = None
+    """Stated elsewhere; an error where it is not the same."""
+    of_name: str | None = None
+    """What the name ends in (``acc_g``), where the unit is stated elsewhere."""
+
+
+def units_of(name: str, stated: str | None) -> Units:
+    """The units of a column: in brackets in its name, as stated elsewhere, and as its name ends."""
+    elsewhere = spelled(stated) if stated and stated.strip() else None
+    bracketed = parted(name)[1]
+    if bracketed:
+        return Units(spelled(bracketed), elsewhere)
+    return Units(elsewhere, of_name=unit_of(name)) if elsewhere else Units(unit_of(name))
 
 
 _LIKE = re.compile(

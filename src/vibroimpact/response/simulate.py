@@ -174,7 +174,7 @@ def simulate(
             **excitation_parameters(excitation.replace(phase=phase)),
             "cycles": length,
         },
-        note_stiff_stops(oscillator, excitation, excitation.frequency),
+        note_stiff_stops(rig, excitation.frequency),
     )
 
 

@@ -81,9 +81,11 @@ class MapStore:
 
     def dataset(self) -> xr.Dataset:
         """The map; values are read when they are used."""
-        data: xr.Dataset = xr.open_zarr(self._group.store, consolidated=False, chunks=None)
+        from vibroimpact.stores.lazy_array import lazy_dataset
+
+        data = lazy_dataset(self._group, ["scenario", *VALUES, *COUNTS, "level"])
         del data.attrs["finished"]
-        return data[["scenario", *VALUES, *COUNTS, "level"]]
+        return data
 
     def _array(self, name: str) -> zarr.Array[Any]:
         import zarr
