@@ -36,10 +36,23 @@ def test_a_reversed_sensor_is_suggested_as_the_cause(data, channel):
     assert "sign changed in the data" in line
     # It stands first, for the values mean nothing.
     assert found.findings.splitlines()[0] == line
-    gaps = found.fitted_value.sel(parameter=["right_gap", "left_gap"])
+
+
+def test_a_gap_that_no_displacement_comes_near_is_absurd_beside_a_reversed_sensor(data):
+    """A gap of 5 m is never touched, so that the fit stays there: 494 times the displacement."""
+    far = START.replace(right=RIGHT.replace(gap="5 m"))
+    turned = data.assign(displacement=-data.displacement)
+    found = vi.identify(far, turned, "right_gap,left_gap", **QUICK)
+    lines = found.findings.splitlines()
+    assert "the sign of the displacement reversed" in lines[0]
+    gaps = found.fitted_value.sel(parameter=["right_gap", "left_gap"]).values
     swing = np.ptp(turned["displacement"].values) / 2.0
-    absurd = int((np.abs(gaps) > 100.0 * swing).sum())
-    assert found.findings.count("is absurd") == absurd
+    absurd = np.abs(gaps) > 100.0 * swing
+    assert absurd.tolist() == [True, False]
+    (line,) = [line for line in lines if "is absurd" in line]
+    assert line == lines[1]
+    assert line.startswith("right_gap 5 m is absurd: ")
+    assert float(line.split(": ")[1].split()[0]) == pytest.approx(5.0 / swing, rel=5e-3)
 
 
 def test_a_right_sensor_is_not_suspected(data):
