@@ -156,10 +156,12 @@ def _names(words: list[str], columns: int) -> tuple[list[str], list[Units]]:
         if under is None and columns > 1 and are_units(names):
             under = [name.strip("[]() ") for name in names]
             continue
-        return names, list(map(units_of, names, under or [None] * columns))
+        beneath: list[str | None] = [*under] if under else [None] * columns
+        return names, list(map(units_of, names, beneath))
+    units: list[str | None] = [*under] if under else [None] * columns
     return (
         ["", *(str(column) for column in range(1, columns))],
-        [units_of("", unit) for unit in under or [None] * columns],
+        [units_of("", unit) for unit in units],
     )
 
 

@@ -97,7 +97,7 @@ def note_unbounded(rig: Rig) -> list[str]:
 
 
 def note_stiff_stops(rig: Rig, frequency: float) -> list[str]:
-    """Say why a computation is slow: pressed stops that vibrate thousands of times in a forcing cycle.
+    """Say why a computation is slow: pressed stops vibrate thousands of times in a forcing cycle.
 
     Only where a law of the rig is not linear: elsewhere the motion is known in closed form, however
     fast it is.
