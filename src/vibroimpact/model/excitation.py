@@ -17,8 +17,9 @@ from pydantic import model_validator
 from vibroimpact.arguments import check_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.quantities import ACCELERATION, ANGLE, FORCE, FREQUENCY, LENGTH, Quantity
+from vibroimpact.model.sizes import check_size
 from vibroimpact.model.units import one_of, pretty, to_si
-from vibroimpact.model.validation import Accepts, Model, check_size, constructor
+from vibroimpact.model.validation import Accepts, Model, constructor
 
 Of = Literal["acceleration", "displacement", "force"]
 """What an amplitude is one of."""

@@ -26,23 +26,12 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.model.html_table import table
 from vibroimpact.model.keys import MOST, SHOWN, listed, unknown_key
 from vibroimpact.model.quantities import Quantity
+from vibroimpact.model.sizes import SMALLEST, check_size
 from vibroimpact.model.units import accepted, pretty, read
 
-SMALLEST, LARGEST = 1e-100, 1e100
-"""Sizes in SI units whose squares and quotients are floating-point numbers."""
 _FIELD = re.compile(r"[a-z_]+(\.[a-z_]+)*: ")
 _Init = TypeVar("_Init", bound=Callable[..., None])
 _ModelType = TypeVar("_ModelType", bound="Model")
-
-
-def check_size(value: object, number: float, smallest: float = 0.0) -> float:
-    """Return a number of moderate size, or raise `InputError` that shows the value given."""
-    if not smallest <= abs(number) <= LARGEST:
-        raise InputError(
-            f"{shown(value)} is outside the range that can be computed with; a size between "
-            f"{smallest:g} and {LARGEST:g} in SI units is accepted"
-        )
-    return number
 
 
 @dataclass(frozen=True, slots=True)
