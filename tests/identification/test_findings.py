@@ -74,7 +74,7 @@ def test_a_contact_of_hertz_inherits_no_certainty(undamped):
 
 @pytest.mark.parametrize("name", [n for n in PARAMETERS if n not in ("frequency", "amplitude")])
 def test_every_kind_has_a_size(name):
-    setting = (CASE.oscillator, vi.Harmonic("0.04 g", 1.0))
+    setting = vi.Rig(CASE.oscillator, vi.Harmonic("0.04 g", 1.0))
     rig = CASE.oscillator
     omega = rig.angular_frequency
     swing = 0.04 * 9.80665 / omega**2
@@ -93,7 +93,7 @@ def test_every_kind_has_a_size(name):
     }
     quantity = PARAMETERS[name].quantity
     assert size_of(quantity, setting) == pytest.approx(sizes[quantity.symbol], rel=1e-9)
-    at_rest = (rig, vi.Harmonic(1e-12, 1.0))  # the base of a free vibration
+    at_rest = vi.Rig(rig, vi.Harmonic(1e-12, 1.0))  # the base of a free vibration
     assert size_of(quantity, at_rest, swing) == pytest.approx(sizes[quantity.symbol], rel=1e-9)
 
 
@@ -126,7 +126,8 @@ def test_of_a_bumper_that_is_never_touched_only_the_least_gap_is_known():
 def test_the_cost_tells_a_right_fit_from_a_wrong_one():
     data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
     right = vi.identify(CASE.oscillator, data, "stiffness", **QUICK)
-    wrong = vi.identify(vi.Rig(CASE.oscillator, "0.06 g"), data, "stiffness", **QUICK)
+    harder = data.assign_attrs(amplitude=0.06 * 9.80665)
+    wrong = vi.identify(CASE.oscillator, harder, "stiffness", **QUICK)
     assert wrong.attrs["cost"] > 100.0 * right.attrs["cost"]
     assert right.attrs["cost"] == pytest.approx(0.5 * 0.01**2 * data[EXCURSIONS[0]].size * 2, 0.5)
 
@@ -179,7 +180,7 @@ def test_what_is_nearly_right_is_refused_with_what_is_accepted(asked, told):
 
 
 def test_names_of_each_may_be_a_text_with_commas():
-    settings = {name: (CASE.oscillator, vi.Harmonic(0.4, 1.0)) for name in ("A", "B")}
+    settings = {name: vi.Rig(CASE.oscillator, vi.Harmonic(0.4, 1.0)) for name in ("A", "B")}
     found = frees("gap, stiffness", settings, "gap", None)
     assert [one.key for one in found] == ["gap[A]", "gap[B]", "stiffness"]
     assert set(SENSORS) & set(PARAMETERS) == set()

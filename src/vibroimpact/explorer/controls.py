@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from vibroimpact.errors import InputError
@@ -23,6 +23,7 @@ from vibroimpact.model.quantities import (
 from vibroimpact.model.quantities import (
     DIMENSIONLESS as NUMBER,
 )
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import in_order
 
@@ -195,9 +196,8 @@ def _read(rig: Oscillator, state: State, name: str) -> float | None:
     bumpers = all(isinstance(stop, Bumper) for stop in rig.stops)
     if name in ("stiffness_ratio", "relaxation_time") and not bumpers:
         return None
-    read: Callable[..., float] = PARAMETERS[name].read
     try:
-        return float(read(rig, state.shaking))
+        return PARAMETERS[name].read(Rig(rig, state.shaking))
     except InputError:
         return None
 

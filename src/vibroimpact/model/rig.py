@@ -92,7 +92,7 @@ class Rig:
         own: float | None = None
         if isinstance(shaking, Harmonic | Periodic):
             own = shaking.frequency
-        if shaking is not None and not isinstance(shaking, Record):
+        elif shaking is not None and not isinstance(shaking, Record):
             shaking, amplitudes = as_periodic(shaking, "shaking")
         if frequency is not None:
             own = to_si(frequency, FREQUENCY, "frequency", above=0.0)
@@ -136,7 +136,9 @@ class Rig:
         InputError
             If a record shakes the rig, or nothing does.
         """
-        return as_periodic(self.shaking, "shaking")[0]
+        if isinstance(self.shaking, Harmonic | Periodic):
+            return self.shaking
+        return as_periodic(self.shaking, "shaking")[0]  # which says what is wrong
 
     @property
     def harmonic(self) -> Repeated:
@@ -158,7 +160,8 @@ class Rig:
         InputError
             If the frequency is open, or the shaking is not periodic.
         """
-        as_periodic(self.shaking, "shaking")
+        if not isinstance(self.shaking, Harmonic | Periodic):
+            as_periodic(self.shaking, "shaking")  # which says what is wrong
         if self.frequency is None:
             raise InputError(
                 "frequency: missing, and the rig leaves it open; a frequency greater than 0 is "

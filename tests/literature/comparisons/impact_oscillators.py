@@ -99,9 +99,9 @@ def fastest(one: Oscillator) -> Orbit:
 
 def budd_dux_velocity(orbit: Orbit) -> float:
     """Ours, of the impact on an orbit."""
-    found = vi.orbit(
-        budd_dux_rig(orbit.oscillator), *budd_dux_start(orbit), orbit.oscillator.cycles
-    )
+    shaken, start = budd_dux_start(orbit)
+    rig = vi.Rig(budd_dux_rig(orbit.oscillator), shaken)
+    found = vi.orbit(rig, start, orbit.oscillator.cycles)
     (impact,) = events(found)
     return impact.v
 
