@@ -27,7 +27,7 @@ COMMANDS = {
     "record": (_RECORD, "--periods", "2"),
     "earthquake": (_CASE, _RECORD),
     "design": (_CASE, *_FEW, "--vary", "gap", "5mm:10mm:2"),
-    "ensemble": (_CASE, "--uncertain", "gap", "normal:5%", "--samples", "2", *_FEW),
+    "ensemble": (_CASE, "--uncertain", "gap", "normal:5%", "--draws", "2", *_FEW),
     "classify": (_CASE,),
     "identify": (_TEST, "--rig", _CASE, "--free", "gap", "--starts", "1"),
     "map": ("--x", "gap-ratio", "0.2:0.4:2", "--y", "stiffness-ratio", "5:10:2", "--refine", "0"),

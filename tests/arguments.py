@@ -119,8 +119,9 @@ _SWEEP: dict[str, Any] = {
 
 def calls(folder: Path) -> Mapping[str, Call]:
     """A valid call of each public name that can be called, with every argument given."""
-    two = {"oscillator": rig(), "excitation": shaken()}
-    swept = {"oscillator": rig(), "amplitude": 2.0}
+    whole = vi.Rig(rig(), shaken())
+    two = {"rig": whole, "frequency": 1.5}
+    swept = {"rig": vi.Rig(rig(), 2.0)}
     near = [-0.01, 0.01]
     made: dict[str, dict[str, Any]] = {
         "BilinearIsolator": {
@@ -192,7 +193,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "Record": {"acceleration": [0.0, 1.0, 0.0], "step": 0.01},
         "Record.read": {"path": folder / "record.csv"},
         "Record.from_displacement": {"displacement": [0.0, 0.001] * 8, "step": 0.01},
-        "Rig": {"oscillator": rig(), "amplitude": 1.0},
+        "Rig": {"oscillator": rig(), "shaking": 1.0, "frequency": 1.5, "name": "mine"},
         "RigidStop": {"restitution": 0.5, "gap": 0.1},
         "State": {
             "displacement": 0.0,
@@ -235,8 +236,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             **two,
             "start": orbit(),
             "parameters": ("frequency", "amplitude"),
-            "low": (1.4, 1.9),
-            "high": (1.6, 2.1),
+            "spans": ((1.4, 1.6), (1.9, 2.1)),
             "most_points": 5,
             "progress": None,
         },
@@ -244,8 +244,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             **two,
             **_SMALL,
             "parameter": "frequency",
-            "low": 1.4,
-            "high": 1.6,
+            "span": (1.4, 1.6),
             "steps": 2,
             "directions": ("up",),
             "starts": None,
@@ -264,13 +263,12 @@ def calls(folder: Path) -> Mapping[str, Call]:
             **two,
             "start": orbit(),
             "parameter": "frequency",
-            "low": 1.49,
-            "high": 1.51,
+            "span": (1.49, 1.51),
             "period": None,
             "most_points": 4,
             "progress": None,
         },
-        "classify": {
+        "classify_scenario": {
             **swept,
             "frequencies": [1.4, 1.5, 1.6],
             "thresholds": None,
@@ -278,7 +276,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "threads": 1,
             "progress": None,
         },
-        "coexisting": {
+        "coexisting_motions": {
             **two,
             **_SMALL,
             "frequencies": [1.5],
@@ -292,7 +290,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "compare_fits": {"fits": {"a": fit(), "b": fit()}},
         "contacts": {"motion": motion(), "grazing": 0.001},
         "demands": {
-            "oscillator": rig(),
+            "rig": rig(),
             "records": [record()],
             "scales": [1.0],
             "intensity": "factor",
@@ -306,13 +304,13 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "where": "threads",
             "progress": None,
         },
-        "design": {
-            "oscillator": rig(),
-            "shaking": record(),
+        "design_chart": {
+            "rig": rig(),
+            "records": record(),
             "vary": {"gap": [0.01, 0.02]},
             "limits": None,
             "fractile": 1.0,
-            "frequencies": None,
+            "frequency_span": None,
             "step": 0.02,
             "tail": None,
             "threads": 1,
@@ -323,7 +321,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "rig": vi.Rig(rig(), 2.0),
             "distributions": {"mass": "uniform(0.9, 1.1)"},
             "response": _response,
-            "samples": 4,
+            "draws": 4,
             "method": "sobol",
             "seed": 0,
             "block": None,
@@ -337,7 +335,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "comparison": None,
             "figure": "png",
         },
-        "fitted": {"result": fit(), "test": None},
+        "fitted_rig": {"result": fit(), "test": None},
         "floor_record": {"motion": _shaken_by_record()},
         "fractiles": {
             "demands": demanded(),
@@ -360,10 +358,9 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "amplitude": 1.0,
         },
         "identify": {
+            "rig": rig(),
             "data": motion(),
-            "oscillator": rig(),
             "free": {"stiffness": "90 N/m"},
-            "amplitude": None,
             "each": (),
             "ties": None,
             "priors": None,
@@ -384,13 +381,13 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "impact_section": {"motion": motion()},
         "laboratory.case": {"code": "B2-G1-A3"},
         "least_acceleration": {
-            "oscillator": rig(),
-            "shaking": record(),
+            "rig": rig(),
+            "records": record(),
             "ranges": {"gap": (0.01, 0.02), "stiffness": (500.0, 1000.0)},
             "gap": None,
             "limits": None,
             "fractile": 1.0,
-            "frequencies": None,
+            "frequency_span": None,
             "step": 0.02,
             "tail": None,
             "seed": 0,
@@ -432,8 +429,8 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "noise": None,
             "margin": 0.02,
         },
-        "one_by_one": {"function": _response, "threads": 1},
-        "orbit": {**two, "guess": None, "period": 1, "samples": 8},
+        "for_each_rig": {"function": _response, "threads": 1},
+        "orbit": {**two, "start": None, "period": 1, "samples": 8},
         "progress_bar": {"what": "done", "every": 0.2},
         "read_measurement": {
             "path": folder / "measured.csv",
@@ -446,10 +443,10 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "decimal": None,
         },
         "required_gap": {
-            "oscillator": rig(),
-            "shaking": record(),
+            "rig": rig(),
+            "records": record(),
             "fractile": 1.0,
-            "frequencies": None,
+            "frequency_span": None,
             "step": 0.02,
             "tail": None,
             "threads": 1,
@@ -458,8 +455,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "resonance_diagram": {
             **swept,
-            "low": 1.45,
-            "high": 1.55,
+            "span": (1.45, 1.55),
             "parameter": "frequency",
             "frequency": None,
             "phase": 0.0,
@@ -480,9 +476,9 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "save": {"dataset": motion(), "path": folder / "kept.nc"},
         "scenario_map": {
+            "rig": None,
             "x": ("gap_ratio", [0.5]),
             "y": ("stiffness_ratio", [10.0]),
-            "base": None,
             "step": 0.3,
             "refine": 0,
             "thresholds": None,
@@ -494,8 +490,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "progress": None,
         },
         "seismic_response": {
-            "oscillator": rig(),
-            "record": record(),
+            "rig": vi.Rig(rig(), record()),
             "tail": None,
             "max_events": 200,
             "progress": None,
@@ -505,7 +500,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "distributions": {"mass": "uniform(0.9, 1.1)"},
             "response": _response,
             "quantity": "displacement_max",
-            "samples": 4,
+            "draws": 4,
             "seed": 0,
             "resamples": 0,
             "block": None,
@@ -520,7 +515,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "max_events": 200,
             "progress": None,
         },
-        "spectrum": {"motion": motion(), "highest": 10.0},
+        "fourier_spectrum": {"motion": motion(), "highest": 10.0},
         "steady": {
             **two,
             **_SMALL,
@@ -543,7 +538,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "where": "threads",
             "progress": None,
         },
-        "to_dimensionless": {"oscillator": rig(), "amplitude": 2.0},
+        "to_dimensionless": {"rig": vi.Rig(rig(), 2.0)},
         "to_table": {"dataset": demanded(), "rows": None},
         "totals": {"motion": motion()},
     }

@@ -119,7 +119,7 @@ SHAKING = vi.Harmonic(1.0, 1.0)
         (
             "limits",
             lambda v: vi.least_acceleration(
-                OSCILLATOR, {"gap": (0.01, 0.05)}, records=SHAKING, limits=v
+                vi.Rig(OSCILLATOR, SHAKING), {"gap": (0.01, 0.05)}, limits=v
             ),
         ),
         ("starts", lambda v: vi.coexisting_motions(vi.Rig(OSCILLATOR, SHAKING), starts=v)),

@@ -11,7 +11,7 @@ import pytest
 import vibroimpact as vi
 
 COMMAND = "ensemble"
-FEW = ("--samples", "8", "--frequencies", "1Hz,2.4Hz")
+FEW = ("--draws", "8", "--frequencies", "1Hz,2.4Hz")
 GAP = ("--uncertain", "gap", "normal:5%")
 STUDY = """
 case = "B2-G1-A3"
@@ -21,7 +21,7 @@ frequencies = ["1 Hz", "2.4 Hz"]
 
 [ensemble]
 uncertain = { bumper-stiffness = "lognormal:0.2", gap = "uniform:7 mm:8 mm" }
-samples = 4
+draws = 4
 method = "latin"
 seed = 3
 """
@@ -67,8 +67,8 @@ def test_of_a_study_as_json(tmp_path, told):
         ((*GAP, *GAP), "--uncertain: 'gap' is given twice"),
         (("--uncertain", "colour", "normal:5%"), "--uncertain: distributions: 'colour'"),
         (("--uncertain", "gap", "gauss:5%"), "--uncertain: distributions['gap']: 'gauss:5%'"),
-        ((*GAP, "--samples", "100"), "--samples: 100"),
-        ((*GAP, "--samples", "0"), "--samples: 0"),
+        ((*GAP, "--draws", "100"), "--draws: 100"),
+        ((*GAP, "--draws", "0"), "--draws: 0"),
         ((*GAP, "--seed", "-1"), "--seed: -1"),
         ((*GAP, "--from", "3Hz", "--to", "2Hz"), "--from: 3"),
     ],

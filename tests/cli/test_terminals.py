@@ -134,11 +134,13 @@ def test_a_closed_stderr(tmp_path, stream):
 def test_closed_streams_with_processes(tmp_path, streams):
     """The library that starts processes takes for granted that streams are open."""
     line = (
-        f"{' '.join(PROGRAM)} ensemble B2-G1-A3 --uncertain gap normal:5% --samples 8"
+        f"{' '.join(PROGRAM)} ensemble B2-G1-A3 --uncertain gap normal:5% --draws 8"
         f" --frequencies 1Hz,2Hz --where processes --threads 2 {streams}"
     )
     done = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (0, "")
+    # On a slow machine it also reports how far it is.
+    lines = [line for line in done.stderr.splitlines() if "sweeping" not in line]
+    assert (done.returncode, lines) == (0, [])
     assert (tmp_path / "out/B2-G1-A3-ensemble.nc").is_file()
     assert ("Files" in done.stdout) == (">&-" not in streams.removeprefix("2>&-"))
 

@@ -49,7 +49,7 @@ def ensemble(
             ),
         ),
     ] = (),
-    samples: Annotated[
+    draws: Annotated[
         Whole | None,
         Parameter(group=_ENSEMBLE, help="How many rigs are drawn, a power of 2 for sobol; 128."),
     ] = None,
@@ -107,7 +107,7 @@ def ensemble(
     For example:
 
         vibroimpact ensemble B2-G1-A3 --uncertain gap normal:5% --uncertain damping lognormal:0.2
-        vibroimpact ensemble building.toml --samples 1024 --sensitivity --physical
+        vibroimpact ensemble building.toml --draws 1024 --sensitivity --physical
     """
     from vibroimpact.cli import frequency_grid
     from vibroimpact.cli.output import output_folder, progress_bar, tell, warn
@@ -121,7 +121,7 @@ def ensemble(
     default = frequency_grid.default_range(what, _COARSER)
     held = frequency_grid.frequencies(start, stop, step, frequencies, swept, default)
     options: dict[str, Any] = {
-        "draws": (table and table.samples) or 128 if samples is None else samples,
+        "draws": (table and table.draws) or 128 if draws is None else draws,
         "seed": (table and table.seed) or 0 if seed is None else seed,
     }
     way = method or (table and table.method) or "sobol"

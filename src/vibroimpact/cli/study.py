@@ -106,7 +106,7 @@ class EnsembleTable(Model):
     """
 
     uncertain: dict[str, str] | None = None
-    samples: Annotated[int | None, Field(ge=1, le=_MOST)] = None
+    draws: Annotated[int | None, Field(ge=1, le=_MOST)] = None
     method: Literal["sobol", "latin", "random"] | None = None
     seed: Annotated[int | None, Field(ge=0, le=_MOST)] = None
 
