@@ -51,7 +51,8 @@ def test_budd_and_dux_orbits(omega: float, r: float, sigma: float, n: int) -> No
         found = possible_orbits(one)
         assert found
         for orbit in found:
-            shown = vi.orbit(budd_dux_rig(one), *budd_dux_start(orbit), n)
+            shaking, start = budd_dux_start(orbit)
+            shown = vi.orbit(vi.Rig(budd_dux_rig(one), shaking), start, n)
             (impact,) = events(shown)
             assert impact.v == pytest.approx(float(orbit.velocity), rel=1e-10)
             assert int(shown["stable"]) == int(max(map(abs, orbit.multipliers)) < 1)

@@ -62,7 +62,7 @@ _COCO = [
         lambda: float(_coco_orbit()["final_state"][1]),
     ),
     Comparison(COCO, "first orbit, θ of the impact", "0.076", lambda: _coco_impact()[0]),
-    Comparison(COCO, "first orbit, x′ behind the impact", "-1.36", lambda: _coco_impact()[1]),
+    Comparison(COCO, "first orbit, x′ after the impact", "-1.36", lambda: _coco_impact()[1]),
     Comparison(
         COCO,
         "its family: A at which it grazes",
@@ -99,9 +99,9 @@ def fastest(one: Oscillator) -> Orbit:
 
 def budd_dux_velocity(orbit: Orbit) -> float:
     """Ours, of the impact on an orbit."""
-    found = vi.orbit(
-        budd_dux_rig(orbit.oscillator), *budd_dux_start(orbit), orbit.oscillator.cycles
-    )
+    shaking, start = budd_dux_start(orbit)
+    rig = vi.Rig(budd_dux_rig(orbit.oscillator), shaking)
+    found = vi.orbit(rig, start, orbit.oscillator.cycles)
     (impact,) = events(found)
     return impact.v
 
