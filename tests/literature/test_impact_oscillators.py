@@ -51,7 +51,8 @@ def test_budd_and_dux_orbits(omega: float, r: float, sigma: float, n: int) -> No
         found = possible_orbits(one)
         assert found
         for orbit in found:
-            shown = vi.orbit(budd_dux_rig(one), *budd_dux_start(orbit), n)
+            shaking, start = budd_dux_start(orbit)
+            shown = vi.orbit(vi.Rig(budd_dux_rig(one), shaking), start, n)
             (impact,) = events(shown)
             assert impact.v == pytest.approx(float(orbit.velocity), rel=1e-10)
             assert int(shown["stable"]) == int(max(map(abs, orbit.multipliers)) < 1)
@@ -70,7 +71,7 @@ def test_budd_and_dux_period_doubling(r: float, sigma: float) -> None:
 @pytest.mark.parametrize("other", ["gap", "restitution", "amplitude", "damping"])
 def test_budd_and_dux_curves_of_period_doublings(other: str) -> None:
     one = Oscillator(2.3 / math.tau, 0.0, 0.8, 0.05)
-    rig, shaken, data = _followed(one, low=0.9 * one.frequency, high=1.2 * one.frequency)
+    rig, shaken, data = _followed(one, (0.9 * one.frequency, 1.2 * one.frequency))
     curve = _curve(rig, shaken, data, "period doubling", other, (0.5, 1.2))
     for hertz, value in zip(curve["frequency"].values[::5], curve[other].values[::5], strict=True):
         beside = _with(one, other, value)
@@ -83,17 +84,19 @@ def test_budd_and_dux_curves_of_period_doublings(other: str) -> None:
 def test_curves_of_folds_in_closed_form(other: str) -> None:
     """Where the two (1, 1) orbits meet."""
     one = Oscillator(1.49 / math.tau, 0.1, 0.8, 2.5)
-    rig, shaken, data = _followed(one, low=0.8 * one.frequency, high=1.2 * one.frequency)
+    rig, shaken, data = _followed(one, (0.8 * one.frequency, 1.2 * one.frequency))
     curve = _curve(rig, shaken, data, "fold", other, (0.5, 1.2))
     for hertz, value in zip(curve["frequency"].values, curve[other].values, strict=True):
         beside = _with(one, other, value)._replace(frequency=hertz)
         assert float(beside.fold) == pytest.approx(beside.gap, rel=1e-8)
 
 
-def _followed(one: Oscillator, **span: float) -> tuple[vi.Oscillator, vi.Harmonic, xr.Dataset]:
+def _followed(
+    one: Oscillator, span: tuple[float, float]
+) -> tuple[vi.Oscillator, vi.Harmonic, xr.Dataset]:
     """The branch of the faster of its orbits."""
     rig, (shaken, start) = budd_dux_rig(one), budd_dux_start(fastest(one))
-    return rig, shaken, vi.branch(vi.Rig(rig, shaken), start, **span)
+    return rig, shaken, vi.branch(vi.Rig(rig, shaken), start, span=span)
 
 
 def _curve(
