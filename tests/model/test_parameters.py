@@ -114,8 +114,8 @@ def test_a_unit_may_depend_on_an_exponent():
     assert parameter("left_stiffness").of(fluid).units == "N m-1"
     low, high = read_span(parameter("right_stiffness").of(fluid), ("1 GN/m^1.5", "3 GN/m^1.5"))
     assert (low, high) == (1e9, 3e9)
+    mixed = fluid.replace(right=HERTZ.replace(stiffness=fluid.left.stiffness))
     with pytest.raises(vi.InputError, match=r"in N/m and N/m\^1\.5; 'right_stiffness' and"):
-        mixed = fluid.replace(right=HERTZ.replace(stiffness=fluid.left.stiffness))
         parameter("bumper_stiffness").read(vi.Rig(mixed, SHAKEN))
 
 

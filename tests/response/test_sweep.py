@@ -128,7 +128,8 @@ class TestDataset:
         case = vi.laboratory.case("B2-G1-A3")
         told: list[tuple[int, int]] = []
         data = vi.sweep(
-            vi.Rig(*(case.oscillator, "0.05 g", ["500 mHz", "2.5 Hz"])),
+            vi.Rig(case.oscillator, "0.05 g"),
+            ["500 mHz", "2.5 Hz"],
             progress=lambda done, total: told.append((done, total)),
         )
         plain = vi.sweep(vi.Rig(case.oscillator, 0.05 * 9.80665), [0.5, 2.5])
@@ -325,7 +326,7 @@ class TestWrongInput:
             with pytest.raises(vi.InputError, match=r"^rigs\[0\]: .* accepted"):
                 vi.sweeps(wrong, [1.0])
         for wrong in (case.oscillator, "B9", 3.0):
-            with pytest.raises(vi.InputError, match=r"^rigs: .* accepted"):
+            with pytest.raises(vi.InputError, match=r"^rigs(\[0\])?: .* accepted"):
                 vi.sweeps(wrong, [1.0])
 
     @staticmethod

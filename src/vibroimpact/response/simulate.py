@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
@@ -91,6 +92,7 @@ def simulate(
     oscillator = rig.oscillator
     excitation = rig.shaking if isinstance(rig.shaking, Record) else rig.harmonic
     max_events = check_max_events(max_events)
+    check_progress(progress)
     per = 1 if isinstance(excitation, Record) else 256
     samples = per if samples is None else whole(samples, "samples", 0)
     if isinstance(excitation, Record):
