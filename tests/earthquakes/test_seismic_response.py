@@ -207,13 +207,6 @@ def test_the_tail_is_two_periods_of_the_softest_spring() -> None:
     assert free_tail(vi.Rig(slow, RECORD)) == 60.0
 
 
-def test_a_case_is_a_rig() -> None:
-    case = vi.laboratory.case("B2-G1-A3")
-    direct = vi.seismic_response(vi.Rig(case.oscillator, RECORD))
-    for given in (case, "B2-G1-A3"):
-        assert vi.seismic_response(vi.Rig(given, RECORD)).identical(direct)
-
-
 def test_what_is_given_up_is_told() -> None:
     with pytest.warns(RuntimeWarning, match="seismic_response: more contacts and detachments"):
         found = vi.seismic_response(vi.Rig(RIGS["walls"], noise(8, step=0.5)), max_events=1)

@@ -69,9 +69,10 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
     InputError
         If there is none, or one is not a rig.
     """
+    alone = is_one_rig(rigs) or not isinstance(rigs, Iterable)
     if isinstance(rigs, Mapping):
         items = [(str(name), rig) for name, rig in rigs.items()]
-    elif is_one_rig(rigs) or not isinstance(rigs, Iterable):
+    elif alone:
         items = [("", rigs)]
     else:
         items = [("", rig) for rig in rigs]
@@ -79,7 +80,7 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
         raise InputError(f"{where}: the list is empty; at least one rig is accepted")
     read = []
     for i, (name, item) in enumerate(items):
-        place = where if is_one_rig(rigs) else f"{where}[{name or i}]"
+        place = where if alone else f"{where}[{name or i}]"
         rig = _read(item, place, oscillator_alone)
         read.append((name or rig.name or str(i), rig))
     # As of two study files of one name in two folders.
