@@ -53,12 +53,10 @@ def test_without_stops_it_is_the_closed_form() -> None:
 def test_sines_against_a_fine_sweep(ratio: float, gap: float) -> None:
     """A sweep of steps 20 times as fine over the whole range finds no more, and no less."""
     rig = vi.from_dimensionless(ratio, gap, 0.02, 0.15)
-    data = vi.design_chart(vi.Rig(rig, rig.amplitude), {"damping_ratio": [0.15]}).isel(
-        damping_ratio=0
-    )
+    data = vi.design_chart(rig, {"damping_ratio": [0.15]}).isel(damping_ratio=0)
     natural = rig.oscillator.natural_frequency
     grid = natural * np.arange(0.4, 4.0, sample(0.001, 0.004))
-    fine = vi.sweep(vi.Rig(rig, grid))
+    fine = vi.sweep(rig, grid)
     for name, high, low in (
         ("peak_displacement", "displacement_max", "displacement_min"),
         ("peak_acceleration", "acceleration_max", "acceleration_min"),
@@ -182,25 +180,24 @@ def test_what_has_no_bound_is_infinite() -> None:
         ({"vary": {"amplitude": [1.0]}}, "vary: 'amplitude' is that of a sine"),
         ({"vary": {"gap": []}}, "gaps: no values"),
         ({"vary": {"yield_force": [1.0]}}, "yield_force: unknown key"),
-        ({"shaking": []}, "records: none given"),
-        ({"shaking": [RECORDS["a"], 3]}, r"records\['1'\]: 3; a Record"),
+        ({"records": []}, "records: none given"),
+        ({"records": [RECORDS["a"], 3]}, r"records\['1'\]: 3; a Record"),
         ({"shaking": "3 s"}, "shaking: '3 s'"),
         ({"shaking": -1.0}, "shaking: -1"),
         ({"shaking": vi.Periodic(1.0, [1.0, 2.0])}, "shaking: a Periodic"),
-        ({"shaking": RECORDS, "frequencies": (1, 2)}, "frequencies: given with records"),
-        ({"frequencies": (2.0, 1.0)}, r"frequencies\[1\]: 1 Hz is not above 2 Hz"),
-        ({"frequencies": "1 Hz"}, "frequencies: '1 Hz'; the lowest"),
-        ({"shaking": RECORDS, "fractile": 1.5}, "fractile: 1.5"),
+        ({"records": RECORDS, "frequency_span": (1, 2)}, "frequency_span: given with records"),
+        ({"frequency_span": (2.0, 1.0)}, r"frequency_span\[1\]: 1 Hz is not above 2 Hz"),
+        ({"frequency_span": "1 Hz"}, "frequency_span: '1 Hz'; the lowest"),
+        ({"records": RECORDS, "fractile": 1.5}, "fractile: 1.5"),
         ({"step": 0.0}, "step: 0"),
         ({"limits": {"speed": 1.0}}, "limits: 'speed'; one of peak_displacement, "),
-        ({"shaking": RECORDS, "tail": -1.0}, "tail: -1"),
+        ({"records": RECORDS, "tail": -1.0}, "tail: -1"),
         ({"threads": 0}, "threads: 0"),
-        ({"oscillator": 3}, "oscillator: 3"),
+        ({"rig": 3}, "rig: 3"),
     ],
 )
 def test_wrong_input(arguments: dict, line: str) -> None:
-    given = {"oscillator": BUILDING, "shaking": "0.1 g", "vary": {"gap": [0.1]}, **arguments}
+    given = {"vary": {"gap": [0.1]}, **arguments}
     with pytest.raises(vi.InputError, match=f"^{line}"):
-        vi.design_chart(
-            given.pop("oscillator"), given.pop("vary"), records=given.pop("shaking"), **given
-        )
+        rig = given.pop("rig", None) or vi.Rig(BUILDING, given.pop("shaking", "0.1 g"))
+        vi.design_chart(rig, **given)

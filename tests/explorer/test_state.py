@@ -213,4 +213,4 @@ def test_what_a_page_can_begin_with():
     state = begin("B2-G1-A3")
     assert state.span == (0.5, 5.0)
     with pytest.raises(vi.InputError):
-        begin((vi.Oscillator(1.0, vi.Isolator(0.0, 1.0), vi.RigidStop(0.5, 0.1)), 1.0))
+        begin(vi.Rig(vi.Oscillator(1.0, vi.Isolator(0.0, 1.0), vi.RigidStop(0.5, 0.1)), 1.0))

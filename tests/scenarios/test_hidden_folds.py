@@ -76,9 +76,9 @@ def test_a_part_of_the_branch_tells_what_the_whole_one_tells(monkeypatch):
     """Rigs beside the cusp in which jumps begin, and others."""
     asked = []
 
-    def both_ways(found, rig, shaken, ended, both):
-        part = with_folds(found, vi.Rig(rig, shaken), ended, both)
-        asked.append((with_folds(found, vi.Rig(rig, shaken), ended), part))
+    def both_ways(found, rig, ended, both):
+        part = with_folds(found, rig, ended, both)
+        asked.append((with_folds(found, rig, ended), part))
         return part
 
     monkeypatch.setattr(map_node, "with_folds", both_ways)
