@@ -199,5 +199,6 @@ def test_what_has_no_bound_is_infinite() -> None:
 def test_wrong_input(arguments: dict, line: str) -> None:
     given = {"vary": {"gap": [0.1]}, **arguments}
     with pytest.raises(vi.InputError, match=f"^{line}"):
-        rig = given.pop("rig", None) or vi.Rig(BUILDING, given.pop("shaking", "0.1 g"))
-        vi.design_chart(rig, **given)
+        vi.design_chart(
+            given.pop("rig", None) or vi.Rig(BUILDING, given.pop("shaking", "0.1 g")), **given
+        )

@@ -7,7 +7,7 @@
 
 So a motion is known as soon as one state that is looked at leads to it, whatever its period, and no
 state is given a motion that it does not lead to. What wanders and has no closed set of cells is
-told by the distribution of its displacements, state by state, as `coexisting` does.
+told by the distribution of its displacements, state by state, as `coexisting_motions` does.
 """
 
 from __future__ import annotations

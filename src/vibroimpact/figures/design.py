@@ -59,7 +59,7 @@ def design_chart(
     Parameters
     ----------
     data
-        Dataset of `design` over one or two parameters, with two values or more of each.
+        Dataset of `design_chart` over one or two parameters, with two values or more of each.
     axes
         Axes to draw on, one a quantity. None makes a new figure.
     quantities
@@ -99,7 +99,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     Parameters
     ----------
     data
-        Dataset of `design`.
+        Dataset of `design_chart`.
     ax
         Axes to draw on. None makes a new figure.
     title

@@ -34,7 +34,7 @@ def spectrum_lines(
     Parameters
     ----------
     spectra
-        Dataset of `spectrum`; or several of them by name.
+        Dataset of `fourier_spectrum`; or several of them by name.
     ax
         Axes to draw on. None makes a new figure.
     quantity

@@ -220,7 +220,7 @@ class Rig:
     ) -> Rig:
         """Return a copy with another oscillator, and perhaps another shaking.
 
-        A frequency that is open stays so, unless `keep_open` is False.
+        A frequency that is open stays so, unless ``keep_open`` is False.
         """
         frequency = self.frequency
         if isinstance(shaking, Harmonic | Periodic) and not (frequency is None and keep_open):

@@ -169,7 +169,7 @@ class PublishedStudy:
         return self._once(("motion", code, frequency, direction, parameters, samples), make)
 
     def motions(self, code: str, frequency: float) -> list[xr.Dataset]:
-        """All steady motions found at a frequency (`vibroimpact.coexisting`)."""
+        """All steady motions found at a frequency (`vibroimpact.coexisting_motions`)."""
         case = self._case(code)
         return self._once(
             ("motions", code, frequency),

@@ -21,7 +21,8 @@ def arrivals(
 ) -> dict[str, State]:
     """Where a forward and a backward sweep arrive: states by "forward branch", "backward branch".
 
-    Parameters are those of `coexisting`. A sweep that has no frequency to begin with is left out.
+    Parameters are those of `coexisting_motions`. A sweep without a frequency to begin with is left
+    out.
     """
     oscillator, excitation = rig.oscillator, rig.periodic
     if frequencies is None:

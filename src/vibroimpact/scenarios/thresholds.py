@@ -11,7 +11,7 @@ from vibroimpact.errors import InputError, shown
 
 @dataclass(frozen=True)
 class Thresholds:
-    """The thresholds of `classify`, all of them shares.
+    """The thresholds of `classify_scenario`, all of them shares.
 
     Attributes
     ----------

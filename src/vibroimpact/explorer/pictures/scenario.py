@@ -34,7 +34,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 
 def careful(state: State, progress: Progress) -> dict[str, Any]:
-    """Return what `vibroimpact.classify` finds, over frequencies that it chooses itself."""
+    """Return what `vibroimpact.classify_scenario` finds, over its own frequencies."""
     found = told.facts(classify_scenario(state.rig, progress=progress))
     return {
         "picture": "scenario",

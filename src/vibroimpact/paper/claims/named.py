@@ -10,11 +10,12 @@ from vibroimpact.paper.claims.reading import claim, listed
 from vibroimpact.paper.study import HIGH, LOW, PublishedStudy
 
 EDGE, EDGE_LOW = "B1-G1-A3", 0.44
-"""A test with a peak at the lower edge of the tests' range, and where `classify` begins (Hz)."""
+"""A test with a peak at the lower edge of the tests' range, and the lowest frequency (Hz) of
+`classify_scenario`."""
 
 
 def from_below(study: PublishedStudy) -> str:
-    """What the test at the edge is, from the tests' 0.5 Hz and from where `classify` begins."""
+    """Classify the test at the edge from 0.5 Hz, and from where `classify_scenario` begins."""
     there = study.classification(EDGE, EDGE_LOW, HIGH).scenario
     here = study.scenarios()[EDGE]
     return f"swept from {LOW:g} Hz, where {EDGE} is {here}; from {EDGE_LOW:g} Hz it is {there}"
