@@ -166,7 +166,7 @@ def test_the_reference_is_found_once_along_a_branch(monkeypatch) -> None:
     monkeypatch.setattr(
         analytic_free_response,
         "harmonics",
-        lambda *given: asked.append(len(given[2])) or found(*given),
+        lambda *given: asked.append(len(given[1])) or found(*given),
     )
     rig, shaken = between(DULL), vi.Periodic(0.45, (1.5, 0.61, 0.9))
     analytic_free_response.reference_excursions(vi.Rig(rig, shaken))

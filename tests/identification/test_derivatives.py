@@ -7,6 +7,7 @@ import vibroimpact as vi
 from identification.twins import FREE, curves
 from vibroimpact.engine import hold, orbit
 from vibroimpact.engine.section_map import MODE
+from vibroimpact.identification.branch_response import SteppedRig
 from vibroimpact.identification.curve_residuals import CurveTest
 from vibroimpact.identification.free_parameters import frees
 from vibroimpact.identification.least_squares import Problem
@@ -63,7 +64,7 @@ def by_the_implicit_function_theorem(case, frequency, name, state):
 def by_the_fit(case, grid, name):
     """The same, as a fit finds them at the last of its frequencies."""
     data = curves(case.oscillator, case.amplitude, frequencies=grid).sel(direction=["forward"])
-    settings = {"one": (case.oscillator, shaken(case))}
+    settings = {"one": vi.Rig(case.oscillator, shaken(case))}
     test = CurveTest("one", data, settings["one"], 1.0)
     problem = Problem([test], frees(name, settings, (), {}), {}, [1.0], np.inf)
     slopes = problem.jacobian(problem.start, fine=True)[: test.points_count, 0]
@@ -85,7 +86,7 @@ def by_the_fit(case, grid, name):
 )
 def test_differences_agree_with_the_implicit_function_theorem(frequency, name):
     grid = np.round(np.arange(1.0, frequency + 0.001, 0.01), 10)
-    _, states = vi.Rig((FOLDED.oscillator, shaken(FOLDED))).sweep(grid)
+    _, states = SteppedRig(vi.Rig(FOLDED.oscillator, shaken(FOLDED))).sweep(grid)
     exact = by_the_implicit_function_theorem(FOLDED, frequency, name, states[-1][2:4])
     assert by_the_fit(FOLDED, grid, name) == pytest.approx(exact, rel=5e-6)
 
@@ -93,7 +94,7 @@ def test_differences_agree_with_the_implicit_function_theorem(frequency, name):
 def grazing():
     """The frequency (Hz) above which the mass that comes from below touches its bumpers."""
     low, high = 0.5, 0.8
-    rig = vi.Rig((GRAZED.oscillator, shaken(GRAZED)))
+    rig = SteppedRig(vi.Rig(GRAZED.oscillator, shaken(GRAZED)))
     gap = GRAZED.oscillator.right.gap
     while high - low > 1e-12:
         middle = 0.5 * (low + high)
@@ -106,7 +107,7 @@ def grazing():
 @pytest.mark.parametrize("name", ["stiffness", "bumper_stiffness", "bumper_damping", "gap"])
 def test_differences_behind_a_grazing(share, name):
     frequency = grazing() * (1.0 + share)
-    rig = vi.Rig((GRAZED.oscillator, shaken(GRAZED)))
+    rig = SteppedRig(vi.Rig(GRAZED.oscillator, shaken(GRAZED)))
     (row,), (state,) = rig.sweep(np.array([frequency]))
     assert 0.0 < row[hold.U_MOST] - GRAZED.oscillator.right.gap < 0.1 * row[hold.U_MOST]
     exact = by_the_implicit_function_theorem(GRAZED, frequency, name, state[2:4])
@@ -134,7 +135,7 @@ def test_differences_before_a_grazing_are_those_of_free_flight():
 def test_residuals_are_continuous_where_a_fold_passes_a_measured_frequency():
     case = FOLDED
     data = curves(case.oscillator, case.amplitude, 0.02, seed=2)
-    settings = {"one": (case.oscillator, shaken(case))}
+    settings = {"one": vi.Rig(case.oscillator, shaken(case))}
     test = CurveTest("one", data, settings["one"], None)
     problem = Problem([test], frees(FREE, settings, (), {}), {}, [0.02], np.inf)
     for column in (2, 3):  # the bumper's stiffness and damping move the forward fold
@@ -151,7 +152,7 @@ def test_what_has_not_settled_has_no_derivative_and_spoils_none():
     case = vi.laboratory.case("B3-10mm-A3")
     grid = np.array([0.9, 1.0, 1.1, 3.0])  # chaotic at 1 Hz
     data = curves(case.oscillator, case.amplitude, frequencies=grid)
-    settings = {"one": (case.oscillator, shaken(case))}
+    settings = {"one": vi.Rig(case.oscillator, shaken(case))}
     test = CurveTest("one", data, settings["one"], 0.02)
     problem = Problem([test], frees("bumper_stiffness", settings, (), {}), {}, [0.02], np.inf)
     here = problem.values(problem.start)

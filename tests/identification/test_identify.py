@@ -219,7 +219,7 @@ def test_too_few_points_and_no_amplitude():
     found = vi.identify(case.oscillator, data, "gap", tried=0, starts=1, profiles=False)
     assert found.fitted_value.values[0] == pytest.approx(0.01, rel=1e-5)
     del data.attrs["amplitude"]
-    with pytest.raises(vi.InputError, match="amplitude: missing"):
+    with pytest.raises(vi.InputError, match="rig: an Oscillator alone"):
         vi.identify(case.oscillator, data, "gap")
 
 

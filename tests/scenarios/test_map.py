@@ -148,19 +148,22 @@ def test_a_process_that_was_killed(tmp_path):
         ({"refine": -1}, "refine: -1"),
         ({"block": 0}, "block: 0"),
         ({"threads": 0}, "threads: 0"),
-        ({"base": 3}, "base: 3 is no rig"),
-        ({"base": (vi.Oscillator(1.0, vi.Isolator(1.0, 0.3)), 1.0)}, "base: there is no bumper"),
+        ({"rig": 3}, "rig: 3 is not a rig"),
+        (
+            {"rig": vi.Rig(vi.Oscillator(1.0, vi.Isolator(1.0, 0.3)), 1.0)},
+            "rig: there is no bumper",
+        ),
     ],
 )
 def test_wrong_values_are_refused(options, message):
     with pytest.raises(vi.InputError, match=message):
-        vi.scenario_map(None, X, Y, **{**OPTIONS, **options})
+        vi.scenario_map(**{"rig": None, "x": X, "y": Y, **OPTIONS, **options})
 
 
 def test_a_physical_map_agrees_with_the_dimensionless_one():
     """The same nodes, reached through gap and bumper stiffness of a laboratory rig."""
     case = vi.laboratory.case("B3-10mm-A3")
-    peak = case.oscillator.right.gap / vi.to_dimensionless(vi.Rig(*rig_of(case))).right.gap
+    peak = case.oscillator.right.gap / vi.to_dimensionless(rig_of(case)).right.gap
     stiffness = [ratio * case.oscillator.isolator.stiffness for ratio in X[1][2:]]
     gaps = [ratio * peak for ratio in Y[1][1:4]]
     data = vi.scenario_map(

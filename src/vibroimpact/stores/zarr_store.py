@@ -129,9 +129,12 @@ def folder(
         If the folder holds something else, cannot be written to, or is in use.
     """
     if path is None:
+        import zarr
         from zarr.storage import MemoryStore
 
-        yield Template(kind, parameters, make, []).create(MemoryStore())
+        # As on disk: a chunk that is absent is a damage.
+        with zarr.config.set({"array.write_empty_chunks": True}):
+            yield Template(kind, parameters, make, []).create(MemoryStore())
         return
     import zarr
 
