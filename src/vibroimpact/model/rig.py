@@ -91,8 +91,8 @@ class Rig:
         amplitudes: tuple[float, ...] | None = None
         own: float | None = None
         if isinstance(shaking, Harmonic | Periodic):
-            own = shaking.frequency
-        if shaking is not None and not isinstance(shaking, Record):
+            own = shaking.frequency  # an amplitude of 0 is that of a free vibration
+        elif shaking is not None and not isinstance(shaking, Record):
             shaking, amplitudes = as_periodic(shaking, "shaking")
         if frequency is not None:
             own = to_si(frequency, FREQUENCY, "frequency", above=0.0)
@@ -147,7 +147,8 @@ class Rig:
         InputError
             As of `periodic`, and if the frequency is open.
         """
-        found = self.periodic
+        shaking = self.shaking
+        found = shaking if isinstance(shaking, Harmonic | Periodic) else self.periodic
         if self.frequency is None:
             raise InputError(
                 "frequency: missing, and the rig leaves it open; a frequency greater than 0 is "

@@ -10,7 +10,6 @@ import pytest
 from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.observers import extremes
 from vibroimpact.engine.observers.extremes import series_extremes
-from vibroimpact.engine.observers.margin import turning_point
 
 
 def series(*coefficients: float) -> np.ndarray:
@@ -58,8 +57,3 @@ def test_no_sample_lies_outside_and_the_ends_are_values() -> None:
         assert least <= p(y).min() + 1e-14 * size
         assert most >= p(y).max() - 1e-14 * size
         assert (least, most) == pytest.approx((p(at_least), p(at_most)), abs=1e-13 * size)
-
-
-def test_where_a_series_turns() -> None:
-    assert turning_point(series(0.0, -0.2, 1.0), 0.5) == pytest.approx(0.1, abs=1e-15)
-    assert turning_point(series(0.0, 0.2, 1.0), 0.3) == pytest.approx(-0.1, abs=1e-15)
