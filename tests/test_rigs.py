@@ -230,3 +230,12 @@ def test_records_of_any_size_are_refused_alike():
         vi.simulate(CODE, 1e7, frequency="2 Hz")
     with pytest.raises(vi.InputError, match=r"^window: .*20000000"):
         vi.steady(CODE, frequency="2 Hz", window=10_000_000)
+
+
+def test_a_free_vibration_has_an_amplitude_of_0():
+    """The frequency only counts its cycles; a resonance curve of it would mean nothing."""
+    free = vi.Rig(vi.Oscillator(1.0, vi.Isolator(4.0 * np.pi**2, 0.0)), vi.Harmonic(0.0, 0.5))
+    end = vi.simulate(free, 1, vi.State(0.3, 0.0), samples=0)["final_state"]
+    assert float(end.sel(component="displacement")) == pytest.approx(0.3, rel=1e-12)
+    with pytest.raises(vi.InputError, match="amplitude greater than 0"):
+        vi.sweep(free, [1.0, 2.0])

@@ -73,6 +73,6 @@ def test_resonance_curves_have_no_units(mass: float, stiffness: float, amplitude
     quicker = other.oscillator.natural_frequency / case.oscillator.natural_frequency
     grid = [0.6, 1.0, 1.7, 2.5, 3.5]
     curves = vi.sweep(vi.Rig(case.oscillator, case.amplitude), grid)
-    image = vi.sweep(vi.Rig(*other), [f * quicker for f in grid])
+    image = vi.sweep(other, [f * quicker for f in grid])
     for name in ("eta_d", "eta_a", "impacts_right", "impacts_left", "period"):
         assert image[name].values == pytest.approx(curves[name].values, rel=1e-9, abs=1e-9)
