@@ -24,6 +24,8 @@ from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.scenarios.sweep_frequencies import frequencies
 from vibroimpact.tasks import executors
 
+FREE = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3))
+
 
 def test_nodes_are_classified_as_one_by_one():
     data = small()

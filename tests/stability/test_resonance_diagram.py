@@ -169,3 +169,9 @@ def test_basins_that_are_refused(changed, told):
     given = {"oscillator": ONE_STOP, "amplitude": 1.0, "low": 0.2, "high": 0.4, "basins": found}
     with pytest.raises(vi.InputError, match=told):
         vi.resonance_diagram(**{**given, **changed}, starts=1)
+
+
+def test_where_no_orbit_is_found_it_is_an_error():
+    stiff = vi.Oscillator(550.0, vi.Isolator(1e30, 1100.0), right=vi.Bumper(5e5, 900.0, 7.5e-3))
+    with pytest.raises(vi.InputError, match=r"span: no periodic orbit .* between 2 and 2\.1"):
+        vi.resonance_diagram(vi.Rig(stiff, 0.5), (2.0, 2.1))

@@ -85,7 +85,7 @@ def _growth(**how):
 
 
 def _designs(**how):
-    return vi.design_chart(vi.Rig("B2-G1-A3", "0.05 g"), {"gap": ["5 mm", "8 mm"]}, step=0.2, **how)
+    return vi.design_chart("B2-G1-A3", {"gap": ["5 mm", "8 mm"]}, step=0.2, **how)
 
 
 @pytest.mark.parametrize("computed", [_shares, _diagram, _growth, _designs])

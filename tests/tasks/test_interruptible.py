@@ -153,6 +153,7 @@ def test_calls_grow_until_they_take_long_and_tell_how_far_they_are(monkeypatch):
         "vi.lyapunov_exponents([vi.Rig(rig, shaken)], [0.2], 300_000_000)",
         "vi.steady(vi.Rig(chaotic, shaken), max_cycles=300_000_000)",
         "vi.steady(vi.Rig(chaotic, shaken), exponent_cycles=5_000_000)",
+        "vi.design_chart(vi.Rig(weak, 0.5), {'gap': [0.01]}, frequency_span=(1, 1.5), step=0.99)",
     ],
 )
 def test_ctrl_c_ends_what_takes_long(call):
@@ -165,7 +166,9 @@ def test_ctrl_c_ends_what_takes_long(call):
         rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), right=vi.Bumper(10.0, 0.1, 0.5))
         case = vi.laboratory.case("B3-10mm-A3")
         chaotic, shaken = case.oscillator, vi.Harmonic(case.amplitude, 1.06)
+        weak = vi.Oscillator(1e4, vi.Isolator(1.0, 1e-3), right=vi.Bumper(1e9, 1.0, 0.01))
         record = vi.Record([0.0, 1.0], 0.1)
+        vi.design_chart(vi.Rig(rig, 0.5), {{'gap': [0.1]}}, step=0.5)
         vi.simulate(vi.Rig(rig, shaken), 3)
         vi.simulate(vi.Rig(rig, record))
         vi.seismic_response(vi.Rig(rig, record))

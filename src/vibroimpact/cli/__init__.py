@@ -19,7 +19,7 @@ from cyclopts import App, CycloptsError
 from vibroimpact._version import __version__
 from vibroimpact.cli.error_text import in_words
 from vibroimpact.cli.garbage import search_no_more, search_seldom
-from vibroimpact.cli.output import font_warnings_once, input_warnings_in_lines
+from vibroimpact.cli.output import font_warnings_once, warnings_in_lines
 from vibroimpact.cli.terminal import (
     flush,
     give_up_stdout,
@@ -139,7 +139,7 @@ def _run(words: list[str]) -> int:
     """Run a command; its exit code."""
     take_any_encoding()
     try:
-        with _terminable(), input_warnings_in_lines(), font_warnings_once():
+        with _terminable(), warnings_in_lines(), font_warnings_once():
             result = _app(words)(words)
         flush()
     except (InputError, CycloptsError) as error:

@@ -181,8 +181,8 @@ def warn(message: str) -> None:
 
 
 @contextmanager
-def input_warnings_in_lines() -> Iterator[None]:
-    """Print each `InputWarning` as one line on stderr, and none twice."""
+def warnings_in_lines() -> Iterator[None]:
+    """Print each warning as one line on stderr, and none twice."""
     printed: set[str] = set()
     with warnings.catch_warnings():
         usual = warnings.showwarning
@@ -190,7 +190,7 @@ def input_warnings_in_lines() -> Iterator[None]:
         def show(
             message: Warning | str, category: type[Warning], *where: Any, **others: Any
         ) -> None:
-            if not issubclass(category, InputWarning):
+            if not issubclass(category, InputWarning | RuntimeWarning):
                 usual(message, category, *where, **others)
             elif str(message) not in printed:
                 printed.add(str(message))

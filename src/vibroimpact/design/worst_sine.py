@@ -12,12 +12,14 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.softening_limit import judged
-from vibroimpact.scenarios.sweep_frequencies import LOW, cycles, highest
-from vibroimpact.tasks.threads import Progress, Workers, each
+from vibroimpact.scenarios.map_node import RIG
+from vibroimpact.scenarios.sweep_frequencies import LOW, MOST, cycles, highest
+from vibroimpact.tasks.threads import Progress, Stopped, Tally, Workers, each
 
 _Array = NDArray[np.float64]
 
@@ -82,6 +84,12 @@ class Sines(NamedTuple):
         if rig.isolator.linear and rig.damping_ratio > 0.0:
             step = min(step, max(_PEAK * rig.damping_ratio, 0.1 * step))
         count = max(2, math.ceil((max(high, low) - low) / (step * natural) - 1e-9) + 1)
+        if count > MOST:
+            raise InputError(
+                f"step: {step:g} of the natural frequency of {natural:.3g} Hz makes {count:g} "
+                f"frequencies from {low:.3g} to {high:.3g} Hz; at most {MOST} are accepted, by a "
+                "narrower range or a larger step"
+            )
         found: _Array = np.linspace(low, max(high, low), count)
         return found
 
@@ -92,18 +100,30 @@ class Sines(NamedTuple):
         vectors = [engine_rig(Rig(rig, self.shaken)) for rig in rigs]
         starts = [engine_state(rig, equilibrium(rig)) for rig in rigs]
         batch.sweep.prepare(*vectors)
+        for rig in rigs:
+            self.frequencies(rig)  # refused before anything is computed
+
+        def task(one: tuple[Oscillator, _Array, _Array], tally: Tally) -> Worst:
+            found = _Search(self, *one, tally).worst()
+            tally[0] = RIG
+            return found
+
         return each(
-            lambda one, _: _Search(self, *one).worst(),
+            task,
             list(zip(rigs, vectors, starts, strict=True)),
+            steps=len(rigs) * RIG,
             threads=workers,
-            progress=progress,
+            progress=progress and (lambda done, _: progress(done // RIG, len(rigs))),
         )
 
 
 class _Search:
     """One rig swept coarsely, then finely about its largest displacement and acceleration."""
 
-    def __init__(self, sines: Sines, rig: Oscillator, vector: _Array, start: _Array) -> None:
+    def __init__(
+        self, sines: Sines, rig: Oscillator, vector: _Array, start: _Array, tally: Tally
+    ) -> None:
+        self.tally = tally
         self.rig, self.vector, self.start = rig, vector, start
         self.amplitude = sines.shaken.amplitude
         self.phase = sines.shaken.phase
@@ -142,8 +162,10 @@ class _Search:
             hold.PATIENT,
             results,
             states,
-            np.zeros(2, dtype=np.int64),
+            self.tally,
         )
+        if self.tally[1]:
+            raise Stopped
         return _Holds(frequency, results, states)
 
     def _finer(self, held: _Holds, at: int) -> _Holds:

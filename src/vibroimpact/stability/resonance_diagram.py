@@ -137,6 +137,12 @@ def resonance_diagram(
             progress(len(followed), len(followed) + len(waiting))
     if progress:  # what still waited was on branches that had been followed
         progress(len(followed), len(followed))
+    if not followed:
+        between = f"{ends[0]:g} and {ends[1]:g} {fam.parameter.units}"
+        raise InputError(
+            f"span: no periodic orbit was found between {between}; another range, or more starts, "
+            "is accepted"
+        )
     data = as_dataset(followed, fam, ends, "resonance_diagram")
     data.attrs["complete"] = int(complete)
     return data

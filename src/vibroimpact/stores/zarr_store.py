@@ -128,16 +128,16 @@ def folder(
     InputError
         If the folder holds something else, cannot be written to, or is in use.
     """
-    if path is None:
-        import zarr
-        from zarr.storage import MemoryStore
-
-        # As on disk: a chunk that is absent is a damage.
-        with zarr.config.set({"array.write_empty_chunks": True}):
-            yield Template(kind, parameters, make, []).create(MemoryStore())
-        return
     import zarr
 
+    # A chunk is there even where all its values are the fill value: one that is not is lost.
+    every = {"array.write_empty_chunks": True}
+    if path is None:
+        from zarr.storage import MemoryStore
+
+        with zarr.config.set(every):
+            yield Template(kind, parameters, make, []).create(MemoryStore())
+        return
     try:
         there = Path(path).expanduser().resolve()
     except (TypeError, ValueError, RuntimeError):
@@ -151,9 +151,7 @@ def folder(
             return
         # Taken first: of two processes that would make the store, one is refused.
         lock = there.with_name(f".{there.name}.lock")
-        # A chunk is a file even where all its values are the fill value: one without is lost.
-        every = zarr.config.set({"array.write_empty_chunks": True})
-        with FileLock(lock).acquire(timeout=0), every:
+        with FileLock(lock).acquire(timeout=0), zarr.config.set(every):
             try:
                 yield _opened(there, template)
             finally:

@@ -71,7 +71,7 @@ from vibroimpact.engine.taylor.pieces import (
     velocity_series,
 )
 from vibroimpact.engine.taylor.press import press_on, presses
-from vibroimpact.engine.taylor.step import headed
+from vibroimpact.engine.taylor.step import headed, spread
 
 _MOST = 50_000
 """Steps to one event, far more than any needs whose rates are those of the rig. A stop that is
@@ -86,15 +86,6 @@ class Found(NamedTuple):
 
     event: int
     y: float
-
-
-@kernel
-def spread(plan: Vector, series: int) -> float:
-    """How far a series may go from its first coefficient, over the step."""
-    total = 0.0
-    for n in range(1, DEGREE + 1):
-        total += abs(plan[series + n])
-    return total
 
 
 @kernel

@@ -375,3 +375,12 @@ def at(plan: Vector, series: int, y: float) -> tuple[float, float]:
         p1 = p1 * y + p
         p = p * y + plan[series + n]
     return p, p1
+
+
+@kernel
+def spread(plan: Vector, series: int) -> float:
+    """How far a series may go from its first coefficient, over the step."""
+    total = 0.0
+    for n in range(1, DEGREE + 1):
+        total += abs(plan[series + n])
+    return total
