@@ -76,12 +76,12 @@ SHAKEN = vi.Harmonic(18.4087, 3.33011)
 )
 def test_a_pressed_stop_that_makes_a_computation_slow_is_named(of):
     notes = of(vi.Rig(QUICKER, SHAKEN)).attrs["notes"]
-    assert [notes] == note_stiff_stops(QUICKER, SHAKEN, SHAKEN.frequency)
+    assert [notes] == note_stiff_stops(vi.Rig(QUICKER, SHAKEN), SHAKEN.frequency)
 
 
 @pytest.mark.parametrize("rig", [PRESSED, QUICKER])
 def test_the_frequency_of_a_pressed_stop_is_that_of_its_law(rig):
-    (note,) = note_stiff_stops(rig, SHAKEN, SHAKEN.frequency)
+    (note,) = note_stiff_stops(vi.Rig(rig, SHAKEN), SHAKEN.frequency)
     assert note.startswith(STIFF)
     # The tangent stiffness of a Hertz law with the deformation at rest, 0.16 um and 0.42 um.
     deep = -vi.model.equilibrium(rig).displacement - rig.left.gap
@@ -92,7 +92,7 @@ def test_the_frequency_of_a_pressed_stop_is_that_of_its_law(rig):
 
 def test_a_stop_that_is_not_much_faster_than_the_forcing_is_not_named():
     def notes(oscillator):
-        return note_stiff_stops(oscillator, SHAKEN, SHAKEN.frequency)
+        return note_stiff_stops(vi.Rig(oscillator, SHAKEN), SHAKEN.frequency)
 
     assert notes(PRESSED)
     assert not notes(PRESSED.replace(left=PRESSED.left.replace(stiffness=1e10)))

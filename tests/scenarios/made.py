@@ -66,9 +66,7 @@ def made(forward, backward=None, *, touching=None, period=1, uneven=False, depth
 
 def named(data: xr.Dataset, oscillator=RIG.oscillator, **thresholds: float) -> str:
     used = Thresholds(**thresholds)
-    return scenario(
-        evidence(vi.Rig(oscillator, RIG.shaken), data, 0.5 * used.prominence), used
-    ).label
+    return scenario(evidence(vi.Rig(oscillator, RIG.sine), data, 0.5 * used.prominence), used).label
 
 
 def primary() -> tuple[np.ndarray, np.ndarray]:

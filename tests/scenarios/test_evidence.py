@@ -87,7 +87,7 @@ def test_a_pair_of_a_rig_that_is_not_symmetric_is_none():
     """There eccentricity tells nothing."""
     oscillator = RIG.oscillator.replace(left=RIG.oscillator.left.replace(gap=1.01 * GAP))
     data = made(*primary(), uneven=inside(1.0, 1.2))
-    assert evidence(vi.Rig(oscillator, RIG.shaken), data, 0.01).irregular == ()
+    assert evidence(vi.Rig(oscillator, RIG.sine), data, 0.01).irregular == ()
     assert len(evidence(RIG, data, 0.01).irregular) == 2
 
 

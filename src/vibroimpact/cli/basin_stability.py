@@ -10,7 +10,6 @@ from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOpti
 from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import StateOptions
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,6 +57,7 @@ def basin_stability(
     from vibroimpact.cli.frequency_grid import default_span
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
+    from vibroimpact.model.rig import Rig
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)

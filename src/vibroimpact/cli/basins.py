@@ -8,7 +8,6 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Where, Whole
 from vibroimpact.cli.states import StateOptions
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,6 +47,7 @@ def basins(
     """
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
+    from vibroimpact.model.rig import Rig
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)

@@ -10,7 +10,6 @@ from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOpti
 from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import forcing
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -115,6 +114,7 @@ def bifurcation(
     from vibroimpact.cli.frequency_grid import default_span
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
+    from vibroimpact.model.rig import Rig
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
@@ -180,6 +180,7 @@ def bifurcation(
 
 def _branches(what: Subject, shaken: Repeated, along: str, span: tuple[float, float]) -> xr.Dataset:
     """The branches whose bifurcations are marked."""
+    from vibroimpact.model.rig import Rig
     from vibroimpact.stability.resonance_diagram import resonance_diagram
 
     return resonance_diagram(

@@ -10,7 +10,6 @@ from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.cli.parameters import Varied, option_range
 from vibroimpact.cli.states import state
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import Rig
 from vibroimpact.stability.branch_styles import Quantity
 
 if TYPE_CHECKING:
@@ -127,6 +126,7 @@ def branch(
     from vibroimpact.cli.frequency_grid import default_span
     from vibroimpact.cli.output import output_folder, progress_bar, tell, warn
     from vibroimpact.cli.rig import subject
+    from vibroimpact.model.rig import Rig
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
@@ -205,6 +205,7 @@ def _all_branches(
     progress: Any,
 ) -> xr.Dataset:
     """All branches along a parameter."""
+    from vibroimpact.model.rig import Rig
     from vibroimpact.stability.resonance_diagram import resonance_diagram
 
     phase = what.study.excitation.phase if what.study else 0.0
@@ -232,6 +233,7 @@ def _basins(
     """Basins at so many values, each in the middle of its part of the range."""
     from vibroimpact.attraction.basins import basins
     from vibroimpact.model.parameters import parameter as registered
+    from vibroimpact.model.rig import Rig
 
     varied = registered(parameter, of=shaken.of).of(what.oscillator)
     step = (span[1] - span[0]) / max(count, 1)
@@ -249,6 +251,7 @@ def _sweep(what: Subject, data: xr.Dataset) -> xr.Dataset:
     """A stepped sweep to lay over branches along the frequency."""
     import numpy as np
 
+    from vibroimpact.model.rig import Rig
     from vibroimpact.response.sweep import sweep
 
     frequency = data["frequency"].values
@@ -305,6 +308,7 @@ def _check(what: Subject, parameter: str, span: tuple[float, float], hertz: floa
         If the range leaves out the rig's own value.
     """
     from vibroimpact.model.parameters import parameter as varied
+    from vibroimpact.model.rig import Rig
     from vibroimpact.model.units import pretty
 
     known = varied(parameter, of=what.repeated.of).of(what.oscillator)
@@ -326,6 +330,7 @@ def _one_branch(
     progress: Any,
 ) -> xr.Dataset:
     """The branch along a parameter from one orbit."""
+    from vibroimpact.model.rig import Rig
     from vibroimpact.stability.branch import branch as follow
 
     assert hertz is not None

@@ -10,7 +10,6 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -181,6 +180,7 @@ def _check(
     spans: list[tuple[float, float]],
 ) -> None:
     """Refuse what cannot be followed before anything is sought."""
+    from vibroimpact.model.rig import Rig
     from vibroimpact.model.units import pretty
     from vibroimpact.stability.two_parameters import plane
 
@@ -209,6 +209,7 @@ def _curves(
     import numpy as np
 
     from vibroimpact.model.parameters import parameter
+    from vibroimpact.model.rig import Rig
     from vibroimpact.stability.bifurcation_curve import bifurcation_curve
     from vibroimpact.stability.branch import branch
     from vibroimpact.stability.resonance_diagram import resonance_diagram

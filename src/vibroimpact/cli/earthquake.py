@@ -18,7 +18,6 @@ from vibroimpact.cli.options import (
     record_name,
 )
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -208,6 +207,7 @@ def _computed(
     from vibroimpact.earthquakes.free_vibration import free_tail
     from vibroimpact.earthquakes.seismic_response import seismic_response
     from vibroimpact.engine.status import Status
+    from vibroimpact.model.rig import Rig
     from vibroimpact.response.response_spectrum import response_spectrum
     from vibroimpact.response.simulate import simulate
 
@@ -229,6 +229,7 @@ def _free(
 ) -> xr.Dataset | None:
     """The response without stops; None where there are none, or nothing else holds the mass."""
     from vibroimpact.earthquakes.seismic_response import seismic_response
+    from vibroimpact.model.rig import Rig
 
     if not rig.stops:
         return None

@@ -17,12 +17,12 @@ from vibroimpact.cli.options import (
     Whole,
 )
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from vibroimpact.cli.rig import Subject
+    from vibroimpact.model.rig import Rig
 
 _ENSEMBLE = Group("Ensemble", sort_key=1)
 _TEXT = Parameter(group=_ENSEMBLE, allow_leading_hyphen=True)
@@ -112,6 +112,7 @@ def ensemble(
     from vibroimpact.cli import frequency_grid
     from vibroimpact.cli.output import output_folder, progress_bar, tell, warn
     from vibroimpact.cli.rig import subject
+    from vibroimpact.model.rig import Rig
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
@@ -198,6 +199,7 @@ def _distributions(what: Subject, options: tuple[tuple[str, str], ...]) -> dict[
             "--uncertain: missing; a parameter and its distribution are accepted, such as gap "
             "normal:5%, here or in the study as ensemble.uncertain"
         )
+    from vibroimpact.model.rig import Rig
     from vibroimpact.uncertainty.random_rigs import uncertain
 
     try:

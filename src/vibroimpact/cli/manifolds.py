@@ -8,7 +8,6 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import COMPUTATION, OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.cli.states import StateOptions, state
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -72,6 +71,7 @@ def manifolds(
     """
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
+    from vibroimpact.model.rig import Rig
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)

@@ -16,7 +16,6 @@ from vibroimpact.cli.options import (
     Whole,
 )
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -104,6 +103,7 @@ def scenario_map(
     """
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
+    from vibroimpact.model.rig import Rig
 
     out = output or OutputOptions()
     what = subject(rig or _PUBLISHED, changes or RigOptions(), out.name)
@@ -280,7 +280,7 @@ def _check(what: Subject, axes: tuple[_Axis, ...], refine: int) -> None:
 
 
 def _as_option(message: str) -> str:
-    options = {"y": "--y", "step": "--step", "store": "--output", "base": "CASE"}
+    options = {"y": "--y", "step": "--step", "store": "--output", "rig": "CASE"}
     for field, option in options.items():
         if message.startswith(f"{field}:"):
             return message.replace(field, option, 1)

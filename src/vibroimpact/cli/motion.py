@@ -8,7 +8,6 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -166,6 +165,7 @@ def _found(
 ) -> dict[str, xr.Dataset]:
     """The motions by name, with their spectra and sections."""
     from vibroimpact.cli.output import progress_bar
+    from vibroimpact.model.rig import Rig
     from vibroimpact.response.sweep_starts import arrivals
     from vibroimpact.stability.coexisting import coexisting_motions
     from vibroimpact.stability.steady import steady

@@ -9,7 +9,6 @@ from cyclopts import Group, Parameter
 
 from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
 from vibroimpact.errors import InputError
-from vibroimpact.model.rig import Rig
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
@@ -70,6 +69,7 @@ def simulate(
     """
     from vibroimpact.cli.output import output_folder, progress_bar, tell, warn
     from vibroimpact.cli.rig import subject
+    from vibroimpact.model.rig import Rig
 
     out = output or OutputOptions()
     what = subject(rig, changes or RigOptions(), out.name)
