@@ -62,6 +62,6 @@ def test_a_range_that_begins_the_sweep(share, pressed):
     forward, backward = primary()
     peak = bump(0.5, 0.05, 0.4)
     data = made(forward + peak, backward + peak, period=np.where(inside(0.4, 0.6), 3, 1))
-    found = evidence(Rig(oscillator, RIG.shaken), data, 0.01)
+    found = evidence(Rig(oscillator, RIG.sine), data, 0.01)
     assert bool(found.irregular) == pressed
     assert (found.onset == ()) == pressed

@@ -12,7 +12,7 @@ from vibroimpact.scenarios.thresholds import Thresholds
 
 
 def told(data, oscillator=RIG.oscillator) -> str:
-    return in_words(evidence(Rig(oscillator, RIG.shaken), data, 0.01), Thresholds())
+    return in_words(evidence(Rig(oscillator, RIG.sine), data, 0.01), Thresholds())
 
 
 def test_a_hysteresis_and_where_it_is():

@@ -139,5 +139,5 @@ def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
 def test_what_has_no_scenario_is_refused(oscillator, amplitude, message) -> None:
     with pytest.raises(vi.InputError, match=message):
         vi.classify_scenario(vi.Rig(oscillator, amplitude))
-    with pytest.raises(vi.InputError, match=message.replace("amplitude", r"base\[1\]")):
+    with pytest.raises(vi.InputError, match=message):
         vi.scenario_map(vi.Rig(oscillator, amplitude), ("gap", [1e-3, 2e-3]), ("amplitude", [1, 2]))
