@@ -265,7 +265,7 @@ def test_in_a_notebook():
     assert "<iframe" in shown._repr_html_()
     assert 'height="500"' in shown._repr_html_()
     assert asked(shown.address.split("#")[0])[0] == 200
-    again = vi.explore((preset(FIRST).oscillator.replace(mass=600.0), "0.04 g"))
+    again = vi.explore(vi.Rig(preset(FIRST).oscillator.replace(mass=600.0), "0.04 g"))
     assert again.address.split("#")[0] == shown.address.split("#")[0]
     assert again.address != shown.address
     with pytest.raises(vi.InputError, match="height"):

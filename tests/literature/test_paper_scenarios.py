@@ -138,7 +138,7 @@ def test_the_same_dimensionless_parameters_give_the_same_scenario():
     group = vi.to_dimensionless(vi.Rig(case.oscillator, case.amplitude))
     rig = group.to_physical(mass="2000 t", stiffness="80 MN/m", amplitude="0.4 g")
     here, there = (
-        vi.classify_scenario(vi.Rig(*one)) for one in ((case.oscillator, case.amplitude), rig)
+        vi.classify_scenario(one) for one in (vi.Rig(case.oscillator, case.amplitude), rig)
     )
     assert here.scenario == there.scenario == "S3"
     scale = rig.oscillator.natural_frequency / case.oscillator.natural_frequency

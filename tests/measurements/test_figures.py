@@ -131,7 +131,7 @@ def test_excursions_lie_over_half_excursions():
     """At 0.8 Hz this symmetric rig goes further to one side than to the other."""
     bumper = vi.Bumper("510 kN/m", "0.9 kN s/m", gap="10 mm")
     rig = vi.Oscillator("550 kg", vi.Isolator("31.9 kN/m", "1.1 kN s/m"), bumper, bumper)
-    computed = vi.sweep(rig, "0.04 g", np.round(np.arange(0.5, 2.01, 0.1), 10))
+    computed = vi.sweep(vi.Rig(rig, "0.04 g"), np.round(np.arange(0.5, 2.01, 0.1), 10))
     names = ["displacement_excursion", "acceleration_excursion"]
     one = {"direction": "forward", "frequency": 0.8}
     half = 0.5 * float(computed[names[1]].sel(one))
@@ -174,7 +174,7 @@ def of_one_sided_rig(seed=7):
     """A rig that goes further to one side, measured three times, 2 % of noise on every value."""
     right, left = (vi.Bumper("300 kN/m", "0.6 kN s/m", gap) for gap in ("8 mm", "11 mm"))
     rig = vi.Oscillator("420 kg", vi.Isolator("20 kN/m", "0.9 kN s/m"), right, left)
-    computed = vi.sweep(rig, "0.05 g", np.round(np.arange(0.5, 4.01, 0.1), 10))
+    computed = vi.sweep(vi.Rig(rig, "0.05 g"), np.round(np.arange(0.5, 4.01, 0.1), 10))
     draw = np.random.default_rng(seed)
     noise = draw.normal(1.0, 0.02, size=(len(EXTREMES), *computed.eta_a.shape, 3))
     dims = ("direction", "frequency", "repeat")
