@@ -52,7 +52,7 @@ def test_folds_are_those_of_the_branches_beside_it():
     for gap in (6e-3, 9e-3):
         rig = case().oscillator
         rig = rig.replace(right=rig.right.replace(gap=gap), left=rig.left.replace(gap=gap))
-        beside = vi.resonance_diagram(rig, (case().amplitude, 1.0), 5.0)
+        beside = vi.resonance_diagram(vi.Rig(rig, case().amplitude), (1.0, 5.0))
         folds = beside["bifurcation_value"].values[beside["bifurcation_kind"].values == "fold"]
         order = np.argsort(data["gap"].values)
         here = np.interp(gap, data["gap"].values[order], data["frequency"].values[order])
@@ -112,10 +112,10 @@ def test_symmetry_breaking_and_period_doubling():
         ({"parameters": ("gap", "frequency")}, "parameters"),
         ({"parameters": ("frequency", "frequency")}, "twice"),
         ({"parameters": ("frequency", "mass")}, "parameters: 'mass'"),
-        ({"low": (0.3, 1.0)}, "high"),
-        ({"low": (0.3, 1e-2)}, "leaves out"),
+        ({"spans": ((0.3, 6.0), (1.0, 2e-2))}, r"spans\[1\]\[1\]: 0\.02 does not lie above"),
+        ({"spans": ((0.3, 6.0), (1e-2, 2e-2))}, "leaves out"),
         (
-            {"parameters": ("frequency", "gap_ratio"), "low": (0.3, 0.4), "high": (6.0, 0.5)},
+            {"parameters": ("frequency", "gap_ratio"), "spans": ((0.3, 6.0), (0.4, 0.5))},
             "leaves",
         ),
         ({"start": None}, "start"),
@@ -125,8 +125,7 @@ def test_refused(wrong, told):
     given = {
         "start": one("fold"),
         "parameters": ("frequency", "gap"),
-        "low": (0.3, 1e-3),
-        "high": (6.0, 2e-2),
+        "spans": ((0.3, 6.0), (1e-3, 2e-2)),
         **wrong,
     }
     with pytest.raises(vi.InputError, match=told):
@@ -150,7 +149,7 @@ def test_neimark_sacker():
     bumper = vi.Bumper(0.01, 0.2, 0.6)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), bumper, bumper)
     turn = 2 * np.pi
-    found = vi.resonance_diagram(rig, (1.0, 1.0 / turn), 1.5 / turn)
+    found = vi.resonance_diagram(vi.Rig(rig, 1.0), (1.0 / turn, 1.5 / turn))
     row = int(np.flatnonzero(found["bifurcation_kind"].values == "Neimark-Sacker")[0])
     seen = []
     data = vi.bifurcation_curve(
@@ -191,12 +190,12 @@ def test_grazing_of_rigid_stops_in_closed_form(left, other, low, high):
     """Behind it the map is a square root, and Newton's method goes to and fro."""
     rig = vi.Oscillator(550.0, vi.Isolator(26.8e3, 1.1e3), vi.RigidStop(0.6, 0.025), left)
     shaken = vi.Harmonic("0.05 g", 3.0)
-    found = vi.branch(rig, frequency=shaken, span=(0.6, 3.0))
+    whole = vi.Rig(rig, shaken)
+    found = vi.branch(whole, span=(0.6, 3.0))
     i = int(np.flatnonzero(found["bifurcation_kind"].values == "grazing")[0])
     data = vi.bifurcation_curve(
-        rig,
+        whole,
         found.isel(bifurcation=i),
-        frequency=shaken,
         spans=((0.3, 6.0), (low, high)),
         parameters=("frequency", other),
     )

@@ -41,8 +41,9 @@ def changes(data: xr.Dataset, first: int, second: int) -> list[tuple[float, floa
 )
 def test_period_doublings_lie_where_branches_double(parameter, low, high, frequency):
     """Each change from period 1 to 2 holds a doubling of the branch of period 1."""
-    given = (RIG, shaken(frequency), parameter, low, high, sample(201, 41))
-    found = vi.bifurcation_diagram(vi.Rig(*given), directions="up").isel(start=0)
+    whole = vi.Rig(RIG, shaken(frequency))
+    given = (whole, parameter, (low, high), sample(201, 41))
+    found = vi.bifurcation_diagram(*given, directions="up").isel(start=0)
     ends = changes(found, 1, 2)
     assert ends
     for below, above in ends:
@@ -136,11 +137,11 @@ def test_up_is_down_where_there_is_one_motion():
 
 
 def test_threads_and_seeds():
-    given = (RIG, shaken(1.1), "gap", 4e-3, 5e-3, 40)
+    given = (vi.Rig(RIG, shaken(1.1)), "gap", (4e-3, 5e-3), 40)
     seen = []
     one, two = (
         vi.bifurcation_diagram(
-            vi.Rig(*given),
+            *given,
             directions=(),
             random=2,
             seed=3,
@@ -178,7 +179,7 @@ def test_a_motion_that_is_given_up():
     "wrong",
     [
         {"parameter": "colour"},
-        {"high": 1e-3},
+        {"span": (2e-3, 1e-3)},
         {"steps": 1},
         {"directions": "sideways"},
         {"directions": ()},
@@ -187,10 +188,10 @@ def test_a_motion_that_is_given_up():
         {"section": "poincare"},
         {"points": 0},
         {"threads": 0},
-        {"low": 0.0, "log": True},
+        {"span": (0.0, 5e-3), "log": True},
     ],
 )
 def test_refused(wrong):
-    given = {"parameter": "gap", "low": 2e-3, "high": 5e-3}
+    given = {"parameter": "gap", "span": (2e-3, 5e-3)}
     with pytest.raises(vi.InputError, match=next(iter(wrong))):
         vi.bifurcation_diagram(vi.Rig(RIG, shaken(1.1)), **{**given, **wrong})

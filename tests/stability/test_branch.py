@@ -115,12 +115,12 @@ def test_ends_are_told():
     ("wrong", "told"),
     [
         ({"parameter": "mass"}, "parameter: 'mass'"),
-        ({"low": 3.0}, "leaves out|does not lie"),
-        ({"low": 2.5, "high": 2.4}, "does not lie above"),
-        ({"low": "1 mm"}, "low"),
+        ({"span": (3.0, 4.0)}, "leaves out"),
+        ({"span": (2.5, 2.4)}, "does not lie above"),
+        ({"span": ("1 mm", 4.0)}, r"span\[0\]"),
         ({"period": 0}, "period"),
         ({"most_points": 1.5}, "most_points"),
-        ({"parameter": "right_gap", "low": 0.0, "high": 1e-3}, "leaves out"),
+        ({"parameter": "right_gap", "span": (0.0, 1e-3)}, "leaves out"),
     ],
 )
 def test_refused(wrong, told):
@@ -128,7 +128,7 @@ def test_refused(wrong, told):
     with pytest.raises(vi.InputError, match=told):
         vi.branch(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)),
-            **{"low": 0.3, "high": 4.0, **wrong},
+            **{"span": (0.3, 4.0), **wrong},
         )
 
 

@@ -53,7 +53,7 @@ def test_isolated_branches_are_found_once():
 def test_basins_lead_to_a_branch_that_random_starts_miss():
     """A small isola of period 5, to which 1 state in 100 leads, within 3 % of the frequency."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.059), HARD, None)
-    asked = {"oscillator": rig, "amplitude": 2.0, "low": hertz(4.0), "high": hertz(8.0)}
+    asked = {"rig": vi.Rig(rig, 2.0), "span": (hertz(4.0), hertz(8.0))}
     missed = vi.resonance_diagram(**asked, longest=5, random=40)
     assert not (missed["period"] == 5).any()
     found = vi.basins(vi.Rig(rig, vi.Harmonic(2.0, hertz(6.0))), nodes=40)
@@ -143,14 +143,14 @@ def test_the_bifurcations_of_a_branch_are_among_them():
         ({"parameter": "gap"}, "frequency: missing"),
         ({"frequency": 2.0}, "frequency: 2.0, but it is varied"),
         ({"parameter": "colour", "frequency": 2.0}, "parameter: 'colour'"),
-        ({"amplitude": [0.1, 0.2]}, "amplitude: a list"),
+        ({"rig": vi.Rig(ONE_STOP, [0.1, 0.2])}, "shaking: a list"),
         ({"random": -1}, "random: -1"),
         ({"starts": 0}, "starts: 0"),
-        ({"high": 0.5}, "high: 0.5"),
+        ({"span": (1.0, 0.5)}, r"span\[1\]: 0\.5"),
     ],
 )
 def test_refused(wrong, told):
-    given = {"oscillator": ONE_STOP, "amplitude": 1.0, "low": 1.0, "high": 2.0}
+    given = {"rig": vi.Rig(ONE_STOP, 1.0), "span": (1.0, 2.0)}
     with pytest.raises(vi.InputError, match=told):
         vi.resonance_diagram(**{**given, **wrong})
 
@@ -158,15 +158,15 @@ def test_refused(wrong, told):
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
-        ({"low": 1.0, "high": 2.0}, r"basins\[0\]: they are of frequency 0.3; a value from 1 to 2"),
-        ({"amplitude": 1.5}, r"basins\[0\]: they are of another rig"),
+        ({"span": (1.0, 2.0)}, r"basins\[0\]: they are of frequency 0.3; a value from 1 to 2"),
+        ({"rig": vi.Rig(ONE_STOP, 1.5)}, r"basins\[0\]: they are of another rig"),
         ({"phase": 1.0}, r"basins\[0\]: they are of another rig, shaking or phase"),
         ({"basins": [xr.Dataset()]}, r"basins\[0\]: it has no basins"),
     ],
 )
 def test_basins_that_are_refused(changed, told):
     found = vi.basins(vi.Rig(ONE_STOP, vi.Harmonic(1.0, 0.3)), nodes=3)
-    given = {"oscillator": ONE_STOP, "amplitude": 1.0, "low": 0.2, "high": 0.4, "basins": found}
+    given = {"rig": vi.Rig(ONE_STOP, 1.0), "span": (0.2, 0.4), "basins": found}
     with pytest.raises(vi.InputError, match=told):
         vi.resonance_diagram(**{**given, **changed}, starts=1)
 
