@@ -233,7 +233,7 @@ def test_the_uncertainty_of_a_complex_pair_covers_its_error():
 def test_a_damping_beyond_all_pieces_of_a_cycle_is_followed_at_once():
     """A mass of 1e-12 kg under the damping of a rig: 7e12 pieces of a cycle, all alike."""
     rig = vi.Oscillator(1e-12, vi.Isolator(26800.0, 1100.0))
-    data = vi.lyapunov_exponents([(rig, 0.5)], [1.0], 4, transient=2)
+    data = vi.lyapunov_exponents([vi.Rig(rig, 0.5)], [1.0], 4, transient=2)
     first, second = data["exponents"].values.ravel()
     # The logarithm of a piece is 3e-12, and is rounded to 1e-16.
     assert first == pytest.approx(-26800.0 / 1100.0, rel=1e-4)
