@@ -40,7 +40,7 @@ def returned(stop, speed: float, side: int = 1, mass: float = 1.0) -> float:
         1.0 / (stop.exponent + 1.0)
     )
     data = flown(stop, speed, side, mass, depth)
-    assert data.attrs["status"] == "done"
+    assert data["status"] == 0
     kinds, sides = data["event_contact"].values, data["event_side"].values
     assert list(zip(kinds, sides, strict=True)) == [(1, side), (0, side)]
     closing, parting = data["event_velocity"].values

@@ -25,7 +25,7 @@ def error(one: Case, stored: States) -> float:
     at = marks(one)
     cycles = None if isinstance(shaken, vi.Record) else at[-1]
     data = vi.simulate(vi.Rig(rig, shaken), cycles, samples=1)
-    assert data.sizes["time"] == at[-1] + 1, data.attrs["status"]
+    assert data.sizes["time"] == at[-1] + 1, data.attrs["message"]
     columns = [data[which].values for which in ("displacement", "velocity")]
     last = vi.simulate(vi.Rig(rig, shaken), cycles, samples=0)["final_state"].values
     worst = 0.0

@@ -18,7 +18,7 @@ def test_pressed_from_rest_it_is_elastic(side: int, relation: str) -> None:
     motion = vi.simulate(
         vi.Rig(rig, vi.Harmonic(1e-9, 4.0)), 3, start=vi.State(0.0, 0.0), samples=16
     )
-    assert motion.attrs["status"].startswith("done")
+    assert motion.attrs["message"].startswith("done")
     t = motion.time.values
     expected = load / (stiffness + 1.0) * (1.0 - np.cos(math.sqrt(stiffness + 1.0) * t))
     np.testing.assert_allclose(side * motion.displacement, expected, atol=1e-8)

@@ -145,7 +145,7 @@ def simulated(motion: Motion, cycles: float, samples: int = 1) -> xr.Dataset:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
         data = vi.simulate(vi.Rig(*motion[:2]), cycles, motion.start, samples, max_events=1000)
-    assume(data.attrs["status"] == "done")
+    assume(data["status"] == 0)
     return data
 
 

@@ -72,7 +72,7 @@ def through(rig: vi.Oscillator, record: vi.Record, start, samples: int = 1):
             tail=2.5 * record.step,
             max_events=1000,
         )
-    assume(data.attrs["status"] == "done")
+    assume(data["status"] == 0)
     return data
 
 

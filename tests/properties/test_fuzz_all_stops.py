@@ -77,8 +77,8 @@ def faults(
         warnings.simplefilter("ignore", RuntimeWarning)
         cycles = None if isinstance(shaken, vi.Record) else CYCLES
         data = vi.simulate(vi.Rig(rig, shaken), cycles, samples=SAMPLES, max_events=MAX_EVENTS)
-    if data.attrs["status"] != "done":
-        return data.attrs["status"], []
+    if data["status"] != 0:
+        return data.attrs["message"], []
     names = ("displacement", "velocity", "acceleration", "final_state")
     found = [f"{name} is not finite" for name in names if not np.isfinite(data[name]).all()]
     u = data["displacement"].values

@@ -53,7 +53,7 @@ def looked_at(
         warnings.simplefilter("ignore", RuntimeWarning)
         cycles = None if isinstance(shaken, vi.Record) else CYCLES
         data = vi.simulate(vi.Rig(rig, shaken), cycles, samples=8, max_events=3000)
-    status = data.attrs["status"].split(":")[0]
+    status = data.attrs["message"].split(":")[0]
     return status, faults(rig, data, status)
 
 

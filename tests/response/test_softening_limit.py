@@ -19,12 +19,12 @@ def test_a_motion_that_runs_away() -> None:
     rig = vi.Oscillator(1.0, SOFT)
     with pytest.warns(RuntimeWarning, match=TOLD):
         data = vi.simulate(vi.Rig(rig, STRONG), 20)
-    assert TOLD in data.attrs["status"]
+    assert TOLD in data.attrs["message"]
     found = vi.sweep(vi.Rig(rig, 2.0), [0.15])
     assert (found["status"] == Status.REVERSED).all()
     assert found["status"].attrs["flag_meanings"].split()[Status.REVERSED] == "reversed"
     with pytest.warns(RuntimeWarning, match=TOLD):
-        assert TOLD in vi.steady(vi.Rig(rig, STRONG)).attrs["status"]
+        assert TOLD in vi.steady(vi.Rig(rig, STRONG)).attrs["message"]
 
 
 def test_a_motion_that_comes_back() -> None:
@@ -36,7 +36,7 @@ def test_a_motion_that_comes_back() -> None:
         assert (found["displacement_max"] > 1.0).all()
         with pytest.warns(RuntimeWarning, match=TOLD):
             data = vi.simulate(vi.Rig(rig, STRONG), 20)
-        assert TOLD in data.attrs["status"]
+        assert TOLD in data.attrs["message"]
         assert np.isfinite(data["final_state"]).all()
 
 
@@ -44,12 +44,12 @@ def test_through_a_record() -> None:
     record = vi.Record(np.full(400, 0.6), 0.05)
     with pytest.warns(RuntimeWarning, match=TOLD):
         data = vi.simulate(vi.Rig(vi.Oscillator(1.0, SOFT), record))
-    assert TOLD in data.attrs["status"]
+    assert TOLD in data.attrs["message"]
 
 
 def test_small_motions_and_other_laws_say_nothing() -> None:
     assert (
-        vi.simulate(vi.Rig(vi.Oscillator(1.0, SOFT), vi.Harmonic(0.1, 0.1)), 5).attrs["status"]
+        vi.simulate(vi.Rig(vi.Oscillator(1.0, SOFT), vi.Harmonic(0.1, 0.1)), 5).attrs["message"]
         == "done"
     )
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3))

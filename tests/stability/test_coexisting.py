@@ -115,7 +115,7 @@ def test_the_event_limit():
         found = vi.coexisting_motions(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.06)), max_events=6, samples=8
         )
-    given_up = [m for m in found if "max_events" in m.attrs["status"]]
+    given_up = [m for m in found if "max_events" in m.attrs["message"]]
     assert len(given_up) == 1
     names = ", ".join(m.attrs["starts"] + ", " + m.attrs["mirrored_starts"] for m in found)
     assert all(f"random {i}" in names for i in range(1, 13))

@@ -213,8 +213,8 @@ def _computed(
 
     behind = free_tail(Rig(rig, record)) if tail is None else tail
     motion = simulate(Rig(rig, record), samples=samples, tail=behind, progress=progress)
-    if motion.attrs["status"] != Status.DONE.advice:
-        raise InputError(f"the motion was given up ({motion.attrs['status']})")
+    if int(motion["status"]) != Status.DONE:
+        raise InputError(f"the motion was given up ({motion.attrs['message']})")
     periods = np.geomspace(_SHORTEST, _LONGEST, _PERIODS)
     return {
         "response": seismic_response(Rig(rig, record), tail=behind, progress=progress),

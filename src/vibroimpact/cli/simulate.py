@@ -102,7 +102,7 @@ def simulate(
         for warning in caught:
             warn(str(warning.message))
         if not data.sizes["time"]:
-            raise InputError(f"no motion was found ({data.attrs['status']})")
+            raise InputError(f"no motion was found ({data.attrs['message']})")
         if isinstance(given.excitation, Record):
             axes = record_history(data, title=what.title)
             stem = folder / f"{what.slug}-history"

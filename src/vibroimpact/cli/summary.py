@@ -13,6 +13,7 @@ from rich.text import Text
 from vibroimpact._version import __version__
 from vibroimpact.cli.rig import Subject
 from vibroimpact.datasets.description import excitation_parameters
+from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.facts.number_format import plain
 from vibroimpact.facts.tables import plain_table
@@ -133,7 +134,8 @@ def motion_facts(data: xr.Dataset) -> dict[str, Any]:
             "right_per_cycle": int((begins & (data["event_side"] == 1)).sum()) / lately,
             "left_per_cycle": int((begins & (data["event_side"] == -1)).sum()) / lately,
         },
-        "status": data.attrs["status"],
+        "status": Status(data["status"].item()).name.lower(),
+        "message": data.attrs["message"],
     }
 
 
@@ -153,7 +155,8 @@ def _record_facts(data: xr.Dataset) -> dict[str, Any]:
             side: int((begins & (data["event_side"] == sign)).sum())
             for side, sign in (("right", 1), ("left", -1))
         },
-        "status": data.attrs["status"],
+        "status": Status(data["status"].item()).name.lower(),
+        "message": data.attrs["message"],
     }
 
 

@@ -102,7 +102,7 @@ def seismic_response(
     status = Status(int(data["status"]))
     if status is not Status.DONE:
         warnings.warn(f"seismic_response: {status.advice}", RuntimeWarning, stacklevel=3)
-    data.attrs["status"] = status.advice
+    data.attrs["message"] = status.advice
     parameters = {
         "oscillator": oscillator_parameters(oscillator),
         "record": record_parameters(record),

@@ -10,6 +10,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.earthquakes.free_vibration import settles
+from vibroimpact.engine.status import Status
 from vibroimpact.facts.number_format import (
     ENERGIES,
     FORCES,
@@ -30,6 +31,7 @@ _SIDES = ("right", "left")
 def together(names: list[str], responses: list[xr.Dataset]) -> xr.Dataset:
     """Responses to several records as one dataset."""
     attributes = {**responses[0].attrs}
+    del attributes["message"]  # that of the first record only
     bare = [one.drop_attrs(deep=False) for one in responses]
     data = xr.concat(bare, xr.DataArray(names, dims="record", name="record"))
     return data.assign_attrs(attributes)
@@ -43,7 +45,8 @@ def facts(
         "name": name,
         "record": dict(record.rows()),
         **{str(key): value.item() for key, value in response.data_vars.items()},
-        "status": response.attrs["status"],
+        "status": Status(response["status"].item()).name.lower(),
+        "message": response.attrs["message"],
         "without_stops": None
         if free is None
         else {

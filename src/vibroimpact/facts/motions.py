@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.datasets.description import noted
+from vibroimpact.engine.status import Status
 from vibroimpact.model.quantities import (
     ACCELERATION,
     ENERGY,
@@ -91,7 +92,8 @@ def _facts(data: xr.Dataset) -> dict[str, Any]:
     values: dict[str, Any] = {name: data[name].item() for name in _SCALARS if name in data}
     values["exponents"] = data["exponents"].values.tolist()
     values["exponents_uncertainty"] = data["exponents_uncertainty"].values.tolist()
-    values["evidence"], values["status"] = data.attrs["evidence"], data.attrs["status"]
+    values["status"] = Status(data["status"].item()).name.lower()
+    values["evidence"], values["message"] = data.attrs["evidence"], data.attrs["message"]
     values["starts"] = data.attrs.get("starts", "")
     values["mirrored_starts"] = data.attrs.get("mirrored_starts", "")
     rows = {

@@ -88,7 +88,8 @@ def through(
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
         warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=4)
-    data.attrs["status"] = told.advice
+    data["status"] = int(told)
+    data.attrs["message"] = told.advice
     parameters = {
         "oscillator": oscillator_parameters(oscillator),
         "record": {"samples": len(record.acceleration), "step": record.step, "peak": record.peak},

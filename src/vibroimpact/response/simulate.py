@@ -167,7 +167,8 @@ def simulate(
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
         warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=3)
-    data.attrs["status"] = told.advice
+    data["status"] = int(told)
+    data.attrs["message"] = told.advice
     return describe(
         data,
         "vibroimpact.simulate",

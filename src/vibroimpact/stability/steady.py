@@ -162,7 +162,7 @@ def describe_motion(
         if used:
             warnings.warn(f"steady: {_UNDECIDED}", RuntimeWarning, stacklevel=4)
     data = _record(found, found.state, samples, kind.period or window, max_events)
-    if data.attrs["status"] not in (Status.DONE.advice, Status.REVERSED.advice):
+    if int(data["status"]) not in (Status.DONE, Status.REVERSED):
         return _given_up(found._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)
     frequency = found.excitation.frequency
     distance = _mirror_distance(found, found.state, kind.period, max_events)
@@ -279,7 +279,8 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
         "exponents": nothing,
         "exponents_uncertainty": nothing,
     }
-    data.attrs["evidence"] = data.attrs["status"] = found.status.advice
+    data["status"] = int(found.status)
+    data.attrs["evidence"] = data.attrs["message"] = found.status.advice
     return _measured(data, found, scalars)
 
 
