@@ -31,30 +31,28 @@ vi.sweep(rig, case.amplitude, case.frequencies)
 _EVERYTHING = """
 import vibroimpact as vi
 case = vi.laboratory.case("B2-G1-A3")
-rig, amplitude = case.oscillator, case.amplitude
-shaken = vi.Harmonic(amplitude, 1.2)
-vi.sweep(rig, amplitude, case.frequencies)
+amplitude = case.amplitude
+shaken = vi.Rig(case.oscillator, vi.Harmonic(amplitude, 1.2))
+vi.sweep(case, case.frequencies)
 vi.sweeps([case], case.frequencies)
-vi.simulate(rig, shaken, 10)
-motion = vi.steady(rig, shaken)
+vi.simulate(shaken, 10)
+motion = vi.steady(shaken)
 vi.contacts(motion), vi.fourier_spectrum(motion)
 vi.stroboscopic_section(motion), vi.impact_section(motion)
-vi.coexisting_motions(rig, shaken)
+vi.coexisting_motions(shaken)
 vi.lyapunov_exponents([case], [1.2], 100)
-vi.orbit(rig, shaken)
-vi.branch(rig, shaken, low=1.1, high=1.3)
-followed = vi.resonance_diagram(rig, amplitude, 1.0, 4.0)
+vi.orbit(shaken)
+vi.branch(shaken, span=(1.1, 1.3))
+followed = vi.resonance_diagram(case, (1.0, 4.0))
 (fold, *_) = (followed["bifurcation_kind"].values == "fold").nonzero()[0]
 vi.bifurcation_curve(
-    rig,
     shaken,
     followed.isel(bifurcation=fold),
     parameters=("frequency", "amplitude"),
-    low=(1.0, 0.5 * amplitude),
-    high=(4.0, amplitude),
+    spans=((1.0, 4.0), (0.5 * amplitude, amplitude)),
 )
-vi.classify_scenario(rig, amplitude)
-vi.scenario_map(("stiffness_ratio", [5.0, 10.0]), ("gap_ratio", [0.2, 0.4]))
+vi.classify_scenario(case)
+vi.scenario_map(None, ("stiffness_ratio", [5.0, 10.0]), ("gap_ratio", [0.2, 0.4]))
 """
 _PREPARE = """
 import time

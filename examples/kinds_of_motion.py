@@ -14,10 +14,12 @@ folder.mkdir(parents=True, exist_ok=True)
 
 columns = {}
 for code, frequency in (("B2-G1-A3", 2.6), ("B3-10mm-A3", 1.06)):
-    for number, motion in enumerate(vi.coexisting_motions(code, frequency=frequency), 1):
+    found = vi.coexisting_motions(code, frequency=frequency)
+    for number in range(found.sizes["attractor"]):
+        motion = vi.steady(code, found.isel(attractor=number), frequency=frequency)
         kind = motion["motion"].item()
-        columns[f"{code}, {frequency:g} Hz, motion {number}:\n{kind}"] = motion
-        print(f"{code} at {frequency:g} Hz, motion {number}: {kind}")
+        columns[f"{code}, {frequency:g} Hz, motion {number + 1}:\n{kind}"] = motion
+        print(f"{code} at {frequency:g} Hz, motion {number + 1}: {kind}")
         print(f"  because {motion.attrs['evidence']}")
         # The first three contacts, with force and energy loss.
         log = vi.contacts(motion).isel(contact_number=slice(3))

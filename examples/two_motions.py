@@ -20,10 +20,12 @@ folder.mkdir(parents=True, exist_ok=True)
 case = vi.laboratory.case("B2-G1-A3")
 curves = vi.sweep(case, [k / 100 for k in range(60, 361, 6)])
 orbits = vi.resonance_diagram(case, ("0.6 Hz", "3.6 Hz"))
-motions = {
-    ("forward" if motion["impacts_right"] else "backward"): motion
-    for motion in vi.coexisting_motions(case, frequency="2 Hz", samples=1024)
-}
+found = vi.coexisting_motions(case, frequency="2 Hz")
+motions = {}
+for number in range(found.sizes["attractor"]):
+    start = found.isel(attractor=number)
+    name = "forward" if start["impacts_right"] else "backward"
+    motions[name] = vi.steady(case, start, frequency="2 Hz", samples=1024)
 
 figure = Figure(figsize=(10.0, 4.2), layout="constrained")
 left, right = figure.subplots(1, 2, width_ratios=[1.4, 1.0])

@@ -283,7 +283,6 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "starts": None,
             "random": 1,
             "seed": 0,
-            "samples": 8,
             "window": 5,
             "exponent_cycles": 10,
         },

@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
+from vibroimpact.scenarios.classify import classify
 
 CODE = "B2-G1-A3"
 CASE = vi.laboratory.case(CODE)
@@ -69,7 +70,7 @@ def test_branches():
 def test_scenarios_and_parameters():
     grid = np.linspace(0.8, 3.0, 12)
     rig = vi.Rig(OSCILLATOR, AMPLITUDE)
-    assert vi.classify_scenario(CODE, grid).features == vi.classify_scenario(rig, grid).features
+    assert classify(CODE, grid).features == classify(rig, grid).features
     axes = ("gap", [0.005, 0.02]), ("stiffness_ratio", [2.0, 10.0])
     found = vi.scenario_map(CODE, *axes, step=0.2)
     xr.testing.assert_identical(found, vi.scenario_map(rig, *axes, step=0.2))

@@ -8,6 +8,7 @@ import pytest
 
 import vibroimpact as vi
 from cli.studies import QUAY
+from vibroimpact.scenarios.classify import classify
 
 COMMAND = "classify"
 
@@ -33,9 +34,7 @@ def test_json(run, tmp_path):
     assert code == 0
     facts = json.loads(out)
     case = vi.laboratory.case("B2-G1-A3")
-    alone = vi.classify_scenario(
-        vi.Rig(case.oscillator, case.amplitude), [k / 100 for k in range(50, 501)]
-    )
+    alone = classify(vi.Rig(case.oscillator, case.amplitude), [k / 100 for k in range(50, 501)])
     assert facts["scenario"] == alone.scenario == "S3"
     assert "; ".join(facts["evidence"]) == alone.evidence
     assert facts["confidence"] == alone.confidence

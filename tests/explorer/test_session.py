@@ -14,6 +14,7 @@ from vibroimpact.explorer import share
 from vibroimpact.explorer.presets import preset
 from vibroimpact.explorer.server import _text
 from vibroimpact.explorer.session import Session
+from vibroimpact.scenarios.classify import classify
 from vibroimpact.tasks.threads import Stopped
 
 
@@ -60,7 +61,7 @@ def test_pictures_are_those_of_the_public_functions(session):
     )
     assert "periodic, period 1, stable" in motion["words"]
     assert "one motion found" not in motion["table"]  # the other curve may lead to another
-    alone = vi.classify_scenario(case)
+    alone = classify(case)
     assert (scenario["scenario"], "; ".join(scenario["evidence"])) == (
         alone.scenario,
         alone.evidence,

@@ -13,12 +13,13 @@ import pytest
 import vibroimpact as vi
 from reference.zero_one import zero_one
 from vibroimpact.response import resonance
+from vibroimpact.stability.coexisting import find_motions
 
 
 @cache
 def motions(code: str, frequency: float):
     case = vi.laboratory.case(code)
-    return vi.coexisting_motions(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, frequency)))
+    return find_motions(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, frequency)))
 
 
 def reached(found, direction: str):

@@ -15,6 +15,7 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.classification import scenario
+from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.evidence import each_evidence
 from vibroimpact.scenarios.thresholds import Thresholds
 
@@ -70,7 +71,7 @@ def test_from_s3_to_s2():
 def test_on_the_default_frequencies_too():
     """They begin at 0.4 times the natural frequency, where B1-G1-A3 shows a peak at 0.51 Hz."""
     for case in vi.laboratory.campaign()[::5]:
-        here = vi.classify_scenario(vi.Rig(case.oscillator, case.amplitude)).scenario
+        here = classify(vi.Rig(case.oscillator, case.amplitude)).scenario
         assert here == named(1)[case.code], case.code
 
 
@@ -89,7 +90,7 @@ def test_on_the_default_frequencies_too():
 )
 def test_numerical_scenarios(code, expected):
     case = vi.laboratory.case(code)
-    found = vi.classify_scenario(vi.Rig(case.oscillator, case.amplitude))
+    found = classify(vi.Rig(case.oscillator, case.amplitude))
     assert found.scenario == expected
     assert 0.0 <= found.confidence <= 1.0
 
@@ -97,7 +98,7 @@ def test_numerical_scenarios(code, expected):
 def test_the_evidence_for_s4():
     """Fig. 15: left hystereses below 0.9 Hz, and near 1 Hz a resonance that is not regular."""
     case = vi.laboratory.case("B3-10mm-A3")
-    found = vi.classify_scenario(vi.Rig(case.oscillator, case.amplitude))
+    found = classify(vi.Rig(case.oscillator, case.amplitude))
     assert found.confidence == 1.0
     assert found.alternatives == {}
     for words in ("left hysteresis 0.674–0.729 Hz", "left hysteresis 0.448–0.469 Hz", "chaotic"):
@@ -127,7 +128,7 @@ def test_a_hysteresis_between_two_frequencies_is_seen_by_the_branch():
     """Steep as the curve is, 60 kN/m does not jump; 75 kN/m does, over less than a step."""
     for stiffness, expected in (("60kN/m", "S6"), ("75kN/m", "S2")):
         case = vi.laboratory.case(f"{stiffness}-G3-A1")
-        found = vi.classify_scenario(vi.Rig(case.oscillator, case.amplitude))
+        found = classify(vi.Rig(case.oscillator, case.amplitude))
         assert found.scenario == expected
         assert bool(found.features.folds) == (expected == "S2")
         assert "no jumps" in found.evidence or expected == "S2"
@@ -137,9 +138,7 @@ def test_the_same_dimensionless_parameters_give_the_same_scenario():
     case = vi.laboratory.case("B2-G1-A3")
     group = vi.to_dimensionless(vi.Rig(case.oscillator, case.amplitude))
     rig = group.to_physical(mass="2000 t", stiffness="80 MN/m", amplitude="0.4 g")
-    here, there = (
-        vi.classify_scenario(one) for one in (vi.Rig(case.oscillator, case.amplitude), rig)
-    )
+    here, there = (classify(one) for one in (vi.Rig(case.oscillator, case.amplitude), rig))
     assert here.scenario == there.scenario == "S3"
     scale = rig.oscillator.natural_frequency / case.oscillator.natural_frequency
     np.testing.assert_allclose(

@@ -7,6 +7,8 @@ import pytest
 
 import vibroimpact as vi
 from scenarios.node import in_map
+from vibroimpact.scenarios.classify import classify
+from vibroimpact.scenarios.scenario import Scenario
 
 
 def test_a_far_stop_that_is_never_reached_changes_nothing():
@@ -14,8 +16,8 @@ def test_a_far_stop_that_is_never_reached_changes_nothing():
     near = vi.from_dimensionless(25.9, 0.0, 0.01, 0.15)
     gap = 5.0 * vi.from_dimensionless(25.9, 1.0, 0.01, 0.15).oscillator.right.gap
     far = near.oscillator.left.replace(gap=gap)
-    both = vi.classify_scenario(vi.Rig(near.oscillator.replace(left=far), near.amplitude))
-    alone = vi.classify_scenario(vi.Rig(near.oscillator.replace(left=None), near.amplitude))
+    both = classify(vi.Rig(near.oscillator.replace(left=far), near.amplitude))
+    alone = classify(vi.Rig(near.oscillator.replace(left=None), near.amplitude))
     assert both.scenario == alone.scenario
     assert both.features.within
     assert both.features.swept == alone.features.swept
@@ -25,19 +27,19 @@ def test_light_damping_is_waited_for():
     """A linear rig (attached, elastic): at ten times f0 it decays by e^-0.01 a cycle."""
     rig = vi.from_dimensionless(30.0, 0.0, 0.0, 0.01)
     assert in_map(rig) == "S5"
-    assert vi.classify_scenario(vi.Rig(*rig)).scenario == "S5"
+    assert classify(vi.Rig(*rig)).scenario == "S5"
 
 
 def test_too_short_a_wait_names_nothing():
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
-    assert vi.classify_scenario(vi.Rig(*rig), max_cycles=1).scenario == "unclassified"
+    assert classify(vi.Rig(*rig), max_cycles=1).scenario == "unclassified"
 
 
 @pytest.mark.parametrize(("low", "high"), [(0.4, 1.2), (0.3, 0.69), (2.5, 4.0)])
 def test_a_range_without_the_resonance_names_nothing(low, high):
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
     held = np.arange(low, high, 0.01) * rig.oscillator.natural_frequency
-    found = vi.classify_scenario(vi.Rig(*rig), held)
+    found = classify(vi.Rig(*rig), held)
     assert found.scenario == "unclassified"
     assert "beyond the frequencies swept" in found.evidence or "no contact" in found.evidence
 
@@ -46,14 +48,24 @@ def test_a_range_without_the_resonance_names_nothing(low, high):
 def test_thresholds_that_are_none_are_refused(given):
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
     with pytest.raises(vi.InputError, match=r"thresholds: .* a Thresholds, or None, is accepted"):
-        vi.classify_scenario(vi.Rig(*rig), thresholds=given)
+        classify(vi.Rig(*rig), thresholds=given)
 
 
-def test_a_verdict_is_shown_in_short():
-    found = vi.classify_scenario("B2-G1-A3")
-    assert len(repr(found)) < 500
-    assert repr(found).startswith("Classification(scenario='S3', confidence=")
-    page = found._repr_html_()
-    for text in (found.scenario, f"{found.confidence:.0%}", "right hysteresis"):
-        assert text in page
-    assert "array" not in page
+def test_the_dataset_has_the_variables_of_a_map_and_those_of_the_sweep():
+    rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
+    found, inside = vi.classify_scenario(rig), classify(rig)
+    assert found.attrs["label"] == inside.scenario == Scenario(found["scenario"].item()).label
+    assert found.attrs["evidence"] == inside.evidence
+    assert found["confidence"].item() == inside.confidence
+    assert found["fold_frequency"].values.tolist() == list(inside.features.folds)
+    nodes = vi.scenario_map(
+        None, ("stiffness_ratio", [25.9]), ("gap_ratio", [0.5]), level=0.01, damping_ratio=0.15
+    )
+    assert {str(name) for name in nodes} - {"level"} <= {str(name) for name in found}
+    assert found["eta_a"].identical(inside.sweep["eta_a"])
+
+
+def test_a_threshold_that_matters_is_listed():
+    found = vi.classify_scenario("B2-G4-A1")
+    assert found.attrs["label"] == "S1"
+    assert found.attrs["alternatives"] == "S2 if touch were 0.05"

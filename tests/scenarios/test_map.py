@@ -19,6 +19,7 @@ from scenarios.small_map import OPTIONS, X, Y, rig_of, small
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.scenarios import map as mapping
 from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.map_node import COUNTS, VALUES
 from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.scenarios.sweep_frequencies import frequencies
@@ -35,7 +36,7 @@ def test_nodes_are_classified_as_one_by_one():
             rig = vi.from_dimensionless(
                 float(data["stiffness_ratio"][x]), float(data["gap_ratio"][y]), 0.01, 0.15
             )
-            alone = vi.classify_scenario(rig, frequencies(one_sine(rig), step))
+            alone = classify(rig, frequencies(one_sine(rig), step))
             assert Scenario(int(data["scenario"][y, x])).label == alone.scenario, (x, y)
 
 

@@ -8,13 +8,14 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from scenarios.node import in_map
+from vibroimpact.scenarios.classify import classify
 
 
 @pytest.mark.parametrize("stiffness", ["60kN/m", "75kN/m"])
 def test_maps_follow_the_branch_where_a_jump_may_hide(stiffness):
     case = vi.laboratory.case(f"{stiffness}-G3-A1")
     rig = vi.Rig(case.oscillator, case.amplitude)
-    assert in_map(rig) == vi.classify_scenario(vi.Rig(*rig)).scenario
+    assert in_map(rig) == classify(vi.Rig(*rig)).scenario
     assert in_map(rig) == {"60kN/m": "S6", "75kN/m": "S2"}[stiffness]
 
 

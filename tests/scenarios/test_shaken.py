@@ -8,6 +8,7 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.borders import jump_border
+from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.scenarios.sweep_frequencies import frequencies, highest
 
@@ -21,9 +22,7 @@ SWING = vi.Harmonic(CASE.amplitude / OMEGA**2, 1.0, of="displacement")
 def test_a_force_on_the_mass_is_an_acceleration_of_the_base() -> None:
     """Relative to the base, the motion is the same; only the absolute acceleration is not."""
     held = np.arange(0.5, 3.5, 0.02)
-    base, force = (
-        vi.classify_scenario(vi.Rig(CASE.oscillator, one), held) for one in (CASE.amplitude, FORCE)
-    )
+    base, force = (classify(vi.Rig(CASE.oscillator, one), held) for one in (CASE.amplitude, FORCE))
     for name in ("contact", "gap_ratio", "penetration", "swept", "within"):
         told = getattr(base.features, name), getattr(force.features, name)
         assert told[1] == pytest.approx(told[0], rel=1e-9)
@@ -43,7 +42,7 @@ def test_gaps_are_scaled_by_free_flight_under_what_is_held(ratio: float, named: 
     rig = vi.from_dimensionless(25.9, 1.0, 0.01, 0.15, stiffness=(2.0 * np.pi) ** 2).oscillator
     peak = 2e-3 / (2.0 * 0.15 * np.sqrt(1.0 - 0.15**2))
     bumper = rig.right.replace(gap=ratio * peak)
-    found = vi.classify_scenario(vi.Rig(rig.replace(right=bumper, left=bumper), "2 mm"))
+    found = classify(vi.Rig(rig.replace(right=bumper, left=bumper), "2 mm"))
     assert found.features.gap_ratio == pytest.approx(ratio, rel=1e-12)
     assert found.features.within
     assert found.scenario == named
@@ -69,8 +68,8 @@ def test_a_constant_force_is_a_pair_of_other_gaps() -> None:
     held = np.arange(0.5, 3.5, 0.05)
     pushed = rig.replace(force=shift * rig.isolator.stiffness)
     one, other = (
-        vi.classify_scenario(vi.Rig(pushed, SWING), held),
-        vi.classify_scenario(vi.Rig(rig.replace(**gaps), SWING), held),
+        classify(vi.Rig(pushed, SWING), held),
+        classify(vi.Rig(rig.replace(**gaps), SWING), held),
     )
     assert one.scenario == other.scenario
     for name in ("contact", "gap_ratio", "penetration", "onset"):
@@ -99,9 +98,7 @@ def test_a_map_is_made_of_such_rigs(shaken: vi.Harmonic) -> None:
     rig = CASE.oscillator.replace(right=bumper, left=bumper)
     for k, size in enumerate(sizes):
         one = shaken.replace(amplitude=size)
-        alone = vi.classify_scenario(
-            vi.Rig(rig, one), frequencies(one_sine(vi.Rig(rig, one)), 0.02)
-        )
+        alone = classify(vi.Rig(rig, one), frequencies(one_sine(vi.Rig(rig, one)), 0.02))
         assert Scenario(int(data["scenario"][1, k])).label == alone.scenario
         wanted = max(p.value for p in alone.features.peaks if p.curve == "eta_d")
         known = data[["peak_eta_d_forward", "peak_eta_d_backward"]].isel(
@@ -138,6 +135,6 @@ def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
 )
 def test_what_has_no_scenario_is_refused(oscillator, amplitude, message) -> None:
     with pytest.raises(vi.InputError, match=message):
-        vi.classify_scenario(vi.Rig(oscillator, amplitude))
+        classify(vi.Rig(oscillator, amplitude))
     with pytest.raises(vi.InputError, match=message):
         vi.scenario_map(vi.Rig(oscillator, amplitude), ("gap", [1e-3, 2e-3]), ("amplitude", [1, 2]))

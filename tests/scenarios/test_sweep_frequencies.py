@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.sweep_frequencies import LOW, STEP, frequencies, highest
 
 
@@ -66,10 +67,10 @@ def test_an_undamped_isolator_is_not_held_at_its_resonance(stops):
     there = frequencies(one_sine(vi.Rig(damped, case.amplitude))) / rig.natural_frequency
     assert np.count_nonzero(np.abs(there[: len(ratios)] - ratios[: len(there)]) > 1e-9) == 1
     if not stops:
-        assert vi.classify_scenario(vi.Rig(rig, case.amplitude)).scenario == "S0"
+        assert classify(vi.Rig(rig, case.amplitude)).scenario == "S0"
 
 
 def test_a_range_of_too_many_frequencies_is_refused():
     rig = vi.Oscillator(550.0, vi.Isolator(1e-12, 0.0), right=vi.Bumper(510e3, 900.0, 0.0075))
     with pytest.raises(vi.InputError, match=r"^stiffness: .* takes .* frequencies"):
-        vi.classify_scenario(vi.Rig(rig, 0.5))
+        classify(vi.Rig(rig, 0.5))

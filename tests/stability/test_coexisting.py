@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.stability.coexisting import find_motions
 
 
 @cache
 def motions(code: str, frequency: float, random: int = 12):
     case = vi.laboratory.case(code)
-    return vi.coexisting_motions(
+    return find_motions(
         vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, frequency)), random=random, samples=32
     )
 
@@ -53,7 +54,7 @@ def test_motions_that_differ_by_whole_cycles_are_one():
     omega = 0.81
     shaken = vi.Harmonic(0.7 * omega**2, omega / (2 * np.pi), np.pi)
     starts = {f"given {i}": vi.State(0.2 * i, 0.1, phase=np.pi) for i in range(5)}
-    found = vi.coexisting_motions(vi.Rig(rig, shaken), starts=starts, random=0, samples=8)
+    found = find_motions(vi.Rig(rig, shaken), starts=starts, random=0, samples=8)
     five = [m for m in found if int(m["period"]) == 5]
     assert len(five) == 1
     assert five[0].attrs["starts"].count("given") >= 2
@@ -66,7 +67,7 @@ def test_the_same_seed_finds_the_same():
     names = [
         [
             m.attrs["starts"]
-            for m in vi.coexisting_motions(vi.Rig(case.oscillator, shaken), seed=seed, samples=8)
+            for m in find_motions(vi.Rig(case.oscillator, shaken), seed=seed, samples=8)
         ]
         for seed in (3, 3, 4)
     ]
@@ -78,7 +79,7 @@ def test_frequencies_of_the_sweeps():
     """A forward sweep that begins above the jump does not arrive on the large motion."""
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.6)
-    found = vi.coexisting_motions(
+    found = find_motions(
         vi.Rig(case.oscillator, shaken), frequencies=[2.59, 2.61, 3.0], random=0, samples=8
     )
     assert [m.attrs["starts"] for m in found] == ["rest, forward branch, backward branch"]
@@ -90,7 +91,7 @@ def test_frequencies_of_the_sweeps():
 def test_refused(wrong):
     case = vi.laboratory.case("B2-G1-A3")
     with pytest.raises(vi.InputError, match=next(iter(wrong))):
-        vi.coexisting_motions(vi.Rig(case.oscillator, vi.Harmonic(0.5, 2.0)), **wrong)
+        find_motions(vi.Rig(case.oscillator, vi.Harmonic(0.5, 2.0)), **wrong)
 
 
 def test_starts_with_a_phase_of_their_own():
@@ -98,7 +99,7 @@ def test_starts_with_a_phase_of_their_own():
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 1.5)
     part = vi.simulate(vi.Rig(case.oscillator, shaken), 30.25, samples=0)
-    found = vi.coexisting_motions(
+    found = find_motions(
         vi.Rig(case.oscillator, shaken),
         random=0,
         frequencies=[1.45],
@@ -112,7 +113,7 @@ def test_starts_with_a_phase_of_their_own():
 def test_the_event_limit():
     case = vi.laboratory.case("B3-10mm-A3")
     with pytest.warns(RuntimeWarning, match="max_events"):
-        found = vi.coexisting_motions(
+        found = find_motions(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.06)), max_events=6, samples=8
         )
     given_up = [m for m in found if "max_events" in m.attrs["message"]]
@@ -127,7 +128,7 @@ def test_random_starts_between_walls():
     bumper = vi.Bumper("510 kN/m", "0.9 kN s/m", "-1 mm")
     rig = vi.Oscillator("550 kg", isolator, vi.RigidStop(0.6, "5 mm"), bumper)
     shaken = vi.Harmonic("0.05 g", "1.78 Hz")
-    found = vi.coexisting_motions(vi.Rig(rig, shaken), frequencies=[1.78, 2.0], random=4, samples=8)
+    found = find_motions(vi.Rig(rig, shaken), frequencies=[1.78, 2.0], random=4, samples=8)
     names = {name for one in found for name in one.attrs["starts"].split(", ")}
     assert {f"random {i}" for i in range(1, 5)} <= names
     assert all(float(one["displacement_max"]) == pytest.approx(5e-3, rel=1e-12) for one in found)

@@ -80,7 +80,7 @@ def classify(
         from vibroimpact.datasets.files import save
         from vibroimpact.facts import scenario as told
         from vibroimpact.figures import resonance_curves, save_figure
-        from vibroimpact.scenarios.classify import classify_scenario as run
+        from vibroimpact.scenarios.classify import classify as run
 
         with progress_bar("sweeping") as progress:
             found = run(

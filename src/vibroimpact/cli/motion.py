@@ -167,11 +167,11 @@ def _found(
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.model.rig import Rig
     from vibroimpact.response.sweep_starts import arrivals
-    from vibroimpact.stability.coexisting import coexisting_motions
+    from vibroimpact.stability.coexisting import find_motions
     from vibroimpact.stability.steady import steady
 
     if branch == "all":
-        motions = coexisting_motions(
+        motions = find_motions(
             Rig(what.oscillator, excitation), random=random, window=window, samples=samples
         )
         return _named([_complete(data) for data in motions])

@@ -241,6 +241,9 @@ VARIABLES: dict[str, Variable] = {
         "whether no small disturbance grows",
         "1 yes, 0 no, -1 neither: no orbit, no dissipation, or a bifurcation itself",
     ),
+    "fold_frequency": Variable(
+        "Hz", "frequency at which the branch of the primary resonance turns back"
+    ),
     # branches
     "arclength": Variable("1", "arclength along the branch, in scaled components"),
     "branch": Variable("1", "number of the branch"),
@@ -276,6 +279,9 @@ VARIABLES: dict[str, Variable] = {
     "bifurcation_section": Variable(
         "1", "state at the stroboscopic section", "components in m, m/s, m, m, rad and 1"
     ),
+    "evidence": Variable("1", "why the motion is called so"),
+    "starts": Variable("1", "names of the starts that led to the motion"),
+    "mirrored_starts": Variable("1", "names of the starts that led to its mirror image"),
     "mirror_pair": Variable("1", "whether the mirror image of the motion is another motion"),
     "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),
     "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),

@@ -175,7 +175,8 @@ frequencies = np.linspace({low!r}, {high!r}, {FINE})
 curves = vi.sweep(rig, frequencies)
 axes = resonance_curves(curves, physical={state.physical!r})
 save_figure(axes[0], "curves.png")
-print(vi.classify_scenario(rig))
+found = vi.classify_scenario(rig)
+print(found.attrs["label"], found.attrs["evidence"])
 
 held = curves.sel(direction={state.direction!r}).sel(
     frequency={shaken.frequency!r}, method="nearest"

@@ -23,10 +23,10 @@ from vibroimpact.response.resonance import Features, features
 from vibroimpact.response.simulate import simulate
 from vibroimpact.response.sweep import sweeps
 from vibroimpact.response.sweep_starts import arrivals
-from vibroimpact.scenarios.classify import Classification, classify_scenario
+from vibroimpact.scenarios.classify import Classification, classify
 from vibroimpact.scenarios.map import scenario_map
 from vibroimpact.stability.branch import branch
-from vibroimpact.stability.coexisting import coexisting_motions
+from vibroimpact.stability.coexisting import find_motions
 from vibroimpact.stability.orbit import orbit
 from vibroimpact.stability.steady import steady
 
@@ -169,11 +169,11 @@ class PublishedStudy:
         return self._once(("motion", code, frequency, direction, parameters, samples), make)
 
     def motions(self, code: str, frequency: float) -> list[xr.Dataset]:
-        """All steady motions found at a frequency (`vibroimpact.coexisting_motions`)."""
+        """All steady motions found at a frequency (`find_motions`)."""
         case = self._case(code)
         return self._once(
             ("motions", code, frequency),
-            lambda: coexisting_motions(Rig(case.oscillator, Harmonic(case.amplitude, frequency))),
+            lambda: find_motions(Rig(case.oscillator, Harmonic(case.amplitude, frequency))),
         )
 
     def classification(
@@ -187,7 +187,7 @@ class PublishedStudy:
         case = self._case(code, parameters)
         return self._once(
             ("classification", code, low, high, parameters),
-            lambda: classify_scenario(
+            lambda: classify(
                 Rig(case.oscillator, case.amplitude), grid(low, high), threads=self._threads
             ),
         )
@@ -293,7 +293,7 @@ class PublishedStudy:
         )
         return self._once(
             ("scenario at", stiffness_ratio, gap),
-            lambda: classify_scenario(rig, threads=self._threads).scenario,
+            lambda: classify(rig, threads=self._threads).scenario,
         )
 
     def twins(self, code: str) -> tuple[xr.Dataset, xr.Dataset]:

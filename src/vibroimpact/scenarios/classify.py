@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
+import numpy as np
 import xarray as xr
 
+from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError
-from vibroimpact.model.html_table import table
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.response.sweep import sweep
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.classification import alternatives, confidence, scenario
 from vibroimpact.scenarios.evidence import Evidence, evidence
 from vibroimpact.scenarios.evidence_text import in_words
+from vibroimpact.scenarios.map_node import COUNTS, VALUES
 from vibroimpact.scenarios.orbit_evidence import with_folds, with_kinds
 from vibroimpact.scenarios.resonance_curves import holds
+from vibroimpact.scenarios.scenario import FLAGS, Scenario
 from vibroimpact.scenarios.sweep_frequencies import cycles, highest
 from vibroimpact.scenarios.sweep_frequencies import frequencies as default_frequencies
 from vibroimpact.scenarios.thresholds import Thresholds, checked
@@ -34,8 +37,8 @@ class Classification:
 
     Attributes
     ----------
-    scenario
-        ``"S0"`` to ``"S6"``, or ``"unclassified"``.
+    named
+        The scenario.
     confidence
         Share of the variations of the thresholds, each halved and each doubled, under which
         the scenario is the same.
@@ -51,24 +54,18 @@ class Classification:
         The resonance curves, as `vibroimpact.sweep` gives them.
     """
 
-    scenario: str
+    named: Scenario
     confidence: float
     evidence: str
     alternatives: dict[tuple[str, float], str]
-    features: Evidence = field(repr=False)
-    thresholds: Thresholds = field(repr=False)
-    sweep: xr.Dataset = field(repr=False)
+    features: Evidence
+    thresholds: Thresholds
+    sweep: xr.Dataset
 
-    def __str__(self) -> str:
-        return f"{self.scenario} ({self.confidence:.0%}): {self.evidence}"
-
-    def _repr_html_(self) -> str:
-        rows = [("confidence", f"{self.confidence:.0%}"), ("evidence", self.evidence)]
-        rows += [
-            (f"if {threshold} were {value:g}", scenario)
-            for (threshold, value), scenario in self.alternatives.items()
-        ]
-        return table(f"Scenario {self.scenario}", rows)
+    @property
+    def scenario(self) -> str:
+        """Return ``"S0"`` to ``"S6"``, or ``"unclassified"``."""
+        return self.named.label
 
 
 def classify_scenario(
@@ -79,7 +76,7 @@ def classify_scenario(
     max_cycles: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
-) -> Classification:
+) -> xr.Dataset:
     """Name the scenario of a rig: S0 to S6, or unclassified (the paper's Sections 4.3 and 6).
 
     The rig is swept forward and backward. Motions that did not become periodic are named by
@@ -103,14 +100,60 @@ def classify_scenario(
 
     Returns
     -------
-    Classification
-        ``scenario``, ``confidence``, ``evidence``, and what they were found from.
+    xarray.Dataset
+        The resonance curves, as `sweep` gives them, with the number of the ``scenario`` and what
+        it was found from, under the names of `scenario_map`. ``confidence`` is the share of the
+        variations of the thresholds, each halved and each doubled, under which the scenario is
+        the same. ``fold_frequency`` holds the frequencies at which the branch of the primary
+        resonance turns back. Attributes: ``label`` (``"S0"`` to ``"S6"``, or
+        ``"unclassified"``), ``meaning``, ``evidence``, and ``alternatives``, which lists the
+        variations that give another scenario.
 
     Raises
     ------
     InputError
         If a value cannot be used.
     """
+    found = classify(
+        rig,
+        frequencies,
+        thresholds=thresholds,
+        max_cycles=max_cycles,
+        threads=threads,
+        progress=progress,
+    )
+    features, used = found.features, found.thresholds
+    data = found.sweep.assign(
+        {
+            "scenario": np.int8(found.named),
+            **{name: get(features, used) for name, get in VALUES.items()},
+            **{name: np.int16(count(features, used)) for name, count in COUNTS.items()},
+            "fold_frequency": ("fold", np.array(features.folds or (), dtype=np.float64)),
+        }
+    )
+    data["scenario"].attrs |= FLAGS
+    data.attrs |= {
+        "label": found.scenario,
+        "meaning": found.named.meaning,
+        "evidence": found.evidence,
+        "alternatives": "; ".join(
+            f"{other} if {threshold} were {value:g}"
+            for (threshold, value), other in found.alternatives.items()
+        ),
+    }
+    return describe(data, "vibroimpact.classify_scenario")
+
+
+def classify(
+    rig: AnyRig,
+    frequencies: Iterable[float | str] | None = None,
+    *,
+    thresholds: Thresholds | None = None,
+    max_cycles: int | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Classification:
+    """Classify a rig as `classify_scenario` does, and keep the evidence as it was found."""
     used = checked(thresholds)
     rig = one_sine(as_rig(rig))
     held = default_frequencies(rig) if frequencies is None else frequencies
@@ -134,7 +177,7 @@ def classify_scenario(
     check()
     found = with_folds(found, rig, ended)
     return Classification(
-        scenario(found, used).label,
+        scenario(found, used),
         confidence(found, used),
         in_words(found, used),
         {varied: other.label for varied, other in alternatives(found, used).items()},

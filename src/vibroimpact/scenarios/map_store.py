@@ -22,7 +22,7 @@ from vibroimpact.model.excitation import Of
 from vibroimpact.model.parameters import parameter
 from vibroimpact.scenarios.axes import Axis
 from vibroimpact.scenarios.map_node import COUNTS, VALUES
-from vibroimpact.scenarios.scenario import Scenario
+from vibroimpact.scenarios.scenario import FLAGS
 from vibroimpact.stores.zarr_store import Block, Kind, create, finished, folder, read
 
 if TYPE_CHECKING:  # it takes long to load: only where a map is made or read
@@ -156,9 +156,7 @@ def _make(group: zarr.Group, axes: tuple[Axis, Axis], chunk: int, levels: int, o
         array.attrs.update(units=known.units, long_name=known.long_name)
     chunks = (min(chunk, shape[0]), min(chunk, shape[1]))
     create(group, "scenario", shape, chunks, "i1", UNKNOWN, dims)
-    group["scenario"].attrs.update(
-        flag_values=[int(s) for s in Scenario], flag_meanings=" ".join(s.label for s in Scenario)
-    )
+    group["scenario"].attrs.update(FLAGS)
     for name in VALUES:
         create(group, name, shape, chunks, "f8", np.nan, dims)
     for name in (*COUNTS, "level"):

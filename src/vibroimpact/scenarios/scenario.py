@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import Any
 
 
 class Scenario(IntEnum):
@@ -27,6 +28,12 @@ class Scenario(IntEnum):
         """What is seen, in a few words."""
         return _MEANINGS[self]
 
+
+FLAGS: dict[str, Any] = {
+    "flag_values": [int(one) for one in Scenario],
+    "flag_meanings": " ".join(one.label for one in Scenario),
+}
+"""What says in a dataset which number is which scenario."""
 
 _MEANINGS = {
     Scenario.S0: "free flight",

@@ -49,12 +49,11 @@ def coexisting_motions(
     starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
     random: int = 12,
     seed: int = 0,
-    samples: int = 256,
     window: int = 200,
     max_cycles: int = 2000,
     exponent_cycles: int = 20_000,
     max_events: int = 10_000,
-) -> list[xr.Dataset]:
+) -> xr.Dataset:
     """Find the steady motions at one frequency from several starts.
 
     The starts are rest, where a forward sweep arrives from below and a backward sweep from
@@ -79,15 +78,18 @@ def coexisting_motions(
         the other starts lead to.
     seed
         Of the random starts; the same one gives the same starts.
-    samples, window, max_cycles, exponent_cycles, max_events
+    window, max_cycles, exponent_cycles, max_events
         As in `steady`.
 
     Returns
     -------
-    list of xarray.Dataset
-        A dataset of `steady` for each motion, the one with the largest excursion first. The
-        attribute ``starts`` names the starts that led to it, ``mirrored_starts`` those that led
-        to its mirror image; ``mirror_pair`` tells whether that is another motion.
+    xarray.Dataset
+        Along ``attractor``, the motion with the largest excursion first: the numbers of `steady`
+        (``motion``, ``period``, extremes, impacts, exponents, energies, …) and ``evidence``.
+        ``starts`` names the starts that led to a motion, ``mirrored_starts`` those that led to
+        its mirror image; ``mirror_pair`` tells whether that is another motion. Motions that were
+        given up stand last, with their ``status``. ``final_state`` continues a motion: its
+        history is ``steady(rig, start=found.isel(attractor=0))``.
 
     Raises
     ------
@@ -95,6 +97,56 @@ def coexisting_motions(
         If a value cannot be used.
     """
     rig = as_rig(rig, frequency)
+    motions = find_motions(
+        rig,
+        frequencies=frequencies,
+        starts=starts,
+        random=random,
+        seed=seed,
+        samples=1,
+        window=window,
+        max_cycles=max_cycles,
+        exponent_cycles=exponent_cycles,
+        max_events=max_events,
+    )
+    data = xr.concat(
+        [_without_history(one) for one in motions], "attractor", combine_attrs="drop_conflicts"
+    )
+    data = data.assign_coords(attractor=np.arange(len(motions)))
+    return describe(data, "vibroimpact.coexisting_motions")
+
+
+def _without_history(motion: xr.Dataset) -> xr.Dataset:
+    """What is one number, word or state of a motion."""
+    kept = [
+        name
+        for name, one in motion.items()
+        if set(one.dims) <= {"component", "exponent"} and name != "initial_state"
+    ]
+    words = {name: motion.attrs[name] for name in ("evidence", "starts", "mirrored_starts")}
+    bare = motion[kept].assign(words)
+    bare.attrs = {name: value for name, value in motion.attrs.items() if name not in words}
+    return bare
+
+
+def find_motions(
+    rig: Rig,
+    *,
+    frequencies: Iterable[float | str] | None = None,
+    starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
+    random: int = 12,
+    seed: int = 0,
+    samples: int = 256,
+    window: int = 200,
+    max_cycles: int = 2000,
+    exponent_cycles: int = 20_000,
+    max_events: int = 10_000,
+) -> list[xr.Dataset]:
+    """Return the motions that coexist as datasets of `steady`, with their histories.
+
+    The attributes ``starts`` and ``mirrored_starts`` of each name the starts that led to it and
+    to its mirror image. Parameters and errors are those of `coexisting_motions`.
+    """
     oscillator, excitation = rig.oscillator, rig.harmonic
     random = whole(random, "random", 0)
     named = check_mapping({} if starts is None else starts, "starts", STARTS)

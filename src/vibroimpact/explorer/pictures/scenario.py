@@ -11,7 +11,7 @@ from vibroimpact.explorer.state import State
 from vibroimpact.facts import scenario as told
 from vibroimpact.model.rig import Rig
 from vibroimpact.scenarios.classification import scenario
-from vibroimpact.scenarios.classify import classify_scenario
+from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.evidence import evidence
 from vibroimpact.scenarios.evidence_text import in_words
 from vibroimpact.scenarios.thresholds import Thresholds
@@ -35,7 +35,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 def careful(state: State, progress: Progress) -> dict[str, Any]:
     """Return what `vibroimpact.classify_scenario` finds, over its own frequencies."""
-    found = told.facts(classify_scenario(state.rig, progress=progress))
+    found = told.facts(classify(state.rig, progress=progress))
     return {
         "picture": "scenario",
         "fine": True,
