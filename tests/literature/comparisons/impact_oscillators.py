@@ -33,7 +33,7 @@ def _coco_orbit() -> xr.Dataset:
 
 
 def _coco_impact() -> tuple[float, float]:
-    """θ, and the velocity behind the impact."""
+    """θ, and the velocity after the impact."""
     (impact,) = events(_coco_orbit())
     return impact.time - math.pi, -0.8 * impact.v
 
@@ -62,7 +62,7 @@ _COCO = [
         lambda: float(_coco_orbit()["final_state"][1]),
     ),
     Comparison(COCO, "first orbit, θ of the impact", "0.076", lambda: _coco_impact()[0]),
-    Comparison(COCO, "first orbit, x′ behind the impact", "-1.36", lambda: _coco_impact()[1]),
+    Comparison(COCO, "first orbit, x′ after the impact", "-1.36", lambda: _coco_impact()[1]),
     Comparison(
         COCO,
         "its family: A at which it grazes",
