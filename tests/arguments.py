@@ -94,8 +94,19 @@ def orbit() -> xr.Dataset:
 
 
 @cache
+def fold() -> xr.Dataset:
+    """Where the large motion of a published rig ends."""
+    case = vi.laboratory.case("B2-G1-A3")
+    large = vi.coexisting_motions(case, frequency=2.6, random=0).isel(attractor=0)
+    followed = vi.branch(case, large, frequency=2.6, span=(2.55, 2.7), most_points=100)
+    (at, *_) = (followed["bifurcation_kind"].values == "fold").nonzero()[0]
+    return followed.isel(bifurcation=at)
+
+
+@cache
 def demanded() -> xr.Dataset:
-    return vi.demands(rig(), [record()] * 4, [0.01, 1.0, 2.0])
+    records = [vi.Record(factor * record().acceleration, 0.02) for factor in (0.7, 1.0, 1.4, 2.0)]
+    return vi.demands(rig(), records, [0.05, 0.1, 0.2, 0.3, 0.5])
 
 
 @cache
@@ -192,7 +203,10 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "Record": {"acceleration": [0.0, 1.0, 0.0], "step": 0.01},
         "Record.read": {"path": folder / "record.csv"},
-        "Record.from_displacement": {"displacement": [0.0, 0.001] * 8, "step": 0.01},
+        "Record.from_displacement": {
+            "displacement": 1e-3 * np.sin(np.arange(200) * 0.1),
+            "step": 0.01,
+        },
         "Rig": {"oscillator": rig(), "shaking": 1.0, "frequency": 1.5, "name": "mine"},
         "RigidStop": {"restitution": 0.5, "gap": 0.1},
         "State": {
@@ -233,10 +247,11 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "progress": None,
         },
         "bifurcation_curve": {
-            **two,
-            "start": orbit(),
+            "rig": vi.laboratory.case("B2-G1-A3"),
+            "frequency": fold()["bifurcation_value"].item(),
+            "start": fold(),
             "parameters": ("frequency", "amplitude"),
-            "spans": ((1.4, 1.6), (1.9, 2.1)),
+            "spans": ((2.0, 3.0), ("0.03 g", "0.06 g")),
             "most_points": 5,
             "progress": None,
         },
@@ -270,7 +285,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "classify_scenario": {
             **swept,
-            "frequencies": [1.4, 1.5, 1.6],
+            "frequencies": [1.3, 1.4, 1.5, 1.6],
             "thresholds": None,
             "max_cycles": 50,
             "threads": 1,
@@ -318,7 +333,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "ensemble": {
             "rig": vi.Rig(rig(), 2.0),
-            "distributions": {"mass": "uniform(0.9, 1.1)"},
+            "distributions": {"gap": "uniform:0.01:0.03"},
             "response": _response,
             "draws": 4,
             "method": "sobol",
@@ -329,7 +344,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "exceedance": {"demands": demanded(), "quantity": "peak_displacement", "limit": 0.01},
         "fit_report": {
             "result": fit(),
-            "folder": folder / "report",
+            "folder": folder,
             "name": "fit",
             "comparison": None,
             "figure": "png",
@@ -476,8 +491,8 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "save": {"dataset": motion(), "path": folder / "kept.nc"},
         "scenario_map": {
             "rig": None,
-            "x": ("gap_ratio", [0.5]),
-            "y": ("stiffness_ratio", [10.0]),
+            "x": ("gap_ratio", [0.5, 0.6]),
+            "y": ("stiffness_ratio", [10.0, 12.0]),
             "step": 0.3,
             "refine": 0,
             "thresholds": None,
@@ -496,7 +511,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "sensitivity": {
             "rig": vi.Rig(rig(), 2.0),
-            "distributions": {"mass": "uniform(0.9, 1.1)"},
+            "distributions": {"gap": "uniform:0.01:0.03"},
             "response": _response,
             "quantity": "displacement_max",
             "draws": 4,
@@ -578,7 +593,7 @@ def _public(name: str) -> Callable[..., Any]:
 
 
 def _response(drawn: Any) -> xr.Dataset:
-    return vi.sweeps([one.rig for one in drawn], [1.5], ("forward",), max_cycles=20)
+    return vi.sweeps(drawn, [1.5], ("forward",), max_cycles=20)
 
 
 @cache

@@ -201,6 +201,7 @@ def least_acceleration(
         {
             **dict(zip(space.names, values.tolist(), strict=True)),
             **best,
+            "status": int(best["status"]),
             "evaluations": len(known.rows),
         }
     )

@@ -133,6 +133,7 @@ def classify_scenario(
     )
     data["scenario"].attrs |= FLAGS
     data.attrs |= {
+        "created_by": "vibroimpact.classify_scenario",
         "label": found.scenario,
         "meaning": found.named.meaning,
         "evidence": found.evidence,
@@ -141,7 +142,7 @@ def classify_scenario(
             for (threshold, value), other in found.alternatives.items()
         ),
     }
-    return describe(data, "vibroimpact.classify_scenario")
+    return describe(data, data.attrs["created_by"])
 
 
 def classify(

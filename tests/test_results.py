@@ -1,0 +1,96 @@
+"""What public functions return has the names, types and units that CONTRIBUTING lists."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+import xarray as xr
+
+import arguments
+import vibroimpact as vi
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.engine.status import Status
+
+PAGE = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text(encoding="utf-8")
+NO_DATASET = {
+    "explore",
+    "fit_report",
+    "fitted_rig",
+    "floor_record",
+    "for_each_rig",
+    "from_dimensionless",
+    "laboratory.case",
+    "progress_bar",
+    "save",
+    "to_dimensionless",
+    "to_table",
+}
+"""Functions that make a rig, a record, a file or a table; their docstrings say which."""
+
+
+def _table(heading: str) -> list[list[str]]:
+    section = re.split(r"^#+ ", PAGE.split(f"# {heading}\n")[1], flags=re.M)[0]
+    lines = [line for line in section.splitlines() if line.startswith("|")]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+
+KINDS = {row[0].strip("`"): row[2] for row in _table("Words of results")}
+"""Kind of the values of a variable or attribute."""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("results")
+    arguments.write_files(path)
+    return path
+
+
+@cache
+def _result(name: str, folder: Path) -> Any:
+    function, given = arguments.calls(folder)[name]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # the calls are short on purpose
+        warnings.simplefilter("ignore", UserWarning)
+        return function(**given)
+
+
+FUNCTIONS = sorted(set(arguments.public()) - {"explore"})
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_valid_call_is_one_and_returns_a_dataset(name: str, folder: Path) -> None:
+    result = _result(name, folder)
+    if isinstance(getattr(vi, name), type) or name in NO_DATASET:
+        assert not isinstance(result, xr.Dataset)
+        return
+    assert isinstance(result, xr.Dataset)
+    if name not in {"load", "read_measurement"}:
+        assert result.attrs["created_by"] == f"vibroimpact.{name}"
+    for variable in result.variables:
+        assert variable in VARIABLES, variable
+        assert "units" in result[variable].attrs, variable
+        assert "long_name" in result[variable].attrs, variable
+    for word in {*result.variables, *result.attrs} & set(KINDS):
+        kinds = KINDS[str(word)].split(" or ")
+        kind = "text" if word in result.attrs else _kind(result[word])
+        assert kind in kinds, f"{word}: {kind}"
+
+
+def _kind(values: xr.DataArray) -> str:
+    return {"i": "integer", "f": "number", "b": "truth", "U": "text", "T": "text"}[
+        values.dtype.kind
+    ]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_status_says_what_its_numbers_mean(name: str, folder: Path) -> None:
+    result = _result(name, folder)
+    if isinstance(result, xr.Dataset) and "status" in result:
+        assert list(result["status"].attrs["flag_values"]) == [int(one) for one in Status]
+        if "message" in result.attrs and not result["status"].dims:
+            assert result.attrs["message"] == Status(result["status"].item()).advice
