@@ -25,7 +25,7 @@ ANY_FREQUENCY = 1.0
 _EXAMPLE = 'Rig(oscillator, "0.05 g") or Rig(oscillator, Harmonic("0.05 g", "2 Hz"))'
 
 
-@dataclass(frozen=True, init=False, slots=True)
+@dataclass(frozen=True, init=False)
 class Rig:
     """What vibrates and what shakes it.
 
