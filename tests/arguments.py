@@ -300,6 +300,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "seed": 0,
             "window": 5,
             "exponent_cycles": 10,
+            "progress": None,
         },
         "compare_fits": {"fits": {"a": fit(), "b": fit()}},
         "contacts": {"motion": motion(), "grazing": 0.001},

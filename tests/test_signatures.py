@@ -90,6 +90,17 @@ def test_no_function_takes_a_rig_in_parts(function):
         assert function in BUILDERS or (function, name) in EXCEPTIONS, name
 
 
+def test_long_computations_take_what_is_listed():
+    words = {"where", "threads", "progress"}
+    listed = {}
+    for parameters, functions, reason in _rows("Long computations"):
+        assert reason
+        for name in re.findall(r"`(\w+)`", functions):
+            listed[name] = set(re.findall(r"`(\w+)`", parameters))
+    taking = {name: words & set(_named(name)) for name in FUNCTIONS if "progress" in _named(name)}
+    assert listed == {name: found for name, found in taking.items() if "." not in name}
+
+
 def test_every_word_is_used():
     used = {name for function in FUNCTIONS for name in _named(function)}
     assert set(WORDS) <= used

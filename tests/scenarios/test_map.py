@@ -122,7 +122,7 @@ def test_a_process_that_was_killed(tmp_path):
     """At any moment, without a chance to tidy up."""
     code = (
         "import numpy as np, vibroimpact as vi\n"
-        "vi.scenario_map(('stiffness_ratio', np.geomspace(1.0, 64.0, 4)),"
+        "vi.scenario_map(None, ('stiffness_ratio', np.geomspace(1.0, 64.0, 4)),"
         f" ('gap_ratio', np.linspace(0.0, 1.0, 5)), **{OPTIONS!r}, store='map')\n"
     )
     kills = 0

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import STARTS, check_mapping
+from vibroimpact.arguments import STARTS, check_mapping, check_progress
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Repeated, RigidStop, State, Stop
@@ -28,6 +28,7 @@ from vibroimpact.stability.settle import (
     reach_at_rest,
 )
 from vibroimpact.stability.steady import describe_motion, steady
+from vibroimpact.tasks.threads import Progress, counted
 
 _RANDOM_SIZE = 1.5
 
@@ -53,6 +54,7 @@ def coexisting_motions(
     max_cycles: int = 2000,
     exponent_cycles: int = 20_000,
     max_events: int = 10_000,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Find the steady motions at one frequency from several starts.
 
@@ -80,6 +82,9 @@ def coexisting_motions(
         Of the random starts; the same one gives the same starts.
     window, max_cycles, exponent_cycles, max_events
         As in `steady`.
+    progress
+        Called after each start with the number of starts followed and their total, which is not
+        known (None) while mirror images may be added.
 
     Returns
     -------
@@ -108,6 +113,7 @@ def coexisting_motions(
         max_cycles=max_cycles,
         exponent_cycles=exponent_cycles,
         max_events=max_events,
+        progress=progress,
     )
     data = xr.concat(
         [_without_history(one) for one in motions], "attractor", combine_attrs="drop_conflicts"
@@ -141,6 +147,7 @@ def find_motions(
     max_cycles: int = 2000,
     exponent_cycles: int = 20_000,
     max_events: int = 10_000,
+    progress: Progress | None = None,
 ) -> list[xr.Dataset]:
     """Return the motions that coexist as datasets of `steady`, with their histories.
 
@@ -153,6 +160,8 @@ def find_motions(
     kept: list[_Kept] = []
     given_up: dict[Status, tuple[State | NDArray[np.float64], list[str]]] = {}
     options = (samples, window, exponent_cycles, max_events)
+    check_progress(progress)
+    followed = counted(progress) or (lambda _: None)
 
     def go(name: str, start: State | NDArray[np.float64]) -> None:
         found = approach(rig, start, max_cycles=max_cycles, max_events=max_events)
@@ -162,6 +171,7 @@ def find_motions(
             _keep(kept, found, name, options)
         else:
             given_up.setdefault(found.status, (start, []))[1].append(name)
+        followed(name)
 
     go("rest", State(phase=excitation.phase))
     for name, start in arrivals(rig, frequencies, max_cycles, max_events).items():
