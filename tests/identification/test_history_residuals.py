@@ -79,7 +79,7 @@ def test_a_base_that_is_no_sine_is_followed_as_it_was_measured():
     moved = vi.simulate(vi.Rig(RIG, vi.Record(shaken, 0.01)))
     data = record(moved, 0.005)
     data["base_acceleration"] = ("time", shaken)
-    (test,) = fit_inputs.tests_of(data, START, None, None, None, False)
+    (test,) = fit_inputs.tests_of(START, data, None, None, False)
     assert isinstance(test.shaking, vi.Record)
     found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
     assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.03
@@ -97,7 +97,7 @@ def test_a_sensor_with_an_offset_and_a_wrong_scale():
 
 def test_each_windows_state_moves_its_own_residuals():
     data = record(motion(1.5, 16), 0.01)
-    (test,) = fit_inputs.tests_of(data, START, None, None, 4, False)
+    (test,) = fit_inputs.tests_of(START, data, None, 4, False)
     assert len(test.windows) == 4
     begin, _ = test.unknowns
     sensors = {"displacement_scale": 1.0, "acceleration_scale": 1.0,
