@@ -22,11 +22,11 @@ _RTOL, _ATOL = 1e-8, 1e-11
 """Of scipy: enough for a picture."""
 
 
-def _rig(gap: float = P.gap) -> tuple[vi.Oscillator, vi.Harmonic]:
+def _rig(gap: float = P.gap) -> vi.Rig:
     """Problem P: the mass and the spring are 1, and the forcing is P's but for its phase."""
     stop = vi.Bumper(P.bumper_stiffness, P.bumper_damping, gap)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2.0 * P.damping_ratio), stop, stop)
-    return rig, vi.Harmonic(P.amplitude, P.frequency / math.tau)
+    return vi.Rig(rig, vi.Harmonic(P.amplitude, P.frequency / math.tau))
 
 
 def _timed(work: Callable[[], object]) -> tuple[float, object]:
@@ -40,7 +40,7 @@ def _diagram(table: Table) -> None:
 
     def diagram(steps: int) -> object:
         return vi.bifurcation_diagram(
-            vi.Rig(*_rig()), "gap", (low, high), steps, points=_POINTS, threads=2
+            _rig(), "gap", (low, high), steps, points=_POINTS, threads=2
         )
 
     diagram(3)
@@ -71,13 +71,13 @@ def _diagram(table: Table) -> None:
 
 
 def _ensemble(table: Table) -> None:
-    rig, shaken = _rig()
+    rig = _rig()
     frequencies = np.linspace(0.5, 3.0, 50) / math.tau
     spread = {"gap": "normal:5%", "bumper_stiffness": "lognormal:0.2", "damping": "lognormal:0.1"}
 
     def ensemble(count: int) -> object:
         response = partial(vi.sweeps, frequencies=frequencies, threads=2)
-        return vi.ensemble(vi.Rig(rig, shaken), spread, response, count, method="latin")
+        return vi.ensemble(rig, spread, response, count, method="latin")
 
     ensemble(2)
     seconds, data = _timed(lambda: ensemble(_RIGS))

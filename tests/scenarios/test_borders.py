@@ -15,7 +15,7 @@ from vibroimpact.scenarios.scenario import Scenario
 def test_the_border_of_jumps_is_the_cusp_of_the_folds():
     """At B2-G1-A3's gap, found over two parameters from either fold: λ = 1.6276962."""
     case = vi.laboratory.case("B2-G1-A3")
-    delta = vi.to_dimensionless(vi.Rig(*rig_of(case))).right.gap
+    delta = vi.to_dimensionless(rig_of(case)).right.gap
     data = vi.scenario_map(
         rig_of(case),
         ("stiffness_ratio", np.geomspace(1.0, 4.0, 9)),

@@ -27,19 +27,19 @@ def test_light_damping_is_waited_for():
     """A linear rig (attached, elastic): at ten times f0 it decays by e^-0.01 a cycle."""
     rig = vi.from_dimensionless(30.0, 0.0, 0.0, 0.01)
     assert in_map(rig) == "S5"
-    assert classify(vi.Rig(*rig)).scenario == "S5"
+    assert classify(rig).scenario == "S5"
 
 
 def test_too_short_a_wait_names_nothing():
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
-    assert classify(vi.Rig(*rig), max_cycles=1).scenario == "unclassified"
+    assert classify(rig, max_cycles=1).scenario == "unclassified"
 
 
 @pytest.mark.parametrize(("low", "high"), [(0.4, 1.2), (0.3, 0.69), (2.5, 4.0)])
 def test_a_range_without_the_resonance_names_nothing(low, high):
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
     held = np.arange(low, high, 0.01) * rig.oscillator.natural_frequency
-    found = classify(vi.Rig(*rig), held)
+    found = classify(rig, held)
     assert found.scenario == "unclassified"
     assert "beyond the frequencies swept" in found.evidence or "no contact" in found.evidence
 
@@ -48,7 +48,7 @@ def test_a_range_without_the_resonance_names_nothing(low, high):
 def test_thresholds_that_are_none_are_refused(given):
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
     with pytest.raises(vi.InputError, match=r"thresholds: .* a Thresholds, or None, is accepted"):
-        classify(vi.Rig(*rig), thresholds=given)
+        classify(rig, thresholds=given)
 
 
 def test_the_dataset_has_the_variables_of_a_map_and_those_of_the_sweep():

@@ -15,7 +15,7 @@ from vibroimpact.scenarios.classify import classify
 def test_maps_follow_the_branch_where_a_jump_may_hide(stiffness):
     case = vi.laboratory.case(f"{stiffness}-G3-A1")
     rig = vi.Rig(case.oscillator, case.amplitude)
-    assert in_map(rig) == classify(vi.Rig(*rig)).scenario
+    assert in_map(rig) == classify(rig).scenario
     assert in_map(rig) == {"60kN/m": "S6", "75kN/m": "S2"}[stiffness]
 
 
@@ -32,7 +32,7 @@ def test_mirror_and_scale(ratios, gaps, damping, scale):
     rig = vi.from_dimensionless(ratios, gaps, 0.01, damping)
     named = in_map(rig)
     assert in_map(vi.Rig(rig.oscillator.mirrored(), rig.amplitude)) == named
-    other = vi.to_dimensionless(vi.Rig(*rig)).to_physical(
+    other = vi.to_dimensionless(rig).to_physical(
         mass=scale, stiffness=scale**2, amplitude=1.0 / scale
     )
     assert in_map(other) == named

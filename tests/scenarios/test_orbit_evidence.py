@@ -15,8 +15,8 @@ from vibroimpact.tasks.threads import Stopped
 
 def looked_at(code: str, low: float, high: float, step: float):
     case = vi.laboratory.case(code)
-    rig = case.oscillator, vi.Harmonic(case.amplitude, 1.0)
-    data = vi.sweep(vi.Rig(*rig), np.arange(round(low / step), round(high / step) + 1) * step)
+    rig = vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.0))
+    data = vi.sweep(rig, np.arange(round(low / step), round(high / step) + 1) * step)
     return evidence(rig, data, 0.01), rig, holds(data)
 
 
@@ -71,7 +71,7 @@ def test_no_contact_no_branch():
 def test_a_map_asks_once_what_forgetful_bumpers_leave_only_chaos_for(
     chaotic, relaxation, monkeypatch
 ):
-    found, (rig, shaken), ended = chaotic
+    found, rig, ended = chaotic
     asked = []
 
     def judged(followed, state, cycles, max_events):
@@ -80,9 +80,9 @@ def test_a_map_asks_once_what_forgetful_bumpers_leave_only_chaos_for(
 
     monkeypatch.setattr("vibroimpact.scenarios.orbit_evidence.judge_wandering", judged)
     monkeypatch.setattr("vibroimpact.scenarios.orbit_evidence._RELAXATIONS", 20.0 * relaxation)
-    whole = with_kinds(found, vi.Rig(rig, shaken), ended)
+    whole = with_kinds(found, rig, ended)
     all_of_them, asked[:] = len(asked), []
-    brief = with_kinds(found, vi.Rig(rig, shaken), ended, brief=True)
+    brief = with_kinds(found, rig, ended, brief=True)
     again = [item for item in brief.irregular if "not periodic" in item.kinds]
     assert (len(asked) < all_of_them) == bool(again) == (relaxation == 1.0)
     for one, other in zip(whole.irregular, brief.irregular, strict=True):

@@ -16,7 +16,7 @@ from vibroimpact.scenarios.resonance_curves import each_curves, holds, swept_alo
 def test_a_sweep_without_a_dataset_shows_the_same(gaps):
     rig = one_sine(vi.from_dimensionless(20.0, gaps, 0.01, 0.15), "rig")
     grid = np.arange(0.5, 2.5, 0.02) * rig.oscillator.natural_frequency
-    data = vi.sweep(vi.Rig(*rig), grid, max_cycles=300, window=100)
+    data = vi.sweep(rig, grid, max_cycles=300, window=100)
     curves, ended = swept_alone(rig, grid, 300, 100, np.zeros(2, dtype=np.int64))
     (told,) = each_curves(as_rigs(data))
     assert told.uneven.any()
@@ -34,7 +34,7 @@ def test_a_bumper_that_stays_pressed_is_touched_in_both():
     pressed = oscillator.left.replace(gap=-3.0 * oscillator.left.gap)
     rig = one_sine(vi.Rig(oscillator.replace(left=pressed), shaken), "rig")
     grid = np.array([0.5, 0.7]) * oscillator.natural_frequency
-    data = vi.sweep(vi.Rig(*rig), grid, max_cycles=300, window=100)
+    data = vi.sweep(rig, grid, max_cycles=300, window=100)
     assert not data["impacts_left"].any()
     curves, _ = swept_alone(rig, grid, 300, 100, np.zeros(2, dtype=np.int64))
     (told,) = each_curves(as_rigs(data))
@@ -45,15 +45,15 @@ def test_a_bumper_that_stays_pressed_is_touched_in_both():
 def test_the_end_of_a_hold_is_where_the_mass_goes_on():
     rig = one_sine(vi.from_dimensionless(20.0, 0.3, 0.01, 0.15), "rig")
     grid = np.array([1.2, 1.3]) * rig.oscillator.natural_frequency
-    data = vi.sweep(vi.Rig(*rig), grid)
+    data = vi.sweep(rig, grid)
     first = holds(data).state("backward", 0)
-    again = vi.sweep(vi.Rig(*rig), grid[:1], "backward", start=first)["section"]
+    again = vi.sweep(rig, grid[:1], "backward", start=first)["section"]
     assert first.displacement == pytest.approx(float(again.sel(component="displacement").item()))
     assert first.displacement != holds(data).state("backward", 1).displacement
 
 
 def test_one_direction_tells_no_hysteresis():
     rig = one_sine(vi.from_dimensionless(20.0, 0.3, 0.01, 0.15), "rig")
-    data = vi.sweep(vi.Rig(*rig), [0.5, 1.0], "forward")
+    data = vi.sweep(rig, [0.5, 1.0], "forward")
     with pytest.raises(InputError, match="one forward and backward is accepted"):
         list(each_curves(as_rigs(data)))

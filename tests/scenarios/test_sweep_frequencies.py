@@ -29,7 +29,7 @@ def test_the_primary_resonance_lies_within(ratio, gap, time, damping, sides):
     pair = {"both": ratio, "right": (ratio, None), "left": (None, ratio)}[sides]
     rig = sine(pair, gap, time, damping)
     held = frequencies(rig, step=0.02)
-    data = vi.sweep(vi.Rig(*rig), held, "forward", max_cycles=500)
+    data = vi.sweep(rig, held, "forward", max_cycles=500)
     one = data.isel(direction=0)
     touching = (one["impacts_right"] + one["impacts_left"]).values > 0.0
     # Soft bumpers with small gaps are still hit beyond it.
@@ -44,7 +44,7 @@ def test_grid():
     assert held[-1] == pytest.approx(highest(rig))
     assert highest(rig) % 0.5 == 0.0
     free = rig.oscillator.without_bumpers()
-    assert highest(vi.Rig(free, rig.shaken)) == 1.5
+    assert highest(vi.Rig(free, rig.shaking)) == 1.5
 
 
 def test_bounds():

@@ -10,6 +10,7 @@ import vibroimpact as vi
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.sweep_frequencies import highest
 from vibroimpact.stability import branch as followed
+from vibroimpact.stability.parameter_family import family
 
 
 # A fold and a grazing, two folds, none; and gaps beside whose branch another one is free flight.
@@ -25,10 +26,9 @@ from vibroimpact.stability import branch as followed
 )
 def test_free_flight_need_not_be_followed(ratio, gaps, memory, damping, count, monkeypatch):
     rig = one_sine(vi.from_dimensionless(ratio, gaps, memory, damping), "rig")
-    oscillator, shaken = rig.oscillator, rig.sine
-    natural = oscillator.natural_frequency
-    here = shaken.replace(frequency=0.99 * natural)
-    begin = vi.steady(vi.Rig(oscillator, here))["final_state"]
+    natural = rig.oscillator.natural_frequency
+    here = rig.at(0.99 * natural)
+    begin = vi.steady(here)["final_state"]
     ended = []
     turns_into_flight = followed.turns_into_flight
 
@@ -37,8 +37,8 @@ def test_free_flight_need_not_be_followed(ratio, gaps, memory, damping, count, m
         return ended[-1]
 
     def turns() -> list[float]:
-        high = highest(vi.Rig(oscillator, shaken)) * natural
-        return sorted(followed.turning_points(oscillator, here, begin, 0.4 * natural, high))
+        high = highest(rig) * natural
+        return sorted(followed.turning_points(here, begin, (0.4 * natural, high)))
 
     monkeypatch.setattr(followed, "turns_into_flight", seen)
     brief = turns()
@@ -51,8 +51,8 @@ def test_free_flight_need_not_be_followed(ratio, gaps, memory, damping, count, m
 def test_with_rigid_stops_all_is_followed():
     rig = vi.laboratory.case("B2-G2-A2").oscillator
     stiff = rig.replace(right=vi.RigidStop(gap=rig.right.gap, restitution=0.5))
-    family = followed.family(stiff, vi.Harmonic(1.0, 1.0), "frequency")
-    first = followed.first_orbit(family, (0.0, 5.0), None, None)
+    along = family(vi.Rig(stiff, vi.Harmonic(1.0, 1.0)), "frequency")
+    first = followed.first_orbit(along, (0.0, 5.0), None, None)
     assert not followed.bounded_by_flight(first)
 
 
@@ -61,5 +61,5 @@ def test_a_mass_that_stays_pressed_does_not_fly():
     k = (2.0 * math.pi) ** 2
     stop = vi.Bumper(3.0 * k, 0.5, 0.0)
     rig = vi.Oscillator(1.0, vi.Isolator(stiffness=k, damping=0.3), right=stop, force=10.0)
-    turns = followed.turning_points(rig, vi.Harmonic(1.0, 2.0), None, 1.3, 2.3)
+    turns = followed.turning_points(vi.Rig(rig, vi.Harmonic(1.0, 2.0)), None, (1.3, 2.3))
     assert sorted(turns) == pytest.approx([1.80744, 1.92063], rel=1e-5)

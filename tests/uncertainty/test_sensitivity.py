@@ -16,9 +16,10 @@ RIG = vi.Oscillator(1.0, vi.Isolator(2.0, 1.0), vi.Bumper(1.0, 0.1, 1.0), None)
 TURN = stats.uniform(-np.pi, 2.0 * np.pi)
 
 
-def ishigami(rigs: list[tuple[vi.Oscillator, vi.Harmonic]]) -> xr.Dataset:
+def ishigami(rigs: list[vi.Rig]) -> xr.Dataset:
     """sin x1 + 7 sin² x2 + 0.1 x3⁴ sin x1 of three numbers of a rig, and twice that."""
-    x = np.array([(r.force, r.right.gap, r.isolator.damping - np.pi) for r, _ in rigs]).T
+    drawn = [rig.oscillator for rig in rigs]
+    x = np.array([(r.force, r.right.gap, r.isolator.damping - np.pi) for r in drawn]).T
     y = np.sin(x[0]) + 7.0 * np.sin(x[1]) ** 2 + 0.1 * x[2] ** 4 * np.sin(x[0])
     return xr.Dataset({"y": (("rig", "multiple"), np.outer(y, [1.0, 2.0]))})
 
@@ -77,18 +78,18 @@ def test_near_the_static_limit():
     ("wrong", "told"),
     [
         ({"quantity": "colour"}, "quantity: 'colour'; one of displacement_excursion, "),
-        ({"samples": 100}, "samples: 100"),
+        ({"draws": 100}, "draws: 100"),
         ({"resamples": -1}, "resamples"),
         ({"seed": 0.5}, "seed"),
     ],
 )
 def test_refused(wrong, told):
     given = {
-        "rig": (RIG, 1.0),
+        "rig": vi.Rig(RIG, 1.0),
         "distributions": {"gap": "normal:5%"},
         "response": partial(vi.sweeps, frequencies=[0.3]),
         "quantity": "eta_d",
-        "samples": 2,
+        "draws": 2,
     }
     with pytest.raises(vi.InputError, match=told):
         vi.sensitivity(**{**given, **wrong})
