@@ -33,7 +33,12 @@ def test_rigs_and_cases_show_their_oscillator_and_what_shakes_it():
     rig = vi.Rig(CASE.oscillator, CASE.amplitude)
     whole = cells(CASE.oscillator)
     assert cells(rig) == {**whole, "shaking": "0.05 g"}
-    assert cells(CASE) == {**whole, "amplitude": "0.05 g", "frequencies": "0.5 to 5 Hz", "parameters": "table"}
+    assert cells(CASE) == {
+        **whole,
+        "amplitude": "0.05 g",
+        "frequencies": "0.5 to 5 Hz",
+        "parameters": "table",
+    }
     assert "B2-G1-A3" in CASE._repr_html_()
     unit = vi.from_dimensionless(20.0, 0.5, 0.01, 0.15)
     assert cells(unit)["right.stiffness"] == "20 N/m"

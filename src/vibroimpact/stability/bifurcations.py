@@ -74,6 +74,19 @@ def spiral(orbit: Orbit) -> float:
     return math.log(complex_ones.max()) if complex_ones.size else -1.0
 
 
+def pair(orbit: Orbit) -> float:
+    """Half the logarithm of the product of the two largest moduli.
+
+    As `spiral` where these are a complex pair; it goes on smoothly where the pair becomes real.
+    """
+    return float(np.log(np.abs(orbit.map_multipliers[:2]) + 1e-300).mean())
+
+
+def _growing(orbit: Orbit) -> int:
+    """How many multipliers lie outside the unit circle."""
+    return int((np.abs(orbit.map_multipliers) > 1.0).sum())
+
+
 def minus_one(orbit: Orbit) -> float:
     """det(M − I) of an orbit's map: zero where an eigenvalue is 1."""
     matrix = orbit.own
@@ -121,7 +134,7 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
             if not (turns or first * second < 0.0 or (first == 0.0 and second != 0.0)):
                 continue
             if kind == NEIMARK and -1.0 in (first, second):
-                continue  # a pair became complex
+                continue  # a pair became complex; see `_pair_beside_real_ones`
             rounded = min(abs(first), abs(second)) <= _CERTAIN and not remembers(here.orbit)
             if kind == NEIMARK and rounded:
                 continue  # only rounding passes the unit circle
@@ -132,8 +145,22 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
             else:
                 orbit, arclength = _locate(here, there, function)
             yield Bifurcation(kind, orbit, arclength, turns or kind == FOLD, orbit.contacts)
+        if not turning and (crossed := _pair_beside_real_ones(here, there)) is not None:
+            yield crossed
         if not turning and met is None and (crossed := _branching(here, there)) is not None:
             yield crossed
+
+
+def _pair_beside_real_ones(here: Station, there: Station) -> Bifurcation | None:
+    """Where a complex pair passes the unit circle in a step at an end of which it is real."""
+    if -1.0 not in (spiral(here.orbit), spiral(there.orbit)):
+        return None
+    if abs(_growing(here.orbit) - _growing(there.orbit)) != 2:
+        return None
+    orbit, arclength = _locate(here, there, pair)
+    if abs(spiral(orbit)) > _SMALL:
+        return None  # two real multipliers, one on each side of the circle
+    return Bifurcation(NEIMARK, orbit, arclength, False, orbit.contacts)
 
 
 def _branching(here: Station, there: Station) -> Bifurcation | None:
