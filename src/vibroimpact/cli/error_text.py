@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from cyclopts import CycloptsError
 from cyclopts.exceptions import UnknownCommandError, UnusedCliTokensError
 
+from vibroimpact.cli.function_options import RENAMED
 from vibroimpact.errors import short_line
 
 _FIELD = re.compile(r"([a-z_.]+)(?=(\[\d+\])?: )")
@@ -35,12 +36,23 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
 
 def _as_option(message: str, words: Sequence[str]) -> str:
     """Name a field as the option that was written: max_cycles is --max-cycles."""
+    module = words[0].replace("-", "_") if words else ""
+    for argument in RENAMED.get(module, ()):
+        if re.match(rf"{re.escape(argument)}(\[\d+\])?: ", message):
+            return _in_options(message, RENAMED[module])
     field = _FIELD.match(message)
     if field is None:
         return message
     written = {word.partition("=")[0] for word in words}
     option = next((option for option in _options(field[1]) if option in written), None)
     return option + message[field.end(1) :] if option else message
+
+
+def _in_options(message: str, renamed: Mapping[str, str]) -> str:
+    """Replace arguments by options, wherever the message has them as fields."""
+    for argument, option in renamed.items():
+        message = re.sub(rf"(?<![\w'.]){re.escape(argument)}(?=(\[\d+\])?[:,])", option, message)
+    return message
 
 
 def _options(field: str) -> list[str]:

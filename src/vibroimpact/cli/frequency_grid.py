@@ -115,7 +115,7 @@ def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
     return tuple(grid)
 
 
-def frequencies(
+def list_frequencies(
     start: str | None,
     stop: str | None,
     step: str | None,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.rig_changes import changes, joined
-from vibroimpact.cli.study import Study, read_study
+from vibroimpact.cli.study import SimulateTable, Study, SweepTable, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
     GRAVITY,
@@ -70,6 +70,21 @@ class Subject(NamedTuple):
                 "records"
             )
         return self.shaking
+
+    @property
+    def phase(self) -> float:
+        """Phase of the forcing in the study (rad); 0 without a study."""
+        return self.study.excitation.phase if self.study else 0.0
+
+    @property
+    def sweep_table(self) -> SweepTable:
+        """The table ``[sweep]`` of the study; an empty one without a study."""
+        return self.study.sweep if self.study else SweepTable()
+
+    @property
+    def simulate_table(self) -> SimulateTable:
+        """The table ``[simulate]`` of the study; an empty one without a study."""
+        return self.study.simulate if self.study else SimulateTable()
 
     @property
     def rig(self) -> Rig:
