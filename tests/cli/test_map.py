@@ -25,9 +25,9 @@ NAME = "published-stiffness-ratio-gap-ratio-map"
 def test_text_and_files(run, tmp_path):
     code, out, errors = run(*WORDS, "--refine", "1")
     assert (code, errors) == (0, "")
-    assert "4 × 3 nodes, made denser once: " in out
+    assert "4 × 3 nodes, refined once: " in out
     assert "of 35 computed" in out
-    assert "held: τ = 0.01, ξ = 0.15" in out
+    assert "constant: τ = 0.01, ξ = 0.15" in out
     assert "primary resonance with right hysteresis" in out
     assert {p.name for p in (tmp_path / "out").iterdir()} == {
         f"{NAME}.zarr",

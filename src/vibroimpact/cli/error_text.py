@@ -49,9 +49,10 @@ def _as_option(message: str, words: Sequence[str]) -> str:
 
 
 def _in_options(message: str, renamed: Mapping[str, str]) -> str:
-    """Replace arguments by options, wherever the message has them as fields."""
+    """Replace the argument at the start of a message by its option, and places in it elsewhere."""
     for argument, option in renamed.items():
-        message = re.sub(rf"(?<![\w'.]){re.escape(argument)}(?=(\[\d+\])?[:,])", option, message)
+        name = re.escape(argument)
+        message = re.sub(rf"^{name}(?=(\[\d+\])?: )|\b{name}(?=\[\d+\])", option, message)
     return message
 
 

@@ -65,17 +65,18 @@ def calls(
         for name in options:
             if name in _SHARED:
                 continue
-            argument = library.get(arguments.get(name, name))
+            key = arguments.get(name, name)
+            argument = library.get(key)
             keyword = options[name].kind is inspect.Parameter.KEYWORD_ONLY
             is_open = keyword and options[name].default is REQUIRED
             if is_open and argument and argument.default is not REQUIRED:
                 defaults[name] = argument.default
-            text = own.get(name) or _help_of(hints[name]) or (argument.help if argument else "")
+            text = own.get(name) or _help_of(hints[name]) or (argument and describe(function, key))
             default = defaults.get(name)
             if default is None and argument:
                 default = argument.default
             if keyword:
-                text = with_default(text, default)
+                text = with_default(text or "", default)
             group = heading if keyword else None
             command.__annotations__[name] = _documented(hints[name], group, text)
         module = command.__module__.rpartition(".")[2]
@@ -116,14 +117,17 @@ def read_arguments(function: str) -> Mapping[str, Argument]:
     )
     names = [one.arg for one in signature.kwonlyargs]
     expressions |= zip(names, signature.kw_defaults, strict=True)
-    found = {}
-    for name, expression in expressions.items():
-        text = described.get(name, "")
-        # "As in sweeps." is all that the docstring says of some arguments.
-        if elsewhere := re.fullmatch(r"As (?:in|of) (\w+)\.", text):
-            text = read_arguments(elsewhere[1])[name].help
-        found[name] = Argument(text, _literal(expression))
-    return found
+    return {
+        name: Argument(described.get(name, ""), _literal(expression))
+        for name, expression in expressions.items()
+    }
+
+
+def describe(function: str, argument: str) -> str:
+    """Return the description of an argument; "As in `sweeps`." refers to that of another function."""
+    text = read_arguments(function)[argument].help
+    elsewhere = re.fullmatch(r"As (?:in|of) (\w+)\.", text)
+    return describe(elsewhere[1], argument) if elsewhere else text
 
 
 def with_default(text: str, default: Any) -> str:

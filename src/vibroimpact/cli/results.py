@@ -71,17 +71,36 @@ class Results:
 
         self.files[name] = save_figure(figure, self.path(ending, self.output.figure))
 
-    def tell(self, facts: Mapping[str, Any], *text: RenderableType, shaking: bool = True) -> int:
-        """Print the rig, the text and the files, or all of them as JSON; return exit code 0."""
+    def tell(
+        self,
+        facts: Mapping[str, Any],
+        *text: RenderableType,
+        about: RenderableType | None = None,
+        shaking: bool = True,
+    ) -> int:
+        """Print the rig, the text and the files, or all facts as JSON; return exit code 0.
+
+        Parameters
+        ----------
+        facts
+            What the JSON holds besides the rig and the files.
+        text
+            What follows the rig in the printed summary.
+        about
+            Description of the rig. None for all its parameters.
+        shaking
+            Whether the shaking of the rig is part of its description.
+        """
         from rich.console import Group
 
         from vibroimpact.facts import rig
 
-        about = rig.facts(self.what.rig)
+        own = rig.facts(self.what.rig)
         if not shaking:
-            about.pop("record", None)
-        together = Group(rig.text(self.what.rig, shaking=shaking), *text)
-        tell(together, {**about, **facts}, self.folder, self.files, self.output.json)
+            own.pop("record", None)
+        described = about or rig.text(self.what.rig, shaking=shaking)
+        summary = Group(described, *text)
+        tell(summary, {**own, **facts}, self.folder, self.files, self.output.json)
         return 0
 
 

@@ -79,6 +79,15 @@ def text(found: Found) -> RenderableType:
     return Group(*parts)
 
 
+def columns(found: Found, most: int) -> dict[str, dict[str, xr.Dataset]]:
+    """Return the columns of a page: motions of one frequency (so many at most), or frequencies."""
+    if len(found) > 1:
+        return {f"{hertz:.6g} Hz": motions for hertz, motions in found.items()}
+    ((hertz, motions),) = found.items()
+    named = list(motions.items())[:most]
+    return {f"{hertz:.6g} Hz, {name}": {name: data} for name, data in named}
+
+
 def _only(motions: dict[str, xr.Dataset]) -> str:
     """Words for a single motion; unless all starts were tried, others may coexist with it."""
     ((name, data),) = motions.items()
