@@ -124,7 +124,7 @@ def read_arguments(function: str) -> Mapping[str, Argument]:
 
 
 def describe(function: str, argument: str) -> str:
-    """Return the description of an argument; "As in `sweeps`." refers to that of another function."""
+    """Return the description of an argument; it may refer to another function, "As in `sweeps`."""
     text = read_arguments(function)[argument].help
     elsewhere = re.fullmatch(r"As (?:in|of) (\w+)\.", text)
     return describe(elsewhere[1], argument) if elsewhere else text

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
@@ -12,11 +12,9 @@ from cyclopts import Group, Parameter, Token
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
-    from vibroimpact.model import Record
     from vibroimpact.scenarios.thresholds import Thresholds
 
 RIG = Group("Rig (default of each option: the value of the case or study)", sort_key=2)
-READING = Group("Reading of records (default of each option: what the files state)", sort_key=1)
 COMPUTATION = Group("Computation", sort_key=3)
 THRESHOLDS = Group("Thresholds", sort_key=3)
 OUTPUT = Group("Output", sort_key=4)
@@ -96,6 +94,23 @@ Json: TypeAlias = Annotated[
 ]
 
 _OfRig: TypeAlias = Annotated[str | None, Parameter(group=RIG, allow_leading_hyphen=True)]
+
+
+def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
+    """Return the pairs NAME VALUE of an option that may be repeated.
+
+    Raises
+    ------
+    InputError
+        If a name is there twice.
+    """
+    found: dict[str, str] = {}
+    for name, value in pairs:
+        key = name.replace("-", "_") or name
+        if key in found:
+            raise InputError(f"{option}: {name!r} is given twice; once is accepted")
+        found[key] = value
+    return found
 
 
 def stated(**options: Any) -> dict[str, Any]:
@@ -182,80 +197,6 @@ class ThresholdOptions:
         return Thresholds(**{name: value for name, value in own.items() if value is not None})
 
 
-_Stated: TypeAlias = Annotated[str | None, Parameter(group=READING)]
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class RecordOptions:
-    """Options that replace what files of records state."""
-
-    component: _Stated = None
-    """Component, if the file has several: its name in the file, such as 90, Up or HNE, or its
-    number. One for all records, or one for each, as 90,Up."""
-    unit: _Stated = None
-    """Unit of the values, such as g or cm/s^2. If it is a unit of length, such as mm, the values
-    are differentiated. One for all records, or one for each."""
-    step: Annotated[_Stated, Parameter(allow_leading_hyphen=True)] = None
-    """Time between samples, such as 10ms; replaces the times of the file. One for all records, or
-    one for each."""
-    decimal: Annotated[Literal[".", ","] | None, Parameter(group=READING)] = None
-    """Decimal mark of a table. Default: the one that the table shows."""
-
-    def arguments(self) -> dict[str, Any]:
-        """Return the options as arguments of `Record.read`, without the component."""
-        return {"unit": self.unit, "step": self.step, "decimal": self.decimal}
-
-    def read(self, files: Iterable[str]) -> dict[str, Record]:
-        """Read the files of records, by their names.
-
-        Raises
-        ------
-        InputError
-            If one cannot be read, or two have one name.
-        """
-        from vibroimpact.model import Record
-
-        found: dict[str, Record] = {}
-        names = list(files)
-        options = (("--component", self.component), ("--unit", self.unit), ("--step", self.step))
-        said = (one_or_each(option, text, len(names)) for option, text in options)
-        for file, *own in dict.fromkeys(zip(names, *said, strict=True)):
-            component, unit, step = own
-            name = record_name(file, component)
-            if name in found:
-                raise InputError(
-                    f"RECORD: {file!r} has the name of another one; files of different names are "
-                    "accepted"
-                )
-            found[name] = Record.read(file, component, unit=unit, step=step, decimal=self.decimal)
-        return found
-
-
-def one_or_each(option: str, text: str | None, count: int) -> list[str | None]:
-    """One text for all of so many records, or one for each, separated by commas.
-
-    Raises
-    ------
-    InputError
-        If there are more than one, and not as many as records.
-    """
-    parts: list[str | None] = [text]
-    if text is not None and count > 1:
-        parts = [part.strip() for part in text.split(",")]
-    if len(parts) not in (1, count):
-        raise InputError(
-            f"{option}: {text!r} are {len(parts)} for {count} records; one for all, or one for "
-            "each, is accepted"
-        )
-    return parts if len(parts) == count else parts * count
-
-
-def record_name(file: str, component: str | None) -> str:
-    """What a record is called: its file, and its component if that was chosen."""
-    return " ".join([Path(file).name.removesuffix(".gz"), *([component] if component else [])])
-
-
 @Parameter(name="*")
 @dataclass(frozen=True)
 class OutputOptions:
@@ -276,5 +217,3 @@ AS_DESCRIBED = RigOptions()
 """The rig without changes."""
 DEFAULT_OUTPUT = OutputOptions()
 DEFAULT_THRESHOLDS = ThresholdOptions()
-AS_STATED = RecordOptions()
-"""Records as their files state them."""
