@@ -36,7 +36,7 @@ class Argument(NamedTuple):
 
 
 def calls(
-    function: str, group: str, sort_key: int = 1, **arguments: str
+    function: str | None, group: str, sort_key: int = 1, **arguments: str
 ) -> Callable[[_Command], _Command]:
     """Take help and defaults of a command's options from the function that it calls.
 
@@ -46,7 +46,7 @@ def calls(
     Parameters
     ----------
     function
-        Name of the public function, such as "branch".
+        Name of the public function, such as "branch". None for a command that calls none.
     group
         Heading of the options in the help.
     sort_key
@@ -57,7 +57,7 @@ def calls(
     heading = Group(group, sort_key=sort_key)
 
     def decorate(command: _Command) -> _Command:
-        library = read_arguments(function)
+        library = read_arguments(function) if function else {}
         own = _descriptions(inspect.getdoc(command) or "")
         hints = get_type_hints(command, include_extras=True)
         options = inspect.signature(command).parameters
@@ -71,7 +71,11 @@ def calls(
             is_open = keyword and options[name].default is REQUIRED
             if is_open and argument and argument.default is not REQUIRED:
                 defaults[name] = argument.default
-            text = own.get(name) or _help_of(hints[name]) or (argument and describe(function, key))
+            text = (
+                own.get(name)
+                or _help_of(hints[name])
+                or (function and argument and describe(function, key))
+            )
             default = defaults.get(name)
             if default is None and argument:
                 default = argument.default

@@ -197,7 +197,8 @@ def warnings_in_lines() -> Iterator[None]:
                 warn(str(message))
 
         warnings.showwarning = show
-        warnings.simplefilter("always", InputWarning)
+        for shown in (InputWarning, RuntimeWarning):
+            warnings.simplefilter("always", shown)
         yield
 
 

@@ -1,4 +1,4 @@
-"""Records of the command line: how their files are read, which there are, and how they are scaled."""
+"""Records on the command line: reading their files, those of a study, and scaling."""
 
 from __future__ import annotations
 
