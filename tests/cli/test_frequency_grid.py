@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from vibroimpact.cli.frequency_grid import default_range, default_span, frequency_grid, list_frequencies
+from vibroimpact.cli.frequency_grid import (
+    default_range,
+    default_span,
+    frequency_grid,
+    list_frequencies,
+)
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.parameters import option_range
 from vibroimpact.cli.rig import subject

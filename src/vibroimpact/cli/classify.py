@@ -98,7 +98,7 @@ def _frequencies(
 
     natural = rig.oscillator.natural_frequency
     default = (LOW * natural, highest(rig) * natural, STEP * natural)
-    grid = list_frequencies(start, stop, step, None, None, default)
+    grid = np.array(list_frequencies(start, stop, step, None, None, default), dtype=float)
     if step is None:
-        grid = tuple(beside_resonance(rig.oscillator, np.array(grid)).tolist())
-    return grid
+        grid = beside_resonance(rig.oscillator, grid)
+    return tuple(grid.tolist())

@@ -74,7 +74,8 @@ def curve(
         Range of the first parameter LOW:HIGH. Default for the frequency: as for vibroimpact
         branch.
     second
-        Range of the second parameter LOW:HIGH, such as 1mm:20mm.
+        Range of the second parameter LOW:HIGH, such as 1mm:20mm. Default for the frequency: as
+        for vibroimpact branch.
     frequency
         Forcing frequency, such as 2Hz, if it is not the first parameter. Default: that of the
         study ([simulate]).

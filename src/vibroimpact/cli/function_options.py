@@ -62,27 +62,24 @@ def calls(
         hints = get_type_hints(command, include_extras=True)
         options = inspect.signature(command).parameters
         defaults = dict(command.__kwdefaults__ or {})
-        for name in options:
+        for name, option in options.items():
             if name in _SHARED:
                 continue
             key = arguments.get(name, name)
-            argument = library.get(key)
-            keyword = options[name].kind is inspect.Parameter.KEYWORD_ONLY
-            is_open = keyword and options[name].default is REQUIRED
-            if is_open and argument and argument.default is not REQUIRED:
-                defaults[name] = argument.default
-            text = (
-                own.get(name)
-                or _help_of(hints[name])
-                or (function and argument and describe(function, key))
-            )
+            text = own.get(name) or _help_of(hints[name])
             default = defaults.get(name)
-            if default is None and argument:
-                default = argument.default
-            if keyword:
-                text = with_default(text or "", default)
-            group = heading if keyword else None
-            command.__annotations__[name] = _documented(hints[name], group, text)
+            if function and key in library:
+                text = text or describe(function, key)
+                if option.default is REQUIRED and library[key].default is not REQUIRED:
+                    default = defaults[name] = library[key].default
+                elif default is None:
+                    default = library[key].default
+            is_option = option.kind is inspect.Parameter.KEYWORD_ONLY
+            command.__annotations__[name] = _documented(
+                hints[name],
+                heading if is_option else None,
+                with_default(text, default) if is_option else text,
+            )
         module = command.__module__.rpartition(".")[2]
         RENAMED[module] = {arguments[name]: _flag(name, hints[name]) for name in arguments}
         command.__kwdefaults__ = defaults
@@ -190,5 +187,5 @@ def _documented(hint: Any, group: Group | None, text: str) -> Any:
 
 def _flag(name: str, hint: Any) -> str:
     """The option as it is written."""
-    names = [one.name[0] for one in _settings(hint) if one.name]
-    return names[-1] if names else f"--{name.replace('_', '-')}"
+    names = [one.name for one in _settings(hint) if one.name]
+    return next(iter(names[-1])) if names else f"--{name.replace('_', '-')}"

@@ -87,7 +87,7 @@ def identify(
     units
         Unit of a variable or column, such as displacement-excursion mm; may be repeated.
     group
-        Name of the test, if a file holds several.
+        Name of the test, if a file holds several. Default: the only test.
     decimal
         Decimal mark of a table. Default: the one that the table shows.
     noise

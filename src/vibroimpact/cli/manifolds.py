@@ -78,8 +78,8 @@ def manifolds(
                 threads=threads,
                 progress=progress,
             )
-            window = [motion_parameters(data)[name] for name in ("displacement", "velocity")]
-            below = vi.basins(shaken, *window, nodes=nodes, threads=threads, progress=progress)
+            sides = [motion_parameters(data)[name] for name in ("displacement", "velocity")]
+            below = vi.basins(shaken, *sides, nodes=nodes, threads=threads, progress=progress)
         written.write(
             data,
             f"{hertz:.10g}Hz-manifolds",

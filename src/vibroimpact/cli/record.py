@@ -52,9 +52,9 @@ def record(
     file
         File of the record, compressed by gzip or not.
     station
-        Name of the station.
+        Name of the station. Default: that of the file.
     label
-        Name of the component.
+        Name of the component. Default: that of the file.
     start
         Start time, such as 5s; earlier samples are dropped. Default: start of the file.
     end
