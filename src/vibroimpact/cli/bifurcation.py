@@ -73,6 +73,9 @@ def bifurcation(
 
     Parameters
     ----------
+    frequency
+        Forcing frequency, such as 2Hz, if another parameter is varied. Default: that of the study
+        ([simulate]).
     direction
         Direction in which a motion is continued from value to value; none starts from random
         states only.

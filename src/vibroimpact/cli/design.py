@@ -87,13 +87,17 @@ def design(
         Also search the bumper with the least acceleration for the gap.
     limit
         Quantity and the value that no design may exceed: peak-force, penetration or
-        peak-displacement, such as peak-force 5MN; may be repeated.
+        peak-displacement, such as peak-force 5MN; may be repeated. Added to the limits of the study
+        ([design]).
     fractile
-        Fractile over the records (0 to 1). Default: 1, the largest of all records.
+        Fractile over the records (0 to 1). Default: that of the study ([design]), or 1, the
+        largest of all records.
     start
-        Lowest frequency of the sines. Default: around the primary resonance.
+        Lowest frequency of the sines. Default: that of the study ([sweep]), or below the primary
+        resonance of each design.
     to
-        Highest frequency of the sines. Default: around the primary resonance.
+        Highest frequency of the sines. Default: that of the study ([sweep]), or above the primary
+        resonance of each design.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results

@@ -59,8 +59,6 @@ def earthquake(
     ----------
     records
         Files of records; see vibroimpact record. Default: the record of the study.
-    tail
-        Duration of free vibration after the record, such as 10s. Default: two natural periods.
     samples
         Samples of the figure and the files per step of a record. The floor spectrum depends on
         them, the peaks do not.

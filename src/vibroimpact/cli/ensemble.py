@@ -70,12 +70,6 @@ def ensemble(
         lognormal:0.2, stiffness uniform:5%. Also triangular:LOW:MODE:HIGH and
         normal:MEAN:DEVIATION:LOW:HIGH. Shares refer to the rig's own value. Parameters are those
         of vibroimpact branch. Default: those of the study ([ensemble]).
-    draws
-        Number of random rigs; for sobol a power of 2.
-    method
-        Sampling method: sobol (Sobol sequence), latin (Latin hypercube) or random.
-    seed
-        Random seed. The same seed gives the same rigs.
     sensitivity
         Also compute which parameter contributes most to the variance of the peaks (Sobol indices).
     start

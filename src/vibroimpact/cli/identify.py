@@ -74,8 +74,6 @@ def identify(
         Case code or study file of the rig, with a guess of the free parameters.
     free
         Parameters that are fitted, such as stiffness,damping,bumper-stiffness,gap.
-    each
-        Free parameters that are fitted separately for each test. Default: none.
     bounds
         Bounds of a free parameter, NAME LOW:HIGH; may be repeated.
     tie
@@ -90,21 +88,8 @@ def identify(
         Name of the test, if a file holds several. Default: the only test.
     decimal
         Decimal mark of a table. Default: the one that the table shows.
-    noise
-        Standard deviation of a measured value, as a share of it, such as 0.02. Default: estimated
-        from the fit.
     compare
         Other models that are also fitted: hertz, softening or hertz,softening. Default: none.
-    bootstrap
-        Number of bootstrap samples.
-    window
-        Cycles of a time history in one fitted segment (default: 5).
-    steady
-        Treat time histories as steady motions.
-    seed
-        Random seed of starting points and bootstrap samples.
-    starts
-        Number of local fits, each from another starting point.
     """
     from vibroimpact.cli.output import progress_bar, tell
     from vibroimpact.cli.results import results

@@ -65,6 +65,9 @@ def scenario_map(
 
     Parameters
     ----------
+    rig
+        Code of a laboratory case, or a study file, shaken by one sine. Default: ξ = 0.15, τ = 0.01,
+        λ = 25.9 and δ0 = 0.5, on two sides, as in the published tests.
     x
         Parameter of the horizontal axis and its range, NAME LOW:HIGH[:log][:NODES] (21 nodes
         unless stated). Physical parameters: gap, amplitude, bumper-stiffness,

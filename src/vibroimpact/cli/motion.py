@@ -60,8 +60,6 @@ def motion(
     branch
         The motion that a forward sweep reaches, the one that a backward sweep reaches, or all
         motions found from sweeps, rest and random states.
-    random
-        Number of random starts, used with --branch all.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results

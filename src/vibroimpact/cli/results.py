@@ -33,7 +33,7 @@ class Results:
 
     def write(
         self,
-        data: xr.Dataset | Mapping[str, xr.Dataset],
+        data: xr.Dataset | dict[str, xr.Dataset],
         ending: str,
         draw: Callable[..., Any],
         title: str | None = None,
@@ -59,7 +59,7 @@ class Results:
         """
         from vibroimpact.datasets.files import save
 
-        for one in data.values() if isinstance(data, Mapping) else [data]:
+        for one in data.values() if isinstance(data, dict) else [data]:
             one.attrs["title"] = self.what.name
         self.files["data"] = save(data, self.path(ending, "nc"))
         shown = data if drawn is None else drawn

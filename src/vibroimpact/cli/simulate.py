@@ -57,7 +57,7 @@ def simulate(
     Parameters
     ----------
     cycles
-        Number of forcing cycles (default: 100).
+        Number of forcing cycles. Default: that of the study ([simulate]), or 100.
     samples
         Samples per forcing cycle, or per step of a record. They affect no other result. Default:
         256 per cycle, 1 per step of a record.
@@ -65,8 +65,6 @@ def simulate(
         Initial displacement, such as 5mm. Default: the static equilibrium.
     velocity
         Initial velocity, such as 100mm/s (default: 0).
-    tail
-        Duration of free vibration after a record, such as 10s (default: 0).
     shown
         Number of cycles in the figure, the last ones.
     """

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 import vibroimpact as vi
+from vibroimpact import figures
 from vibroimpact.cli.function_options import calls
 from vibroimpact.cli.options import (
     AS_DESCRIBED,
@@ -56,17 +57,20 @@ def sweep(
     Parameters
     ----------
     start
-        Lowest frequency, such as 0.3Hz. Default: 0.45 × the natural frequency; 0.5 Hz for
-        laboratory cases.
+        Lowest frequency, such as 0.3Hz. Default: that of the study ([sweep]), or 0.45 × the
+        natural frequency; 0.5 Hz for laboratory cases.
     stop
-        Highest frequency. Default: 4.5 × the natural frequency; 5 Hz for laboratory cases.
+        Highest frequency, such as 4Hz. Default: that of the study ([sweep]), or 4.5 × the natural
+        frequency; 5 Hz for laboratory cases.
     step
-        Step between frequencies. Default: about a hundredth of the natural frequency; 0.01 Hz
-        for laboratory cases (the published tests: 0.1 Hz).
+        Step between frequencies, such as 0.01Hz. Default: that of the study ([sweep]), or about a
+        hundredth of the natural frequency; 0.01 Hz for laboratory cases (the published tests: 0.1
+        Hz).
     frequencies
         List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step.
     direction
-        Order of the frequencies: forward (rising), backward (falling) or both (default: both).
+        Order of the frequencies: forward (rising), backward (falling) or both. Default: that of
+        the study ([sweep]), or both.
     physical
         Draw the largest acceleration (g), displacement (mm) and contact force instead of η_a and
         η_d. These are always drawn where the free motion is unbounded.
@@ -105,7 +109,7 @@ def sweep(
         found = resonance.features(data)
         hints = [line.replace(MORE_CYCLES, "--max-cycles") for line in advice(data)]
         text = sweeps.text(data, found, hints)
-        curves = vi.figures.resonance_curves
+        curves = figures.resonance_curves
         written.write(data, "sweep", curves, found=found, physical=physical or None)
         summary = as_plain_text(Group(rig_facts.text(what.rig), text))
         written.files["summary"] = write_whole(written.path("sweep", "txt"), summary)

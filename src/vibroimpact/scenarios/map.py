@@ -77,8 +77,8 @@ def scenario_map(
     step
         Step of the sweeps, as a share of the natural frequency.
     refine
-        How often the nodes beside a border are made twice as dense. Between nodes of one
-        scenario nothing is computed: what is smaller than a square of the first grid may be
+        Number of times that the nodes near a border are made twice as dense. Nothing is computed
+        between nodes of the same scenario: regions smaller than a square of the first grid may be
         missed.
     thresholds
         See `Thresholds`.

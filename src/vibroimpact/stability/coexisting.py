@@ -75,10 +75,10 @@ def coexisting_motions(
     starts
         Further starts by name.
     random
-        How many random starts: displacements and velocities up to 1.5 times the largest that
+        Number of random starts, with displacements and velocities up to 1.5 times the largest that
         the other starts lead to.
     seed
-        Of the random starts; the same one gives the same starts.
+        Random seed. The same seed gives the same starts.
     samples, window, max_cycles, exponent_cycles, max_events
         As in `steady`.
 
