@@ -75,7 +75,8 @@ def identify(
         to None for the rig's own value. Of sensors there are ``displacement_scale``,
         ``acceleration_scale``, ``displacement_offset`` and ``acceleration_offset``.
     each
-        Free parameters that are fitted separately for each test; the others are shared. Default: none.
+        Free parameters that are fitted separately for each test; the others are shared. Default:
+        none.
     ties
         Parameters that are tied to others, such as ``{"left_gap": "right_gap"}``.
     priors
