@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 from samples import sample
-from vibroimpact.cli.map import _axis
+from vibroimpact.cli.ranges import map_axis
 
 COMMAND = "map"
 STEP = ("--step", sample("0.02", "0.04"))
@@ -125,7 +125,7 @@ def test_another_map_in_the_same_place_is_refused(run):
     ],
 )
 def test_ranges(text, expected):
-    name, values, spacing = _axis("--x", "gap-ratio", text, "acceleration")
+    name, values, spacing = map_axis("--x", "gap-ratio", text, "acceleration")
     assert (name, spacing) == ("gap_ratio", "log" if "log" in text else "linear")
     np.testing.assert_allclose(values, expected, rtol=1e-12)
 

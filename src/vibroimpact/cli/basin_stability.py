@@ -4,37 +4,28 @@ from __future__ import annotations
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Threads,
-    Where,
-    Whole,
-)
 from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import ANY_STATES, StateOptions
 
 
 @calls("basin_stability", "Shares", samples="states", steps="values")
 def basin_stability(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
     parameter: Varied = "frequency",
     start: Least = None,
     stop: Largest = None,
-    steps: Whole = 25,
-    samples: Whole,
-    seed: Whole,
+    steps: opt.Whole = 25,
+    samples: opt.Whole,
+    seed: opt.Whole,
     states: StateOptions = ANY_STATES,
-    changes: RigOptions = AS_DESCRIBED,
-    threads: Threads = None,
-    where: Where = "threads",
-    output: OutputOptions = DEFAULT_OUTPUT,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    threads: opt.Threads = None,
+    where: opt.Where = "threads",
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Compute the share of random states that leads to each steady motion, along a parameter.
 

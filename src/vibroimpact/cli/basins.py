@@ -4,32 +4,23 @@ from __future__ import annotations
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Threads,
-    Where,
-    Whole,
-)
 from vibroimpact.cli.states import ANY_STATES, StateOptions
 
 
 @calls("basins", "Basins")
 def basins(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
     states: StateOptions = ANY_STATES,
-    nodes: Whole = 400,
-    refine: Whole,
-    changes: RigOptions = AS_DESCRIBED,
-    threads: Threads = None,
-    where: Where = "threads",
-    output: OutputOptions = DEFAULT_OUTPUT,
+    nodes: opt.Whole = 400,
+    refine: opt.Whole,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    threads: opt.Threads = None,
+    where: opt.Where = "threads",
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Compute which initial states lead to which steady motion at one frequency.
 

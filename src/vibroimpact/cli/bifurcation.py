@@ -8,21 +8,8 @@ from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    COMPUTATION,
-    DEFAULT_OUTPUT,
-    Flag,
-    Frequency,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Text,
-    Threads,
-    Where,
-    Whole,
-)
 from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import rig_at
 
@@ -37,27 +24,27 @@ _DIRECTIONS = {"both": ("up", "down"), "up": ("up",), "down": ("down",), "none":
 
 @calls("bifurcation_diagram", "Diagram", direction="directions")
 def bifurcation(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
     parameter: Varied = "frequency",
     start: Least = None,
     stop: Largest = None,
-    steps: Whole = 401,
-    log: Flag,
-    frequency: Frequency = None,
+    steps: opt.Whole = 401,
+    log: opt.Flag,
+    frequency: opt.Frequency = None,
     direction: Literal["up", "down", "both", "none"] = "both",
-    random: Whole,
+    random: opt.Whole,
     quantity: Literal["displacement", "velocity", "impact-velocity", "impact-phase"] = (
         "displacement"
     ),
-    phase: Text = None,
-    branches: Flag = False,
-    threads: Threads = None,
-    where: Where = "threads",
-    max_cycles: Annotated[Whole, Parameter(group=COMPUTATION)],
-    changes: RigOptions = AS_DESCRIBED,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    phase: opt.Text = None,
+    branches: opt.Flag = False,
+    threads: opt.Threads = None,
+    where: opt.Where = "threads",
+    max_cycles: Annotated[opt.Whole, Parameter(group=opt.COMPUTATION)],
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Hold a parameter at a series of values, and show the steady motion at each value.
 

@@ -2,62 +2,44 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    Flag,
-    Frequency,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Text,
-    Whole,
-)
 from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import rig_at, state
 from vibroimpact.stability.branch_styles import Quantity
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from vibroimpact.tasks.threads import Progress
-
 
 _PHYSICAL: dict[Quantity, Quantity] = {
     "eta_d": "peak_displacement",
     "eta_a": "peak_acceleration",
 }
-_NODES = 40
-"""States along each axis of the basins."""
 _HOLDS = 120
 """Frequencies of the stepped sweep in the figure."""
 
 
 @calls("resonance_diagram", "Branch", start="span")
 def branch(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
     parameter: Varied,
     start: Least = None,
     stop: Largest = None,
-    frequency: Frequency = None,
+    frequency: opt.Frequency = None,
     quantity: Quantity = "eta_d",
-    physical: Flag = False,
-    longest: Whole,
-    random: Whole,
-    basins: Whole = 0,
-    begin: Annotated[Text, Parameter(name="--start")] = None,
-    period: Whole | None = None,
-    changes: RigOptions = AS_DESCRIBED,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    physical: opt.Flag = False,
+    longest: opt.Whole,
+    random: opt.Whole,
+    basins: opt.Whole = 0,
+    begin: Annotated[opt.Text, Parameter(name="--start")] = None,
+    period: opt.Whole | None = None,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Follow the branches of periodic orbits along a parameter, through folds and grazings.
 
@@ -95,6 +77,7 @@ def branch(
     """
     import numpy as np
 
+    from vibroimpact.attraction.basins_along import basins_along
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import has_normalised_curves, results
     from vibroimpact.cli.rig import subject
@@ -121,7 +104,7 @@ def branch(
                     phase=what.phase,
                     longest=longest,
                     random=random,
-                    basins=_basins(shaken, along, span, basins, progress),
+                    basins=basins_along(shaken, along, span, basins, progress),
                     progress=progress,
                 )
                 if along == "frequency":
@@ -133,18 +116,3 @@ def branch(
         ending = f"{along.replace('_', '-')}-branches"
         written.write(data, ending, figures.branch_diagram, quantity=quantity, sweep=swept)
     return written.tell(facts.facts(data), facts.text(data))
-
-
-def _basins(
-    rig: vi.Rig, along: str, span: tuple[float, float], count: int, progress: Progress
-) -> list[xr.Dataset]:
-    """Compute basins at a number of values, each in the middle of its part of the range."""
-    from vibroimpact.model.count_checks import whole
-    from vibroimpact.model.parameters import parameter
-
-    varied = parameter(along, of=rig.harmonic.of).of(rig.oscillator)
-    values = [
-        span[0] + (i + 0.5) * (span[1] - span[0]) / count for i in range(whole(count, "basins", 0))
-    ]
-    rigs = [varied.vary(rig, value) for value in values]
-    return [vi.basins(one, nodes=_NODES, progress=progress) for one in rigs]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Literal
 
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import Json
 
 
 @calls(None, "Cache")
-def cache(*, clean: Literal["others", "all"] | None = None, json: Json = False) -> int:
+def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = False) -> int:
     """List the folders of compiled code with their sizes and ages, or remove them.
 
     The engine is compiled on first use. The code is kept in the user's cache folder, or in the

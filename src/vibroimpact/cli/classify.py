@@ -8,18 +8,8 @@ from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    DEFAULT_THRESHOLDS,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Text,
-    Threads,
-    ThresholdOptions,
-)
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
@@ -27,16 +17,16 @@ if TYPE_CHECKING:
 
 @calls("classify_scenario", "Frequencies", step="frequencies")
 def classify(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
-    start: Annotated[Text, Parameter(name="--from")] = None,
-    stop: Annotated[Text, Parameter(name="--to")] = None,
-    step: Text = None,
-    changes: RigOptions = AS_DESCRIBED,
-    thresholds: ThresholdOptions = DEFAULT_THRESHOLDS,
-    threads: Threads = None,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    start: Annotated[opt.Text, Parameter(name="--from")] = None,
+    stop: Annotated[opt.Text, Parameter(name="--to")] = None,
+    step: opt.Text = None,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    thresholds: opt.ThresholdOptions = opt.DEFAULT_THRESHOLDS,
+    threads: opt.Threads = None,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Name the scenario of a rig, S0 to S6, with the evidence for it.
 

@@ -5,16 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    Frequency,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Text,
-)
 from vibroimpact.cli.parameters import option_range
 from vibroimpact.cli.states import rig_at
 from vibroimpact.errors import InputError
@@ -40,18 +32,18 @@ _KINDS = {
     second="spans[1]",
 )
 def curve(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
     bifurcation: Literal[
         "fold", "symmetry-breaking", "period-doubling", "neimark-sacker", "grazing"
     ] = "fold",
     over: str = "frequency,gap",
-    first: Text = None,
-    second: Text = None,
-    frequency: Frequency = None,
-    changes: RigOptions = AS_DESCRIBED,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    first: opt.Text = None,
+    second: opt.Text = None,
+    frequency: opt.Frequency = None,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Follow bifurcations in two parameters, through cusps.
 

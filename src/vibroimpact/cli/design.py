@@ -2,63 +2,42 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    FileName,
-    Flag,
-    OutputOptions,
-    Pairs,
-    RigName,
-    RigOptions,
-    Text,
-    Threads,
-    Where,
-    by_name,
-    stated,
-)
 from vibroimpact.cli.records import (
     AS_STATED,
     Peak,
     RecordOptions,
     Scale,
-    record_of_study,
     records_of_design,
-    scale_records,
+    records_or_sines,
 )
-from vibroimpact.errors import InputError
-
-if TYPE_CHECKING:
-    from vibroimpact.cli.rig import Subject
-
-_NODES = 15
 
 
 @calls("design_chart", "Design", limit="limits", start="frequency_span[0]", to="frequency_span[1]")
 def design(
-    rig: RigName,
+    rig: opt.RigName,
     /,
-    *records: Annotated[FileName, Parameter(name="RECORD")],
-    vary: Pairs = (),
-    best: Flag = False,
-    limit: Pairs = (),
-    fractile: Text = None,
+    *records: Annotated[opt.FileName, Parameter(name="RECORD")],
+    vary: opt.Pairs = (),
+    best: opt.Flag = False,
+    limit: opt.Pairs = (),
+    fractile: opt.Text = None,
     scale: Scale = None,
     peak: Peak = None,
-    start: Annotated[Text, Parameter(name="--from")] = None,
-    to: Text = None,
+    start: Annotated[opt.Text, Parameter(name="--from")] = None,
+    to: opt.Text = None,
     reading: RecordOptions = AS_STATED,
-    changes: RigOptions = AS_DESCRIBED,
-    threads: Threads = None,
-    where: Where = "threads",
-    output: OutputOptions = DEFAULT_OUTPUT,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    threads: opt.Threads = None,
+    where: opt.Where = "threads",
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Compute the gap at which a rig hits nothing, and chart displacement against acceleration.
 
@@ -99,7 +78,9 @@ def design(
         Highest frequency of the sines. Default: that of the study ([sweep]), or above the primary
         resonance of each design.
     """
+    from vibroimpact.cli.frequency_grid import sine_span
     from vibroimpact.cli.output import progress_bar
+    from vibroimpact.cli.ranges import parameter_values
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.study import DesignTable
@@ -109,15 +90,15 @@ def design(
 
     found = reading.read(records or records_of_design(rig))
     what = subject(rig, changes, output.name, shaken=next(iter(found.values()), None))
-    suite = _records(what, found, scale, peak)
+    suite = records_or_sines(what, found, scale, peak)
     table = what.study.design if what.study else DesignTable()
-    ranges = _ranges(what, vary or tuple((table.vary or {}).items()))
-    limits = {**(table.limits or {}), **by_name("--limit", limit)}
+    ranges = parameter_values(what, "--vary", opt.by_name("--vary", vary) or table.vary or {})
+    limits = {**(table.limits or {}), **opt.by_name("--limit", limit)}
     designed = what.oscillator if suite else what.rig
     options: dict[str, Any] = {
-        **stated(fractile=table.fractile if fractile is None else fractile),
+        **opt.stated(fractile=table.fractile if fractile is None else fractile),
         "records": suite,
-        "frequency_span": None if suite else _frequencies(what, start, to),
+        "frequency_span": None if suite else sine_span(what, start, to),
         "threads": threads,
         "where": where,
     }
@@ -139,38 +120,3 @@ def design(
     text = facts.text(what.oscillator, gap, data, least, list(suite or ()), chosen=chosen)
     about = rig_facts.text(what.rig, shaking=not suite)
     return written.tell(facts.facts(gap, data, least), *text, about=about, shaking=False)
-
-
-def _records(
-    what: Subject, found: dict[str, vi.Record], scale: str | None, peak: str | None
-) -> dict[str, vi.Record] | None:
-    """Return the scaled records of the options or of the study; None for sines."""
-    records = found or (record_of_study(what) if isinstance(what.shaking, vi.Record) else {})
-    for option, value in (("--scale", scale), ("--peak", peak)):
-        if value is not None and not records:
-            raise InputError(f"{option}: {value!r}, but no record is given; --amplitude is")
-    return scale_records(records, scale, peak) or None
-
-
-def _frequencies(what: Subject, start: str | None, to: str | None) -> tuple[Any, Any] | None:
-    """Return the range of the sines, of the options or the study; None if neither states it."""
-    table = what.sweep_table
-    low, high = table.start if start is None else start, table.to if to is None else to
-    if low is None and high is None:
-        return None
-    if low is None or high is None:
-        which = "--from" if low is None else "--to"
-        raise InputError(f"{which}: missing; the lowest and the highest frequency are accepted")
-    return low, high
-
-
-def _ranges(what: Subject, pairs: tuple[tuple[str, str], ...]) -> dict[str, list[float]]:
-    """Read the parameters that are varied, and their values."""
-    from vibroimpact.cli.ranges import spread
-    from vibroimpact.model.parameters import parameter
-
-    found = {}
-    for name, text in by_name("--vary", pairs).items():
-        varied = parameter(name, "--vary").of(what.oscillator)
-        found[varied.name], _ = spread("--vary", varied, text, _NODES)
-    return found

@@ -8,17 +8,8 @@ from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    FileName,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Text,
-    Whole,
-)
 from vibroimpact.cli.records import (
     AS_STATED,
     Peak,
@@ -32,16 +23,16 @@ from vibroimpact.cli.records import (
 
 @calls("seismic_response", "Motion")
 def earthquake(
-    rig: RigName,
+    rig: opt.RigName,
     /,
-    *records: Annotated[FileName, Parameter(name="RECORD")],
+    *records: Annotated[opt.FileName, Parameter(name="RECORD")],
     scale: Scale = None,
     peak: Peak = None,
-    tail: Text = None,
-    samples: Whole = 4,
+    tail: opt.Text = None,
+    samples: opt.Whole = 4,
     reading: RecordOptions = AS_STATED,
-    changes: RigOptions = AS_DESCRIBED,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Shake a rig by records, and report whether it hits its stops, and how hard.
 

@@ -9,23 +9,8 @@ from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    Flag,
-    OutputOptions,
-    Pairs,
-    Physical,
-    RigName,
-    RigOptions,
-    Text,
-    Threads,
-    Where,
-    Whole,
-    by_name,
-    stated,
-)
 from vibroimpact.errors import InputError
 
 _COARSER = 4
@@ -34,23 +19,23 @@ _COARSER = 4
 
 @calls("ensemble", "Ensemble", uncertain="distributions")
 def ensemble(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
-    uncertain: Pairs = (),
-    draws: Whole | None = None,
+    uncertain: opt.Pairs = (),
+    draws: opt.Whole | None = None,
     method: Literal["sobol", "latin", "random"] | None = None,
-    seed: Whole | None = None,
-    sensitivity: Flag = False,
-    start: Annotated[Text, Parameter(name="--from")] = None,
-    stop: Annotated[Text, Parameter(name="--to")] = None,
-    step: Text = None,
-    frequencies: Text = None,
-    physical: Physical = False,
-    changes: RigOptions = AS_DESCRIBED,
-    threads: Threads = None,
-    where: Where = "threads",
-    output: OutputOptions = DEFAULT_OUTPUT,
+    seed: opt.Whole | None = None,
+    sensitivity: opt.Flag = False,
+    start: Annotated[opt.Text, Parameter(name="--from")] = None,
+    stop: Annotated[opt.Text, Parameter(name="--to")] = None,
+    step: opt.Text = None,
+    frequencies: opt.Text = None,
+    physical: opt.Physical = False,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    threads: opt.Threads = None,
+    where: opt.Where = "threads",
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Draw rigs from the distributions of their parameters, and sweep each of them.
 
@@ -93,7 +78,7 @@ def ensemble(
 
     what = subject(rig, changes, output.name)
     table = what.study.ensemble if what.study else EnsembleTable()
-    given = by_name("--uncertain", uncertain or tuple((table.uncertain or {}).items()))
+    given = opt.by_name("--uncertain", uncertain or tuple((table.uncertain or {}).items()))
     if not given:
         raise InputError(
             "--uncertain: missing; a parameter and its distribution are accepted, such as gap "
@@ -103,7 +88,7 @@ def ensemble(
     grid = list_frequencies(start, stop, step, frequencies, what.sweep_table, default)
     shaken = vi.Rig(what.oscillator, what.repeated)
     response = partial(vi.sweeps, frequencies=grid, threads=threads, where=where)
-    chosen = stated(seed=table.seed if seed is None else seed)
+    chosen = opt.stated(seed=table.seed if seed is None else seed)
     indices = {}
     with results(what, output) as written:
         with progress_bar("sweeping") as progress:
@@ -111,7 +96,7 @@ def ensemble(
                 shaken,
                 given,
                 response,
-                **stated(
+                **opt.stated(
                     draws=table.draws if draws is None else draws, method=method or table.method
                 ),
                 **chosen,

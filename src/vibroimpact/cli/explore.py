@@ -6,20 +6,20 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.garbage import search_as_usual
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import AS_DESCRIBED, RigName, RigOptions
 
 
 @calls(None, "Server")
 def explore(
-    rig: RigName = "B2-G1-A3",
+    rig: opt.RigName = "B2-G1-A3",
     /,
     *,
     port: int = 0,
     browser: Annotated[bool, Parameter(negative="--no-browser")] = True,
     host: str = "127.0.0.1",
-    changes: RigOptions = AS_DESCRIBED,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
 ) -> int:
     """Change parameters in a browser, and see resonance curves, motion and scenario change.
 

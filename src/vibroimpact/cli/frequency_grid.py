@@ -163,3 +163,23 @@ def list_frequencies(
             raise InputError(f"{option}: {NO_DEFAULT}")
         numbers.append(number)
     return frequency_grid(*numbers)
+
+
+def sine_span(
+    what: Subject, start: str | None, to: str | None
+) -> tuple[float | str, float | str] | None:
+    """Return the range of sines, of the options or of the study; None if neither states it.
+
+    Raises
+    ------
+    InputError
+        If only one end is stated.
+    """
+    table = what.sweep_table
+    low, high = table.start if start is None else start, table.to if to is None else to
+    if low is None and high is None:
+        return None
+    if low is None or high is None:
+        which = "--from" if low is None else "--to"
+        raise InputError(f"{which}: missing; the lowest and the highest frequency are accepted")
+    return low, high

@@ -2,57 +2,39 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
 import vibroimpact as vi
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    COMPUTATION,
-    DEFAULT_OUTPUT,
-    FileName,
-    Flag,
-    OutputOptions,
-    Pairs,
-    RigOptions,
-    Text,
-    Threads,
-    Whole,
-    by_name,
-)
 from vibroimpact.errors import InputError
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from vibroimpact.cli.rig import Subject
 
 
 @calls("identify", "Fit", tie="ties", prior="priors", bootstrap="draws")
 def identify(
-    *data: Annotated[FileName, Parameter(name="DATA")],
-    rig: FileName,
+    *data: Annotated[opt.FileName, Parameter(name="DATA")],
+    rig: opt.FileName,
     free: str,
-    each: Text = None,
-    bounds: Pairs = (),
-    tie: Pairs = (),
-    prior: Pairs = (),
-    columns: Pairs = (),
-    units: Pairs = (),
+    each: opt.Text = None,
+    bounds: opt.Pairs = (),
+    tie: opt.Pairs = (),
+    prior: opt.Pairs = (),
+    columns: opt.Pairs = (),
+    units: opt.Pairs = (),
     group: str | None = None,
     decimal: Literal[".", ","] | None = None,
     noise: float | None = None,
-    compare: Text = None,
-    bootstrap: Whole,
-    window: Whole | None = None,
-    steady: Flag = False,
-    changes: RigOptions = AS_DESCRIBED,
-    seed: Annotated[Whole, Parameter(group=COMPUTATION)],
-    starts: Annotated[Whole, Parameter(group=COMPUTATION)],
-    threads: Threads = None,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    compare: opt.Text = None,
+    bootstrap: opt.Whole,
+    window: opt.Whole | None = None,
+    steady: opt.Flag = False,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    seed: Annotated[opt.Whole, Parameter(group=opt.COMPUTATION)],
+    starts: Annotated[opt.Whole, Parameter(group=opt.COMPUTATION)],
+    threads: opt.Threads = None,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Identify parameters of a rig from stepped-sine curves or time histories.
 
@@ -91,6 +73,7 @@ def identify(
     compare
         Other models that are also fitted: hertz, softening or hertz,softening. Default: none.
     """
+    from vibroimpact.cli.measured import pair, rig_of_sine, shaking_of_tests
     from vibroimpact.cli.output import progress_bar, tell
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
@@ -100,27 +83,29 @@ def identify(
     if not data:
         raise InputError("DATA: missing; the file of a test is accepted")
     reading: dict[str, Any] = {
-        "columns": by_name("--columns", columns),
-        "units": by_name("--units", units),
+        "columns": opt.by_name("--columns", columns),
+        "units": opt.by_name("--units", units),
         "group": group,
         "amplitude": changes.amplitude,
         "decimal": decimal,
     }
     tests = [vi.read_measurement(path, **reading) for path in data]
-    what = subject(rig, changes, output.name, _shaken(tests))
+    what = subject(rig, changes, output.name, shaking_of_tests(tests))
     names = [name.strip().replace("-", "_") for name in free.split(",")]
-    limits = {name: _pair(text, "--bounds") for name, text in by_name("--bounds", bounds).items()}
+    limits = {
+        name: pair(text, "--bounds") for name, text in opt.by_name("--bounds", bounds).items()
+    }
     if strange := set(limits) - set(names):
         raise InputError(f"--bounds: {sorted(strange)[0]!r} is not free; {free} is accepted")
     with results(what, output) as written:
         fits = fit_models(
-            _rig(what),
+            rig_of_sine(what),
             tests,
             {name: limits.get(name) for name in names},
             [name.strip() for name in compare.split(",")] if compare else [],
             each=[name.strip() for name in each.split(",")] if each else [],
-            ties=by_name("--tie", tie),
-            priors={name: _pair(text, "--prior") for name, text in prior},
+            ties=opt.by_name("--tie", tie),
+            priors={name: pair(text, "--prior") for name, text in prior},
             noise=noise,
             window=window,
             steady=steady,
@@ -143,25 +128,3 @@ def identify(
     text, facts = fit_summary(fits, tests)
     tell(text, facts, written.folder, written.files, output.json)
     return 0
-
-
-def _shaken(tests: list[xr.Dataset]) -> vi.Harmonic | None:
-    """Return the shaking of the base that the files state; None if one does not state it."""
-    if any("amplitude" not in t.attrs and "base_acceleration" not in t for t in tests):
-        return None
-    return vi.Harmonic(float(tests[0].attrs.get("amplitude", 1.0)), 1.0)
-
-
-def _rig(what: Subject) -> vi.Rig | vi.Oscillator:
-    """Return the rig; without its shaking unless that is one sine of the base acceleration."""
-    shaking = what.shaking
-    if isinstance(shaking, vi.Harmonic) and shaking.of == "acceleration":
-        return vi.Rig(what.oscillator, shaking.amplitude)
-    return what.oscillator
-
-
-def _pair(text: str, option: str) -> tuple[str, str]:
-    low, mark, high = text.partition(":")
-    if not mark:
-        raise InputError(f"{option}: {text!r}; two values with a colon between them are accepted")
-    return low, high

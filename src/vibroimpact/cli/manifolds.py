@@ -8,33 +8,25 @@ from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Threads,
-    Whole,
-)
 from vibroimpact.cli.states import ANY_STATES, StateOptions, state
 
 
 @calls("manifolds", "Curves", saddle="saddles")
 def manifolds(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
     states: StateOptions = ANY_STATES,
     saddle: Annotated[tuple[str, ...], Parameter(allow_leading_hyphen=True, negative="")] = (),
-    period: Whole,
+    period: opt.Whole,
     spacing: float,
     longest: float,
-    nodes: Whole = 300,
-    changes: RigOptions = AS_DESCRIBED,
-    threads: Threads = None,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    nodes: opt.Whole = 300,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    threads: opt.Threads = None,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Follow the stable and unstable curves of saddles, and draw them over the basins.
 

@@ -2,54 +2,36 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import Annotated, TypeAlias
 
 from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    COMPUTATION,
-    DEFAULT_OUTPUT,
-    DEFAULT_THRESHOLDS,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Threads,
-    ThresholdOptions,
-    Whole,
-)
-from vibroimpact.errors import InputError
 
-if TYPE_CHECKING:
-    from vibroimpact.model.excitation import Of
-
-_Axis: TypeAlias = tuple[str, list[float], str]
-"""Name, values in SI units, and "log" or "linear"."""
 _AxisOption: TypeAlias = Annotated[
     tuple[str, str], Parameter(allow_leading_hyphen=True, negative="")
 ]
 _PUBLISHED = "B3-10mm-A3"
-_NODES = 21
 
 
 @calls("scenario_map", "Map", rig="rig", x="x", y="y")
 def scenario_map(
-    rig: RigName | None = None,
+    rig: opt.RigName | None = None,
     /,
     *,
     x: _AxisOption = ("stiffness-ratio", "0.5:100:log"),
     y: _AxisOption = ("gap-ratio", "0:1"),
-    refine: Whole = 2,
+    refine: opt.Whole = 2,
     step: float = 0.01,
     border: bool = True,
-    changes: RigOptions = AS_DESCRIBED,
-    thresholds: ThresholdOptions = DEFAULT_THRESHOLDS,
-    threads: Threads = None,
-    where: Annotated[str | None, Parameter(group=COMPUTATION)] = None,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    thresholds: opt.ThresholdOptions = opt.DEFAULT_THRESHOLDS,
+    threads: opt.Threads = None,
+    where: Annotated[str | None, Parameter(group=opt.COMPUTATION)] = None,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Map the scenarios of a rig over two of its parameters.
 
@@ -86,6 +68,7 @@ def scenario_map(
     from rich.text import Text
 
     from vibroimpact.cli.output import progress_bar
+    from vibroimpact.cli.ranges import map_axis
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import scenario_map as facts
@@ -98,7 +81,7 @@ def scenario_map(
             slug=what.slug.replace(_PUBLISHED, "published"),
         )
     of = what.repeated.of
-    axes = _axis("--x", *x, of), _axis("--y", *y, of)
+    axes = map_axis("--x", *x, of), map_axis("--y", *y, of)
     used = thresholds.thresholds()
     names = [name for name, *_ in axes]
     ending = f"{'-'.join(names).replace('_', '-')}-map"
@@ -127,17 +110,3 @@ def scenario_map(
     return written.tell(
         facts.facts(data, edge), *about[1:], facts.text(data, refine), about=about[0]
     )
-
-
-def _axis(option: str, name: str, text: str, of: Of) -> _Axis:
-    """Read ``LOW:HIGH[:log][:NODES]``."""
-    from vibroimpact.cli.ranges import spread
-    from vibroimpact.model.parameters import parameter
-    from vibroimpact.scenarios.axes import NAMES
-
-    key = name.strip().replace("-", "_")
-    if key not in NAMES:
-        known = ", ".join(name.replace("_", "-") for name in NAMES)
-        raise InputError(f"{option}: {name!r}; one of {known} is accepted")
-    varied = parameter(key, option, of)
-    return key, *spread(option, varied, text, _NODES)

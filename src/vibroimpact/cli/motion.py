@@ -5,16 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Text,
-    Whole,
-)
 from vibroimpact.cli.states import rig_at
 from vibroimpact.errors import InputError
 
@@ -28,16 +20,16 @@ MOST_COLUMNS = 6
 
 @calls("coexisting_motions", "Motion")
 def motion(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
-    frequency: Text = None,
+    frequency: opt.Text = None,
     branch: Literal["forward", "backward", "all"] = "all",
-    random: Whole,
-    window: Whole,
-    samples: Whole,
-    changes: RigOptions = AS_DESCRIBED,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    random: opt.Whole,
+    window: opt.Whole,
+    samples: opt.Whole,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Find the steady motions at a frequency, classify them, and draw them on one page.
 

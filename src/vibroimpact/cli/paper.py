@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import OUTPUT, Json, OutputFolder, Text, Threads
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -20,11 +20,11 @@ _CLAIMS = "claims"
 @calls(None, "Study")
 def paper(
     *,
-    only: Text = None,
-    threads: Threads = None,
-    output: OutputFolder = "out/paper",
-    figure: Annotated[Literal["png", "svg"], Parameter(group=OUTPUT)] = "png",
-    json: Json = False,
+    only: opt.Text = None,
+    threads: opt.Threads = None,
+    output: opt.OutputFolder = "out/paper",
+    figure: Annotated[Literal["png", "svg"], Parameter(group=opt.OUTPUT)] = "png",
+    json: opt.Json = False,
 ) -> int:
     """Compute the published study again, and judge each of its statements.
 

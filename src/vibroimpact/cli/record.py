@@ -8,8 +8,8 @@ from cyclopts import Group, Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import DEFAULT_OUTPUT, FileName, OutputOptions, Text, Whole
 from vibroimpact.cli.records import AS_STATED, READING, RecordOptions, record_name
 from vibroimpact.errors import InputError
 
@@ -18,22 +18,22 @@ _CHANGES = Parameter(group=Group("Changes (in this order)", sort_key=2))
 
 @calls("response_spectrum", "Response spectrum", sort_key=3)
 def record(
-    file: Annotated[FileName, Parameter(name="FILE")],
+    file: Annotated[opt.FileName, Parameter(name="FILE")],
     /,
     *,
     station: Annotated[str | None, Parameter(group=READING)] = None,
     label: Annotated[str | None, Parameter(group=READING)] = None,
-    start: Annotated[Text, _CHANGES] = None,
-    end: Annotated[Text, _CHANGES] = None,
+    start: Annotated[opt.Text, _CHANGES] = None,
+    end: Annotated[opt.Text, _CHANGES] = None,
     baseline: Annotated[Literal["mean", "line"] | None, _CHANGES] = None,
-    scale: Annotated[Text, _CHANGES] = None,
-    peak: Annotated[Text, _CHANGES] = None,
+    scale: Annotated[opt.Text, _CHANGES] = None,
+    peak: Annotated[opt.Text, _CHANGES] = None,
     damping: Annotated[str, Parameter(allow_leading_hyphen=True)] = "0.05",
     shortest: Annotated[str, Parameter(allow_leading_hyphen=True)] = "10ms",
     longest: Annotated[str, Parameter(allow_leading_hyphen=True)] = "10s",
-    periods: Whole = 200,
+    periods: opt.Whole = 200,
     reading: RecordOptions = AS_STATED,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Read a record, print its properties, and draw it with its response spectrum.
 

@@ -165,3 +165,24 @@ def scale_records(
         name: one.scaled(1.0 if size is None else size, peak=most)
         for (name, one), size, most in zip(records.items(), sizes, peaks, strict=True)
     }
+
+
+def records_or_sines(
+    what: Subject, found: dict[str, Record], scale: str | None, peak: str | None
+) -> dict[str, Record] | None:
+    """Return the scaled records of the options or of the study; None for sines.
+
+    Raises
+    ------
+    InputError
+        If records are to be scaled, and there is none.
+    """
+    from vibroimpact.model import Record
+
+    records = found or (record_of_study(what) if isinstance(what.shaking, Record) else {})
+    for option, value in (("--scale", scale), ("--peak", peak)):
+        if value is not None and not records:
+            raise InputError(
+                f"{option}: {value!r}, but no record is given; --amplitude is accepted"
+            )
+    return scale_records(records, scale, peak) or None

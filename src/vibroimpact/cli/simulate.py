@@ -6,17 +6,8 @@ from typing import TYPE_CHECKING
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    DEFAULT_OUTPUT,
-    Frequency,
-    OutputOptions,
-    RigName,
-    RigOptions,
-    Text,
-    Whole,
-)
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
@@ -29,18 +20,18 @@ _CYCLES = 100.0
 
 @calls("simulate", "Motion")
 def simulate(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
-    frequency: Frequency = None,
+    frequency: opt.Frequency = None,
     cycles: float | None = None,
-    samples: Whole | None = None,
-    displacement: Text = None,
-    velocity: Text = None,
-    tail: Text = None,
+    samples: opt.Whole | None = None,
+    displacement: opt.Text = None,
+    velocity: opt.Text = None,
+    tail: opt.Text = None,
     shown: float = 3.0,
-    changes: RigOptions = AS_DESCRIBED,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Simulate one motion at a fixed frequency, or through a record, and draw its time history.
 

@@ -8,38 +8,26 @@ from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.options import (
-    AS_DESCRIBED,
-    COMPUTATION,
-    DEFAULT_OUTPUT,
-    OutputOptions,
-    Physical,
-    RigName,
-    RigOptions,
-    Text,
-    Threads,
-    Whole,
-    stated,
-)
 
 
 @calls("sweep", "Frequencies", direction="directions")
 def sweep(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
-    start: Annotated[Text, Parameter(name="--from")] = None,
-    stop: Annotated[Text, Parameter(name="--to")] = None,
-    step: Text = None,
-    frequencies: Text = None,
+    start: Annotated[opt.Text, Parameter(name="--from")] = None,
+    stop: Annotated[opt.Text, Parameter(name="--to")] = None,
+    step: opt.Text = None,
+    frequencies: opt.Text = None,
     direction: Literal["forward", "backward", "both"] | None = None,
-    physical: Physical = False,
-    changes: RigOptions = AS_DESCRIBED,
-    threads: Threads = None,
-    tolerance: Annotated[float | None, Parameter(group=COMPUTATION)] = None,
-    max_cycles: Annotated[Whole | None, Parameter(group=COMPUTATION)] = None,
-    output: OutputOptions = DEFAULT_OUTPUT,
+    physical: opt.Physical = False,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    threads: opt.Threads = None,
+    tolerance: Annotated[float | None, Parameter(group=opt.COMPUTATION)] = None,
+    max_cycles: Annotated[opt.Whole | None, Parameter(group=opt.COMPUTATION)] = None,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
     """Sweep the frequency up and down, and draw the resonance curves.
 
@@ -97,7 +85,7 @@ def sweep(
             data = vi.sweep(
                 what.rig,
                 grid,
-                **stated(
+                **opt.stated(
                     directions=None if way == "both" else (way,),
                     phase=what.phase,
                     tolerance=table.tolerance if tolerance is None else tolerance,
