@@ -35,7 +35,7 @@ def test_words_figure_and_data(run, tmp_path, quake):
     counts = [int(direct[f"impact_count_{side}"]) for side in ("right", "left")]
     assert min(counts) > 1
     assert f"{counts[0]} right, {counts[1]} left" in told
-    assert "It hits the right stop" in told
+    assert "The mass hits the right stop" in told
     assert "that without stops, where it would move by" in " ".join(told.split())
     path = tmp_path / f"out/{stem}.nc"
     held = vi.load(path, "response")
@@ -79,7 +79,7 @@ def test_several_records_options_and_json(run, tmp_path, quake):
     assert [one["name"] for one in facts["records"]] == ["quake.csv", "weak.csv"]
     for one in facts["records"]:
         assert one["impact_count"] == 0.0
-        assert one["verdict"].startswith("It hits no stop: ")
+        assert one["verdict"].startswith("The mass hits no stop: ")
         assert one["status"] == "done"
         assert one["without_stops"]["peak_acceleration"] == one["peak_acceleration"]
     assert facts["oscillator"]["right"]["gap"] == 0.04

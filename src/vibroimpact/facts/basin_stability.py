@@ -57,7 +57,7 @@ def text(data: xr.Dataset) -> RenderableType:
     table.add_column("motion")
     table.add_column("kind and period")
     words = along.replace("_", " ") + (f" ({unit.symbol})" if unit.symbol else "")
-    for heading in (words, "least share", "largest share", "95% interval of it"):
+    for heading in (words, "least share", "largest share", "95% interval"):
         table.add_column(heading, justify="right")
     motions = list(enumerate(found["motions"], 1))
     chosen = sorted(motions, key=lambda one: -max(one[1]["share"]))[:_MOST]
@@ -73,7 +73,7 @@ def text(data: xr.Dataset) -> RenderableType:
             f"{one['share'][most]:.1%}",
             f"{one['share_low'][most]:.1%} to {one['share_high'][most]:.1%}",
         )
-    lines = [f"states that were given up: {found['given_up']}"]
+    lines = [f"states given up: {found['given_up']}"]
     if len(motions) > _MOST:
-        lines.insert(0, f"and {len(motions) - _MOST} motions of smaller shares")
+        lines.insert(0, f"and {len(motions) - _MOST} motions with smaller shares")
     return Group(Text(), table, Text(), Text("\n".join(lines)))

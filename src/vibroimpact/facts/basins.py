@@ -63,7 +63,7 @@ def text(data: xr.Dataset) -> RenderableType:
         f"excursion ({unit.symbol})",
         "share",
         "95% interval",
-        f"to the border ({unit.symbol})",
+        f"distance to border ({unit.symbol})",
     ):
         table.add_column(heading, justify="left" if heading in ("motion", "kind") else "right")
     for number, one in enumerate(motions):
@@ -77,11 +77,11 @@ def text(data: xr.Dataset) -> RenderableType:
             f"{one['share_low']:.1%} to {one['share_high']:.1%}",
             plain(far / unit.size, 3) if math.isfinite(far) else "",
         )
-    lines = [f"{found['lattice']}; states that were given up: {found['given_up']}"]
+    lines = [f"{found['lattice']}; states given up: {found['given_up']}"]
     if math.isfinite(found["uncertainty_exponent"]):
         lines.append(
             f"uncertainty exponent {found['uncertainty_exponent']:.3f} ± "
-            f"{found['uncertainty_exponent_error']:.3f} (1 of a smooth border), basin entropy "
-            f"{found['basin_entropy']:.3f}, on borders {found['border_entropy']:.3f}"
+            f"{found['uncertainty_exponent_error']:.3f} (1 for a smooth border), basin entropy "
+            f"{found['basin_entropy']:.3f}, border entropy {found['border_entropy']:.3f}"
         )
     return Group(Text(), table, Text(), Text("\n".join(lines)))

@@ -64,7 +64,7 @@ def text(
     table.add_row("peak of the base", shaken, when)
     table.add_row("displacement", _both(response, "peak_displacement", LENGTHS), "")
     size = float(response["peak_acceleration"])
-    ratio = f"{plain(size / record.peak, 4)} times the base's" if record.peak else ""
+    ratio = f"{plain(size / record.peak, 4)} times that of the base" if record.peak else ""
     table.add_row("acceleration", f"{plain(size, 5)} m/s² = {plain(size / GRAVITY, 4)} g", ratio)
     if int(response["impact_count"]) or float(response["impulse"]):
         force = _both(response, "peak_force", FORCES)
@@ -94,33 +94,35 @@ def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
     if not is_still:
         return f"still swinging by ±{pretty(swing, LENGTH)}"
     if rig.isolator.damping == 0.0 and not settles(rig):
-        return "not settled: the isolator has no damping, and the mass may swing about it for ever"
+        return (
+            "not settled: the isolator has no damping, and the mass may swing about it indefinitely"
+        )
     return ""
 
 
 def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> str:
     """Whether the mass hits its stops, and how hard."""
     if not rig.stops:
-        return "There is no stop to hit."
+        return "The rig has no stops."
     counts = {side: int(response[f"impact_count_{side}"]) for side in _SIDES}
     hit = {side: n for side, n in counts.items() if n}
     if not hit:
-        return _pressed(response) or f"It hits no stop: {_left(response, rig)} are left."
+        return _pressed(response) or f"The mass hits no stop: {_left(response, rig)} remain."
     times = " and ".join(f"the {side} stop {_times(n)}" for side, n in hit.items())
     force = float(response["peak_force"])
     hard = (
-        f"with {pretty(float(f'{force:.4g}'), FORCE)} at most"
+        f"with at most {pretty(float(f'{force:.4g}'), FORCE)}"
         if math.isfinite(force)
-        else f"with an impulse of {_value(float(response['impulse']), IMPULSES)} in all"
+        else f"with a total impulse of {_value(float(response['impulse']), IMPULSES)}"
     )
-    said = f"It hits {times}, {hard}"
+    said = f"The mass hits {times}, {hard}"
     if free is None:
         return f"{said}."
     far = max((float(free[f"peak_displacement_{side}"]), side) for side in hit)
     ratio = float(response["peak_acceleration"]) / float(free["peak_acceleration"])
     return (
-        f"{said}; its acceleration is {plain(ratio, 3)} times that without stops, where it would "
-        f"move by {_value(far[0], LENGTHS)} to the {far[1]}."
+        f"{said}. Its acceleration is {plain(ratio, 3)} times that without stops, where it would "
+        f"move {_value(far[0], LENGTHS)} to the {far[1]}."
     )
 
 
@@ -131,10 +133,10 @@ def _pressed(response: xr.Dataset) -> str:
     if not pressed:
         return ""
     told = " and ".join(
-        f"the {side} stop with {pretty(float(f'{force:.4g}'), FORCE)} at most"
+        f"the {side} stop with at most {pretty(float(f'{force:.4g}'), FORCE)}"
         for side, force in pressed.items()
     )
-    return f"It presses {told}, from the start on; no impact follows."
+    return f"The mass presses {told} from the start; no impact follows."
 
 
 def _left(response: xr.Dataset, rig: Oscillator) -> str:

@@ -43,7 +43,7 @@ def text(data: xr.Dataset) -> RenderableType:
     found = facts(data)
     saddles, curves = found["saddles"], found["curves"]
     if not saddles:
-        return Text("\nno saddle was found: no border between basins leads to one")
+        return Text("\nno saddle was found: no border between basins leads to a saddle")
     far = fitting((one["displacement"] for one in saddles), LENGTHS)
     fast = fitting((one["velocity"] for one in saddles), SPEEDS)
     table = Table(box=None, pad_edge=False, padding=(0, 2))
@@ -68,12 +68,12 @@ def text(data: xr.Dataset) -> RenderableType:
         mine = [one for one in curves if one["kind"] == kind]
         ends = Counter(one["ended"] for one in mine)
         length = sum(one["length"] for one in mine)
-        lines.append(f"{kind} curves, {length:.3g} windows long in all:")
+        lines.append(f"{kind} curves, total length {length:.3g} window widths:")
         lines += [f"  {count} of {len(mine)}: {why}" for why, count in ends.most_common()]
     crossed = found["crossings"]
     lines.append(
-        f"they cross {crossed} times: motions wander as if chaotic before they settle"
+        f"the curves cross {crossed} times: motions look chaotic before they settle"
         if crossed
-        else "they do not cross"
+        else "the curves do not cross"
     )
     return Group(Text(), table, Text(), Text("\n".join(lines)))

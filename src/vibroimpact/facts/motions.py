@@ -160,9 +160,9 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         ),
     ]
     if data.attrs.get("starts"):
-        rows.append(("found from", data.attrs["starts"]))
+        rows.append(("reached from", data.attrs["starts"]))
     if data.attrs.get("mirrored_starts"):
-        rows.append(("mirror image", f"found from {data.attrs['mirrored_starts']}"))
+        rows.append(("mirror image", f"reached from {data.attrs['mirrored_starts']}"))
     for row in rows:
         table.add_row(*row)
     return [Text(f"{name}: {', '.join(_kind(data))}", style="bold"), table, *contact_tables(data)]
