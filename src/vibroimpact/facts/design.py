@@ -1,4 +1,4 @@
-"""What a design asks for and what it gives, for people and for programs."""
+"""The required gap, a design chart and the best design, as plain values and as text."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from vibroimpact.model.units import pretty
 _HEADS = {"stiffness_at_restitution": "bumper stiffness"}
 _SIDES = ("right", "left")
 _ROWS = 8
-"""Designs of the front that are told, at most."""
+"""Largest number of designs of the front that are printed."""
 
 
 def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[str, Any]:
-    """Every number, in SI units."""
+    """Return every number, in SI units."""
     names = ("required_gap", "required_gap_right", "required_gap_left")
     return {
         **{name: float(gap[name]) for name in names},
@@ -56,9 +56,9 @@ def text(
     *,
     chosen: bool = False,
 ) -> Iterator[RenderableType]:
-    """Sentences, and a table of what no other design beats.
+    """Return sentences, and a table of the designs that no other design dominates.
 
-    ``chosen`` says whether the gap of the rig was asked for, by an option.
+    ``chosen`` says whether an option states the gap of the rig.
     """
     share = fractile_of(gap)
     yield Text()

@@ -1,4 +1,4 @@
-"""What a record asked of a rig, for people and for programs."""
+"""The response of a rig to a record, as plain values and as text."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _SIDES = ("right", "left")
 
 
 def together(names: list[str], responses: list[xr.Dataset]) -> xr.Dataset:
-    """Responses to several records as one dataset."""
+    """Return the responses to several records as one dataset."""
     attributes = {**responses[0].attrs}
     bare = [one.drop_attrs(deep=False) for one in responses]
     data = xr.concat(bare, xr.DataArray(names, dims="record", name="record"))
@@ -38,7 +38,7 @@ def together(names: list[str], responses: list[xr.Dataset]) -> xr.Dataset:
 def facts(
     name: str, record: Record, response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None
 ) -> dict[str, Any]:
-    """Every number of a response, in SI units."""
+    """Return every number of a response, in SI units."""
     return {
         "name": name,
         "record": dict(record.rows()),
@@ -57,7 +57,7 @@ def facts(
 def text(
     name: str, record: Record, response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None
 ) -> RenderableType:
-    """A table of a response, and a sentence."""
+    """Return a response as a table and a sentence."""
     table = plain_table()
     shaken = f"{plain(record.peak, 5)} m/s² = {plain(record.peak / GRAVITY, 4)} g"
     when = f"at {plain(record.peak_time, 6)} s of {plain(record.duration, 6)} s"
@@ -90,7 +90,7 @@ def text(
 
 
 def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
-    """Words for a mass that does not come to rest, or may not."""
+    """Return a remark for a mass that does not come to rest, or may not."""
     if not is_still:
         return f"still swinging by ±{pretty(swing, LENGTH)}"
     if rig.isolator.damping == 0.0 and not settles(rig):
@@ -101,7 +101,7 @@ def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
 
 
 def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> str:
-    """Whether the mass hits its stops, and how hard."""
+    """Return a sentence that says whether the mass hits its stops, and how hard."""
     if not rig.stops:
         return "The rig has no stops."
     counts = {side: int(response[f"impact_count_{side}"]) for side in _SIDES}
@@ -127,7 +127,7 @@ def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> 
 
 
 def _pressed(response: xr.Dataset) -> str:
-    """Of stops that it presses from the start, as under preload, and does not meet again."""
+    """Return a sentence about stops that are pressed from the start, as under preload; or none."""
     forces = {side: float(response[f"peak_force_{side}"]) for side in _SIDES}
     pressed = {side: force for side, force in forces.items() if force > 0.0}
     if not pressed:
@@ -140,7 +140,7 @@ def _pressed(response: xr.Dataset) -> str:
 
 
 def _left(response: xr.Dataset, rig: Oscillator) -> str:
-    """What is left of the gaps."""
+    """Return what remains of the gaps."""
     parts = []
     for side in _SIDES:
         stop = getattr(rig, side)
@@ -162,7 +162,7 @@ def _value(value: float, scales: tuple[Scale, ...]) -> str:
 
 
 def _both(response: xr.Dataset, name: str, scales: tuple[Scale, ...]) -> str:
-    """Of either side, in one unit."""
+    """Return the values of both sides in one unit."""
     values = [float(response[f"{name}_{side}"]) for side in _SIDES]
     unit = fitting(values, scales)
     parts = [

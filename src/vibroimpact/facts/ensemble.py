@@ -1,4 +1,4 @@
-"""What ``vibroimpact ensemble`` found, for people and for programs."""
+"""An ensemble of rigs: fractiles of the peaks and sensitivity indices, as values and as text."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _peaks(data: xr.Dataset) -> dict[str, Any]:
 
 
 def text(data: xr.Dataset, given: dict[str, str], indices: dict[str, xr.Dataset]) -> RenderableType:
-    """Return the same in words and tables."""
+    """Return the same as sentences and tables."""
     told = facts(data, given, indices)
     spread = ", ".join(f"{name.replace('_', ' ')} {text}" for name, text in given.items())
     parts: list[RenderableType] = [

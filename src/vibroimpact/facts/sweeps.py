@@ -1,4 +1,4 @@
-"""What a sweep shows: resonances, jumps, hysteresis, contact, and the largest of everything."""
+"""Features of a sweep: resonances, jumps, hysteresis, contact and the largest values."""
 
 from __future__ import annotations
 
