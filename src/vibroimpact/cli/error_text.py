@@ -38,7 +38,7 @@ def _as_option(message: str, words: Sequence[str]) -> str:
     """Name a field as the option that was written: max_cycles is --max-cycles."""
     module = words[0].replace("-", "_") if words else ""
     for argument in RENAMED.get(module, ()):
-        if re.match(rf"{re.escape(argument)}(\[\d+\])?: ", message):
+        if re.match(rf"{re.escape(argument)}(\[[^\]]*\])?: ", message):
             return _in_options(message, RENAMED[module])
     field = _FIELD.match(message)
     if field is None:
@@ -52,7 +52,7 @@ def _in_options(message: str, renamed: Mapping[str, str]) -> str:
     """Replace the argument at the start of a message by its option, and places in it elsewhere."""
     for argument, option in renamed.items():
         name = re.escape(argument)
-        message = re.sub(rf"^{name}(?=(\[\d+\])?: )|\b{name}(?=\[\d+\])", option, message)
+        message = re.sub(rf"^{name}(?=(\[[^\]]*\])?: )|\b{name}(?=\[\d+\])", option, message)
     return message
 
 

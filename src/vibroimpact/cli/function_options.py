@@ -169,7 +169,10 @@ def _literal(expression: ast.expr | None) -> Any:
 
 
 def _settings(hint: Any) -> list[Parameter]:
-    return [one for one in getattr(hint, "__metadata__", ()) if isinstance(one, Parameter)]
+    """Return the settings of an annotation, those of the members of a union included."""
+    if get_origin(hint) is not Annotated:
+        return [one for member in get_args(hint) for one in _settings(member)]
+    return [one for one in hint.__metadata__ if isinstance(one, Parameter)]
 
 
 def _help_of(hint: Any) -> str:

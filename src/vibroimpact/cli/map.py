@@ -17,7 +17,7 @@ _AxisOption: TypeAlias = Annotated[
 _PUBLISHED = "B3-10mm-A3"
 
 
-@calls("scenario_map", "Map", rig="rig", x="x", y="y")
+@calls("scenario_map", "Map", rig="rig", x="x", y="y", output="store")
 def scenario_map(
     rig: opt.RigName | None = None,
     /,
