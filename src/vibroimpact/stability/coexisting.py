@@ -97,6 +97,7 @@ def coexisting_motions(
     rig = as_rig(rig, frequency)
     oscillator, excitation = rig.oscillator, rig.harmonic
     random = whole(random, "random", 0)
+    samples, window = whole(samples, "samples"), whole(window, "window")
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     kept: list[_Kept] = []
     given_up: dict[Status, tuple[State | NDArray[np.float64], list[str]]] = {}
