@@ -79,9 +79,10 @@ def text(data: xr.Dataset) -> RenderableType:
         )
     lines = [f"{found['lattice']}; states given up: {found['given_up']}"]
     if math.isfinite(found["uncertainty_exponent"]):
-        lines.append(
+        lines += [
             f"uncertainty exponent {found['uncertainty_exponent']:.3f} ± "
-            f"{found['uncertainty_exponent_error']:.3f} (1 for a smooth border), basin entropy "
-            f"{found['basin_entropy']:.3f}, border entropy {found['border_entropy']:.3f}"
-        )
+            f"{found['uncertainty_exponent_error']:.3f} (1 for a smooth border)",
+            f"basin entropy {found['basin_entropy']:.3f}, border entropy "
+            f"{found['border_entropy']:.3f}",
+        ]
     return Group(Text(), table, Text(), Text("\n".join(lines)))
