@@ -76,7 +76,7 @@ def test_all_is_removed_but_what_another_process_uses(run, kept):
         assert holds.stdout.readline().strip() == b"held"
         code, out, _ = run("--clean", "all")
         assert code == 0
-        assert f"left, for another process uses it: {kept.name}" in out
+        assert f"kept, because another process uses it: {kept.name}" in out
         assert (compiled(kept / "Apart"), compiled(kept / "Curved")) == (2, 0)
     finally:
         holds.communicate(b"")

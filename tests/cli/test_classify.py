@@ -89,10 +89,10 @@ def test_changed_rig(run):
         (["--touch", "5"], "--touch: 5.0; a number greater than 0 and at most 1 is accepted"),
         (["--extent", "0"], "--extent: 0.0"),
         (["--extent", "wide"], "--extent"),
-        (["--from", "6Hz", "--to", "5Hz"], "--from: 6 Hz is not below --to, 5 Hz"),
+        (["--from", "6Hz", "--to", "5Hz"], "--from: 6 Hz is above --to, 5 Hz; a rising range"),
         (
             ["--from", "1Hz", "--to", "1.02Hz", "--step", "0.01Hz"],
-            "--step: 0.01 Hz makes 3 frequencies; at least 4",
+            "--step: 3 values; at least 4 frequencies are accepted",
         ),
         (["--step", "0Hz"], "--step"),
         (["--gap", "15 kg"], "--gap"),

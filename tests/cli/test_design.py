@@ -73,26 +73,26 @@ def test_a_study_with_records(run, study):
         1e3 * float(need[f"required_gap{side}"]) for side in ("", "_right", "_left")
     )
     assert (
-        f"Required gap: {gap:.4g} mm, the 50 % fractile over a.csv, b.csv (each side by itself: "
+        f"Required gap: {gap:.4g} mm, the 50 % fractile over a.csv, b.csv (each side separately: "
         f"{right:.4g} mm to the right, {left:.4g} mm to the left); "
         f"{1e3 * float(every['required_gap']):.4g} mm to hit nothing under all of them. "
     ) in words
     assert (
-        "All values are 50 % fractiles over the records, each by itself, and so is what limits are "
-        "held against."
+        "All values are 50 % fractiles over the records, for each quantity separately; limits "
+        "apply to these fractiles."
     ) in words
     within, front = (int(direct[name].sum()) for name in ("within_limits", "pareto"))
     assert 0 < front <= within < 12
     assert (
         f"Designs: 3 × 4, over gap and bumper stiffness; {within} are within penetration 40 mm, "
-        f"and of these {front} are beaten by no other"
+        f"and of these {front} are not dominated by another"
     ) in words
     rows = (out / "building-design.csv").read_text().splitlines()
     assert len(rows) == 13
     assert "bumper_damping (N s m-1)" in rows[0]
     assert (
-        "All keep the bumpers' damping of 5 MN s/m; --vary stiffness-at-restitution keeps their "
-        "restitution instead."
+        "All designs keep the bumpers' damping of 5 MN s/m; --vary stiffness-at-restitution keeps "
+        "their restitution instead."
     ) in words
 
 
@@ -113,10 +113,10 @@ def test_a_gap_that_is_enough_for_a_fractile_is_hit_under_the_others(run, study)
     less, more = sorted(1e3 * sides.max(axis=0))
     middle = 0.5 * (less + more)
     narrow = ("--vary", "gap", "20mm:60mm:2", "--fractile", "0.5")
-    tell = " the mass hits a stop under "
+    enough, tell = "is sufficient for the 50 % fractile;", " the mass hits a stop under "
     for gap, line in (
-        (0.5 * (middle + more), "is enough for the 50 % fractile;" + tell + "1 of the 2 records."),
-        (1.01 * more, "is enough for the 50 % fractile;" + tell + "none of the 2 records."),
+        (0.5 * (middle + more), enough + tell + "1 of the 2 records."),
+        (1.01 * more, enough + tell + "none of the 2 records."),
         (0.99 * less, f"is {middle - 0.99 * less:.4g} mm short for the 50 % fractile;"),
     ):
         code, told, errors = run("building.toml", *narrow, "--gap", f"{gap:.9g}mm")
@@ -135,7 +135,7 @@ def test_where_no_gap_is_enough_for_all_it_is_told():
     gap["peak_displacement_left"][1] = np.inf
     data = vi.design_chart(_rig(), {"gap": [0.02, 0.06]}, records=RECORDS, fractile=0.0)
     told = " ".join(str(line) for line in design.text(_rig(), gap, data, None, list(RECORDS)))
-    assert "; no gap is enough for all of them. " in told
+    assert "; no gap is sufficient for all of them. " in told
     assert "the mass hits a stop under 1 of the 2 records." in told
     assert design.facts(gap, data, None)["required_gap_of_all_records"] is None
 
@@ -144,7 +144,7 @@ def test_what_keeps_the_gap_is_told_where_the_chart_varies_it(run, study):
     narrow = ("--vary", "gap", "20mm:60mm:2")
     code, told, _ = run("building.toml", "--gap", "50mm", *narrow)
     assert code == 0
-    assert "The designs vary the gap; the gap of 50 mm plays no part in them." in told
+    assert "The designs vary the gap; the gap of 50 mm does not affect them." in told
     code, told, _ = run("building.toml", *narrow)
     assert "The designs vary" not in told
     limit = ("--limit", "penetration", "800mm")
@@ -152,7 +152,7 @@ def test_what_keeps_the_gap_is_told_where_the_chart_varies_it(run, study):
     assert code == 0
     assert "The designs vary the gap; only the search keeps the gap of 50 mm." in told
     assert told.rstrip().count("as 50 % fractiles.") == 1
-    assert "Of this design: the limit of penetration does not bind: " in " ".join(told.split())
+    assert "Note on this design: the limit of penetration does not bind: " in " ".join(told.split())
     stiff = ("--vary", "bumper-stiffness", "50MN/m:60MN/m:2")
     code, told, _ = run("building.toml", "--gap", "50mm", *stiff)
     assert "The designs vary" not in told
@@ -186,7 +186,7 @@ def test_dampings_follow_at_a_restitution_and_are_told(run, study):
     code, told, _ = run("wall.toml", "a.csv", "--gap", "20mm", *vary)
     assert code == 0
     assert "bumper stiffness    bumper damping" in told
-    assert "All keep" not in told
+    assert "designs keep" not in told
     code, told, _ = run("wall.toml", "a.csv", "--vary", "gap", "20mm:60mm:2")
     assert "damping of" not in told
 
@@ -257,8 +257,8 @@ def test_three_measured_records(run, tmp_path):
         (("--vary", "gap", "0.2:0.1"), "--vary: 0.2 is not below 0.1"),
         (("--vary", "gap", "1kg:2"), "--vary: '1kg'"),
         (("--vary", "yield-force", "1:2"), "yield_force: unknown key"),
-        (("--limit", "speed", "1"), "limits: 'speed'; one of "),
-        (("--best", "--limit", "speed", "1"), "limits: 'speed'; one of "),
+        (("--limit", "speed", "1"), "--limit: 'speed'; one of "),
+        (("--best", "--limit", "speed", "1"), "--limit: 'speed'; one of "),
         (("--fractile", "2"), "--fractile: '2'"),
         (("--scale", "0"), "scale: 0"),
         (("none.csv",), "record: 'none.csv' cannot be read"),

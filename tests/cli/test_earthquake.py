@@ -35,8 +35,8 @@ def test_words_figure_and_data(run, tmp_path, quake):
     counts = [int(direct[f"impact_count_{side}"]) for side in ("right", "left")]
     assert min(counts) > 1
     assert f"{counts[0]} right, {counts[1]} left" in told
-    assert "It hits the right stop" in told
-    assert "that without stops, where it would move by" in " ".join(told.split())
+    assert "The mass hits the right stop" in told
+    assert "that without stops, where it would move" in " ".join(told.split())
     path = tmp_path / f"out/{stem}.nc"
     held = vi.load(path, "response")
     for name in direct.data_vars:
@@ -79,7 +79,7 @@ def test_several_records_options_and_json(run, tmp_path, quake):
     assert [one["name"] for one in facts["records"]] == ["quake.csv", "weak.csv"]
     for one in facts["records"]:
         assert one["impact_count"] == 0.0
-        assert one["verdict"].startswith("It hits no stop: ")
+        assert one["verdict"].startswith("The mass hits no stop: ")
         assert one["status"] == "done"
         assert one["without_stops"]["peak_acceleration"] == one["peak_acceleration"]
     assert facts["oscillator"]["right"]["gap"] == 0.04
@@ -126,7 +126,7 @@ def test_a_study_with_its_record_and_one_without(run, tmp_path, quake):
     for name, words in (("alone", [quake]), ("shaken", [])):
         code, told[name], errors = run(f"{name}.toml", *words)
         assert (code, errors) == (0, "")
-        assert "with an impulse of" in " ".join(told[name].split())
+        assert "with a total impulse of" in " ".join(told[name].split())
         assert "infinite right" in told[name]
     assert told["alone"].splitlines()[1:12] == told["shaken"].splitlines()[1:12]
     code, _, errors = run("B2-G1-A3")

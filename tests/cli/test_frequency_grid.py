@@ -4,7 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from vibroimpact.cli.frequency_grid import default_range, default_span, frequencies, frequency_grid
+from vibroimpact.cli.frequency_grid import (
+    default_range,
+    default_span,
+    frequency_grid,
+    list_frequencies,
+)
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.parameters import option_range
 from vibroimpact.cli.rig import subject
@@ -42,13 +47,13 @@ def test_long_decimals_do_not_double_the_end():
 
 def test_options_come_before_the_study_and_it_before_the_default():
     table = SweepTable.model_validate({"from": "0.4 Hz", "step": "0.2 Hz"})
-    assert frequencies(None, "1Hz", None, None, table, DEFAULT) == (0.4, 0.6, 0.8, 1.0)
-    assert frequencies("0.6Hz", "1Hz", None, None, table, DEFAULT) == (0.6, 0.8, 1.0)
-    assert frequencies(None, None, None, None, None, DEFAULT) == frequency_grid(*DEFAULT)
+    assert list_frequencies(None, "1Hz", None, None, table, DEFAULT) == (0.4, 0.6, 0.8, 1.0)
+    assert list_frequencies("0.6Hz", "1Hz", None, None, table, DEFAULT) == (0.6, 0.8, 1.0)
+    assert list_frequencies(None, None, None, None, None, DEFAULT) == frequency_grid(*DEFAULT)
     listed = SweepTable(frequencies=["1 Hz", 2])
-    assert frequencies(None, None, None, None, listed, DEFAULT) == (1.0, 2.0)
-    assert frequencies("1Hz", "1.01Hz", None, None, listed, DEFAULT) == (1.0, 1.01)
-    assert frequencies(None, None, None, "3Hz, 4", listed, DEFAULT) == ("3Hz", "4")
+    assert list_frequencies(None, None, None, None, listed, DEFAULT) == (1.0, 2.0)
+    assert list_frequencies("1Hz", "1.01Hz", None, None, listed, DEFAULT) == (1.0, 1.01)
+    assert list_frequencies(None, None, None, "3Hz, 4", listed, DEFAULT) == ("3Hz", "4")
 
 
 @pytest.mark.parametrize(
@@ -65,7 +70,7 @@ def test_options_come_before_the_study_and_it_before_the_default():
 )
 def test_what_cannot_be_used(arguments, message):
     with pytest.raises(InputError, match=message):
-        frequencies(*arguments, None, DEFAULT)
+        list_frequencies(*arguments, None, DEFAULT)
 
 
 def test_the_default_range_follows_from_the_rig(tmp_path):
@@ -83,7 +88,7 @@ def test_the_default_range_follows_from_the_rig(tmp_path):
     assert building.oscillator.natural_frequency == pytest.approx(0.4, rel=1e-4)
     assert default_range(building) == (0.18, 1.8, 0.005)
     assert default_span(building) == (0.11, 1.8)
-    grid = frequencies(None, None, None, None, None, default_range(building))
+    grid = list_frequencies(None, None, None, None, None, default_range(building))
     assert (grid[0], grid[-1], len(grid)) == (0.18, 1.8, 325)
     assert default_span(subject("B2-G1-A3", RigOptions())) == (0.3, 5.0)
     path.write_text('case = "B2-G1-A1"')
@@ -105,19 +110,18 @@ def test_without_a_natural_frequency_nothing_is_refused_but_the_default(tmp_path
     path = tmp_path / "study.toml"
     path.write_text(NO_SPRING)
     what = subject(str(path), RigOptions())
-    assert frequencies("1Hz", "2Hz", "1Hz", None, None, default_range(what)) == (1.0, 2.0)
+    assert list_frequencies("1Hz", "2Hz", "1Hz", None, None, default_range(what)) == (1.0, 2.0)
     for missing, given in (
         ("--from", (None, "2Hz", "1Hz")),
         ("--to", ("1Hz", None, "1Hz")),
         ("--step", ("1Hz", "2Hz", None)),
     ):
         with pytest.raises(InputError, match=f"{missing}: missing; the isolator has no stiffness"):
-            frequencies(*given, None, None, default_range(what))
-    ends = ("--from", "--to")
-    assert option_range("frequency", "1Hz", "2Hz", ends, default_span(what)) == (1.0, 2.0)
-    assert option_range("gap", "1mm", "2mm", ends, default_span(what)) == (0.001, 0.002)
+            list_frequencies(*given, None, None, default_range(what))
+    assert option_range(what, "frequency", "1Hz", "2Hz") == (1.0, 2.0)
+    assert option_range(what, "gap", "1mm", "2mm") == (0.001, 0.002)
     with pytest.raises(InputError, match="--to: missing; the isolator has no stiffness"):
-        option_range("frequency", "1Hz", None, ends, default_span(what))
+        option_range(what, "frequency", "1Hz", None)
     path.write_text(NO_SPRING + '[sweep]\nfrom = "1 Hz"\nto = "3 Hz"\n')
     assert default_span(subject(str(path), RigOptions())) == (1.0, 3.0)
 

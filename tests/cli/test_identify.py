@@ -41,6 +41,12 @@ def test_one_command_makes_a_report_and_a_rig_that_sweep_takes(file, tmp_path, c
     assert main(["sweep", str(study), "--step", "0.5Hz", "-o", str(tmp_path), "--json"]) == 0
 
 
+def test_an_amplitude_replaces_that_of_the_file(file, tmp_path, capsys):
+    words = ["identify", str(file), "--rig", "B2-G2-A2", "--free", "gap", "--starts", "1"]
+    assert main([*words, "--amplitude", "0.05g", "-o", str(tmp_path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["amplitudes"]["test"].startswith("0.05 g")
+
+
 def test_names_of_files_and_columns_stay_text(file, tmp_path, capsys):
     """They may hold colours of terminals, line breaks and tags."""
     test = tmp_path / "a\x1b[31m\n# b <i>.csv"

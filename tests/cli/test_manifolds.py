@@ -49,7 +49,7 @@ def test_without_borders_there_is_no_saddle(run):
     ("words", "named"),
     [
         (("--saddle", "5mm"), "--saddle: '5mm'; a displacement and a velocity"),
-        (("--saddle", "2.6mm,-27mm/s"), "saddles[0]: its multipliers"),
+        (("--saddle", "2.6mm,-27mm/s"), "--saddle[0]: its multipliers"),
         (("--spacing", "0"), "--spacing: "),
         (("--period", "0"), "--period: 0"),
     ],

@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 
 from samples import sample
-from vibroimpact.cli.map import _axis
+from vibroimpact.cli.ranges import map_axis
 
 COMMAND = "map"
 STEP = ("--step", sample("0.02", "0.04"))
@@ -25,9 +25,9 @@ NAME = "published-stiffness-ratio-gap-ratio-map"
 def test_text_and_files(run, tmp_path):
     code, out, errors = run(*WORDS, "--refine", "1")
     assert (code, errors) == (0, "")
-    assert "4 × 3 nodes, made denser once: " in out
+    assert "4 × 3 nodes, refined once: " in out
     assert "of 35 computed" in out
-    assert "held: τ = 0.01, ξ = 0.15" in out
+    assert "constant: τ = 0.01, ξ = 0.15" in out
     assert "primary resonance with right hysteresis" in out
     assert {p.name for p in (tmp_path / "out").iterdir()} == {
         f"{NAME}.zarr",
@@ -73,7 +73,7 @@ def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
     words = ("--x", "amplitude", "2mm:4mm:2", "--y", "damping-ratio", "0.15:0.2:2", *STEP)
     code, out, _ = run("moved", *words, "--refine", "0", "--no-border")
     assert code == 0
-    assert "held: gap 7.5 mm, bumpers 510 kN/m, τ = 0.01" in out
+    assert "constant: gap 7.5 mm, bumpers 510 kN/m, τ = 0.01" in out
     name = "moved-amplitude-damping-ratio-map.zarr"
     data = xr.open_zarr(tmp_path / "out" / name, consolidated=False)
     np.testing.assert_allclose(data["amplitude"], [2e-3, 4e-3])
@@ -125,7 +125,7 @@ def test_another_map_in_the_same_place_is_refused(run):
     ],
 )
 def test_ranges(text, expected):
-    name, values, spacing = _axis("--x", "gap-ratio", text, "acceleration")
+    name, values, spacing = map_axis("--x", "gap-ratio", text, "acceleration")
     assert (name, spacing) == ("gap_ratio", "log" if "log" in text else "linear")
     np.testing.assert_allclose(values, expected, rtol=1e-12)
 
@@ -147,7 +147,7 @@ def test_ranges(text, expected):
         (["--x", "stiffness-ratio", "1:2:999999", "--refine", "4"], "nodes; at most"),
         (["--x", "stiffness-ratio", "1:2", "--step", "0"], "--step"),
         (["--x", "stiffness-ratio", "1:2", "--extent", "7"], "--extent: 7.0"),
-        (["B2-Ginf-A3"], "CASE: there is no bumper"),
+        (["B2-Ginf-A3"], "CASE|STUDY.toml: there is no bumper"),
     ],
 )
 def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):

@@ -55,7 +55,7 @@ def test_summary_and_files(run, tmp_path):
         "displacement    -4.3332 to 4.3332 mm",
         "impacts         1 right, 1 left per cycle",
         "impacts         0 right, 0 left per cycle",
-        "found from      backward branch",
+        "reached from    backward branch",
         "no contact",
         "Files",
         "  out/B2-G1-A3-2Hz-motion.nc",

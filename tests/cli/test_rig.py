@@ -189,7 +189,7 @@ def test_a_study_may_name_any_law(isolator, law, tmp_path):
 
 
 def test_a_law_is_told_with_all_its_numbers():
-    from vibroimpact.cli.summary import _law
+    from vibroimpact.facts.rig import _law
 
     assert _law(vi.FrictionIsolator(3e4, 0, 120)) == (
         "friction, stiffness 30 kN/m, damping 0 N s/m, friction 120 N"

@@ -78,11 +78,8 @@ def test_study(run, tmp_path):
 
 
 def test_a_motion_that_is_given_up_is_said_to_be(run, monkeypatch):
-    from vibroimpact.response import simulate as module
-
     # The limit of events cannot be reached by an ordinary rig: lower it.
-    limited = functools.partial(module.simulate, max_events=1)
-    monkeypatch.setattr(module, "simulate", limited)
+    monkeypatch.setattr(vi, "simulate", functools.partial(vi.simulate, max_events=1))
     code, _, errors = run("B2-G1-A3", "--frequency", "0.58Hz")
     assert "max_events" in errors
     assert "Traceback" not in errors

@@ -76,7 +76,7 @@ def test_smooth_rigs(run, code):
 def test_one_direction(run):
     code, told, _ = run("B2-G1-A3", *COARSE, "--direction", "backward")
     assert code == 0
-    assert "Hysteresis: not sought" in told
+    assert "Hysteresis: not computed" in told
     assert "forward" not in told
 
 

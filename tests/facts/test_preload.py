@@ -40,14 +40,14 @@ def _said(data):
 
 @pytest.mark.parametrize("sides", [("right", "left"), ("right",)])
 def test_an_earthquake_does_not_say_that_pressed_stops_are_not_hit(sides):
-    """It hits no stop: -12 mm of the -10 mm gap are left."""
+    """The mass hits no stop: -12 mm of the -10 mm gap remain."""
     rig = RIG if len(sides) == 2 else RIG.replace(left=None)
     record = vi.Record(0.1 * np.sin(np.arange(50.0)), 0.02)
     response = vi.seismic_response(vi.Rig(rig, record))
     told = sentence(response, rig, None)
-    assert told.startswith("It presses the right stop with ")
-    assert told.endswith("at most, from the start on; no impact follows.")
+    assert told.startswith("The mass presses the right stop with at most ")
+    assert told.endswith(" from the start; no impact follows.")
     assert ("left" in told) == (len(sides) == 2)
     near = rig.replace(right=PRESSED.replace(gap=1e-5), left=None)
     hits = vi.seismic_response(vi.Rig(near, record))
-    assert sentence(hits, near, None).startswith("It hits the right stop ")
+    assert sentence(hits, near, None).startswith("The mass hits the right stop ")

@@ -86,7 +86,15 @@ def test_frequencies_of_the_sweeps():
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"random": -1}, {"random": 1.5}, {"frequencies": []}, {"starts": [vi.State(0.01)]}]
+    "wrong",
+    [
+        {"random": -1},
+        {"random": 1.5},
+        {"samples": 0},
+        {"window": 0},
+        {"frequencies": []},
+        {"starts": [vi.State(0.01)]},
+    ],
 )
 def test_refused(wrong):
     case = vi.laboratory.case("B2-G1-A3")

@@ -83,9 +83,9 @@ def basin_stability(
         What is varied, such as "frequency" or "gap", and its values. A motion keeps its number as
         long as its states lead to one near it at the next value.
     states
-        How many are drawn; along a parameter the same ones at each value.
+        Number of random states, the same at each value of the parameter.
     seed
-        Of the states; the same one gives the same states.
+        Random seed. The same seed gives the same states.
     max_cycles, max_events, threads, where
         As in `basins`.
     progress

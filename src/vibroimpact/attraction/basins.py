@@ -73,8 +73,9 @@ def basins(
     nodes
         Along each axis, or along displacement and velocity.
     refine
-        How often the grid is made twice as dense beside borders. Between nodes that lead to one
-        motion nothing is followed then: stripes narrower than the first grid may be missed.
+        Number of times that the grid is made twice as dense near borders. No further states are
+        computed between nodes that lead to the same motion: stripes narrower than the first grid
+        may be missed.
     right_bumper, left_bumper
         Deformation that a bumper still has where the mass begins (m; on the left below 0), at least
         that which the mass presses. Others, and relaxed ones, have 0.

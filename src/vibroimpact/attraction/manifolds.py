@@ -72,11 +72,12 @@ def manifolds(
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     period
-        Of the saddles that are given as states, in forcing cycles.
+        Period of saddles that are given as states, in forcing cycles.
     spacing
-        Largest distance of two neighbours on a curve in the window, whose sides count 1 each.
+        Largest distance between neighbouring points of a curve, where each side of the window has
+        the length 1.
     longest
-        Length of a curve at which it is cut, in the same measure.
+        Length at which a curve is cut off, where each side of the window has the length 1.
     max_cycles, max_events, threads
         As in `basins`.
     progress

@@ -1,7 +1,7 @@
-"""The command line: one thin file a command.
+"""The command line: one short file for each command.
 
-A command's module imports what computes only when the command runs, so that
-``vibroimpact --help`` answers at once.
+A command is arguments and one call of the library. Its module imports what computes only when the
+command runs, so that ``vibroimpact --help`` responds at once.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ from vibroimpact.stderr import print_line
 _HELP = """
 Exact, fast dynamics of oscillators that hit deformable stops.
 
-A mass on an isolator between two bumpers, shaken by its base. A rig is named by a case code of
-the published laboratory tests (B2-G1-A3: bumper 2, gap 1, acceleration 3) or described in a
-study file; options replace single parameters of either.
+A mass on an isolator between two bumpers, shaken by its base. The rig is a case of the published
+laboratory tests, by its code (B2-G1-A3: bumper 2, gap 1, acceleration 3), or a study file. Options
+replace single parameters of either.
 
 For example:
 
@@ -61,8 +61,7 @@ For example:
 
 More about a command: vibroimpact COMMAND --help
 
-Exit codes: 0 done, 1 what was found cannot be written, 2 wrong input, 130 interrupted, 143
-terminated.
+Exit codes: 0 done, 1 results could not be written, 2 wrong input, 130 interrupted, 143 terminated.
 """
 
 _COMMANDS = (
@@ -86,7 +85,7 @@ _COMMANDS = (
     "paper",
     "cache",
 )
-"""Each is a module of this folder and, with the exception of `map`, a function in it."""
+"""Each is a module of this folder and a function in it; the function of `map` is scenario_map."""
 
 
 def main(arguments: Iterable[str] | None = None) -> int:
@@ -100,8 +99,8 @@ def main(arguments: Iterable[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit code: 0 done, 1 what was found cannot be written, 2 wrong input, 130 interrupted,
-        143 terminated.
+        Exit code: 0 done, 1 results could not be written, 2 wrong input, 130 interrupted, 143
+        terminated.
     """
     if arguments is not None:
         return _run(list(arguments))
@@ -109,18 +108,18 @@ def main(arguments: Iterable[str] | None = None) -> int:
     search_seldom()
     code = _run(sys.argv[1:])
     search_no_more()
-    # What remains is the end of the interpreter, which an interrupt would make a failure.
+    # Only the end of the interpreter remains, and an interrupt must not make it a failure.
     signal.signal(signal.SIGINT, lambda *_: os._exit(130))
     return code
 
 
 class _Terminated(KeyboardInterrupt):
-    """SIGTERM: it ends a command as Ctrl-C does, and nothing unfinished stays."""
+    """SIGTERM. It ends a command as Ctrl-C does, and nothing unfinished stays."""
 
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Let SIGTERM be raised within; signals come to the main thread only."""
+    """Turn SIGTERM into an exception; only the main thread receives signals."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -136,14 +135,14 @@ def _terminable() -> Iterator[None]:
 
 
 def _run(words: list[str]) -> int:
-    """Run a command; its exit code."""
+    """Run a command; return its exit code."""
     take_any_encoding()
     try:
         with _terminable(), warnings_in_lines(), font_warnings_once():
             result = _app(words)(words)
         flush()
     except (InputError, CycloptsError) as error:
-        return _told(in_words(error, words), 2)
+        return _failed(in_words(error, words), 2)
     except _Terminated:
         print_line("terminated")
         return 143
@@ -151,26 +150,27 @@ def _run(words: list[str]) -> int:
         print_line("interrupted")
         return 130
     except (BrokenPipeError, SystemExit):
-        # Whoever read the output has left, as `head` does; the files are written by then. rich,
-        # which prints help, makes an exit of it.
+        # The reader of the output has closed it, as `head` does; the files are written by then.
+        # rich, which prints help, turns this into an exit.
         give_up_stdout()
         return 0
     except OSError as error:
         give_up_stdout()
         why = error.strerror or str(error)
         if error.filename is None:  # a stream, which has no name
-            return _told(f"the output cannot be written ({why})", 1)
-        return _told(f"{error.filename!r} cannot be used ({why})", 1)
+            return _failed(f"the output cannot be written ({why})", 1)
+        return _failed(f"{error.filename!r} cannot be used ({why})", 1)
     return result if isinstance(result, int) else 0
 
 
-def _told(message: str, code: int) -> int:
+def _failed(message: str, code: int) -> int:
+    """Print an error; return the exit code."""
     print_line(f"error: {message}")
     return code
 
 
 def _app(words: Sequence[str] = ()) -> App:
-    """The commands; all are imported unless the first word names one of them."""
+    """Return the commands; all are imported unless the first word names one of them."""
     app = App(
         name="vibroimpact",
         help=_HELP,
@@ -190,6 +190,6 @@ def _app(words: Sequence[str] = ()) -> App:
         for command in _COMMANDS:
             app[command]  # imports it: help lists what each command does
     app.register_install_completion_command(
-        help="Teach the shell (bash, zsh, fish or PowerShell) to complete commands and options."
+        help="Install completion of commands and options in bash, zsh, fish or PowerShell."
     )
     return app

@@ -1,13 +1,14 @@
-"""Errors in the words of the command line: its options, and what the shell did to the words."""
+"""Errors that name options, and a hint where the shell has split a value with a unit."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from cyclopts import CycloptsError
 from cyclopts.exceptions import UnknownCommandError, UnusedCliTokensError
 
+from vibroimpact.cli.function_options import RENAMED
 from vibroimpact.errors import short_line
 
 _FIELD = re.compile(r"([a-z_.]+)(?=(\[\d+\])?: )")
@@ -16,31 +17,43 @@ _UNIT = re.compile(r"[A-Za-zµ°]+(\^?-?[²³]|\^-?\d|[23])?([*/·][A-Za-z]+(\^?
 
 
 def in_words(error: Exception, words: Sequence[str]) -> str:
-    """Say in one line what is wrong with the words of a command line."""
+    """Return one line that says what is wrong with the words of a command line."""
     if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
         count = len(error.unused_tokens)
-        said = " ".join(error.unused_tokens)
-        told = f"{said!r} {f'are {count} words' if count > 1 else 'is one word'} too many"
+        unused = " ".join(error.unused_tokens)
+        line = f"{unused!r} {f'are {count} words' if count > 1 else 'is one word'} too many"
     elif isinstance(error, UnknownCommandError) and error.app is not None:
         # cyclopts lists some of the commands only.
         first, _, _ = str(error).partition(" Available commands:")
         names = ", ".join(name for name in error.app if not name.startswith("-"))
-        told = f"{first} {names} are accepted"
+        line = f"{first} {names} are accepted"
     else:
-        told = str(error).rstrip(".")
+        line = str(error).rstrip(".")
     if isinstance(error, CycloptsError):
-        told += "; --help lists what is accepted"
-    return short_line(_as_option(told, words) + _quoting(words))
+        line += "; --help lists what is accepted"
+    return short_line(_as_option(line, words) + _quoting(words))
 
 
 def _as_option(message: str, words: Sequence[str]) -> str:
     """Name a field as the option that was written: max_cycles is --max-cycles."""
+    module = words[0].replace("-", "_") if words else ""
+    for argument in RENAMED.get(module, ()):
+        if re.match(rf"{re.escape(argument)}(\[[^\]]*\])?: ", message):
+            return _in_options(message, RENAMED[module])
     field = _FIELD.match(message)
     if field is None:
         return message
     written = {word.partition("=")[0] for word in words}
     option = next((option for option in _options(field[1]) if option in written), None)
     return option + message[field.end(1) :] if option else message
+
+
+def _in_options(message: str, renamed: Mapping[str, str]) -> str:
+    """Replace the argument at the start of a message by its option, and places in it elsewhere."""
+    for argument, option in renamed.items():
+        name = re.escape(argument)
+        message = re.sub(rf"^{name}(?=(\[[^\]]*\])?: )|\b{name}(?=\[\d+\])", option, message)
+    return message
 
 
 def _options(field: str) -> list[str]:
@@ -52,7 +65,7 @@ def _options(field: str) -> list[str]:
 
 
 def _quoting(words: Sequence[str]) -> str:
-    """A hint where the shell has cut a value with a unit into words."""
+    """Return a hint if the shell has split a value with a unit into words."""
     for i, option in enumerate(words[:-2]):
         if not (option.startswith("--") and _NUMBER.fullmatch(words[i + 1])):
             continue

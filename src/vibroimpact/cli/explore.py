@@ -1,50 +1,46 @@
-"""``vibroimpact explore``: a page on which knobs are turned and the resonance bends."""
+"""``vibroimpact explore``: an interactive page of a rig in a browser."""
 
 from __future__ import annotations
 
 from typing import Annotated
 
-from cyclopts import Group, Parameter
+from cyclopts import Parameter
 
+from vibroimpact.cli import options as opt
 from vibroimpact.cli.garbage import search_as_usual
-from vibroimpact.cli.options import RigName, RigOptions
-
-_SERVER = Group("Server", sort_key=1)
+from vibroimpact.cli.function_options import calls
 
 
+@calls(None, "Server")
 def explore(
-    rig: RigName = "B2-G1-A3",
+    rig: opt.RigName = "B2-G1-A3",
     /,
     *,
-    port: Annotated[
-        int, Parameter(group=_SERVER, help="Where the page is served; 0 takes a free port.")
-    ] = 0,
-    browser: Annotated[
-        bool,
-        Parameter(group=_SERVER, negative="--no-browser", help="Open a browser."),
-    ] = True,
-    host: Annotated[
-        str,
-        Parameter(
-            group=_SERVER,
-            help=(
-                "Address to listen on. Any other than this machine's own lets others in who know "
-                "the token that is printed."
-            ),
-        ),
-    ] = "127.0.0.1",
-    changes: RigOptions | None = None,
+    port: int = 0,
+    browser: Annotated[bool, Parameter(negative="--no-browser")] = True,
+    host: str = "127.0.0.1",
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
 ) -> int:
-    """Turn knobs in a browser, and see resonance curves, motion and scenario follow.
+    """Change parameters in a browser, and see resonance curves, motion and scenario change.
 
-    Serves a page for this machine only, prints its address, and opens it. Ctrl-C ends it. The
-    first time the engine is compiled, which takes a minute.
+    Serves a page for this machine only, prints its address, and opens it. Ctrl-C ends the server.
+    The engine is compiled on first use, which takes a minute.
 
     For example:
 
         vibroimpact explore
         vibroimpact explore B3-10mm-A3
         vibroimpact explore building.toml --no-browser --port 8000
+
+    Parameters
+    ----------
+    port
+        Port of the page; 0 for any free port.
+    browser
+        Open a browser. This is the default.
+    host
+        Address on which the server listens. With any other address than the default, other
+        machines can connect if they know the token that is printed.
     """
     from vibroimpact.explorer import require_websockets
 
@@ -59,29 +55,28 @@ def explore(
 
     if not 0 <= port <= 65535:
         raise InputError(f"--port: {port}; a whole number from 0 to 65535 is accepted")
-    what = subject(rig, changes or RigOptions())
-    span = None
-    if what.study and what.study.sweep.start and what.study.sweep.to:
-        span = (what.study.sweep.start, what.study.sweep.to)
-    elif what.published:
+    what = subject(rig, changes)
+    table = what.sweep_table
+    span = (table.start, table.to) if table.start and table.to else None
+    if span is None and what.published:
         span = (0.5, 5.0)  # of the tests
     first = begin(Rig(what.oscillator, what.repeated), what.name, span)
 
-    def told(where: str) -> None:
-        print(f"The explorer is at {where}\nCtrl-C ends it.", flush=True)
+    def announce(address: str) -> None:
+        print(f"The explorer is at {address}\nCtrl-C ends it.", flush=True)
         if host not in LOOPBACK:
             warn(
-                f"whoever reaches {host} and knows the token in this address can use this "
-                "machine to compute, and what is sent is not encrypted"
+                f"anyone who reaches {host} and knows the token in this address can use this "
+                "machine to compute, and the connection is not encrypted"
             )
         if browser:
             import webbrowser
 
-            webbrowser.open(where)
+            webbrowser.open(address)
 
     try:
         with search_as_usual():
-            serve(first, told, host, port)
+            serve(first, announce, host, port)
     except KeyboardInterrupt:
         print("The explorer has ended.")
     return 0

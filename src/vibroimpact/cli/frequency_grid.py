@@ -1,4 +1,4 @@
-"""Frequencies to hold, as exact decimals."""
+"""Frequencies of sweeps, as exact decimals, and their default ranges."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ _PUBLISHED = (0.5, 5.0, 0.01)
 """From, to and step in Hz: the range of the published tests, ten times as fine."""
 _PUBLISHED_SPAN = (0.3, 5.0)
 _LOW, _SPAN_LOW, _HIGH, _STEPS = 0.45, 0.27, 4.5, 110.0
-"""The same over the natural frequency of the published rig; steps in one natural frequency."""
+"""The same divided by the natural frequency of the published rig; steps per natural frequency."""
 
 MOST = 1_000_000
-"""More frequencies than anyone means."""
+"""Largest number of frequencies."""
 
 
 Range: TypeAlias = tuple[float, float, float] | tuple[None, None, None]
-"""From, to and step in Hz; None where a rig has no natural frequency that they follow from."""
+"""From, to and step in Hz; None if the rig has no natural frequency."""
 Span: TypeAlias = tuple[float | None, float | None]
-"""From and to in Hz, in the same way."""
+"""From and to in Hz; None if the rig has no natural frequency."""
 
 NO_DEFAULT = (
     "missing; the isolator has no stiffness, so that there is no natural frequency and no default; "
@@ -36,7 +36,7 @@ NO_DEFAULT = (
 
 
 def default_range(what: Subject, coarser: float = 1.0) -> Range:
-    """From, to and step in Hz of a sweep: those of the tests, or for another rig as wide a range.
+    """Return from, to and step (Hz) of a sweep: those of the tests, or as wide a range for a rig.
 
     It follows from the natural frequency, so that the resonance is in it whatever the rig. The
     step is made `coarser` by this factor.
@@ -52,7 +52,7 @@ def default_range(what: Subject, coarser: float = 1.0) -> Range:
 
 
 def default_span(what: Subject) -> Span:
-    """From and to in Hz of branches; lower than a sweep, for they cost little there.
+    """Return from and to (Hz) of branches; lower than a sweep, because they cost little there.
 
     An end that the study says for its sweep holds for its branches as well.
     """
@@ -89,7 +89,7 @@ def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
     """Return the frequencies from `start` to `stop`, both included.
 
     They are decimals, rounded once: 0.3 + 40 × 0.01 is 0.7, not 0.7000000000000001. If the
-    range is no multiple of the step, the last step is shorter.
+    range is not a multiple of the step, the last step is shorter.
 
     Raises
     ------
@@ -98,8 +98,7 @@ def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
     """
     if start > stop:
         raise InputError(
-            f"--from: {start:g} Hz is above --to, {stop:g} Hz; rising frequencies are accepted "
-            "(--direction backward runs through them downwards)"
+            f"--from: {start:g} Hz is above --to, {stop:g} Hz; a rising range is accepted"
         )
     first, last, width = (Decimal(repr(value)) for value in (start, stop, step))
     whole = int((last - first) / width)
@@ -115,7 +114,7 @@ def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
     return tuple(grid)
 
 
-def frequencies(
+def list_frequencies(
     start: str | None,
     stop: str | None,
     step: str | None,
@@ -123,7 +122,7 @@ def frequencies(
     table: SweepTable | None,
     default: Range,
 ) -> tuple[float, ...] | tuple[str, ...]:
-    """Return the frequencies that options and study ask for; options come first.
+    """Return the frequencies of the options or of the study; options come first.
 
     Parameters
     ----------
@@ -132,7 +131,7 @@ def frequencies(
     table
         The study's ``[sweep]``.
     default
-        From, to and step in Hz where neither says it; None where there is no default.
+        From, to and step in Hz if neither states them; None if there is no default.
 
     Returns
     -------
@@ -142,8 +141,8 @@ def frequencies(
     Raises
     ------
     InputError
-        If a text is no frequency greater than 0, both ways are used, or one is missing that has
-        no default.
+        If a text is not a frequency greater than 0, both ways are used, or an end without a
+        default is missing.
     """
     given = {"--from": start, "--to": stop, "--step": step}
     if listed is not None:
@@ -163,3 +162,23 @@ def frequencies(
             raise InputError(f"{option}: {NO_DEFAULT}")
         numbers.append(number)
     return frequency_grid(*numbers)
+
+
+def sine_span(
+    what: Subject, start: str | None, to: str | None
+) -> tuple[float | str, float | str] | None:
+    """Return the range of sines, of the options or of the study; None if neither states it.
+
+    Raises
+    ------
+    InputError
+        If only one end is stated.
+    """
+    table = what.sweep_table
+    low, high = table.start if start is None else start, table.to if to is None else to
+    if low is None and high is None:
+        return None
+    if low is None or high is None:
+        which = "--from" if low is None else "--to"
+        raise InputError(f"{which}: missing; the lowest and the highest frequency are accepted")
+    return low, high

@@ -1,4 +1,4 @@
-"""How often Python searches for garbage: seldom while a command starts, as usual while it computes.
+"""Garbage collection: rare while a command starts, as usual while it computes.
 
 What a command imports and draws stays until its end. Python searches all of it many times, and once
 more at the end, which took a quarter of the time of a short command.

@@ -1,4 +1,4 @@
-"""Where results go: a folder that can be written to, files that are whole, text on stdout."""
+"""The folder of results, and what is printed: progress, summaries and warnings."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ WIDTH = 100
 """Columns of a summary in a file."""
 
 _CUT = "…"
-"""What rich puts in the place of what it leaves out."""
+"""Sign that rich writes where it leaves out text."""
 
 
 class Folder(NamedTuple):
@@ -42,14 +42,14 @@ class Folder(NamedTuple):
 
 @contextmanager
 def output_folder(text: str) -> Iterator[Folder]:
-    """Make a folder and prove that it can be written to, before anything is computed.
+    """Make a folder and check that it can be written to, before anything is computed.
 
-    If what follows fails, folders made here are removed again unless they hold something.
+    If the computation fails, folders made here are removed again unless they hold something.
 
     Raises
     ------
     InputError
-        If it is no folder, or cannot be made or written to.
+        If it is not a folder, or cannot be made or written to.
     """
     folder = Path(text)
     made = []
@@ -118,14 +118,14 @@ def tell(
     files: dict[str, Path],
     as_json: bool,
 ) -> None:
-    """Print a summary for people, or the facts in it as JSON and nothing else.
+    """Print a summary, or its facts as JSON and nothing else.
 
-    Both end with the files that were written, and say which of them were there before.
+    Both end with the files that were written, and mark those that replaced an older file.
     """
     replaced = [path for path in files.values() if path in folder.before]
     if as_json:
-        told = {**facts, "files": files, "replaced": replaced}
-        print(json.dumps(_plain(told), indent=2, allow_nan=False))
+        everything = {**facts, "files": files, "replaced": replaced}
+        print(json.dumps(_plain(everything), indent=2, allow_nan=False))
         return
     from rich.console import Console
     from rich.text import Text
@@ -155,7 +155,7 @@ def _without_commands(console: Console, summary: RenderableType) -> RenderableTy
 
 
 def _wide_enough(summary: RenderableType, width: int) -> int:
-    """Columns in which no table loses a digit; a narrower terminal breaks the lines itself."""
+    """Return a width at which no table loses a digit; narrower terminals break the lines."""
     from rich.console import Console
 
     while width < WIDTH:
@@ -169,7 +169,7 @@ def _wide_enough(summary: RenderableType, width: int) -> int:
 
 
 def as_plain_text(summary: RenderableType) -> str:
-    """A summary as plain text of `WIDTH` columns."""
+    """Return a summary as plain text of `WIDTH` columns."""
     from vibroimpact.facts.tables import as_text
 
     return as_text(summary, WIDTH)
@@ -182,7 +182,7 @@ def warn(message: str) -> None:
 
 @contextmanager
 def warnings_in_lines() -> Iterator[None]:
-    """Print each warning as one line on stderr, and none twice."""
+    """Print each warning as one line on stderr, and the same warning only once."""
     printed: set[str] = set()
     with warnings.catch_warnings():
         usual = warnings.showwarning
@@ -197,7 +197,8 @@ def warnings_in_lines() -> Iterator[None]:
                 warn(str(message))
 
         warnings.showwarning = show
-        warnings.simplefilter("always", InputWarning)
+        for shown in (InputWarning, RuntimeWarning):
+            warnings.simplefilter("always", shown)
         yield
 
 
@@ -222,7 +223,7 @@ def font_warnings_once() -> Iterator[None]:
 
 
 def _plain(value: Any) -> Any:
-    """Return what JSON can hold: no NaN, no infinity; tuples with names become mappings."""
+    """Return a value for JSON, without NaN and infinity; named tuples become mappings."""
     if hasattr(value, "_asdict"):
         value = value._asdict()
     if isinstance(value, dict):

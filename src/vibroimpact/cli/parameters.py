@@ -1,17 +1,15 @@
-"""Which parameter is varied, and from where to where."""
+"""Options that name a parameter and its range."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 from cyclopts import Parameter
 
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
-    from vibroimpact.cli.frequency_grid import Span
-    from vibroimpact.model import Oscillator
-    from vibroimpact.model.excitation import Of
+    from vibroimpact.cli.rig import Subject
 
 PARAMETERS = (
     "frequency, amplitude, force, gap, right-gap, left-gap, bumper-stiffness, right-stiffness, "
@@ -24,73 +22,83 @@ PARAMETERS = (
     "final-stiffness, decay, hardening, hardening-force, isolator-period, stiffness-ratio, "
     "gap-ratio, relaxation-time, damping-ratio"
 )
-"""Those of the registry, written out: help loads nothing that computes."""
+"""Names of the registry, written out, because ``--help`` loads nothing that computes."""
 
-Varied = Annotated[str, Parameter(help=f"What is varied, if the rig has it: {PARAMETERS}.")]
-Least = Annotated[
+Varied: TypeAlias = Annotated[
+    str, Parameter(help=f"Parameter that is varied, if the rig has it: {PARAMETERS}.")
+]
+Least: TypeAlias = Annotated[
     str | None,
     Parameter(
         name="--from",
         allow_leading_hyphen=True,
-        help="Least value; of a frequency that of the sweep, as for branch.",
+        help=(
+            "Lowest value of the parameter. Default for the frequency: that of the study "
+            "([sweep]), or 0.27 × the natural frequency; 0.3 Hz for laboratory cases."
+        ),
     ),
 ]
-Largest = Annotated[
+Largest: TypeAlias = Annotated[
     str | None,
     Parameter(
         name="--to",
         allow_leading_hyphen=True,
-        help="Largest value; of a frequency that of the sweep.",
+        help=(
+            "Highest value of the parameter. Default for the frequency: that of the study "
+            "([sweep]), or 4.5 × the natural frequency; 5 Hz for laboratory cases."
+        ),
     ),
 ]
 
 
 def option_range(
+    what: Subject,
     name: str,
     low: str | None,
     high: str | None,
-    options: tuple[str, str],
-    default: Span,
+    options: tuple[str, str] = ("--from", "--to"),
     field: str = "--parameter",
-    rig: Oscillator | None = None,
-    of: Of = "acceleration",
 ) -> tuple[float, float]:
-    """A range of a parameter from two options; that of a frequency may have a default, in Hz.
+    """Read the range of a parameter (SI units) from two options; a frequency has defaults.
 
-    `field` is the option that names the parameter, whose unit may depend on the rig; `of` says
-    what an amplitude is one of.
+    Parameters
+    ----------
+    what
+        The rig, on whose laws and shaking the units may depend.
+    name
+        Name of the parameter.
+    low, high
+        Texts of the options.
+    options
+        Names of the options that hold the ends.
+    field
+        Name of the option that names the parameter.
 
     Raises
     ------
     InputError
-        If there is no such parameter, an end is missing or cannot be used, or none lies between.
+        If there is no such parameter, an end is missing or cannot be used, or the range is empty.
     """
-    from vibroimpact.cli.frequency_grid import NO_DEFAULT
+    from vibroimpact.cli.frequency_grid import NO_DEFAULT, default_span
     from vibroimpact.model import to_si
     from vibroimpact.model.parameters import parameter
 
-    varied = parameter(name, field, of)
-    if rig is not None:
-        varied = varied.of(rig)
-    given: list[str | float | None] = [low, high]
-    if name == "frequency":
-        given = [
-            text if text is not None else otherwise
-            for text, otherwise in zip(given, default, strict=True)
-        ]
+    varied = parameter(name, field, what.repeated.of).of(what.oscillator)
+    defaults = default_span(what) if name == "frequency" else (None, None)
+    missing = f"missing; the end of the range of {name} is accepted"
     ends = []
-    for text, option in zip(given, options, strict=True):
-        if text is None and name == "frequency":
-            raise InputError(f"{option}: {NO_DEFAULT}")
-        if text is None:
-            raise InputError(f"{option}: missing; the end of the range of {name} is accepted")
+    for option, text, default in zip(options, (low, high), defaults, strict=True):
+        end = default if text is None else text
+        if end is None:
+            raise InputError(f"{option}: {NO_DEFAULT if name == 'frequency' else missing}")
         if name == "frequency":
-            ends.append(to_si(text, varied.quantity, option, above=0.0))
+            ends.append(to_si(end, varied.quantity, option, above=0.0))
         else:
             least, most = varied.least, varied.most
-            ends.append(to_si(text, varied.quantity, option, minimum=least, maximum=most))
+            ends.append(to_si(end, varied.quantity, option, minimum=least, maximum=most))
     if not ends[0] < ends[1]:
         raise InputError(
-            f"{options[1]}: {given[1]} does not lie above {given[0]}; a larger value is accepted"
+            f"{options[1]}: {ends[1]:g} does not lie above {options[0]}, {ends[0]:g}; a larger "
+            "value is accepted"
         )
     return ends[0], ends[1]

@@ -1,15 +1,25 @@
-"""Ranges of a parameter, as the command line writes them."""
+"""Ranges of parameters with their values, as the command line writes them."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
-from vibroimpact.model.parameters import Parameter
+from vibroimpact.model.parameters import Parameter, parameter
+
+if TYPE_CHECKING:
+    from vibroimpact.cli.rig import Subject
+    from vibroimpact.model.excitation import Of
 
 MOST = 4_000_000
-"""More values than anyone means."""
+"""Largest number of values of a range."""
+_NODES = 21
+"""Nodes of an axis of a map."""
+_VALUES = 15
+"""Values of a parameter of a design chart."""
 
 
 def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[float], str]:
@@ -23,7 +33,7 @@ def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[
     Raises
     ------
     InputError
-        If it is no such range; the line begins with the option.
+        If it is not such a range; the error names the option.
     """
     parts = [part.strip() for part in text.split(":")]
     logarithmic = "log" in parts[2:3]
@@ -55,3 +65,37 @@ def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[
     else:
         values = [low + share * (high - low) for share in shares]
     return [low, *values[1:-1], high], "log" if logarithmic else "linear"
+
+
+def map_axis(option: str, name: str, text: str, of: Of) -> tuple[str, list[float], str]:
+    """Read an axis of a map: name, values in SI units, and "log" or "linear".
+
+    Raises
+    ------
+    InputError
+        If a map has no such axis, or it is not a range.
+    """
+    from vibroimpact.scenarios.axes import NAMES
+
+    key = name.strip().replace("-", "_")
+    if key not in NAMES:
+        known = ", ".join(name.replace("_", "-") for name in NAMES)
+        raise InputError(f"{option}: {name!r}; one of {known} is accepted")
+    return key, *spread(option, parameter(key, option, of), text, _NODES)
+
+
+def parameter_values(
+    what: Subject, option: str, texts: Mapping[str, str]
+) -> dict[str, list[float]]:
+    """Read the values of parameters of a rig, in SI units.
+
+    Raises
+    ------
+    InputError
+        If there is no such parameter, or it is not a range.
+    """
+    found = {}
+    for name, text in texts.items():
+        varied = parameter(name, option).of(what.oscillator)
+        found[varied.name], _ = spread(option, varied, text, _VALUES)
+    return found

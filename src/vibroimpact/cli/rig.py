@@ -1,4 +1,4 @@
-"""From a case code or a study file, and the options that replace values, to a rig."""
+"""The rig of a command: a case or a study file, with the values that options replace."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.rig_changes import changes, joined
-from vibroimpact.cli.study import Study, read_study
+from vibroimpact.cli.study import SimulateTable, Study, SweepTable, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
     GRAVITY,
@@ -37,26 +37,26 @@ _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": 
 
 
 _ANY_BUMPER = Bumper(1.0, 0.0, 0.0)
-"""What the fields of a new bumper are read by."""
+"""Reads the fields of a new bumper."""
 
 
 class Subject(NamedTuple):
-    """What a command works on."""
+    """The rig of a command, with its name and its study."""
 
     name: str
-    """With what the options change."""
+    """With the changes of the options."""
     slug: str
     """For file names."""
     oscillator: Oscillator
     shaking: Repeated | Record
-    """What shakes it; the frequency is left open."""
+    """The shaking; the frequency of a periodic one is open."""
     study: Study | None
     published: bool
-    """Whether it is a case of the laboratory, with its own natural frequency."""
+    """Whether it is a laboratory case with its own natural frequency."""
 
     @property
     def repeated(self) -> Repeated:
-        """What shakes it over and over, the phase that of the study.
+        """The periodic shaking, with the phase of the study.
 
         Raises
         ------
@@ -65,31 +65,46 @@ class Subject(NamedTuple):
         """
         if isinstance(self.shaking, Record):
             raise InputError(
-                "excitation.record: a record has no period, and what is asked for is a motion "
-                "that repeats itself; an amplitude is accepted, and vibroimpact simulate takes "
+                "excitation.record: a record has no period, and this command needs a periodic "
+                "shaking; an amplitude is accepted; vibroimpact simulate and earthquake accept "
                 "records"
             )
         return self.shaking
 
     @property
+    def phase(self) -> float:
+        """Phase of the forcing in the study (rad); 0 without a study."""
+        return self.study.excitation.phase if self.study else 0.0
+
+    @property
+    def sweep_table(self) -> SweepTable:
+        """The table ``[sweep]`` of the study; an empty one without a study."""
+        return self.study.sweep if self.study else SweepTable()
+
+    @property
+    def simulate_table(self) -> SimulateTable:
+        """The table ``[simulate]`` of the study; an empty one without a study."""
+        return self.study.simulate if self.study else SimulateTable()
+
+    @property
     def rig(self) -> Rig:
-        """What vibrates and what shakes it; the frequency of a periodic shaking is left open."""
+        """The rig; the frequency of a periodic shaking is open."""
         return Rig.of_open_frequency(self.oscillator, self.shaking, self.name)
 
     def at(self, hertz: float, phase: float | None = None) -> Repeated:
-        """What shakes it at a frequency (Hz)."""
+        """Return the periodic shaking at a frequency (Hz)."""
         changed = {} if phase is None else {"phase": phase}
         return self.repeated.replace(frequency=hertz, **changed)
 
     @property
     def title(self) -> str:
-        """The name, in lines that fit above a figure, broken between changes."""
+        """The name in lines that fit above a figure, broken between changes."""
         whole = self.name.replace(" ", "\N{NO-BREAK SPACE}").replace(",\N{NO-BREAK SPACE}", ", ")
         return literal(textwrap.fill(whole, 72).replace("\N{NO-BREAK SPACE}", " "))
 
 
 class _Named(NamedTuple):
-    """What a text names, before the options."""
+    """The rig that a text names, without the changes of the options."""
 
     title: str
     slug: str
@@ -97,7 +112,7 @@ class _Named(NamedTuple):
     shaking: Repeated | Record | None
     study: Study | None
     case: bool
-    """Whether it is a case of the laboratory."""
+    """Whether it is a laboratory case."""
 
 
 def subject(
@@ -154,9 +169,11 @@ def subject(
 
 
 def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated:
-    """What shakes it, with the amplitude of the option: several harmonics keep their shape."""
+    """Return the shaking with the amplitude of the option; several harmonics keep their shape."""
     if isinstance(shaking, Record):
-        raise InputError(f"--amplitude: {amplitude!r}, but a record shakes this rig; it has none")
+        raise InputError(
+            f"--amplitude: {amplitude!r}, but a record shakes this rig; --peak scales records"
+        )
     if isinstance(shaking, Periodic):
         size, _ = sized(amplitude, shaking.of, "--amplitude", positive=True)
         return shaking.replace(amplitude=size)
@@ -265,7 +282,7 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
 
 
 def _mass(oscillator: Oscillator, options: RigOptions) -> float:
-    """The mass (kg), by itself or by its weight."""
+    """Return the mass (kg), stated itself or by its weight."""
     _one_of_two("weight", "mass", options)
     if options.weight is not None:
         return to_si(options.weight, FORCE, "--weight", above=0.0) / GRAVITY
@@ -273,7 +290,7 @@ def _mass(oscillator: Oscillator, options: RigOptions) -> float:
 
 
 def _isolator(oscillator: Oscillator, options: RigOptions) -> AnyIsolator:
-    """The isolator; by its period it keeps the damping ratio that it has unless options say it."""
+    """Return the isolator; a new period keeps the damping ratio unless an option states it."""
     _one_of_two("isolator_period", "stiffness", options)
     _one_of_two("damping_ratio", "damping", options)
     isolator = oscillator.isolator
@@ -305,13 +322,13 @@ def _isolator(oscillator: Oscillator, options: RigOptions) -> AnyIsolator:
 
 
 def _one_of_two(one: str, other: str, options: RigOptions) -> None:
-    """Refuse what says the same in two ways."""
+    """Raise an error if two options state the same quantity."""
     if getattr(options, one) is not None and getattr(options, other) is not None:
         raise InputError(f"{_flag(one)}: given with {_flag(other)}; one of the two is accepted")
 
 
 def _has(stop: Stop | None, field: str) -> bool:
-    """Whether a stop has a field, or a new bumper would."""
+    """Whether a stop has a field; a new bumper if there is no stop."""
     return field in (Bumper if stop is None else type(stop)).model_fields
 
 
@@ -326,7 +343,7 @@ def _new_bumper(side: str, values: dict[str, float]) -> Bumper:
 
 
 def _value(part: Model, field: str, option: str, options: RigOptions) -> float:
-    """Read an option's text as a part of the rig reads the field; messages name the option."""
+    """Read the text of an option as the part of the rig reads the field; errors name the option."""
     accepts = part.accepts(field)
     assert accepts is not None
     try:

@@ -1,4 +1,4 @@
-"""What options change of a rig, for its name: two rigs never share a title or a file unsaid."""
+"""The changes of a rig by options, which become part of its title and of the names of files."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.units import pretty, to_si
 
 _LONGEST = 120
-"""Bytes of a file name, before what a command adds; disks take 255."""
+"""Bytes of a file name without the ending that a command adds; file systems allow 255."""
 
 
 _OTHERS = {"mass": MASS, "weight": FORCE}
-"""Options that no parameter of the registry is."""
+"""Options that are not parameters of the registry."""
 
 
 class Change(NamedTuple):
-    """One option that makes the rig another."""
+    """One option that changes the rig."""
 
     words: str
     """For titles, such as "left gap 9 mm"."""
@@ -35,7 +35,7 @@ class Change(NamedTuple):
 def changes(
     options: RigOptions, rig_of: Callable[[RigOptions], Any], rig: Oscillator | None = None
 ) -> tuple[Change, ...]:
-    """The options without which the rig would be another.
+    """Return the options without which the rig would be another.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
 
 
 def joined(first: str, found: tuple[Change, ...]) -> str:
-    """Return the beginning of the files' names of a changed rig."""
+    """Return the beginning of the file names of a changed rig."""
     name = "-".join((first, *(change.slug for change in found)))
     if len(name.encode()) <= _LONGEST:
         return name

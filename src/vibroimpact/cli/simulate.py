@@ -2,63 +2,41 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING
 
-from cyclopts import Group, Parameter
-
-from vibroimpact.cli.options import OutputOptions, RigName, RigOptions, Whole
+import vibroimpact as vi
+from vibroimpact import figures
+from vibroimpact.cli import options as opt
+from vibroimpact.cli.function_options import calls
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model import Record, Repeated, State
-
-_MOTION = Group("Motion", sort_key=1)
-_WITH_UNITS = Parameter(group=_MOTION, allow_leading_hyphen=True)
 
 
+_CYCLES = 100.0
+"""Forcing cycles where neither an option nor the study states them."""
+
+
+@calls("simulate", "Motion")
 def simulate(
-    rig: RigName,
+    rig: opt.RigName,
     /,
     *,
-    frequency: Annotated[
-        str | None, _WITH_UNITS, Parameter(help="Excitation frequency, such as 2.5Hz.")
-    ] = None,
-    cycles: Annotated[
-        float | None, Parameter(group=_MOTION, help="How many forcing cycles; 100.")
-    ] = None,
-    samples: Annotated[
-        Whole | None,
-        Parameter(
-            group=_MOTION,
-            help="Samples per cycle, 256; or per step of a record, 1. No value depends on it.",
-        ),
-    ] = None,
-    displacement: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(help="Displacement at the start, such as 5mm; the equilibrium."),
-    ] = None,
-    velocity: Annotated[
-        str | None, _WITH_UNITS, Parameter(help="Velocity at the start, such as 100mm/s; 0.")
-    ] = None,
-    tail: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(help="How long the motion is followed behind a record, such as 10s; 0."),
-    ] = None,
-    shown: Annotated[
-        float, Parameter(group=_MOTION, help="How many cycles, the last ones, are drawn.")
-    ] = 3.0,
-    changes: RigOptions | None = None,
-    output: OutputOptions | None = None,
+    frequency: opt.Frequency = None,
+    cycles: float | None = None,
+    samples: opt.Whole | None = None,
+    displacement: opt.Text = None,
+    velocity: opt.Text = None,
+    tail: opt.Text = None,
+    shown: float = 3.0,
+    changes: opt.RigOptions = opt.AS_DESCRIBED,
+    output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Follow one motion at a fixed frequency, or through a record, and draw its time history.
+    """Simulate one motion at a fixed frequency, or through a record, and draw its time history.
 
-    Prints the state at the end and the contacts per cycle; writes NAME-FREQUENCY-history.nc
-    (all samples, and every contact and detachment at its exact time) and
-    NAME-FREQUENCY-history.png.
+    Prints the last state and the contacts per cycle; writes NAME-FREQUENCY-history.nc (all
+    samples, and every contact and detachment at its exact time) and NAME-FREQUENCY-history.png.
 
     For example:
 
@@ -66,124 +44,71 @@ def simulate(
         vibroimpact simulate B3-10mm-A3 --frequency 1.06Hz --cycles 1000 --shown 10
         vibroimpact simulate B2-G1-A3 --frequency 2.5Hz --displacement 12mm
         vibroimpact simulate quake.toml --tail 10s
+
+    Parameters
+    ----------
+    cycles
+        Number of forcing cycles. Default: that of the study ([simulate]), or 100.
+    samples
+        Samples per forcing cycle, or per step of a record. They affect no other result. Default:
+        256 per cycle, 1 per step of a record.
+    displacement
+        Initial displacement, such as 5mm. Default: the static equilibrium.
+    velocity
+        Initial velocity, such as 100mm/s (default: 0).
+    shown
+        Number of cycles in the figure, the last ones.
     """
-    from vibroimpact.cli.output import output_folder, progress_bar, tell, warn
+    from vibroimpact.cli.output import progress_bar
+    from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
-    from vibroimpact.model.rig import Rig
+    from vibroimpact.cli.states import rig_at
+    from vibroimpact.facts import trajectory as facts
+    from vibroimpact.model import Record
+    from vibroimpact.model.count_checks import whole
+    from vibroimpact.model.quantities import DIMENSIONLESS
+    from vibroimpact.model.units import to_si
 
-    out = output or OutputOptions()
-    what = subject(rig, changes or RigOptions(), out.name)
-    given = _given(what, frequency, cycles, samples, tail, displacement, velocity)
-    if not shown > 0.0:
-        raise InputError(f"--shown: {shown:g}; a number of cycles greater than 0 is accepted")
-
-    with output_folder(out.output) as folder:
-        import warnings
-
-        from rich.console import Group as Together
-
-        from vibroimpact.cli import summary
-        from vibroimpact.datasets.files import save
-        from vibroimpact.figures import record_history, save_figure, time_history
-        from vibroimpact.model import Record
-        from vibroimpact.response.simulate import simulate as run
-
-        with warnings.catch_warnings(record=True) as caught, progress_bar("following") as progress:
-            warnings.simplefilter("always", RuntimeWarning)
-            data = run(
-                Rig(what.oscillator, given.excitation),
-                given.cycles,
-                given.start,
-                given.samples,
-                tail=given.tail,
+    what = subject(rig, changes, output.name)
+    table = what.simulate_table
+    start = _start(what, displacement, velocity)
+    samples = table.samples if samples is None else whole(samples, "samples")
+    last = to_si(shown, DIMENSIONLESS, "--shown", above=0.0)
+    of_record = isinstance(what.shaking, Record)
+    if of_record and frequency is not None:
+        raise InputError(f"--frequency: {frequency}, but a record shakes this rig; it has none")
+    shaken = what.rig if of_record else rig_at(what, frequency)
+    if cycles is None and not of_record:
+        cycles = table.cycles or _CYCLES
+    with results(what, output) as written:
+        with progress_bar("following") as progress:
+            data = vi.simulate(
+                shaken,
+                cycles,
+                start,
+                samples,
+                tail=table.tail if tail is None else tail,
                 progress=progress,
             )
-        data.attrs["title"] = what.name
-        for warning in caught:
-            warn(str(warning.message))
         if not data.sizes["time"]:
             raise InputError(f"no motion was found ({data.attrs['message']})")
-        if isinstance(given.excitation, Record):
-            axes = record_history(data, title=what.title)
-            stem = folder / f"{what.slug}-history"
+        if of_record:
+            written.write(data, "history", figures.record_history)
         else:
-            hertz = f"{given.excitation.frequency:.10g}Hz"
-            axes = time_history(data, cycles=shown, title=f"{what.title}, {hertz[:-2]} Hz")
-            stem = folder / f"{what.slug}-{hertz}-history"
-        files = {
-            "data": save(data, f"{stem}.nc"),
-            "figure": save_figure(axes[0], f"{stem}.{out.figure}"),
-        }
-    facts = {**summary.rig_facts(what), **summary.motion_facts(data)}
-    text = Together(summary.rig_text(what), summary.motion_text(facts))
-    tell(text, facts, folder, files, out.json)
-    return 0
+            hertz = f"{shaken.frequency:.10g}Hz"
+            title = f"{what.title}, {hertz[:-2]} Hz"
+            written.write(data, f"{hertz}-history", figures.time_history, title, cycles=last)
+    return written.tell(facts.facts(data), facts.text(data))
 
 
-class _Given(NamedTuple):
-    """What is to be simulated."""
+def _start(what: Subject, displacement: str | None, velocity: str | None) -> vi.State:
+    """Return the initial state of the options, of the study, or at rest at the equilibrium."""
+    from vibroimpact.model import State, equilibrium, to_si
+    from vibroimpact.model.quantities import LENGTH, VELOCITY
 
-    excitation: Repeated | Record
-    cycles: float | None
-    samples: int | None
-    tail: float | str | None
-    start: State
-
-
-def _given(
-    what: Subject,
-    frequency: str | None,
-    cycles: float | None,
-    samples: int | None,
-    tail: str | None,
-    displacement: str | None,
-    velocity: str | None,
-) -> _Given:
-    """Take each value from its option, else from the study, else by default.
-
-    Raises
-    ------
-    InputError
-        If there is no frequency, or a value cannot be used.
-    """
-    from vibroimpact.cli.study import SimulateTable
-    from vibroimpact.model import Record, State, equilibrium, to_si
-    from vibroimpact.model.count_checks import check_samples
-    from vibroimpact.model.quantities import FREQUENCY, LENGTH, TIME, VELOCITY
-
-    table = what.study.simulate if what.study else SimulateTable()
-    u, v = table.displacement, table.velocity
+    u, v = what.simulate_table.displacement, what.simulate_table.velocity
     if displacement is not None:
         u = to_si(displacement, LENGTH, "--displacement")
     elif u is None:
         u = equilibrium(what.oscillator).displacement
-    if velocity is not None:
-        v = to_si(velocity, VELOCITY, "--velocity")
-    start = State(u, v)
-    if samples is not None and samples < 1:
-        raise InputError(f"--samples: {samples}; a whole number of at least 1 is accepted")
-    if isinstance(what.shaking, Record):
-        for option, value in (("--frequency", frequency), ("--cycles", cycles)):
-            if value is not None:
-                raise InputError(
-                    f"{option}: {value}, but a record shakes this rig, which has none; --tail is "
-                    "accepted beside it"
-                )
-        behind = table.tail if tail is None else to_si(tail, TIME, "--tail", minimum=0.0)
-        return _Given(what.shaking, None, samples or table.samples, behind, start)
-    if tail is not None or table.tail is not None:
-        raise InputError("--tail: given, but no record shakes this rig; --cycles is accepted")
-    if frequency is not None:
-        hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
-    elif table.frequency is not None:
-        hertz = table.frequency
-    else:
-        raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2.5Hz")
-    if cycles is None:
-        cycles = table.cycles or 100.0
-    if not 0.0 < cycles < math.inf:
-        raise InputError(f"--cycles: {cycles:g}; a number greater than 0 is accepted, such as 100")
-    if samples is None:
-        samples = table.samples if table.samples is not None else 256
-    check_samples(cycles, samples, "--cycles")
-    return _Given(what.at(hertz), cycles, samples, None, start)
+    return State(u, v if velocity is None else to_si(velocity, VELOCITY, "--velocity"))

@@ -1,9 +1,9 @@
-"""Initial states on the command line: at which frequency and phase, and within which window."""
+"""Options of initial states: frequency, phase, and the window of displacement and velocity."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 from cyclopts import Group, Parameter
 
@@ -11,82 +11,69 @@ from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model import Repeated, State
+    from vibroimpact.model import State
+    from vibroimpact.model.rig import Rig
 
-_STATES = Group("States", sort_key=1)
-_WITH_UNITS = Parameter(group=_STATES, allow_leading_hyphen=True)
-
-Range = tuple[str, str] | None
+_OfStates: TypeAlias = Annotated[
+    str | None,
+    Parameter(group=Group("Initial states", sort_key=1), allow_leading_hyphen=True),
+]
+Range: TypeAlias = tuple[str, str] | None
 
 
 @Parameter(name="*")
 @dataclass(frozen=True)
 class StateOptions:
-    """Where motions begin."""
+    """Where motions start."""
 
-    frequency: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(help="Excitation frequency, such as 0.7Hz; that of the study's motion."),
-    ] = None
-    phase: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(
-            help="Phase of the forcing at which motions begin, such as 90deg; that of the study."
-        ),
-    ] = None
-    displacement: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(help="Range of displacements LOW:HIGH, such as -20mm:20mm; around the motions."),
-    ] = None
-    velocity: Annotated[
-        str | None,
-        _WITH_UNITS,
-        Parameter(help="Range of velocities, such as -0.1m/s:0.1m/s; around the motions."),
-    ] = None
+    frequency: _OfStates = None
+    """Forcing frequency, such as 0.7Hz. Default: that of the study ([simulate])."""
+    phase: _OfStates = None
+    """Forcing phase at which motions start, such as 90deg. Default: that of the study, or 0."""
+    displacement: _OfStates = None
+    """Range of displacements LOW:HIGH, such as -20mm:20mm. Default: around the steady motions."""
+    velocity: _OfStates = None
+    """Range of velocities LOW:HIGH, such as -0.1m/s:0.1m/s. Default: around the steady motions."""
 
     def window(self) -> tuple[Range, Range]:
-        """Ranges of displacement and velocity; None where none is given."""
+        """Return the ranges of displacement and velocity; None for one without an option."""
         return _range("--displacement", self.displacement), _range("--velocity", self.velocity)
 
-    def forcing(self, what: Subject, along: str = "") -> Repeated:
-        """The forcing of the rig where motions begin; along the frequency its own is of no matter.
-
-        Raises
-        ------
-        InputError
-            If none is given, or it cannot be used.
-        """
-        return forcing(what, along, self.frequency, self.phase)
+    def rig(self, what: Subject, along: str = "") -> Rig:
+        """Return the rig at the frequency and the phase of the options, as `rig_at`."""
+        return rig_at(what, self.frequency, self.phase, along)
 
 
-def forcing(what: Subject, along: str, frequency: str | None, phase: str | None) -> Repeated:
-    """The forcing of a rig at a frequency and a phase, by default the study's.
+ANY_STATES = StateOptions()
 
-    Where a parameter is varied, `along` is its name.
+
+def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along: str = "") -> Rig:
+    """Return a rig at a frequency and a phase; by default those of the study.
+
+    Where the frequency itself is varied (`along` is the name of the parameter), its value does
+    not matter.
 
     Raises
     ------
     InputError
-        If no frequency is given, or a value cannot be used.
+        If there is no frequency, or a value cannot be used.
     """
     from vibroimpact.model import to_si
     from vibroimpact.model.quantities import ANGLE, FREQUENCY
+    from vibroimpact.model.rig import Rig
 
-    studied = what.study.simulate.frequency if what.study else None
+    studied = what.simulate_table.frequency
     if frequency is not None:
         hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
     elif along == "frequency" or studied is not None:
         hertz = studied or 1.0
     else:
         raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
-    own = what.study.excitation.phase if what.study else 0.0
-    return what.at(hertz, own if phase is None else to_si(phase, ANGLE, "--phase"))
+    start = what.phase if phase is None else to_si(phase, ANGLE, "--phase")
+    return Rig(what.oscillator, what.at(hertz, start))
 
 
-def state(option: str, text: str) -> State:
+def state(option: str, text: str, phase: float | None = None) -> State:
     """Read ``DISPLACEMENT,VELOCITY``.
 
     Raises
@@ -106,11 +93,11 @@ def state(option: str, text: str) -> State:
         to_si(part.strip(), quantity, option)
         for part, quantity in zip(parts, (LENGTH, VELOCITY), strict=True)
     )
-    return State(u, v)
+    return State(u, v, phase=phase)
 
 
 def _range(option: str, text: str | None) -> Range:
-    """Read ``LOW:HIGH``; the ends are read by what is called."""
+    """Read ``LOW:HIGH``; the library function reads the ends."""
     if text is None:
         return None
     low, colon, high = (part.strip() for part in text.partition(":"))

@@ -1,4 +1,4 @@
-"""Study files: a rig and what is to be done with it, in TOML.
+"""Study files in TOML: a rig, and tables for the commands.
 
 A file names a case of the laboratory or describes an oscillator; the rest is optional::
 
@@ -32,13 +32,13 @@ from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, LENGTH, TIME,
 from vibroimpact.model.validation import Accepts
 
 _MOST = 2**63 - 1
-"""Of a whole number: the engine counts in 64 bits."""
+"""Largest whole number: the engine counts in 64 bits."""
 
 _Frequency = Annotated[float | None, Accepts(FREQUENCY, above=0.0, optional=True)]
 
 
 class _SweepTable(Model):
-    """``[sweep]``: which frequencies are held, and for how long."""
+    """``[sweep]``: the frequencies of a sweep, and when a motion counts as steady."""
 
     to: _Frequency = None
     step: _Frequency = None
@@ -85,7 +85,7 @@ class SimulateTable(Model):
 
 
 class DesignTable(Model):
-    """``[design]``: for what a rig is sized, and what may be chosen.
+    """``[design]``: the records, the parameters that are varied, and the limits.
 
     Records stand beside the study file; without them the excitation counts. A range is a text
     LOW:HIGH[:log][:VALUES].
@@ -100,7 +100,7 @@ class DesignTable(Model):
 
 
 class EnsembleTable(Model):
-    """``[ensemble]``: what of the rig is uncertain, and how many rigs are drawn.
+    """``[ensemble]``: the uncertain parameters, and the number of random rigs.
 
     A distribution is a text such as ``"normal:5%"`` or ``"uniform:5 mm:8 mm"``.
     """

@@ -1,4 +1,4 @@
-"""Where words go: terminals and pipes of any encoding, disks that are full."""
+"""Standard streams: any encoding, closed streams, full disks."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _PLAIN = {
     "é": "e",
     "á": "a",
 }
-"""What is written where an encoding lacks a sign."""
+"""Plain letters in place of signs that an encoding lacks."""
 
 
 def _plainly(error: UnicodeError) -> tuple[str, int]:
@@ -55,7 +55,7 @@ codecs.register_error("vibroimpact.plain", _plainly)
 
 
 def in_columns(line: str, encoding: str) -> str:
-    """Write in plain letters what an encoding lacks, without moving the columns of a table.
+    """Replace signs that an encoding lacks by plain letters, and keep the columns of a table.
 
     Plain letters need more room; it is taken from the next gaps, of which two blanks are kept.
     """
@@ -74,19 +74,19 @@ def in_columns(line: str, encoding: str) -> str:
 
 
 def _columns(text: str) -> int:
-    """How many columns text takes: a dot above a letter takes none."""
+    """Return the number of columns of a text; a dot above a letter needs none."""
     return sum(not unicodedata.combining(sign) for sign in text)
 
 
 def take_any_encoding() -> None:
-    """Let stdout and stderr write what their encoding lacks in plain letters."""
+    """Make stdout and stderr replace signs that their encoding lacks."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="vibroimpact.plain")
 
 
 def hold_closed_streams() -> None:
-    """Let nothing that is opened take the place of a standard stream that is closed.
+    """Keep the numbers of closed standard streams from files that are opened later.
 
     What a library writes to standard error would end in a file of results.
     """
@@ -99,12 +99,12 @@ def hold_closed_streams() -> None:
 
 
 def flush() -> None:
-    """Write out what is held back; where that fails, it fails here and not at the exit."""
+    """Flush stdout, so that an error is raised here and not at the exit."""
     if sys.stdout is not None:  # it may be closed
         sys.stdout.flush()
 
 
 def give_up_stdout() -> None:
-    """Throw away what is held back, for whoever should read it cannot."""
+    """Discard the rest of stdout, because nobody can read it."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

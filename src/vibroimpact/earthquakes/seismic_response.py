@@ -50,8 +50,8 @@ def seismic_response(
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     tail
-        How long the motion is followed behind the record, while the base stands still: seconds, or
-        text such as ``"10 s"``. None for two natural periods of its softest spring.
+        Duration of free vibration after the record, in seconds or as text such as ``"10s"``. None
+        for two natural periods of the softest spring.
     max_events
         Contacts and detachments in one step of the record at which the motion is given up.
     progress

@@ -1,4 +1,4 @@
-"""What ``vibroimpact bifurcation`` found, for people and for programs."""
+"""A bifurcation diagram: the ranges in which motions are of one kind, as values and as text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ``vibroimpact branch`` found, for people and for programs."""
+"""Branches of periodic orbits and their bifurcations, as plain values and as text."""
 
 from __future__ import annotations
 

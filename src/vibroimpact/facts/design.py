@@ -1,4 +1,4 @@
-"""What a design asks for and what it gives, for people and for programs."""
+"""The required gap, a design chart and the best design, as plain values and as text."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from vibroimpact.model.units import pretty
 _HEADS = {"stiffness_at_restitution": "bumper stiffness"}
 _SIDES = ("right", "left")
 _ROWS = 8
-"""Designs of the front that are told, at most."""
+"""Largest number of designs of the front that are printed."""
 
 
 def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[str, Any]:
-    """Every number, in SI units."""
+    """Return every number, in SI units."""
     names = ("required_gap", "required_gap_right", "required_gap_left")
     return {
         **{name: float(gap[name]) for name in names},
@@ -56,9 +56,9 @@ def text(
     *,
     chosen: bool = False,
 ) -> Iterator[RenderableType]:
-    """Sentences, and a table of what no other design beats.
+    """Return sentences, and a table of the designs that no other design dominates.
 
-    ``chosen`` says whether the gap of the rig was asked for, by an option.
+    ``chosen`` says whether an option states the gap of the rig.
     """
     share = fractile_of(gap)
     yield Text()
@@ -76,18 +76,19 @@ def text(
     if "gap" in dims and rig.stops and least is not None:
         yield Text(f"The designs vary the gap; only the search keeps {_gaps(rig)}.")
     elif "gap" in dims and rig.stops and chosen:
-        yield Text(f"The designs vary the gap; {_gaps(rig)} plays no part in them.")
+        yield Text(f"The designs vary the gap; {_gaps(rig)} does not affect them.")
     if share is not None:
         yield Text(
-            f"All values are {_percent(share)} fractiles over the records, each by itself, and so "
-            "is what limits are held against."
+            f"All values are {_percent(share)} fractiles over the records, for each quantity "
+            "separately; limits apply to these fractiles."
         )
     dampings = data["bumper_damping"].values if "bumper_damping" in data.data_vars else np.zeros(1)
     beside = ["bumper_damping"] if np.ptp(dampings) > 0.0 else []
     if not beside and dampings.any():
         yield Text(
-            f"All keep the bumpers' damping of {_value('bumper_damping', dampings.flat[0])}; "
-            "--vary stiffness-at-restitution keeps their restitution instead."
+            "All designs keep the bumpers' damping of "
+            f"{_value('bumper_damping', dampings.flat[0])}; --vary stiffness-at-restitution keeps "
+            "their restitution instead."
         )
     if rows:
         yield _table(rows, [*dims, *beside])
@@ -101,7 +102,7 @@ def text(
         of = "" if share is None else f", as {_percent(share)} fractiles"
         yield Text(f"Least acceleration for {_gaps(rig)}: {best}: {_demands(least)}{of}.")
         for note in _notes(least):
-            yield Text(f"Of this design: {note}.")
+            yield Text(f"Note on this design: {note}.")
 
 
 def _notes(least: xr.Dataset) -> list[str]:
@@ -143,11 +144,11 @@ def _needed_by_share(gap: xr.Dataset, records: list[str], share: float) -> str:
     whole = (
         f"{_length(every)} to hit nothing under all of them"
         if math.isfinite(every)
-        else "no gap is enough for all of them"
+        else "no gap is sufficient for all of them"
     )
     return (
         f"Required gap: {need}, the {_percent(share)} fractile over {', '.join(records)} (each "
-        f"side by itself: {sides}); {whole}."
+        f"side separately: {sides}); {whole}."
     )
 
 
@@ -161,7 +162,7 @@ def _limits_facts(data: xr.Dataset) -> dict[str, Any]:
 
 def _which(data: xr.Dataset, front: int) -> str:
     """How many designs keep the limits, and how many of them no other one beats."""
-    best = f"{front} {_be(front)} beaten by no other in both displacement and acceleration"
+    best = f"{front} {_be(front)} not dominated by another (displacement and acceleration)"
     told = _limits_facts(data)
     if not told:
         return best
@@ -187,7 +188,7 @@ def _enough(rig: Oscillator, gap: xr.Dataset) -> str:
     }
     lacking = {side: by for side, by in short.items() if by > 0.0}
     if not lacking:
-        return f"{_gaps(rig).capitalize()} is enough."
+        return f"{_gaps(rig).capitalize()} is sufficient."
     told = " and ".join(f"{_length(by)} short on the {side}" for side, by in lacking.items())
     return f"{_gaps(rig).capitalize()} is {told}."
 
@@ -207,7 +208,7 @@ def _enough_for_share(rig: Oscillator, gap: xr.Dataset, share: float) -> str:
         axis=0,
     )
     short = float(quantiles(beyond, [share], 0)[0])
-    told = "enough" if short <= 0.0 else f"{_length(short)} short"
+    told = "sufficient" if short <= 0.0 else f"{_length(short)} short"
     hits = int((beyond > 0.0).sum())
     return (
         f"{_gaps(rig).capitalize()} is {told} for the {_percent(share)} fractile; the mass hits a "

@@ -1,4 +1,4 @@
-"""What a record asked of a rig, for people and for programs."""
+"""The response of a rig to a record, as plain values and as text."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SIDES = ("right", "left")
 
 
 def together(names: list[str], responses: list[xr.Dataset]) -> xr.Dataset:
-    """Responses to several records as one dataset."""
+    """Return the responses to several records as one dataset."""
     attributes = {**responses[0].attrs}
     del attributes["message"]  # that of the first record only
     bare = [one.drop_attrs(deep=False) for one in responses]
@@ -40,7 +40,7 @@ def together(names: list[str], responses: list[xr.Dataset]) -> xr.Dataset:
 def facts(
     name: str, record: Record, response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None
 ) -> dict[str, Any]:
-    """Every number of a response, in SI units."""
+    """Return every number of a response, in SI units."""
     return {
         "name": name,
         "record": dict(record.rows()),
@@ -60,14 +60,14 @@ def facts(
 def text(
     name: str, record: Record, response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None
 ) -> RenderableType:
-    """A table of a response, and a sentence."""
+    """Return a response as a table and a sentence."""
     table = plain_table()
     shaken = f"{plain(record.peak, 5)} m/s² = {plain(record.peak / GRAVITY, 4)} g"
     when = f"at {plain(record.peak_time, 6)} s of {plain(record.duration, 6)} s"
     table.add_row("peak of the base", shaken, when)
     table.add_row("displacement", _both(response, "peak_displacement", LENGTHS), "")
     size = float(response["peak_acceleration"])
-    ratio = f"{plain(size / record.peak, 4)} times the base's" if record.peak else ""
+    ratio = f"{plain(size / record.peak, 4)} times that of the base" if record.peak else ""
     table.add_row("acceleration", f"{plain(size, 5)} m/s² = {plain(size / GRAVITY, 4)} g", ratio)
     if int(response["impact_count"]) or float(response["impulse"]):
         force = _both(response, "peak_force", FORCES)
@@ -93,55 +93,57 @@ def text(
 
 
 def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
-    """Words for a mass that does not come to rest, or may not."""
+    """Return a remark for a mass that does not come to rest, or may not."""
     if not is_still:
         return f"still swinging by ±{pretty(swing, LENGTH)}"
     if rig.isolator.damping == 0.0 and not settles(rig):
-        return "not settled: the isolator has no damping, and the mass may swing about it for ever"
+        return (
+            "not settled: the isolator has no damping, and the mass may swing about it indefinitely"
+        )
     return ""
 
 
 def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> str:
-    """Whether the mass hits its stops, and how hard."""
+    """Return a sentence that says whether the mass hits its stops, and how hard."""
     if not rig.stops:
-        return "There is no stop to hit."
+        return "The rig has no stops."
     counts = {side: int(response[f"impact_count_{side}"]) for side in _SIDES}
     hit = {side: n for side, n in counts.items() if n}
     if not hit:
-        return _pressed(response) or f"It hits no stop: {_left(response, rig)} are left."
+        return _pressed(response) or f"The mass hits no stop: {_left(response, rig)} remain."
     times = " and ".join(f"the {side} stop {_times(n)}" for side, n in hit.items())
     force = float(response["peak_force"])
     hard = (
-        f"with {pretty(float(f'{force:.4g}'), FORCE)} at most"
+        f"with at most {pretty(float(f'{force:.4g}'), FORCE)}"
         if math.isfinite(force)
-        else f"with an impulse of {_value(float(response['impulse']), IMPULSES)} in all"
+        else f"with a total impulse of {_value(float(response['impulse']), IMPULSES)}"
     )
-    said = f"It hits {times}, {hard}"
+    said = f"The mass hits {times}, {hard}"
     if free is None:
         return f"{said}."
     far = max((float(free[f"peak_displacement_{side}"]), side) for side in hit)
     ratio = float(response["peak_acceleration"]) / float(free["peak_acceleration"])
     return (
-        f"{said}; its acceleration is {plain(ratio, 3)} times that without stops, where it would "
-        f"move by {_value(far[0], LENGTHS)} to the {far[1]}."
+        f"{said}. Its acceleration is {plain(ratio, 3)} times that without stops, where it would "
+        f"move {_value(far[0], LENGTHS)} to the {far[1]}."
     )
 
 
 def _pressed(response: xr.Dataset) -> str:
-    """Of stops that it presses from the start, as under preload, and does not meet again."""
+    """Return a sentence about stops that are pressed from the start, as under preload; or none."""
     forces = {side: float(response[f"peak_force_{side}"]) for side in _SIDES}
     pressed = {side: force for side, force in forces.items() if force > 0.0}
     if not pressed:
         return ""
     told = " and ".join(
-        f"the {side} stop with {pretty(float(f'{force:.4g}'), FORCE)} at most"
+        f"the {side} stop with at most {pretty(float(f'{force:.4g}'), FORCE)}"
         for side, force in pressed.items()
     )
-    return f"It presses {told}, from the start on; no impact follows."
+    return f"The mass presses {told} from the start; no impact follows."
 
 
 def _left(response: xr.Dataset, rig: Oscillator) -> str:
-    """What is left of the gaps."""
+    """Return what remains of the gaps."""
     parts = []
     for side in _SIDES:
         stop = getattr(rig, side)
@@ -163,7 +165,7 @@ def _value(value: float, scales: tuple[Scale, ...]) -> str:
 
 
 def _both(response: xr.Dataset, name: str, scales: tuple[Scale, ...]) -> str:
-    """Of either side, in one unit."""
+    """Return the values of both sides in one unit."""
     values = [float(response[f"{name}_{side}"]) for side in _SIDES]
     unit = fitting(values, scales)
     parts = [

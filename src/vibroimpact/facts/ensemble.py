@@ -1,4 +1,4 @@
-"""What ``vibroimpact ensemble`` found, for people and for programs."""
+"""An ensemble of rigs: fractiles of the peaks and sensitivity indices, as values and as text."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _peaks(data: xr.Dataset) -> dict[str, Any]:
 
 
 def text(data: xr.Dataset, given: dict[str, str], indices: dict[str, xr.Dataset]) -> RenderableType:
-    """Return the same in words and tables."""
+    """Return the same as sentences and tables."""
     told = facts(data, given, indices)
     spread = ", ".join(f"{name.replace('_', ' ')} {text}" for name, text in given.items())
     parts: list[RenderableType] = [
@@ -76,7 +76,7 @@ def text(data: xr.Dataset, given: dict[str, str], indices: dict[str, xr.Dataset]
 
 def _fractiles(peaks: dict[str, list[float]]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    table.add_column("of all frequencies")
+    table.add_column("over all frequencies")
     for share in _SHARES:
         table.add_column(f"{100 * share:g} %", justify="right")
     table.add_column("")
@@ -94,7 +94,7 @@ def _fractiles(peaks: dict[str, list[float]]) -> Table:
 def _orders(words: str, orders: dict[str, dict[str, float]]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
     table.add_column(f"variance of the {words}")
-    for name in ("by itself", "with others"):
+    for name in ("alone", "with interactions"):
         table.add_column(name, justify="right")
     for name, one in sorted(orders.items(), key=lambda item: -item[1]["total_order"]):
         table.add_row(

@@ -1,4 +1,4 @@
-"""What motions are: kind, evidence, extremes, energies and contacts."""
+"""Motions: kind, evidence, extremes, energies and contacts, as plain values and as text."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ Found = dict[float, dict[str, xr.Dataset]]
 
 
 def facts(found: Found) -> list[dict[str, Any]]:
-    """Return what the motions are, in SI units."""
+    """Return kind, extremes and contacts of the motions, in SI units."""
     return [
         {"frequency": hertz, "name": name, **_facts(data)}
         for hertz, motions in found.items()
@@ -70,7 +70,7 @@ def facts(found: Found) -> list[dict[str, Any]]:
 
 
 def text(found: Found) -> RenderableType:
-    """Return the verdicts and the contacts as tables."""
+    """Return the same as tables."""
     parts: list[RenderableType] = []
     for hertz, motions in found.items():
         many = f"{len(motions)} motions coexist" if len(motions) > 1 else _only(motions)
@@ -80,8 +80,17 @@ def text(found: Found) -> RenderableType:
     return Group(*parts)
 
 
+def columns(found: Found, most: int) -> dict[str, dict[str, xr.Dataset]]:
+    """Return the columns of a page: motions of one frequency (so many at most), or frequencies."""
+    if len(found) > 1:
+        return {f"{hertz:.6g} Hz": motions for hertz, motions in found.items()}
+    ((hertz, motions),) = found.items()
+    named = list(motions.items())[:most]
+    return {f"{hertz:.6g} Hz, {name}": {name: data} for name, data in named}
+
+
 def _only(motions: dict[str, xr.Dataset]) -> str:
-    """Words for a single motion; unless all starts were tried, others may coexist with it."""
+    """Return the heading of a single motion; others may coexist unless all starts were tried."""
     ((name, data),) = motions.items()
     if name in _BRANCHES and "starts" not in data.attrs:
         return f"the motion of the {name}; others may coexist with it"
@@ -108,7 +117,7 @@ def _facts(data: xr.Dataset) -> dict[str, Any]:
 
 
 def words(data: xr.Dataset) -> str:
-    """Return in one line what kind of motion it is, and why it is called so."""
+    """Return the kind of a motion and the evidence for it in one line."""
     return f"{', '.join(_kind(data))}: {data.attrs['evidence']}"
 
 
@@ -153,16 +162,16 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         ),
     ]
     if data.attrs.get("starts"):
-        rows.append(("found from", data.attrs["starts"]))
+        rows.append(("reached from", data.attrs["starts"]))
     if data.attrs.get("mirrored_starts"):
-        rows.append(("mirror image", f"found from {data.attrs['mirrored_starts']}"))
+        rows.append(("mirror image", f"reached from {data.attrs['mirrored_starts']}"))
     for row in rows:
         table.add_row(*row)
     return [Text(f"{name}: {', '.join(_kind(data))}", style="bold"), table, *contact_tables(data)]
 
 
 def _pressed(data: xr.Dataset) -> str:
-    """Words for the stops that the mass never leaves."""
+    """Return a remark on stops that the mass never leaves."""
     contact = data["contact"].values
     sides = [
         name

@@ -1,4 +1,4 @@
-"""What a sweep shows: resonances, jumps, hysteresis, contact, and the largest of everything."""
+"""Features of a sweep: resonances, jumps, hysteresis, contact and the largest values."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def _jumps(found: Features) -> RenderableType:
 
 def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
     if data.sizes["direction"] < 2:
-        return Text("Hysteresis: not sought, needs both directions")
+        return Text("Hysteresis: not computed, needs both directions")
     if not found.hysteresis:
         return Text("Hysteresis: none")
     lines = []
@@ -113,7 +113,7 @@ def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
         above = "forward above backward" if item.side == "right" else "backward above forward"
         notes = [f"{item.side} ({above})"]
         if item.below is None or item.above is None:
-            notes.append("goes on beyond the range")
+            notes.append("continues beyond the range")
         if not item.settled:
             notes.append("not settled")
         lines.append(f"  {_span(item.low, item.high)} Hz: {', '.join(notes)}")

@@ -1,4 +1,4 @@
-"""Tables of rich, as everything that is told uses them; and what is told as plain text."""
+"""Tables in one style, and printed summaries as plain text."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from rich.table import Table
 from vibroimpact.errors import printable
 
 
-def as_text(told: RenderableType, width: int = 100) -> str:
-    """Return what is told as plain text of so many columns."""
+def as_text(summary: RenderableType, width: int = 100) -> str:
+    """Return a printed summary as plain text of so many columns."""
     console = Console(record=True, file=io.StringIO(), width=width, highlight=False)
-    console.print(told)
+    console.print(summary)
     lines = printable(console.export_text(styles=False)).splitlines()
     return "".join(f"{line.rstrip()}\n" for line in lines)
 

@@ -75,35 +75,40 @@ def identify(
         to None for the rig's own value. Of sensors there are ``displacement_scale``,
         ``acceleration_scale``, ``displacement_offset`` and ``acceleration_offset``.
     each
-        Names of those of which each test has its own; the others are shared.
+        Free parameters that are fitted separately for each test; the others are shared. Default:
+        none.
     ties
-        Parameters that follow others, such as ``{"left_gap": "right_gap"}``.
+        Parameters that are tied to others, such as ``{"left_gap": "right_gap"}``.
     priors
-        Mean and standard deviation of what is known beforehand, by name.
+        Mean and standard deviation of prior knowledge, by name.
     noise
-        Standard deviation of a measured value as a share of it; None to find it from the fit.
+        Standard deviation of a measured value, as a share of it, such as 0.02. None for an
+        estimate from the fit.
     robust
         Whether points that lie far off count less than their squares.
     confidence
         Of the intervals.
-    starts, tried
-        Local fits, and places over the ranges of what is free among which their starts are chosen.
+    starts
+        Number of local fits, each from another starting point.
+    tried
+        Number of points over the ranges of the free parameters among which the starting points
+        are chosen.
     profiles
         Whether intervals come from profiles of the likelihood, which may be asymmetric and end at
         a bound; otherwise they are those of the covariance.
     draws
-        Bootstrap samples over the points.
+        Number of bootstrap samples, drawn from the points.
     posterior
         Samples of the posterior, of curves, by emcee (``vibroimpact[posterior]``).
     window
-        Cycles of a time history that are followed at a stretch, each from an initial state that is
-        found with the parameters; 5 unless said. More where the motion is regular, fewer where it
-        is chaotic.
+        Forcing cycles of a time history in one segment; the initial state of each segment is
+        fitted with the parameters. None for 5. Use more for a regular motion, fewer for a chaotic
+        one.
     steady
-        Whether time histories are those of steady motions: they are then compared with the motion
-        on which the measured state settles, without initial states.
+        Treat time histories as those of steady motions: they are compared with the motion that is
+        reached from the measured state, without initial states.
     seed
-        Of the starts and the bootstrap.
+        Random seed of starting points and bootstrap samples.
     threads
         How many fits run at once; None for one a processor.
     progress

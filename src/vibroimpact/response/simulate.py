@@ -61,14 +61,14 @@ def simulate(
         Where the motion starts: a `State`, the dataset of an earlier call or its
         ``final_state`` (which carries the phase on); None is rest.
     samples
-        Samples per forcing cycle, 256 unless said; or per step of a record, 1 unless said. They
-        only look: no value depends on their number. With 0 only ``final_state`` is returned, and
-        memory does not grow with ``cycles``.
+        Samples per forcing cycle, or per step of a record. They affect no other result. None for
+        256 per forcing cycle, and 1 per step of a record. With 0 only ``final_state`` is
+        returned, and memory does not grow with ``cycles``.
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     tail
-        How long the motion is followed behind a record, while the base stands still: seconds, or
-        text such as ``"10 s"``; 0 unless said.
+        Duration of free vibration after a record, in seconds or as text such as ``"10s"``. None
+        for 0.
     max_events
         Contacts and detachments in one forcing cycle, or one step of a record, at which the
         motion is given up.

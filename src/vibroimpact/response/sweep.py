@@ -133,11 +133,11 @@ def sweeps(
     phase
         Phase φ of the base acceleration A sin(ωt + φ) at the stroboscopic section, in rad.
     tolerance
-        A motion is steady when its stroboscopic state is estimated to lie within this share
-        of its size from an orbit of at most 16 forcing cycles.
+        A motion counts as steady once its stroboscopic state is within this distance (relative)
+        of an orbit of at most 16 forcing cycles.
     max_cycles
-        Forcing cycles to wait for that; up to 50 times as many while the motion keeps closing
-        in on an orbit, as a lightly damped one does.
+        Largest number of forcing cycles before a motion is steady; up to 50 times as many while
+        the motion still approaches an orbit, as with light damping.
     window
         Forcing cycles over which a motion that did not settle is measured.
     max_events

@@ -163,8 +163,8 @@ def classify(
     data = sweep(rig, held, max_cycles=max_cycles, threads=threads, progress=progress)
     if data.sizes["frequency"] < LEAST:
         raise InputError(
-            f"frequencies: {data.sizes['frequency']} given; at least {LEAST} are accepted, for "
-            "curves are looked at"
+            f"frequencies: {data.sizes['frequency']} values; at least {LEAST} frequencies are "
+            "accepted, because a resonance curve needs them"
         )
     found = evidence(rig, data, 0.5 * used.prominence)
     total = data.sizes["frequency"] * data.sizes["direction"]

@@ -39,6 +39,10 @@ _MANY = 500
 Python's, which threads do in turn."""
 
 
+MOST_NODES = 4_000_000
+"""Nodes of the finest grid."""
+
+
 def scenario_map(
     rig: AnyRig | None,
     x: tuple[Any, ...],
@@ -73,8 +77,8 @@ def scenario_map(
     step
         Step of the sweeps, as a share of the natural frequency.
     refine
-        How often the nodes beside a border are made twice as dense. Between nodes of one
-        scenario nothing is computed: what is smaller than a square of the first grid may be
+        Number of times that the nodes near a border are made twice as dense. Nothing is computed
+        between nodes of the same scenario: regions smaller than a square of the first grid may be
         missed.
     thresholds
         See `Thresholds`.
@@ -128,6 +132,9 @@ def scenario_map(
         "block": (block := whole(block, "block")),
     }
     workers = map_workers(len(first.values) * len(second.values), threads, where)
+    nodes = (len(first.values) << refine) * (len(second.values) << refine)
+    if nodes > MOST_NODES:
+        raise InputError(f"refine: {refine} makes {nodes} nodes; at most {MOST_NODES} are accepted")
     fine = first.refined(refine), second.refined(refine)
     for end in (0, -1):  # refused before anything is computed
         start.rig({one.name: float(one.values[end]) for one in fine})

@@ -74,9 +74,10 @@ def bifurcation_diagram(
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     parameter
         What is varied, as of `branch`.
-    span, steps
-        Lowest and highest value of the parameter, in SI units or as text, and how many values in
-        all.
+    span
+        Lowest and highest value of the parameter, in SI units or as text.
+    steps
+        Number of values, both ends included.
     frequency
         Forcing frequency (Hz), where another parameter is varied. Default: that of the rig.
     directions
@@ -85,15 +86,14 @@ def bifurcation_diagram(
     starts
         States by name, from each of which every value begins.
     random
-        How many random starts, besides: the same ones at every value, with displacements and
-        velocities up to 1.5 times the largest displacement that was met from the others, or the
-        widest gap.
+        Number of additional random starts, the same at every value. Displacements and velocities
+        reach 1.5 times the largest displacement of the other motions, or the widest gap.
     seed
-        Of the random starts; the same one gives the same starts.
+        Random seed. The same seed gives the same starts.
     section
         ``"stroboscopic"``, once a forcing cycle; or ``"impacts"``, as each contact begins.
     log
-        Whether the values lie evenly on a logarithmic axis.
+        Space the values evenly on a logarithmic axis.
     points
         Forcing cycles whose section is kept of a motion that does not settle.
     exponent_cycles

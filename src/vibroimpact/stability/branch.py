@@ -11,6 +11,7 @@ from vibroimpact.model import Rig, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
+from vibroimpact.model.units import pretty
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
 from vibroimpact.stability.fixed_points import HELD, Orbit
@@ -124,9 +125,10 @@ def _first_orbit(
     fam = family(Rig(rig.oscillator, rig.harmonic), parameter)
     ends = read_span(fam.parameter, span)
     if not ends[0] <= fam.value <= ends[1]:
+        low, high, own = (pretty(value, fam.parameter.quantity) for value in (*ends, fam.value))
         raise InputError(
-            f"span: {ends[0]:g} to {ends[1]:g} leaves out the first orbit's {parameter}, "
-            f"{fam.value:g}; a range that holds it is accepted"
+            f"span: {low} to {high} leaves out the first orbit's {parameter}, {own}; a range that "
+            "holds it is accepted"
         )
     period = None if period is None else whole(period, "period", most=MOST_CYCLES)
     return fam, ends, first_orbit(fam, ends, start, period)

@@ -76,10 +76,10 @@ def coexisting_motions(
     starts
         Further starts by name.
     random
-        How many random starts: displacements and velocities up to 1.5 times the largest that
+        Number of random starts, with displacements and velocities up to 1.5 times the largest that
         the other starts lead to.
     seed
-        Of the random starts; the same one gives the same starts.
+        Random seed. The same seed gives the same starts.
     window, max_cycles, exponent_cycles, max_events
         As in `steady`.
     progress
@@ -156,6 +156,7 @@ def find_motions(
     """
     oscillator, excitation = rig.oscillator, rig.harmonic
     random = whole(random, "random", 0)
+    samples, window = whole(samples, "samples"), whole(window, "window")
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     kept: list[_Kept] = []
     given_up: dict[Status, tuple[State | NDArray[np.float64], list[str]]] = {}

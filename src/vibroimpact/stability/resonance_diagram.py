@@ -66,13 +66,17 @@ def resonance_diagram(
     phase
         Forcing phase of the sections, rad.
     longest
-        Longest period, in forcing cycles, of a branch that is followed.
+        Longest period of the orbits that are followed, in forcing cycles.
     most_branches, most_points
         Branches, and orbits in each direction of one, after which it is given up.
     starts
-        Values at which motions are held.
-    random, seed
-        Random starts at each of these, as of `bifurcation_diagram`.
+        Number of values of the parameter at which motions are started.
+    random
+        Number of random starts at each value of the parameter at which motions are started (40
+        values by default). They find isolated
+        branches of stable orbits.
+    seed
+        Random seed. The same seed gives the same starts.
     basins
         Datasets of `basins` at values of the parameter, whose motions are followed as well.
     progress

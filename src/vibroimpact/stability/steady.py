@@ -79,11 +79,11 @@ def steady(
     start
         Where the motion starts; None is rest.
     samples
-        Samples per forcing cycle, at least 1. They only look: no other value depends on them.
+        Samples per forcing cycle, at least 1. They affect no other result.
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     window
-        Forcing cycles that are recorded of a motion that does not settle.
+        Number of forcing cycles that are recorded of a motion that does not settle.
     tolerance, max_cycles, max_events
         As in `sweeps`.
     exponent_cycles

@@ -66,11 +66,12 @@ def ensemble(
     response
         Called with a list of some rigs at a time.
     draws
-        How many rigs are drawn; of Sobol's points a power of 2.
+        Number of random rigs; a power of 2 for the method sobol.
     method
-        ``"sobol"`` (scrambled), ``"latin"`` (hypercube) or ``"random"``.
+        Sampling method: ``"sobol"`` (scrambled Sobol sequence), ``"latin"`` (Latin hypercube) or
+        ``"random"``.
     seed
-        The same one gives the same rigs.
+        Random seed. The same seed gives the same rigs.
     block
         How many rigs the response is asked for at a time; None for 64 or as many as take two
         seconds, whichever is more.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,8 @@ _Array = NDArray[np.float64]
 
 CREATED_BY = "vibroimpact.sensitivity"
 CONFIDENCE = 0.95
+_RESAMPLES = 100
+"""Bootstrap samples of the intervals of `peak_sensitivity`."""
 
 
 def sensitivity(
@@ -128,3 +130,34 @@ def _orders(found: _Array) -> tuple[_Array, _Array]:
     first = (b * (mixed - a)).mean(axis=-1) / variance
     total = 0.5 * ((a - mixed) ** 2).mean(axis=-1) / variance
     return first, total
+
+
+def peak_sensitivity(
+    rig: AnyRig | Oscillator,
+    distributions: Mapping[str, Distribution | str],
+    response: Response,
+    quantities: Sequence[str],
+    *,
+    draws: int,
+    seed: int = 0,
+    progress: Progress | None = None,
+) -> dict[str, xr.Dataset]:
+    """Compute `sensitivity` of the peaks of resonance curves, for each quantity, with intervals."""
+
+    def peaks(rigs: list[Any]) -> xr.Dataset:
+        data = response(rigs)[list(quantities)]
+        return data.max(("direction", "frequency"), keep_attrs=True)
+
+    return {
+        name: sensitivity(
+            rig,
+            distributions,
+            peaks,
+            name,
+            draws,
+            seed=seed,
+            resamples=_RESAMPLES,
+            progress=progress,
+        )
+        for name in quantities
+    }

@@ -1,0 +1,194 @@
+"""Help and defaults of options, taken from the library function that a command calls.
+
+The function's source is read, not imported: ``--help`` loads nothing that computes.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+from collections.abc import Callable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
+
+import docstring_parser
+from cyclopts import Group, Parameter
+
+REQUIRED = inspect.Parameter.empty
+"""Default of an argument that has none, or none that is a literal."""
+
+RENAMED: dict[str, dict[str, str]] = {}
+"""By module of a command: options by the argument that they set, where the two names differ."""
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+_PACKAGE = Path(__file__).parents[1]
+_SHARED = {"changes", "output", "reading", "states", "thresholds"}
+"""Parameters of commands that stand for groups of options, which document themselves."""
+
+
+class Argument(NamedTuple):
+    """An argument of a library function."""
+
+    help: str
+    default: Any
+
+
+def calls(
+    function: str | None, group: str, sort_key: int = 1, **arguments: str
+) -> Callable[[_Command], _Command]:
+    """Take help and defaults of a command's options from the function that it calls.
+
+    An option with the name of an argument has the argument's description, unless the command's
+    docstring describes it, and the argument's default, unless the command has its own.
+
+    Parameters
+    ----------
+    function
+        Name of the public function, such as "branch". None for a command that calls none.
+    group
+        Heading of the options in the help.
+    sort_key
+        Position of this heading among the others.
+    arguments
+        Arguments by option, where their names differ.
+    """
+    heading = Group(group, sort_key=sort_key)
+
+    def decorate(command: _Command) -> _Command:
+        library = read_arguments(function) if function else {}
+        own = _descriptions(inspect.getdoc(command) or "")
+        hints = get_type_hints(command, include_extras=True)
+        options = inspect.signature(command).parameters
+        defaults = dict(command.__kwdefaults__ or {})
+        for name, option in options.items():
+            if name in _SHARED:
+                continue
+            key = arguments.get(name, name)
+            text = own.get(name) or _help_of(hints[name])
+            default = defaults.get(name)
+            if function and key in library:
+                text = text or describe(function, key)
+                if option.default is REQUIRED and library[key].default is not REQUIRED:
+                    default = defaults[name] = library[key].default
+                elif default is None:
+                    default = library[key].default
+            is_option = option.kind is inspect.Parameter.KEYWORD_ONLY
+            command.__annotations__[name] = _documented(
+                hints[name],
+                heading if is_option else None,
+                with_default(text, default) if is_option else text,
+            )
+        module = command.__module__.rpartition(".")[2]
+        RENAMED[module] = {arguments[name]: _flag(name, hints[name]) for name in arguments}
+        command.__kwdefaults__ = defaults
+        command.__doc__ = (command.__doc__ or "").partition("\n    Parameters\n")[0]
+        command.called_function = function  # type: ignore[attr-defined]
+        command.called_arguments = arguments  # type: ignore[attr-defined]
+        return command
+
+    return decorate
+
+
+@cache
+def read_arguments(function: str) -> Mapping[str, Argument]:
+    """Read the arguments of a public function from its source.
+
+    Raises
+    ------
+    KeyError
+        If there is no public function of this name.
+    """
+    stub = (_PACKAGE / "__init__.pyi").read_text(encoding="utf-8")
+    modules = {name: module for module, name in re.findall(r"from \.(\S+) import (\w+) as", stub)}
+    source = _PACKAGE.joinpath(*modules[function].split(".")).with_suffix(".py")
+    tree = ast.parse(source.read_text(encoding="utf-8"))
+    definition = next(
+        node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == function
+    )
+    described = _descriptions(ast.get_docstring(definition) or "")
+    signature = definition.args
+    plain = [*signature.posonlyargs, *signature.args]
+    expressions: dict[str, ast.expr | None] = {one.arg: None for one in plain}
+    expressions |= zip(
+        [one.arg for one in plain[len(plain) - len(signature.defaults) :]],
+        signature.defaults,
+        strict=True,
+    )
+    names = [one.arg for one in signature.kwonlyargs]
+    expressions |= zip(names, signature.kw_defaults, strict=True)
+    return {
+        name: Argument(described.get(name, ""), _literal(expression))
+        for name, expression in expressions.items()
+    }
+
+
+def describe(function: str, argument: str) -> str:
+    """Return the description of an argument; it may refer to another function, "As in `sweeps`."""
+    text = read_arguments(function)[argument].help
+    elsewhere = re.fullmatch(r"As (?:in|of) (\w+)\.", text)
+    return describe(elsewhere[1], argument) if elsewhere else text
+
+
+def with_default(text: str, default: Any) -> str:
+    """Add a default to the help of an option, unless it states one; flags and lists have none."""
+    if default is REQUIRED or default is None or default == () or isinstance(default, bool):
+        return text
+    if "efault:" in text:
+        return text
+    value = f"{default:g}" if isinstance(default, float) else str(default)
+    sentences = re.split(r"(?<=\.)\s+(?=[A-Z])", text)
+    if len(sentences) == 1:
+        return f"{text.removesuffix('.')} (default: {value})."
+    return f"{text} Default: {value}."
+
+
+def _descriptions(docstring: str) -> dict[str, str]:
+    """Descriptions of parameters in a NumPy docstring, as plain sentences."""
+    found = {}
+    for one in docstring_parser.parse(docstring, docstring_parser.DocstringStyle.NUMPYDOC).params:
+        for name in one.arg_name.split(","):
+            found[name.strip()] = _plain(one.description or "")
+    return found
+
+
+def _plain(text: str) -> str:
+    """Return a description in the words of the command line, which has no None and no markup."""
+    text = " ".join(text.split())
+    text = re.sub(r'``"([^"`]*)"``', r"\1", text)
+    text = text.replace("`", "")
+    return re.sub(r"(; |\b)None for ", lambda m: ". Default: " if m[1] else "Default: ", text)
+
+
+def _literal(expression: ast.expr | None) -> Any:
+    try:
+        return REQUIRED if expression is None else ast.literal_eval(expression)
+    except ValueError:  # a named constant
+        return REQUIRED
+
+
+def _settings(hint: Any) -> list[Parameter]:
+    """Return the settings of an annotation, those of the members of a union included."""
+    if get_origin(hint) is not Annotated:
+        return [one for member in get_args(hint) for one in _settings(member)]
+    return [one for one in hint.__metadata__ if isinstance(one, Parameter)]
+
+
+def _help_of(hint: Any) -> str:
+    """The help that an annotation gives."""
+    return next((one.help for one in reversed(_settings(hint)) if one.help), "")
+
+
+def _documented(hint: Any, group: Group | None, text: str) -> Any:
+    """An annotation with a group, unless it has one, and with this help."""
+    has_group = group is None or any(one.group for one in _settings(hint))
+    bare, *metadata = get_args(hint) if get_origin(hint) is Annotated else (hint,)
+    first = Parameter() if has_group else Parameter(group=group)
+    return Annotated[(bare, first, *metadata, Parameter(help=text, show_default=False))]
+
+
+def _flag(name: str, hint: Any) -> str:
+    """The option as it is written."""
+    names = [one.name for one in _settings(hint) if one.name]
+    return next(iter(names[-1])) if names else f"--{name.replace('_', '-')}"

@@ -1,0 +1,188 @@
+"""Records on the command line: reading their files, those of a study, and scaling."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
+
+from cyclopts import Group, Parameter
+
+from vibroimpact.errors import InputError
+
+if TYPE_CHECKING:
+    from vibroimpact.cli.rig import Subject
+    from vibroimpact.model import Record
+
+READING = Group("Reading of records (default of each option: what the files state)", sort_key=1)
+
+Scale: TypeAlias = Annotated[
+    str | None,
+    Parameter(
+        allow_leading_hyphen=True,
+        help="Factor by which records are multiplied. One for all records, or one for each, as "
+        "0.2,0.5. Default: 1.",
+    ),
+]
+Peak: TypeAlias = Annotated[
+    str | None,
+    Parameter(
+        allow_leading_hyphen=True,
+        help="Peak to which records are scaled, such as 0.3g. One for all records, or one for "
+        "each. Default: records are not scaled to a peak.",
+    ),
+]
+
+_Stated: TypeAlias = Annotated[str | None, Parameter(group=READING)]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class RecordOptions:
+    """Options that replace what files of records state."""
+
+    component: _Stated = None
+    """Component, if the file has several: its name in the file, such as 90, Up or HNE, or its
+    number. One for all records, or one for each, as 90,Up."""
+    unit: _Stated = None
+    """Unit of the values, such as g or cm/s^2. If it is a unit of length, such as mm, the values
+    are differentiated. One for all records, or one for each."""
+    step: Annotated[_Stated, Parameter(allow_leading_hyphen=True)] = None
+    """Time between samples, such as 10ms; replaces the times of the file. One for all records, or
+    one for each."""
+    decimal: Annotated[Literal[".", ","] | None, Parameter(group=READING)] = None
+    """Decimal mark of a table. Default: the one that the table shows."""
+
+    def arguments(self) -> dict[str, Any]:
+        """Return the options as arguments of `Record.read`, without the component."""
+        return {"unit": self.unit, "step": self.step, "decimal": self.decimal}
+
+    def read(self, files: Iterable[str]) -> dict[str, Record]:
+        """Read the files of records, by their names.
+
+        Raises
+        ------
+        InputError
+            If one cannot be read, or two have one name.
+        """
+        from vibroimpact.model import Record
+
+        found: dict[str, Record] = {}
+        names = list(files)
+        options = (("--component", self.component), ("--unit", self.unit), ("--step", self.step))
+        said = (one_or_each(option, text, len(names)) for option, text in options)
+        for file, *own in dict.fromkeys(zip(names, *said, strict=True)):
+            component, unit, step = own
+            name = record_name(file, component)
+            if name in found:
+                raise InputError(
+                    f"RECORD: {file!r} has the name of another one; files of different names are "
+                    "accepted"
+                )
+            found[name] = Record.read(file, component, unit=unit, step=step, decimal=self.decimal)
+        return found
+
+
+def one_or_each(option: str, text: str | None, count: int) -> list[str | None]:
+    """One text for all of so many records, or one for each, separated by commas.
+
+    Raises
+    ------
+    InputError
+        If there are more than one, and not as many as records.
+    """
+    parts: list[str | None] = [text]
+    if text is not None and count > 1:
+        parts = [part.strip() for part in text.split(",")]
+    if len(parts) not in (1, count):
+        raise InputError(
+            f"{option}: {text!r} are {len(parts)} for {count} records; one for all, or one for "
+            "each, is accepted"
+        )
+    return parts if len(parts) == count else parts * count
+
+
+def record_name(file: str, component: str | None) -> str:
+    """What a record is called: its file, and its component if that was chosen."""
+    return " ".join([Path(file).name.removesuffix(".gz"), *([component] if component else [])])
+
+
+AS_STATED = RecordOptions()
+"""Records as their files state them."""
+
+
+def records_of_design(rig: str, *, with_own_record: bool = True) -> list[str]:
+    """Return the files of records in the study's ``[design]``; they are in the study's folder.
+
+    Parameters
+    ----------
+    rig
+        The study file; a case has no records.
+    with_own_record
+        Whether they count for a study that is itself shaken by a record.
+    """
+    from vibroimpact.cli.study import read_study
+
+    path = Path(rig)
+    if path.suffix.lower() != ".toml" and not path.is_file():
+        path = path.with_name(f"{path.name}.toml") if path.name else path
+        if not path.is_file():
+            return []
+    study = read_study(path)
+    if study.excitation.record is not None and not with_own_record:
+        return []
+    return [str(path.parent / name) for name in study.design.records or []]
+
+
+def record_of_study(what: Subject) -> dict[str, Record]:
+    """Return the record that a study names.
+
+    Raises
+    ------
+    InputError
+        If it names none.
+    """
+    from vibroimpact.model import Record
+
+    if not isinstance(what.shaking, Record):
+        raise InputError(
+            "RECORD: missing; the file of a record is accepted, or a study that names one"
+        )
+    about = what.shaking.about
+    return {record_name(about.source, about.component): what.shaking}
+
+
+def scale_records(
+    records: dict[str, Record], scale: str | None, peak: str | None
+) -> dict[str, Record]:
+    """Multiply records by a factor, or scale them to a peak: one for all, or one for each."""
+    if scale is None and peak is None:
+        return records
+    sizes = one_or_each("--scale", scale, len(records))
+    peaks = one_or_each("--peak", peak, len(records))
+    return {
+        name: one.scaled(1.0 if size is None else size, peak=most)
+        for (name, one), size, most in zip(records.items(), sizes, peaks, strict=True)
+    }
+
+
+def records_or_sines(
+    what: Subject, found: dict[str, Record], scale: str | None, peak: str | None
+) -> dict[str, Record] | None:
+    """Return the scaled records of the options or of the study; None for sines.
+
+    Raises
+    ------
+    InputError
+        If records are to be scaled, and there is none.
+    """
+    from vibroimpact.model import Record
+
+    records = found or (record_of_study(what) if isinstance(what.shaking, Record) else {})
+    for option, value in (("--scale", scale), ("--peak", peak)):
+        if value is not None and not records:
+            raise InputError(
+                f"{option}: {value!r}, but no record is given; --amplitude is accepted"
+            )
+    return scale_records(records, scale, peak) or None

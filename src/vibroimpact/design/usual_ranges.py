@@ -1,0 +1,27 @@
+"""Which parameters a design chart varies, and over which values, if nothing else is wanted."""
+
+from __future__ import annotations
+
+from vibroimpact.errors import InputError
+from vibroimpact.model import Bumper, Oscillator
+
+
+def usual_ranges(oscillator: Oscillator, gap: float) -> dict[str, list[float]]:
+    """Return gaps up to 14/12 of the required gap (m), and stiffnesses of the bumpers.
+
+    The stiffnesses reach from a tenth to ten times that of the stiffer bumper.
+
+    Raises
+    ------
+    InputError
+        If the rig has no stops.
+    """
+    stops = oscillator.stops
+    if not stops:
+        raise InputError("vary: missing; it is needed for a rig without stops")
+    gaps = [gap * (i + 1) / 12.0 for i in range(14)]
+    bumpers = [stop for stop in stops if isinstance(stop, Bumper)]
+    if len(bumpers) < len(stops):
+        return {"gap": gaps}
+    middle = max(bumper.stiffness for bumper in bumpers)
+    return {"gap": gaps, "bumper_stiffness": [middle * 10.0 ** (i / 6.0) for i in range(-6, 7)]}

@@ -1,0 +1,74 @@
+"""The response of a rig to a record with its motion, and the spectra of the ground and the mass."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.earthquakes.floor_record import floor_record
+from vibroimpact.earthquakes.free_vibration import free_tail
+from vibroimpact.earthquakes.seismic_response import seismic_response
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model.quantities import TIME
+from vibroimpact.model.rig import Rig
+from vibroimpact.model.units import to_si
+from vibroimpact.response.response_spectrum import response_spectrum
+from vibroimpact.response.simulate import simulate
+from vibroimpact.tasks.threads import Progress
+
+_PERIODS = np.geomspace(0.02, 5.0, 200)
+"""Natural periods of the spectra (s)."""
+_DAMPING = 0.05
+
+
+def earthquake_response(
+    rig: Rig, *, tail: float | str | None = None, samples: int = 1, progress: Progress | None = None
+) -> dict[str, xr.Dataset]:
+    """Compute the response of a rig to its record, the motion, and two response spectra.
+
+    Parameters
+    ----------
+    rig
+        The rig, shaken by a record.
+    tail
+        Duration of free vibration after the record (s, or text). None for two natural periods.
+    samples
+        Samples of the motion in each step of the record.
+    progress
+        Called with the steps of the record done and their number.
+
+    Returns
+    -------
+    dict of xarray.Dataset
+        ``response``: that of `seismic_response`; ``motion``: that of `simulate`; ``ground`` and
+        ``floor``: spectra of the record and of the acceleration of the mass.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or the motion was given up.
+    """
+    after = free_tail(rig) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
+    motion = simulate(rig, samples=samples, tail=after, progress=progress)
+    if int(motion["status"]) != Status.DONE:
+        raise InputError(f"the motion was given up ({motion.attrs['message']})")
+    return {
+        "response": seismic_response(rig, tail=after, progress=progress),
+        "motion": motion,
+        "ground": response_spectrum(rig.record, _PERIODS, _DAMPING),
+        "floor": response_spectrum(floor_record(motion), _PERIODS, _DAMPING),
+    }
+
+
+def response_without_stops(
+    rig: Rig, *, tail: float | str | None = None, progress: Progress | None = None
+) -> xr.Dataset | None:
+    """Compute `seismic_response` without stops; None without any, or if nothing else holds."""
+    if not rig.oscillator.stops:
+        return None
+    free = Rig(rig.oscillator.without_bumpers(), rig.record)
+    try:
+        return seismic_response(free, tail=tail, progress=progress)
+    except InputError:
+        return None

@@ -1,0 +1,48 @@
+"""Curves of bifurcations in two parameters, as plain values and as text."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import xarray as xr
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+
+def facts(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> dict[str, Any]:
+    """Return the curves with their cusps and how each ended, in SI units."""
+    return {
+        "bifurcation": kind,
+        "parameters": list(names),
+        "curves": [
+            {
+                "points": data.sizes["point"],
+                "cusps": [list(cusp) for cusp in _cusps(data)],
+                "ended_low": data.attrs["ended_low"],
+                "ended_high": data.attrs["ended_high"],
+            }
+            for data in found.values()
+        ],
+    }
+
+
+def text(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> RenderableType:
+    """Return the same as lines."""
+    plural = "s" if len(found) > 1 else ""
+    lines = [Text(), Text(f"{len(found)} curve{plural} of {kind}", style="bold")]
+    for name, data in found.items():
+        lines.append(
+            Text(
+                f"  {name}: {data.sizes['point']} points; beginning: {data.attrs['ended_low']}; "
+                f"end: {data.attrs['ended_high']}"
+            )
+        )
+        lines += [
+            Text(f"    cusp at {names[0]} {p:.9g}, {names[1]} {q:.9g}") for p, q in _cusps(data)
+        ]
+    return Group(*lines)
+
+
+def _cusps(data: xr.Dataset) -> list[tuple[float, float]]:
+    pairs = zip(data["cusp_first"].values, data["cusp_second"].values, strict=True)
+    return [(float(p), float(q)) for p, q in pairs]

@@ -1,0 +1,49 @@
+"""Folders of compiled code as a table."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+_MOST = 12
+"""Folders that are listed, the most recent."""
+
+
+def text(facts: dict[str, Any], cleaned: bool) -> RenderableType:
+    """Return the folders with their sizes and ages, and what was removed."""
+    table = Table(box=None, pad_edge=False, padding=(0, 2), header_style="dim")
+    table.add_column("compiled code")
+    for heading in ("size", "parts", "compiled"):
+        table.add_column(heading, justify="right")
+    table.add_column("")
+    for one in facts["kept"][:_MOST]:
+        table.add_row(
+            one["folder"],
+            _bytes(one["size"]),
+            str(len(one["flows"])),
+            _ago(one["age"]),
+            "of this version" if one["own"] else "",
+        )
+    count = len(facts["kept"])
+    lines = [f"{facts['folder']}: {count} folders, {_bytes(facts['size'])}"]
+    if count > _MOST:
+        lines.insert(0, f"and {count - _MOST} older ones")
+    if cleaned:
+        lines.append(f"removed: {_bytes(facts['removed'])}")
+    lines += [f"kept, because another process uses it: {name}" for name in facts["in_use"]]
+    return Group(table, Text(), Text("\n".join(lines)))
+
+
+def _bytes(size: int) -> str:
+    return f"{size / 1e6:.1f} MB"
+
+
+def _ago(age: float) -> str:
+    for length, name in ((86400.0, "day"), (3600.0, "hour"), (60.0, "minute")):
+        if age >= length:
+            count = int(age / length)
+            return f"{count} {name}{'s' if count > 1 else ''} ago"
+    return "just now"

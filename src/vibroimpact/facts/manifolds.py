@@ -1,0 +1,79 @@
+"""Stable and unstable curves of saddles, as plain values and as text."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+import xarray as xr
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from vibroimpact.facts.number_format import LENGTHS, SPEEDS, fitting, plain
+
+
+def facts(data: xr.Dataset) -> dict[str, Any]:
+    """Return the saddles, the curves and the number of their crossings."""
+    return {
+        "saddles": [
+            {
+                name: data[f"saddle_{name}"].values[number].item()
+                for name in ("displacement", "velocity", "period")
+            }
+            | {
+                f"multiplier_{name}": data[f"multiplier_{name}"].values[number].item()
+                for name in ("growing", "dying")
+            }
+            for number in range(data.sizes["saddle"])
+        ],
+        "curves": [
+            {
+                name: data[f"curve_{name}"].values[number].item()
+                for name in ("kind", "saddle", "length", "ended")
+            }
+            for number in range(data.sizes["curve"])
+        ],
+        "crossings": data.sizes["crossing"],
+    }
+
+
+def text(data: xr.Dataset) -> RenderableType:
+    """Return the saddles as a table, and the curves as lines."""
+    found = facts(data)
+    saddles, curves = found["saddles"], found["curves"]
+    if not saddles:
+        return Text("\nno saddle was found: no border between basins leads to a saddle")
+    far = fitting((one["displacement"] for one in saddles), LENGTHS)
+    fast = fitting((one["velocity"] for one in saddles), SPEEDS)
+    table = Table(box=None, pad_edge=False, padding=(0, 2))
+    table.add_column("saddle")
+    for heading in (
+        f"displacement ({far.symbol})",
+        f"velocity ({fast.symbol})",
+        "period",
+        "multipliers",
+    ):
+        table.add_column(heading, justify="right")
+    for number, one in enumerate(saddles):
+        table.add_row(
+            str(number + 1),
+            plain(one["displacement"] / far.size, 4),
+            plain(one["velocity"] / fast.size, 4),
+            str(one["period"]),
+            f"{one['multiplier_growing']:.4g}, {one['multiplier_dying']:.4g}",
+        )
+    lines = []
+    for kind in ("stable", "unstable"):
+        mine = [one for one in curves if one["kind"] == kind]
+        ends = Counter(one["ended"] for one in mine)
+        length = sum(one["length"] for one in mine)
+        lines.append(f"{kind} curves, total length {length:.3g} window widths:")
+        lines += [f"  {count} of {len(mine)}: {why}" for why, count in ends.most_common()]
+    crossed = found["crossings"]
+    lines.append(
+        f"the curves cross {crossed} times: motions look chaotic before they settle"
+        if crossed
+        else "the curves do not cross"
+    )
+    return Group(Text(), table, Text(), Text("\n".join(lines)))

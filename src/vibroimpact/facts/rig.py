@@ -1,0 +1,139 @@
+"""A rig with every parameter that was used, as plain values and as text."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from vibroimpact._version import __version__
+from vibroimpact.datasets.description import excitation_parameters
+from vibroimpact.errors import InputError
+from vibroimpact.facts.number_format import plain
+from vibroimpact.facts.tables import plain_table
+from vibroimpact.model import (
+    Bumper,
+    Dimensionless,
+    Isolator,
+    Model,
+    Periodic,
+    Record,
+    Repeated,
+    Rig,
+    RigidStop,
+    Stop,
+    to_dimensionless,
+)
+from vibroimpact.model.quantities import (
+    ACCELERATION,
+    DAMPING,
+    FORCE,
+    LENGTH,
+    MASS,
+    STIFFNESS,
+)
+from vibroimpact.model.units import pretty
+
+
+def facts(rig: Rig) -> dict[str, Any]:
+    """Return the rig in SI units and, where they exist, in dimensionless parameters."""
+    scaled = _dimensionless(rig)
+    return {
+        "name": rig.name,
+        "vibroimpact_version": __version__,
+        "oscillator": rig.oscillator.model_dump(),
+        **_shaking_facts(rig.shaking),
+        "natural_frequency": rig.oscillator.angular_frequency / math.tau or None,
+        "dimensionless": None if scaled is None else scaled.model_dump(),
+    }
+
+
+def text(rig: Rig, shaking: bool = True) -> RenderableType:
+    """Return the rig with every parameter that was used, and with its shaking if that is wanted."""
+    oscillator = rig.oscillator
+    isolator = oscillator.isolator
+    scaled, sprung = _dimensionless(rig), isolator.initial_stiffness > 0.0
+    damped = sprung and isolator.damping_exponent == 1.0
+    table = plain_table()
+    table.add_row(
+        "mass",
+        pretty(oscillator.mass, MASS),
+        f"natural frequency {plain(oscillator.natural_frequency, 4)} Hz" if sprung else "",
+    )
+    table.add_row(
+        "isolator",
+        f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}"
+        if isinstance(isolator, Isolator) and isolator.linear
+        else _law(isolator),
+        f"ξ = {plain(oscillator.damping_ratio, 4)}" if damped else "",
+    )
+    for side in ("right", "left"):
+        bumper: Stop | None = getattr(oscillator, side)
+        if bumper is None:
+            table.add_row(f"{side} bumper", "none", "")
+            continue
+        group = getattr(scaled, side) if scaled else None
+        if isinstance(bumper, RigidStop):
+            table.add_row(
+                f"{side} stop",
+                f"rigid, e = {plain(bumper.restitution, 4)}, gap {pretty(bumper.gap, LENGTH)}",
+                f"λ = ∞, δ0 = {plain(group.gap, 4)}" if group else "",
+            )
+            continue
+        if not isinstance(bumper, Bumper):
+            table.add_row(f"{side} bumper", _law(bumper), "")
+            continue
+        table.add_row(
+            f"{side} bumper",
+            f"K = {pretty(bumper.stiffness, STIFFNESS)}, C = {pretty(bumper.damping, DAMPING)}, "
+            f"gap {pretty(bumper.gap, LENGTH)}",
+            f"λ = {plain(group.stiffness_ratio, 4)}, δ0 = {plain(group.gap, 4)}, "
+            f"τ = {plain(group.relaxation_time, 3)}"
+            if group
+            else "",
+        )
+    if oscillator.force:
+        table.add_row("constant force", pretty(oscillator.force, FORCE), "")
+    if shaking and rig.shaking is not None:
+        table.add_row(*_shaking_words(rig.shaking), "")
+    return Group(Text(rig.name or "", style="bold"), table)
+
+
+def _law(part: Model) -> str:
+    """A law with all its numbers, by the names that a study file gives them."""
+    rows = dict(part.rows())
+    kind = rows.pop("kind", "linear")
+    return ", ".join([kind, *(f"{name.replace('_', ' ')} {text}" for name, text in rows.items())])
+
+
+def _shaking_facts(shaken: Repeated | Record | None) -> dict[str, Any]:
+    if shaken is None:
+        return {}
+    if isinstance(shaken, Record):
+        return {"record": dict(shaken.rows())}
+    return excitation_parameters(shaken, "frequency", "phase")
+
+
+def _shaking_words(shaken: Repeated | Record) -> tuple[str, str]:
+    """What shakes it, and how much."""
+    if isinstance(shaken, Record):
+        return "base", ", ".join(f"{name} {text}" for name, text in shaken.rows())
+    if isinstance(shaken, Periodic):
+        sizes = ", ".join(pretty(size, shaken.quantity) for size in shaken.amplitudes)
+        return _SHAKEN[shaken.of], f"harmonics of {sizes}"
+    size = shaken.amplitude
+    if shaken.of == "acceleration":
+        return "base", f"A = {plain(size, 7)} m/s² = {pretty(size, ACCELERATION)}"
+    return _SHAKEN[shaken.of], pretty(size, shaken.quantity)
+
+
+_SHAKEN = {"acceleration": "base", "displacement": "base", "force": "force on the mass"}
+
+
+def _dimensionless(rig: Rig) -> Dimensionless | None:
+    try:
+        return to_dimensionless(rig)
+    except InputError:  # nothing to scale a gap by, or another kind of shaking
+        return None

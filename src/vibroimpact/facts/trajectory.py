@@ -1,0 +1,97 @@
+"""A simulated motion: where it ended, and how often it touched the stops."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import xarray as xr
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from vibroimpact.engine.status import Status
+from vibroimpact.facts.number_format import plain
+from vibroimpact.facts.tables import plain_table
+from vibroimpact.model.quantities import LENGTH, VELOCITY
+from vibroimpact.model.units import pretty
+
+_LAST_CYCLES = 10.0
+"""Cycles at the end over which contacts are counted."""
+
+
+def facts(data: xr.Dataset) -> dict[str, Any]:
+    """Return the last state, and contacts per cycle over the last cycles, in SI units."""
+    if "cycle" not in data:
+        return _record_facts(data)
+    last = float(data["cycle"].values[-1])
+    lately = min(_LAST_CYCLES, last)
+    frequency = json.loads(data.attrs["parameters"])["frequency"]
+    when = data["event_cycle"] + data["event_cycle_time"] * frequency
+    begins = (data["event_contact"] >= 1) & (when > last - lately)
+    return {
+        "frequency": frequency,
+        "cycles": last,
+        "time": float(data["time"].values[-1]),
+        "final_state": _final(data),
+        "contacts": {
+            "over_cycles": lately,
+            "right_per_cycle": int((begins & (data["event_side"] == 1)).sum()) / lately,
+            "left_per_cycle": int((begins & (data["event_side"] == -1)).sum()) / lately,
+        },
+        "status": Status(data["status"].item()).name.lower(),
+        "message": data.attrs["message"],
+    }
+
+
+def _final(data: xr.Dataset) -> dict[str, float]:
+    """The state at the end, by component."""
+    values = zip(data["component"].values, data["final_state"].values.tolist(), strict=True)
+    return {str(component): value + 0.0 for component, value in values}  # no negative zeros
+
+
+def _record_facts(data: xr.Dataset) -> dict[str, Any]:
+    """The same of a motion through a record, which has no cycles."""
+    begins = data["event_contact"] >= 1
+    return {
+        "time": float(data["time"].values[-1]),
+        "final_state": _final(data),
+        "contacts": {
+            side: int((begins & (data["event_side"] == sign)).sum())
+            for side, sign in (("right", 1), ("left", -1))
+        },
+        "status": Status(data["status"].item()).name.lower(),
+        "message": data.attrs["message"],
+    }
+
+
+def text(data: xr.Dataset) -> RenderableType:
+    """Return the same as lines."""
+    found = facts(data)
+    state, contacts = found["final_state"], found["contacts"]
+    touching = {1: "right stop", -1: "left stop", 0: "none", 2: "both stops"}[int(state["contact"])]
+    table = plain_table()
+    rows = [
+        ("displacement", pretty(state["displacement"], LENGTH)),
+        ("velocity", pretty(state["velocity"], VELOCITY)),
+        ("right bumper", f"deformed by {pretty(state['right_bumper'], LENGTH)}"),
+        ("left bumper", f"deformed by {pretty(state['left_bumper'], LENGTH)}"),
+        ("contact", touching),
+    ]
+    if "cycles" in found:
+        rows.insert(-1, ("phase", f"{plain(state['phase'], 6)} rad"))
+    for row in rows:
+        table.add_row(*row, "")
+    if "cycles" not in found:
+        return Group(
+            Text(f"State after {plain(found['time'], 6)} s"),
+            table,
+            Text(f"Contacts: {contacts['right']} right, {contacts['left']} left"),
+        )
+    return Group(
+        Text(f"State after {plain(found['cycles'])} cycles ({plain(found['time'], 6)} s)"),
+        table,
+        Text(
+            f"Contacts per cycle, over the last {plain(contacts['over_cycles'])}: "
+            f"{plain(contacts['right_per_cycle'])} right, {plain(contacts['left_per_cycle'])} left"
+        ),
+    )

@@ -1,0 +1,82 @@
+"""The summary of a fit: parameters, findings and the next test, as plain values and as text."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import xarray as xr
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from vibroimpact.identification.model_selection import OWN_MODEL, ModelFits
+from vibroimpact.identification.next_test import next_test
+from vibroimpact.reports.identification import amplitude_of, parameter_rows
+
+
+def fit_summary(fits: ModelFits, tests: list[xr.Dataset]) -> tuple[RenderableType, dict[str, Any]]:
+    """Return what is printed of fits, and the same as plain values."""
+    found, comparison = fits.own, fits.comparison
+    notes = [line for test in tests for line in _notes(test, many=len(tests) > 1)]
+    names = [str(test) for test in found["test"].values]
+    amplitudes = {name: amplitude_of(found, name) for name in names}
+    findings = found.attrs["findings"].splitlines()
+    advice = next_test(found).attrs["findings"].splitlines()
+    compared = [] if comparison is None else comparison.attrs["findings"].splitlines()
+    lines = [*findings, *compared, *advice]
+    parts: list[Any] = [Text(f"amplitude of {name}: {size}") for name, size in amplitudes.items()]
+    parts += [Text(), _table(found), Text(), *(Text(f"- {line}") for line in lines)]
+    if fits.best_name != OWN_MODEL:
+        name, fit = fits.best_name, fits.best
+        parts += [Text(), Text(f"The model that fits best, {name}:"), _table(fit), Text()]
+        parts += [Text(f"- {line}") for line in fit.attrs["findings"].splitlines()]
+    if notes:
+        parts += [Text(), Text("Reading"), *(Text(f"- {line}") for line in notes)]
+    facts = {
+        "parameters": _values(found),
+        "amplitudes": amplitudes,
+        "findings": findings,
+        "comparison": compared,
+        "next": advice,
+        "reading": notes,
+    }
+    if fits.best_name != OWN_MODEL:
+        name, fit = fits.best_name, fits.best
+        facts["best_model"] = {
+            "model": name,
+            "parameters": _values(fit),
+            "findings": fit.attrs["findings"].splitlines(),
+        }
+    return Group(*parts), facts
+
+
+def _table(found: xr.Dataset) -> Table:
+    """Return the parameters of a fit, one in each row."""
+    table = Table(box=None, pad_edge=False, padding=(0, 2))
+    share = f"{100.0 * float(found.attrs['confidence']):g} % interval"
+    for head in ("parameter", "value", "standard error", share):
+        table.add_column(head)
+    for row in parameter_rows(found):
+        table.add_row(*row[:4])
+    return table
+
+
+def _values(found: xr.Dataset) -> dict[str, Any]:
+    return {
+        str(key): {
+            "value": float(found["fitted_value"].sel(parameter=key)),
+            "standard_error": float(found["standard_error"].sel(parameter=key)),
+            "interval": found["interval"].sel(parameter=key).values.tolist(),
+        }
+        for key in found["parameter"].values
+    }
+
+
+def _notes(test: xr.Dataset, *, many: bool) -> list[str]:
+    """Return the notes on reading a test; with the name of the file if there are several."""
+    source = test.attrs.get("source", "")
+    lines = test.attrs.get("notes", "").splitlines()
+    return [
+        line if not many or line.startswith(f"{source}: ") else f"{source}: {line}"
+        for line in lines
+    ]

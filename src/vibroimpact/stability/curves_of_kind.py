@@ -1,0 +1,102 @@
+"""Curves of all bifurcations of one kind in the plane of two parameters."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import xarray as xr
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.parameters import read_span
+from vibroimpact.model.rig import Rig
+from vibroimpact.model.units import pretty
+from vibroimpact.stability.bifurcation_curve import bifurcation_curve
+from vibroimpact.stability.branch import branch
+from vibroimpact.stability.resonance_diagram import resonance_diagram
+from vibroimpact.stability.two_parameters import plane
+from vibroimpact.tasks.threads import Progress
+
+Span = tuple[float, float]
+
+
+def curves_of_kind(
+    rig: Rig,
+    kind: str,
+    *,
+    parameters: tuple[str, str],
+    spans: tuple[Span, Span],
+    progress: Progress | None = None,
+) -> dict[str, xr.Dataset]:
+    """Find the bifurcations of one kind along the first parameter, and follow each over both.
+
+    Parameters
+    ----------
+    rig
+        The rig at one frequency, which does not matter if the first parameter is the frequency.
+    kind
+        Kind of bifurcation, such as "fold" or "period doubling".
+    parameters
+        The two parameters, by the names that `branch` takes.
+    spans
+        Lowest and highest value of each, in SI units.
+    progress
+        Called with the number of points so far.
+
+    Returns
+    -------
+    dict of xarray.Dataset
+        Datasets of `bifurcation_curve` by the value at which the bifurcation was found, each
+        curve once.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, the second range leaves out the rig's own value, or there is no
+        such bifurcation.
+    """
+    first, second = parameters
+    shaking = rig.harmonic
+    if first == "frequency":
+        natural = rig.oscillator.angular_frequency / math.tau
+        rig = Rig(rig.oscillator, shaking.replace(frequency=natural or 1.0))
+    over = plane(rig, parameters)
+    low, high = read_span(over.other, spans[1], "spans[1]")
+    if not low <= over.value <= high:
+        quantity = over.other.quantity
+        raise InputError(
+            f"spans[1]: {pretty(low, quantity)} to {pretty(high, quantity)} leaves out the rig's "
+            f"{second}, {pretty(over.value, quantity)}; a range that holds it is accepted"
+        )
+    if first == "frequency":
+        data = resonance_diagram(rig, spans[0], phase=shaking.phase, progress=progress)
+    else:
+        data = branch(rig, span=spans[0], parameter=first)
+    found: dict[str, xr.Dataset] = {}
+    for i in np.flatnonzero(data["bifurcation_kind"].values == kind):
+        value = float(data["bifurcation_value"][i])
+        if any(_passes(curve, parameters, value, over.value) for curve in found.values()):
+            continue
+        start = data.isel(bifurcation=int(i))
+        found[f"{first} {value:.6g}"] = bifurcation_curve(
+            rig, start, parameters=parameters, spans=spans, progress=progress
+        )
+    if not found:
+        raise InputError(
+            f"kind: no {kind} along {first} between {spans[0][0]} and {spans[0][1]}; another kind "
+            "or range is accepted"
+        )
+    return found
+
+
+def _passes(data: xr.Dataset, names: tuple[str, str], p: float, q: float) -> bool:
+    """Whether a curve goes through a point: where it crosses q it is at p."""
+    x, y = data[names[0]].values, data[names[1]].values
+    low, high = np.minimum(y[:-1], y[1:]), np.maximum(y[:-1], y[1:])
+    for i in np.flatnonzero((low <= q) & (q <= high)):
+        share = (q - y[i]) / (y[i + 1] - y[i]) if y[i + 1] != y[i] else 0.5
+        crossing = x[i] + share * (x[i + 1] - x[i])
+        # A chord misses the curve by a part of its own length.
+        if abs(crossing - p) <= 0.2 * abs(x[i + 1] - x[i]) + 1e-4 * abs(p):
+            return True
+    return False
