@@ -57,7 +57,7 @@ def basins() -> Table:
     alike = sum(a == b for a, b in zip(ours, theirs, strict=True))
     table.notes.append(
         "The loop integrates each state with solve_ivp (LSODA, 1e-8) until it is near one of the "
-        "motions, which it is told; its bumpers have no memory. Timed over "
+        "motions, which are given to it; its bumpers have no memory. Timed over "
         f"{_LOOKED_AT} states, of which it gives {alike} the same motion."
     )
     return table
