@@ -31,9 +31,10 @@ def texts(tree: ast.Module) -> Iterator[tuple[int, str]]:
                 one.value if isinstance(one, ast.Constant) else "`value`" for one in node.values
             ]
             yield node.lineno, "".join(str(word) for word in words)
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            if id(node) not in parts:
-                yield node.lineno, node.value
+        elif (
+            isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in parts
+        ):
+            yield node.lineno, node.value
 
 
 def as_text(source: str) -> str:

@@ -26,7 +26,7 @@ from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
-from vibroimpact.response.prepared_rig import Settling
+from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.sweep_dataset import sizes
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
@@ -256,11 +256,11 @@ def _dataset(
     padded = np.full((len(seen), most, len(POINT[section])), np.nan)
     for row, one in zip(padded, seen, strict=True):
         row[: len(one.points)] = one.points
-    measured = np.array([one.held.measured for one in seen])
+    measured = np.array([one.held.measured.array for one in seen])
     measured[[one.status not in (Status.DONE, Status.NOT_SETTLED) for one in seen]] = np.nan
     frequency = np.array([[one.held.found.excitation.frequency] for one in seen])
     scalars = {
-        **sizes(oscillator, measured),
+        **sizes(oscillator, HoldRows(measured)),
         "motion": np.array([one.kind.motion for one in seen]),
         "period": np.array([one.kind.period for one in seen], dtype=np.int64),
         "cycles": np.array([one.held.found.cycles for one in seen], dtype=np.int64),
