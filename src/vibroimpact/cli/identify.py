@@ -113,7 +113,7 @@ def identify(
     from vibroimpact.cli.output import output_folder, progress_bar, tell
     from vibroimpact.cli.rig import subject
     from vibroimpact.identification.comparison import MODELS, remodelled
-    from vibroimpact.measurements.read import read_measurement
+    from vibroimpact.measurements.read import CALL, read_measurement
 
     out = output or OutputOptions()
     if not data:
@@ -124,7 +124,11 @@ def identify(
         read_measurement(path, columns=named, units=in_units, group=group, decimal=decimal)
         for path in data
     ]
-    what = subject(rig, changes or RigOptions(), out.name, _shaken(tests))
+    if changes and changes.amplitude is not None:
+        stated = {"amplitude": changes.amplitude, "amplitude_source": CALL}
+        tests = [test.assign_attrs(stated) for test in tests]
+    measured = None if changes and changes.amplitude is not None else _shaken(tests)
+    what = subject(rig, changes or RigOptions(), out.name, otherwise=measured)
     names = [name.strip().replace("-", "_") for name in free.split(",")]
     limits = {name.replace("-", "_"): _pair(text, "--bounds") for name, text in bounds}
     if strange := set(limits) - set(names):
@@ -147,8 +151,6 @@ def identify(
         raise InputError(f"--compare: {sorted(strange)[0]!r}; hertz and softening are accepted")
     for other in others:
         remodelled(other, what.oscillator, depth=1e-3)  # refused before anything is computed
-    if changes and changes.amplitude is not None:
-        asked["amplitude"] = changes.amplitude
 
     with output_folder(out.output) as folder:
         from vibroimpact.datasets.files import save
@@ -157,7 +159,7 @@ def identify(
         from vibroimpact.reports.identification import fit_report
 
         with progress_bar("fitting") as progress:
-            found = run(_rig(what), tests, draws=bootstrap, progress=progress, **asked)
+            found = run(_rig(what, measured), tests, draws=bootstrap, progress=progress, **asked)
         fits, comparison, best = {_GIVEN: found}, None, _GIVEN
         if others:
             for other in others:
@@ -190,13 +192,9 @@ def _shaken(tests: list[xr.Dataset]) -> Harmonic | None:
     return Harmonic(float(tests[0].attrs.get("amplitude", 1.0)), 1.0)
 
 
-def _rig(what: Subject) -> Any:
-    """The rig; with its shaking where that is one sine."""
-    from vibroimpact.model import Harmonic, Rig
-
-    if isinstance(what.shaking, Harmonic) and what.shaking.of == "acceleration":
-        return Rig(what.oscillator, what.shaking.amplitude)
-    return what.oscillator
+def _rig(what: Subject, measured: Harmonic | None) -> Any:
+    """The rig; its oscillator alone if only the files say what shakes it."""
+    return what.oscillator if what.shaking is measured else what.rig
 
 
 def _pair(text: str, option: str) -> tuple[str, str]:
