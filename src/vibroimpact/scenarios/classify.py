@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import xarray as xr
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.errors import InputError
 from vibroimpact.model.html_table import table
 from vibroimpact.model.read_rig import AnyRig, as_rig
@@ -111,6 +112,7 @@ def classify_scenario(
     InputError
         If a value cannot be used.
     """
+    check_progress(progress)
     used = checked(thresholds)
     rig = one_sine(as_rig(rig))
     held = default_frequencies(rig) if frequencies is None else frequencies

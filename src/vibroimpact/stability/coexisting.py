@@ -14,7 +14,7 @@ from vibroimpact.arguments import STARTS, check_mapping
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Repeated, RigidStop, State, Stop
-from vibroimpact.model.count_checks import whole
+from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, state_from
@@ -27,7 +27,7 @@ from vibroimpact.stability.settle import (
     reach,
     reach_at_rest,
 )
-from vibroimpact.stability.steady import describe_motion, steady
+from vibroimpact.stability.steady import describe_motion, read_lengths, steady
 
 _RANDOM_SIZE = 1.5
 
@@ -96,7 +96,9 @@ def coexisting_motions(
     """
     rig = as_rig(rig, frequency)
     oscillator, excitation = rig.oscillator, rig.harmonic
-    random = whole(random, "random", 0)
+    random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
+    samples, window, exponent_cycles = read_lengths(samples, window, exponent_cycles)
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     kept: list[_Kept] = []
     given_up: dict[Status, tuple[State | NDArray[np.float64], list[str]]] = {}
