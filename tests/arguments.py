@@ -95,7 +95,14 @@ def orbit() -> xr.Dataset:
 
 @cache
 def demanded() -> xr.Dataset:
-    return vi.demands(rig(), [record()] * 4, [0.01, 1.0, 2.0])
+    records = [vi.Record(size * record().acceleration, 0.02) for size in (0.6, 0.8, 1.0, 1.3)]
+    return vi.demands(rig(), records, [0.1, 0.2, 0.3, 0.5, 0.7, 1.0])
+
+
+@cache
+def bifurcation() -> xr.Dataset:
+    found = vi.branch("B2-G1-A3", frequency=1.9, span=(1.8, 3.0))
+    return found.isel(bifurcation=int(np.argmax(found["bifurcation_kind"].values == "fold")))
 
 
 @cache
@@ -192,7 +199,10 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "Record": {"acceleration": [0.0, 1.0, 0.0], "step": 0.01},
         "Record.read": {"path": folder / "record.csv"},
-        "Record.from_displacement": {"displacement": [0.0, 0.001] * 8, "step": 0.01},
+        "Record.from_displacement": {
+            "displacement": 0.01 * np.sin(np.arange(60) * 0.1) ** 3,
+            "step": 0.01,
+        },
         "Rig": {"oscillator": rig(), "shaking": 1.0, "frequency": 1.5, "name": "mine"},
         "RigidStop": {"restitution": 0.5, "gap": 0.1},
         "State": {
@@ -233,10 +243,11 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "progress": None,
         },
         "bifurcation_curve": {
-            **two,
-            "start": orbit(),
+            "rig": "B2-G1-A3",
+            "frequency": 1.9,
+            "start": bifurcation(),
             "parameters": ("frequency", "amplitude"),
-            "spans": ((1.4, 1.6), (1.9, 2.1)),
+            "spans": ((1.8, 3.0), (0.48, 0.5)),
             "most_points": 5,
             "progress": None,
         },
@@ -270,7 +281,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "classify_scenario": {
             **swept,
-            "frequencies": [1.4, 1.5, 1.6],
+            "frequencies": [1.4, 1.5, 1.6, 1.7],
             "thresholds": None,
             "max_cycles": 50,
             "threads": 1,
@@ -319,7 +330,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "ensemble": {
             "rig": vi.Rig(rig(), 2.0),
-            "distributions": {"mass": "uniform(0.9, 1.1)"},
+            "distributions": {"stiffness": "uniform:90:110"},
             "response": _response,
             "draws": 4,
             "method": "sobol",
@@ -345,7 +356,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "fragility": {
             "demands": demanded(),
             "quantity": "peak_displacement",
-            "limit": 0.01,
+            "limit": 0.02,
             "confidence": 0.9,
         },
         "from_dimensionless": {
@@ -477,8 +488,8 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "save": {"dataset": motion(), "path": folder / "kept.nc"},
         "scenario_map": {
             "rig": None,
-            "x": ("gap_ratio", [0.5]),
-            "y": ("stiffness_ratio", [10.0]),
+            "x": ("gap_ratio", [0.5, 0.6]),
+            "y": ("stiffness_ratio", [10.0, 20.0]),
             "step": 0.3,
             "refine": 0,
             "thresholds": None,
@@ -497,7 +508,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "sensitivity": {
             "rig": vi.Rig(rig(), 2.0),
-            "distributions": {"mass": "uniform(0.9, 1.1)"},
+            "distributions": {"stiffness": "uniform:90:110"},
             "response": _response,
             "quantity": "displacement_max",
             "draws": 4,
@@ -560,6 +571,7 @@ def parameters(name: str) -> list[str]:
 
 def write_files(folder: Path) -> None:
     """Write the files that the calls read."""
+    (folder / "report").mkdir(exist_ok=True)
     vi.save(motion(), folder / "motion.nc")
     lines = [f"{0.01 * n:.2f},{0.001 * (n % 7):.4f}" for n in range(60)]
     text = "time (s),displacement (m)\n" + "\n".join(lines) + "\n"
@@ -579,7 +591,7 @@ def _public(name: str) -> Callable[..., Any]:
 
 
 def _response(drawn: Any) -> xr.Dataset:
-    return vi.sweeps([one.rig for one in drawn], [1.5], ("forward",), max_cycles=20)
+    return vi.sweeps(list(drawn), [1.5], ("forward",), max_cycles=20)
 
 
 @cache
