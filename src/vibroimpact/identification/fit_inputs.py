@@ -132,9 +132,9 @@ def _unused(rig: Rig, test: Test, source: str) -> list[str]:
         return []
     lines = []
     share = _MEASURED if source == BASE else _STATED
-    one_sine = isinstance(own, Harmonic) and rig.amplitudes is None
-    if source != RIG and not (one_sine and _agree(own, used, share)):
-        instead = f"that of the rig, {_size(own)}," if one_sine else "the shaking of the rig"
+    sine = own if isinstance(own, Harmonic) and rig.amplitudes is None else None
+    if source != RIG and not (sine and _agree(sine, used, share)):
+        instead = f"that of the rig, {_size(sine)}," if sine else "the shaking of the rig"
         lines.append(
             f"the amplitude is {_size(used)}, from {in_one_line(source)}; {instead} is not used"
         )
