@@ -51,7 +51,7 @@ def test_what_basins_show():
     assert 0.85 < float(data["uncertainty_exponent"]) < 1.1
     assert float(data["border_entropy"]) < np.log(2.0)
     assert float(data["capture_cycles"].mean()) < 4.0
-    assert "each state of 60 × 60" in data.attrs["lattice"]
+    assert "each of 60 × 60 states" in data.attrs["lattice"]
 
 
 def test_shares_lie_within_those_of_states_at_random():

@@ -255,9 +255,9 @@ def _dataset(
         values, {"velocity": v, "displacement": u, "attractor": np.arange(len(known))}
     )
     rows, columns = (len(range(0, n, step)) for n in plan.shape)
-    data.attrs["lattice"] = f"each state of {columns} × {rows} was followed" + (
-        f"; then {plan.refine} times those beside a border, to {plan.shape[1]} × {plan.shape[0]}: "
-        "what is narrower than the first grid may be missed"
+    data.attrs["lattice"] = f"each of {columns} × {rows} states was computed" + (
+        f"; refined {plan.refine} times near borders, to {plan.shape[1]} × {plan.shape[0]}: "
+        "regions narrower than the first grid may be missed"
         if plan.refine
         else ""
     )

@@ -160,7 +160,7 @@ def least_acceleration(
     Warns
     -----
     InputWarning
-        If the best design touches no stop: what the stops are like then plays no part.
+        If the best design touches no stop: the properties of the stops then do not matter.
 
     Raises
     ------
@@ -265,7 +265,7 @@ def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
 
 def _untouched(rig: Oscillator, best: Mapping[str, float]) -> Iterator[str]:
     if rig.stops and not best["hitting"]:
-        yield "the best design touches no stop, so what the stops are like plays no part"
+        yield "the best design touches no stop, so the properties of the stops do not matter"
 
 
 def _slack(best: Mapping[str, float], limits: Mapping[str, float]) -> Iterator[str]:
