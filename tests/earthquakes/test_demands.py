@@ -179,7 +179,7 @@ def test_it_is_saved_and_read(tmp_path) -> None:
         ({"records": vi.Record([0.0, 0.0], 0.1), "intensity": "PGA"}, r"records\[0\]: it is 0"),
         ({"rig": []}, "rig: the list is empty"),
         ({"rig": 3}, "rig: 3 is not a rig"),
-        ({"scales": []}, "scales: none given"),
+        ({"scales": []}, "scales: missing"),
         ({"scales": [1.0, 0.5]}, r"scales\[1\]: 0.5 follows 1"),
         ({"scales": [0.0]}, r"scales\[0\]: 0"),
         ({"scales": ["3 m"]}, r"scales\[0\]: '3 m'"),
