@@ -112,7 +112,7 @@ def test_events_are_where_the_contact_changes(motion: xr.Dataset) -> None:
     # A Kelvin-Voigt contact begins with a jump of C_j v, and ends without one.
     bumper = CASE.oscillator.right
     assert bumper
-    jump = (motion["event_acceleration_behind"] - motion["event_acceleration_before"]).values
+    jump = (motion["event_acceleration_after"] - motion["event_acceleration_before"]).values
     v = motion["event_velocity"].values
     press = bumper.stiffness * np.where(
         side == 1, motion["event_right_bumper"], motion["event_left_bumper"]

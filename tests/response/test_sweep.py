@@ -179,7 +179,7 @@ class TestExtremes:
         again = vi.simulate(vi.Rig(case.oscillator, shaken), period, data["section"], 20_000)
         a = [
             again[name].values
-            for name in ("acceleration", "event_acceleration_before", "event_acceleration_behind")
+            for name in ("acceleration", "event_acceleration_before", "event_acceleration_after")
         ]
         for kind, seen in (
             ("displacement", again["displacement"].values),
@@ -202,7 +202,7 @@ class TestExtremes:
         assert data["period"] == 1
         shaken = vi.Harmonic(amplitude, frequency)
         again = vi.simulate(vi.Rig(oscillator, shaken), 1, data["section"], 20_000)
-        jumps = again["event_acceleration_behind"].values[again["event_contact"].values == 1]
+        jumps = again["event_acceleration_after"].values[again["event_contact"].values == 1]
         assert data["acceleration_max"].item() == pytest.approx(jumps.max(), rel=1e-11)
         assert data["acceleration_min"].item() == pytest.approx(jumps.min(), rel=1e-11)
         assert again["acceleration"].max() < (1.0 - 1e-7) * jumps.max()

@@ -130,7 +130,7 @@ VARIABLES: dict[str, Variable] = {
     "event_right_bumper": Variable("m", "deformation of the right bumper at the event"),
     "event_left_bumper": Variable("m", "deformation of the left bumper at the event"),
     "event_acceleration_before": Variable("m s-2", "absolute acceleration just before the event"),
-    "event_acceleration_behind": Variable("m s-2", "absolute acceleration just after the event"),
+    "event_acceleration_after": Variable("m s-2", "absolute acceleration just after the event"),
     # measurements
     "repeat": Variable("1", "number of the repetition, if a frequency was measured more than once"),
     "mass_displacement": Variable("m", "absolute displacement of the mass"),

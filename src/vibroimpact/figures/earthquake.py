@@ -107,7 +107,7 @@ def _histories(
         if here.any():
             shaken.plot(
                 motion["event_time"].values[here],
-                motion["event_acceleration_behind"].values[here],
+                motion["event_acceleration_after"].values[here],
                 linestyle="",
                 marker=mark,
                 markersize=4.5,

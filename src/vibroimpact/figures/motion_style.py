@@ -211,7 +211,7 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         "displacement": merged("displacement", "event_displacement", "event_displacement"),
         "velocity": np.concatenate([motion["velocity"].values, arrival, parting])[order],
         "acceleration": merged(
-            "acceleration", "event_acceleration_before", "event_acceleration_behind"
+            "acceleration", "event_acceleration_before", "event_acceleration_after"
         ),
     }
     gaps = {}

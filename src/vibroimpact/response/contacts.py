@@ -242,7 +242,7 @@ def _impacts(motion: xr.Dataset, every: Phases, origin: Recorded[Any]) -> _Conta
     before, behind, event = every.last[at - 1], every.first[at], every.event[at]
     sharp = np.maximum(
         np.abs(motion["event_acceleration_before"].values[event]),
-        np.abs(motion["event_acceleration_behind"].values[event]),
+        np.abs(motion["event_acceleration_after"].values[event]),
     )
     none = np.zeros(len(at))
     return _Contacts(

@@ -49,7 +49,7 @@ def listed(
         "event_right_bumper": record.E_RIGHT,
         "event_left_bumper": record.E_LEFT,
         "event_acceleration_before": record.E_BEFORE,
-        "event_acceleration_behind": record.E_BEHIND,
+        "event_acceleration_after": record.E_BEHIND,
         **({"event_isolator_memory": record.E_MEMORY} if isolator.remembers else {}),
     }
 
