@@ -17,7 +17,7 @@ _SIDE = 1000
 _LIMIT = 60.0
 _THREADS = 2
 _SHARE = 100
-_LOOKED_AT = 40
+_CHECKED = 40
 _NEAR = 1e-6
 """Distance (m) at which the loop calls a state settled."""
 _MOST = 200
@@ -26,9 +26,9 @@ _MOST = 200
 def basins() -> Table:
     """Measure `vi.basins` of a million states, and a loop by hand of a few of a hundredth."""
     table = targets("Basins of attraction")
-    vi.basins(vi.Rig(_CODE, _HERTZ), *_WINDOW, nodes=20)
+    vi.basins(_CODE, *_WINDOW, frequency=_HERTZ, nodes=20)
     begin = time.perf_counter()
-    data = vi.basins(vi.Rig(_CODE, _HERTZ), *_WINDOW, nodes=_SIDE, threads=_THREADS)
+    data = vi.basins(_CODE, *_WINDOW, frequency=_HERTZ, nodes=_SIDE, threads=_THREADS)
     taken = time.perf_counter() - begin
     states = data["basin"].size
     table.add(
@@ -40,13 +40,13 @@ def basins() -> Table:
     cycles = float(data["capture_cycles"].mean())
     table.add("forcing cycles a state, until it is caught", f"{cycles:.2f}", "", "")
     generator = np.random.default_rng(0)
-    picked = generator.integers(0, _SIDE, (_LOOKED_AT, 2))
+    picked = generator.integers(0, _SIDE, (_CHECKED, 2))
     begin = time.perf_counter()
     theirs = [
         _by_hand(data, float(data["displacement"][i]), float(data["velocity"][j]))
         for i, j in picked
     ]
-    each = (time.perf_counter() - begin) / _LOOKED_AT
+    each = (time.perf_counter() - begin) / _CHECKED
     ours = [int(data["basin"][j, i]) for i, j in picked]
     table.add(
         f"a loop over scipy for a hundredth ({states // _SHARE:,} states), over that, one thread",
@@ -57,8 +57,8 @@ def basins() -> Table:
     alike = sum(a == b for a, b in zip(ours, theirs, strict=True))
     table.notes.append(
         "The loop integrates each state with solve_ivp (LSODA, 1e-8) until it is near one of the "
-        "motions, which it is told; its bumpers have no memory. Timed over "
-        f"{_LOOKED_AT} states, of which it gives {alike} the same motion."
+        "motions, which are given to it; its bumpers have no memory. Timed over "
+        f"{_CHECKED} states, of which it gives {alike} the same motion."
     )
     return table
 

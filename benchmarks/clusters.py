@@ -17,7 +17,7 @@ _WIDTH = 2
 _SIDE = 20
 _ROUNDS = 5
 _OVER = 1.15
-_BASINS = "B3-10mm-A3", 0.7, (-0.012, 0.012), (-0.1, 0.1)
+_BASINS = "B3-10mm-A3", (-0.012, 0.012), (-0.1, 0.1)
 
 
 def _map(**how: Any) -> object:
@@ -47,7 +47,7 @@ def _work() -> dict[str, Callable[..., object]]:
     """What is done at both places, by its name."""
     return {
         f"map of {_SIDE} × {_SIDE} rigs": _map,
-        "basins of 1,000 × 1,000 states": partial(vi.basins, *_BASINS, nodes=1000),
+        "basins of 1,000 × 1,000 states": partial(vi.basins, *_BASINS, frequency=0.7, nodes=1000),
         "demands of 30 records × 20 scales × 10 gaps": _demands,
         "ensemble of 2,048 rigs swept both ways": _ensemble,
     }

@@ -81,7 +81,7 @@ def identification() -> Table:
     seconds = time.perf_counter() - begin
     table.add(f"{_DRAWS:,} bootstrap refits, 2 threads, s", f"{seconds:.1f}",
               f"under {_BOOTSTRAP:g} s", met(seconds < _BOOTSTRAP))  # fmt: skip
-    setting = (rig, vi.Harmonic(case.amplitude, 1.0))
+    setting = vi.Rig(rig, vi.Harmonic(case.amplitude, 1.0))
     test = CurveTest("one", data, setting, None)
     right = {"displacement_scale": 1.0, "acceleration_scale": 1.0,
              "displacement_offset": 0.0, "acceleration_offset": 0.0}  # fmt: skip

@@ -85,6 +85,7 @@ def scenarios() -> Table:
     table.notes.append(
         "λ from 0.5 to 100, δ0 from 0 to 1, ξ = 0.15, τ = 0.01. Each rig is swept from 0.4 times "
         "its natural frequency to beyond its primary resonance, motions that do not settle are "
-        "told chaotic or not, and where a jump might hide the branch of orbits is followed."
+        "classified as chaotic or not, and where a jump might hide the branch of orbits is "
+        "followed."
     )
     return table

@@ -145,7 +145,7 @@ def startup(compiled: Compiling) -> Table:
         more = _compiled(environment) - before
     table.add("first vi.sweep of a rig with a rigid stop, whole process, s", _once(rigid), "", "")
     table.add(
-        "first vi.sweep of a rig with bumpers behind it, s, and functions compiled",
+        "first vi.sweep of a rig with bumpers after it, s, and functions compiled",
         f"{_once(again)}; {more}",
         f"{parts} compiled, as without",
         met(more == parts),

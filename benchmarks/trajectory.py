@@ -121,7 +121,7 @@ def trajectory(others: Peers, ready: str) -> list[Table]:
     table.notes.append(
         f"Median and, in brackets, range over {_ROUNDS} interleaved rounds (scipy: "
         f"{_SCIPY_ROUNDS}); ratios are taken round by round. scipy runs {SCIPY_PERIODS} periods; "
-        "its error is that behind them. A contact is the landing and the detachment together."
+        "its error is that after them. A contact is the landing and the detachment together."
     )
     table.notes += [f"{name} is not installed and was left out." for name in others.missing]
 
@@ -157,7 +157,7 @@ def trajectory(others: Peers, ready: str) -> list[Table]:
 
     bound = Table("How far the engine is from its own limit", ("Measured", "Value"))
     bound.add("contacts a period", str(known.orbit.contacts))
-    bound.add("table rows looked at in search of events, a period", str(known.rows))
+    bound.add("table rows checked in search of events, a period", str(known.rows))
     bound.add("roots solved to rounding, a period", str(len(known.orbit.modes)))
     spread = Spread.of(per_period[_FLOOR])
     bound.add("same motion, all event times known beforehand, ns a period", spread.text(1e9))

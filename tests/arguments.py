@@ -360,7 +360,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "fragility": {
             "demands": demanded(),
             "quantity": "peak_displacement",
-            "limit": 0.01,
+            "limit": 0.02,
             "confidence": 0.9,
         },
         "from_dimensionless": {
@@ -575,6 +575,7 @@ def parameters(name: str) -> list[str]:
 
 def write_files(folder: Path) -> None:
     """Write the files that the calls read."""
+    (folder / "report").mkdir(exist_ok=True)
     vi.save(motion(), folder / "motion.nc")
     lines = [f"{0.01 * n:.2f},{0.001 * (n % 7):.4f}" for n in range(60)]
     text = "time (s),displacement (m)\n" + "\n".join(lines) + "\n"

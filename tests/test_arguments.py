@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import arguments
 import vibroimpact as vi
@@ -86,6 +87,15 @@ def test_every_public_function_has_a_valid_call(folder: Path) -> None:
             assert set(given) == set(arguments.parameters(name)), name
 
 
+def test_valid_calls_are_valid(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Otherwise nonsense in one argument would be refused for another one."""
+    monkeypatch.chdir(folder)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for function, given in arguments.calls(folder).values():
+            function(**given)
+
+
 @pytest.mark.parametrize("name", QUICK)
 def test_nonsense_is_one_line(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
@@ -104,6 +114,101 @@ def test_nonsense_is_one_line(name: str, folder: Path, monkeypatch: pytest.Monke
                 assert "x" * 200 not in message, (field, label)
             except Exception as error:
                 pytest.fail(f"{name}({field}={label}): {type(error).__name__}: {error}")
+
+
+@pytest.mark.parametrize("wrong", [5, "x", int, [print]])
+def test_a_progress_that_is_not_a_function_is_one_line(wrong, folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    for function, given in arguments.calls(folder).values():
+        if "progress" in given:
+            with pytest.raises(vi.InputError, match=r"^progress: "):
+                function(**{**given, "progress": wrong})
+
+
+COUNTS = ("seed", "random", "samples", "window", "max_cycles", "max_events", "exponent_cycles")
+
+
+@pytest.mark.parametrize("wrong", [0.5, "x", -1, None, [1], 10**400])
+@pytest.mark.parametrize("name", ["bifurcation_diagram", "coexisting_motions", "steady"])
+def test_a_count_that_is_not_one_is_one_line(name, wrong, folder):
+    function, given = arguments.calls(folder)[name]
+    for field in set(COUNTS) & set(given):
+        with pytest.raises(vi.InputError, match=rf"^{field}: .* whole number"):
+            function(**{**given, field: wrong})
+
+
+WRONG = [
+    ("directions", 5),
+    ("directions", Path("up")),
+    ("section", {"a": 1}),
+    ("log", np.array(["a", "b"])),
+    ("log", None),
+    ("span", {1.4, 1.6}),
+    ("span", range(10**9)),
+    ("random", 10**12),
+]
+
+
+@pytest.mark.parametrize(("field", "wrong"), WRONG)
+def test_what_a_diagram_cannot_use_is_one_line(field, wrong, folder):
+    function, given = arguments.calls(folder)["bifurcation_diagram"]
+    with pytest.raises(vi.InputError, match=rf"^{field}"):
+        function(**{**given, field: wrong})
+
+
+@pytest.mark.parametrize(
+    ("name", "field", "wrong"),
+    [
+        ("Record.from_displacement", "step", 1e-320),
+        ("demands", "gaps", range(10**9)),
+        ("demands", "gaps", np.array(5.0)),
+        ("demands", "scales", range(1, 10**9)),
+        ("design_chart", "records", np.array(5.0)),
+        ("design_chart", "tail", 10**12),
+        ("bifurcation_curve", "spans", {1, 2}),
+        ("bifurcation_diagram", "steps", 10**12),
+        ("fit_report", "comparison", [1.0]),
+        ("fit_report", "folder", 5),
+        ("fit_report", "figure", np.eye(30)),
+        ("fit_report", "folder", "nowhere"),
+        ("identify", "robust", np.eye(2)),
+        ("identify", "profiles", "no"),
+        ("least_acceleration", "seed", 0.5),
+        ("lyapunov_exponents", "rigs", range(10**9)),
+        ("lyapunov_exponents", "rigs", np.array(5.0)),
+        ("required_gap", "records", range(10**9)),
+        ("resonance_diagram", "basins", 5),
+        ("resonance_diagram", "parameter", np.eye(2)),
+        ("resonance_diagram", "starts", 10**12),
+        ("scenario_map", "step", 1e-300),
+        ("ensemble", "method", xr.Dataset({"a": 1})),
+        ("ensemble", "response", int),
+        ("sensitivity", "quantity", [1.0]),
+        ("sensitivity", "resamples", 10**12),
+        ("sensitivity", "draws", 2**40),
+    ],
+)
+def test_what_cannot_be_used_is_one_line(name, field, wrong, folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    function, given = arguments.calls(folder)[name]
+    with pytest.raises(vi.InputError, match=rf"^{field}"):
+        function(**{**given, field: wrong})
+
+
+@pytest.mark.parametrize("wrong", [5, None, ("frequency",), ("frequency", 5), {1: 2}, ("a",) * 9])
+def test_parameters_of_a_curve_that_are_not_two_names_are_one_line(wrong, folder):
+    function, given = arguments.calls(folder)["bifurcation_curve"]
+    with pytest.raises(vi.InputError, match=r"^parameters: "):
+        function(**{**given, "parameters": wrong})
+
+
+def test_a_value_without_a_text_of_its_own_is_named_by_its_type():
+    class Odd:
+        def __repr__(self):
+            raise RuntimeError
+
+    with pytest.raises(vi.InputError, match="mass: a Odd"):
+        vi.Oscillator(Odd(), vi.Isolator(1.0, 1.0))
 
 
 OSCILLATOR = vi.Oscillator(1.0, vi.Isolator(100.0, 1.0), right=vi.Bumper(1e4, 5.0, 0.01))

@@ -184,7 +184,7 @@ RECORD = vi.Record([0.1, 0.2], 0.01)
             lambda: vi.classify_scenario(vi.Rig(OSCILLATOR, [0.1, 0.2])),
             r"^shaking: 2 amplitudes; a scenario is that of one amplitude",
         ),
-        (lambda: vi.branch(CASE, span=(2.0, 1.0)), r"^span\[1\]: 1 does not lie above span\[0\]"),
+        (lambda: vi.branch(CASE, span=(2.0, 1.0)), r"^span\[1\]: 1 is not greater than span\[0\]"),
         (lambda: vi.branch(CASE, frequency=2.0, span=2.0), r"^span: 2.0; the lowest and the high"),
     ],
 )

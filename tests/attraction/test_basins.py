@@ -51,7 +51,7 @@ def test_what_basins_show():
     assert 0.85 < float(data["uncertainty_exponent"]) < 1.1
     assert float(data["border_entropy"]) < np.log(2.0)
     assert float(data["capture_cycles"].mean()) < 4.0
-    assert "each state of 60 × 60" in data.attrs["lattice"]
+    assert "each of 60 × 60 states" in data.attrs["lattice"]
 
 
 def test_shares_lie_within_those_of_states_at_random():
@@ -151,7 +151,7 @@ def test_bumpers_that_remember():
 def test_where_nothing_dies_out_it_is_said():
     spring = vi.Bumper(680e3, 0.0, 0.005)
     rig = vi.Oscillator(550.0, vi.Isolator(26e3, 0.0), spring, spring)
-    with pytest.raises(vi.InputError, match="nothing dies out"):
+    with pytest.raises(vi.InputError, match="has no dissipation"):
         vi.basins(vi.Rig(rig, vi.Harmonic(0.5, HERTZ)), *WINDOW, nodes=10)
 
 

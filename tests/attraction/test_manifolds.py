@@ -225,7 +225,7 @@ def test_an_orbit_at_another_phase_is_refused():
 def test_what_remembers_has_no_curves_in_the_plane():
     slow = vi.Bumper(680e3, 4e5, 0.005)
     rig = vi.Oscillator(550.0, CASE.oscillator.isolator, slow, slow)
-    with pytest.raises(vi.InputError, match="remembers more than a cycle"):
+    with pytest.raises(vi.InputError, match="memory for more than a cycle"):
         vi.manifolds(vi.Rig(rig, EXCITATION))
 
 

@@ -17,7 +17,7 @@ NAME = "B3-10mm-A3-0.7Hz-basins"
 def test_text_and_files(run, tmp_path):
     code, out, errors = run(*WORDS)
     assert (code, errors) == (0, "")
-    assert "each state of 60 × 60 was followed; states given up: 0" in out
+    assert "each of 60 × 60 states was computed; states given up: 0" in out
     assert "uncertainty exponent" in out
     first = next(line for line in out.splitlines() if line.startswith("1 "))
     assert first.split()[1:4] == ["periodic", "1", "13.79"]
@@ -37,7 +37,7 @@ def test_json_and_options(run, tmp_path):
     assert json.loads(data.attrs["parameters"])["phase"] == pytest.approx(np.pi / 2.0)
     assert told["states"] == 225
     assert [one["share"] for one in told["motions"]] == pytest.approx(list(data["share"].values))
-    assert "then 1 times those beside a border, to 15 × 15" in told["lattice"]
+    assert "refined 1 times near borders, to 15 × 15" in told["lattice"]
 
 
 @pytest.mark.parametrize(

@@ -112,6 +112,13 @@ def test_every_option_has_a_help_and_says_its_default(name):
 
 
 @pytest.mark.parametrize("name", COMMANDS)
+def test_the_help_of_a_command_ends_with_its_examples(name):
+    text = COMMANDS[name].__doc__
+    assert text.splitlines()[-1].startswith(f"    vibroimpact {name}")
+    assert "Parameters" not in text
+
+
+@pytest.mark.parametrize("name", COMMANDS)
 def test_defaults_in_help_are_those_of_the_signature(name):
     command = COMMANDS[name]
     for option, one in _options(command).items():

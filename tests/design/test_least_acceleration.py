@@ -61,8 +61,8 @@ def test_of_sines() -> None:
 def test_a_wide_gap_leaves_nothing_to_choose() -> None:
     need = float(vi.required_gap(RIG, records=RECORDS)["required_gap"])
     untouched = (
-        "the best design touches no stop, so what the stops are like plays no part; the limit of "
-        "peak force does not bind: 0 N of 1 MN"
+        "the best design touches no stop, so the properties of the stops do not matter; the "
+        "limit of peak force does not bind: 0 N of 1 MN"
     )
     with pytest.warns(vi.InputWarning, match=f"^least_acceleration: {untouched}"):
         found = vi.least_acceleration(

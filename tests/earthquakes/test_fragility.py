@@ -185,8 +185,9 @@ def test_what_would_bound_an_interval_is_told_by_curve() -> None:
     with pytest.warns(RuntimeWarning, match="^fragility: no interval"):
         told = vi.fragility(data, "peak_displacement", 1.0).attrs["unbounded"]
     assert told == (
-        "no interval where fewer than two records begin to exceed within the levels; what would "
-        "give one: for gap 200 mm higher levels; for gap 300 mm lower levels; for gap 400 mm lower "
+        "no interval is given if fewer than two records begin to exceed within the levels; "
+        "needed for one: for gap 200 mm higher levels; for gap 300 mm lower levels; for gap 400 "
+        "mm lower "
         "and higher levels"
     )
     rng = np.random.default_rng(5)

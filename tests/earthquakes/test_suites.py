@@ -66,7 +66,7 @@ def test_wrong_input() -> None:
         (lambda: vi.fractiles(3), "demands: 3; a dataset of demands"),
         (lambda: vi.fractiles(data, "peak"), "quantity: 'peak'; one of peak_displacement is"),
         (lambda: vi.fractiles(data, shares=(1.2,)), r"shares\[0\]: 1.2"),
-        (lambda: vi.fractiles(data, shares=()), "shares: none given"),
+        (lambda: vi.fractiles(data, shares=()), "shares: missing"),
         (lambda: vi.exceedance(data, "peak_displacement", "3 kg"), "limit: '3 kg'"),
         (lambda: vi.exceedance(data, "peak_displacement"), "limit: missing; a limit of peak_disp"),
     ):

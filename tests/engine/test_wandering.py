@@ -9,7 +9,7 @@ import vibroimpact as vi
 from samples import sample
 from vibroimpact.engine import hold
 from vibroimpact.engine.status import Status
-from vibroimpact.response.prepared_rig import Settling
+from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.resonance_curves import swept_alone

@@ -158,7 +158,7 @@ def test_ranges_that_cannot_be():
     assert read_span(parameter("gap"), ("-1 mm", 0.02)) == (-1e-3, 0.02)
     with pytest.raises(vi.InputError, match=r"^span\[1\]: 1\.2"):
         read_span(parameter("restitution"), (0.5, 1.2))
-    with pytest.raises(vi.InputError, match=r"span\[1\]: .* does not lie above span"):
+    with pytest.raises(vi.InputError, match=r"span\[1\]: .* is not greater than span"):
         read_span(parameter("gap"), (0.02, 0.01))
     with pytest.raises(vi.InputError, match=r"^span\[0\]: "):
         read_span(parameter("gap"), ("1 kg", 0.01))

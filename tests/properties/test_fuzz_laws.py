@@ -59,7 +59,7 @@ def looked_at(
 
 def faults(rig: vi.Oscillator, data, status: str) -> list[str]:
     """What is wrong with a motion."""
-    wrong = [status] if "range of numbers" in status else []
+    wrong = [status] if "range of floating-point numbers" in status else []
     names = ("displacement", "velocity", "acceleration", "final_state")
     wrong += [f"{name} is not finite" for name in names if not np.isfinite(data[name]).all()]
     for name, side in (("right", 1.0), ("left", -1.0)):

@@ -193,7 +193,7 @@ def test_a_motion_that_is_given_up() -> None:
 
 def test_a_stiffness_beyond_reach_is_told() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.Bumper(1e30, 0.0, 0.5))
-    with pytest.warns(RuntimeWarning, match="raise the frequency or lower the largest stiffness"):
+    with pytest.warns(RuntimeWarning, match="raise the frequency, or lower the largest stiffness"):
         vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 0.1)), 1)
 
 
@@ -213,6 +213,8 @@ def test_given_up_motion_ends_at_its_last_section() -> None:
 def test_a_drag_that_is_too_stiff_is_told_as_one() -> None:
     """Nothing touches here: it is not chatter, and no number of events would do."""
     rig = vi.Oscillator(550.0, vi.Isolator(26e3, 500.0, damping_exponent=0.1), None, None)
-    with pytest.warns(RuntimeWarning, match="a damping_exponent below 1 is too stiff"):
+    with pytest.warns(
+        RuntimeWarning, match="a damping_exponent below 1 makes the motion too stiff"
+    ):
         data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.5, 1.0)), 1)
-    assert "too stiff near rest (raise it)" in data.attrs["message"]
+    assert "too stiff near rest, raise the exponent" in data.attrs["message"]

@@ -12,7 +12,7 @@ from vibroimpact.response.softening_limit import ended, judged
 SOFT = vi.PolynomialIsolator(1.0, 0.3, -1.0)  # it pushes back up to 1 m
 WELLS = vi.PolynomialIsolator(1.0, 0.3, -1.0, 0.2)  # and again from 1.9 m on
 STRONG = vi.Harmonic(2.0, 0.15)
-TOLD = "beyond where the softening isolator still pushes back"
+TOLD = "exceeded the range in which the softening isolator has a restoring force"
 
 
 def test_a_motion_that_runs_away() -> None:

@@ -116,7 +116,7 @@ def test_ends_are_told():
     [
         ({"parameter": "mass"}, "parameter: 'mass'"),
         ({"span": (3.0, 4.0)}, "leaves out"),
-        ({"span": (2.5, 2.4)}, "does not lie above"),
+        ({"span": (2.5, 2.4)}, "is not greater than"),
         ({"span": ("1 mm", 4.0)}, r"span\[0\]"),
         ({"period": 0}, "period"),
         ({"most_points": 1.5}, "most_points"),

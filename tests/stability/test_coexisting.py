@@ -90,7 +90,6 @@ def test_frequencies_of_the_sweeps():
     [
         {"random": -1},
         {"random": 1.5},
-        {"samples": 0},
         {"window": 0},
         {"frequencies": []},
         {"starts": [vi.State(0.01)]},

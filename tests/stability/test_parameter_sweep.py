@@ -10,7 +10,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.response.prepared_rig import Settling
+from vibroimpact.response.hold_rows import Settling
 from vibroimpact.stability.parameter_sweep import placed, rigs_along, stepped
 
 CASE = vi.laboratory.case("B2-G1-A3")

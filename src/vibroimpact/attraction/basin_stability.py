@@ -1,4 +1,4 @@
-"""Shares of random states by the motion that they lead to, at one rig or along a parameter."""
+"""Basin stability: shares of random initial states that lead to each steady motion."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _SIZES = ("displacement_excursion", "acceleration_excursion", "eccentricity")
 
 
 class _Found(NamedTuple):
-    """What random states lead to at one value."""
+    """Motions that random states lead to, at one value of the parameter."""
 
     known: list[Attractor]
     counts: NDArray[np.int64]
@@ -64,24 +64,24 @@ def basin_stability(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Find how likely random states lead to each steady motion.
+    """Estimate the probability that a random initial state leads to each steady motion.
 
     The share of the states that lead to a motion is its basin stability (P. J. Menck et al.,
-    Nature Physics 9, 89, 2013). States are drawn alike in displacement and velocity, bumpers
-    relaxed, at the phase of the excitation.
+    Nature Physics 9, 89, 2013). Displacement and velocity are drawn uniformly. The bumpers are
+    relaxed, and each motion starts at the phase of the excitation.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     displacement, velocity
-        Lowest and highest of the states, in m and m/s. None for what `basins` takes, around all
-        motions along the parameter.
+        Lowest and highest initial displacement (m) and velocity (m/s). Default: the range that
+        `basins` would choose around all motions along the parameter.
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     parameter, values
-        What is varied, such as "frequency" or "gap", and its values. A motion keeps its number as
-        long as its states lead to one near it at the next value.
+        Name of the parameter that is varied, such as "frequency" or "gap", and its values. A motion
+        keeps its number as long as its states lead to a nearby motion at the next value.
     states
         Number of random states, the same at each value of the parameter.
     seed
@@ -89,19 +89,21 @@ def basin_stability(
     max_cycles, max_events, threads, where
         As in `basins`.
     progress
-        Called from the calling thread with the values done and all.
+        Function that is called in the calling thread with the number of values done and their
+        total.
 
     Returns
     -------
     xarray.Dataset
         Dim ``attractor``, and one of the parameter's name if there is one: ``share`` with its 95%
-        interval ``share_low`` to ``share_high``, ``states``, ``motion`` ("" where there is no such
-        motion), ``period``, sizes; and ``given_up`` states.
+        interval ``share_low`` to ``share_high``, ``states``, ``motion`` ("" where the motion does
+        not exist), ``period`` and sizes. ``given_up`` counts the states whose motion was not
+        followed to its end.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or nothing dies out.
+        If a value is invalid, or the rig has no dissipation.
     """
     rig = as_rig(rig, frequency)
     if rig.frequency is None and parameter == "frequency" and isinstance(values, Iterable):
@@ -171,13 +173,13 @@ def _values(
 ) -> tuple[Parameter | None, list[float]]:
     if name is None:
         if values is not None:
-            raise InputError("parameter: missing; the name of what is varied is accepted")
+            raise InputError("parameter: missing; give the name of the parameter that is varied")
         return None, [0.0]
     varied = parameter(name, of=rig.periodic.of).of(rig.oscillator)
     listed = check_list(values, "values", MOST_VALUES, f"a list of values of {varied.name}")
     given = [to_si(one, varied.quantity, f"values[{i}]") for i, one in enumerate(listed)]
     if not given:
-        raise InputError(f"values: none are given; values of {varied.name} are accepted")
+        raise InputError(f"values: missing; give values of {varied.name}")
     return varied, given
 
 
@@ -187,12 +189,12 @@ def _around(ranges: Iterable[tuple[float, float]]) -> tuple[float, float]:
 
 
 def _drawn(stage: Stage, ranges: Window, count: int, seed: int) -> _Array:
-    """Random states of the window, where they can be."""
+    """Draw random states in the part of the window that the mass can reach."""
     low, high = walls(stage)
     begin, end = max(ranges[0][0], low), min(ranges[0][1], high)
     if not begin < end:
         raise InputError(
-            f"displacement: {ranges[0][0]:g} to {ranges[0][1]:g} m lies behind a rigid stop; a "
+            f"displacement: {ranges[0][0]:g} to {ranges[0][1]:g} m lies beyond a rigid stop; a "
             "range between the stops is accepted"
         )
     share = np.random.default_rng(seed).random((count, 2))
@@ -203,12 +205,12 @@ def _drawn(stage: Stage, ranges: Window, count: int, seed: int) -> _Array:
 
 
 def _seeds(known: list[Attractor]) -> _Array:
-    """A state of each motion."""
+    """Return one state of each motion."""
     return np.array([one.points[0] for one in known]).reshape(-1, 5)
 
 
 def _places(one: Attractor, ranges: Window) -> _Array:
-    """Its points at the section, over the window's sides."""
+    """Return the points of a motion at the section, scaled by the sides of the window."""
     points: _Array = one.points[:POINTS, :2] / np.ptp(np.array(ranges), axis=1)
     return points
 

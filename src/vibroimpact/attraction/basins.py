@@ -33,7 +33,7 @@ from vibroimpact.tasks.threads import Progress
 _Labels = NDArray[np.int16]
 
 UNDECIDED, NOWHERE = -1, -2
-"""Of a state that was given up, and of one behind a rigid stop."""
+"""Number of a state that was given up, and of a state beyond a rigid stop."""
 MOST_NODES = 100_000_000
 MOST_REFINED = 8
 
@@ -55,58 +55,59 @@ def basins(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Find which initial states lead to which steady motion.
+    """Compute the basins of attraction: which initial states lead to which steady motion.
 
-    States begin at the phase of the excitation. Motions need not be known: each state is followed
-    until it is where nothing leaves for another motion, and what it leads to is found there
-    (docs/how-to/map-basins.md).
+    Each motion starts at the phase of the excitation. The steady motions need not be known in
+    advance: each state is followed until it enters a region that no trajectory leaves for another
+    motion, and that motion is identified there (docs/how-to/map-basins.md).
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     displacement, velocity
-        Lowest and highest of the grid, in m and m/s. None for 1.6 times what the steady motions
-        take that a coarse grid of starts leads to.
+        Lowest and highest displacement (m) and velocity (m/s) of the grid. Default: 1.6 times the
+        range of the steady motions that a coarse grid of initial states leads to.
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     nodes
-        Along each axis, or along displacement and velocity.
+        Number of nodes along each axis, or a pair: along displacement and along velocity.
     refine
-        Number of times that the grid is made twice as dense near borders. No further states are
-        computed between nodes that lead to the same motion: stripes narrower than the first grid
-        may be missed.
+        Number of times that the grid is made twice as dense near the borders of basins. No further
+        states are computed between nodes that lead to the same motion, so stripes narrower than the
+        spacing of the first grid may be missed.
     right_bumper, left_bumper
-        Deformation that a bumper still has where the mass begins (m; on the left below 0), at least
-        that which the mass presses. Others, and relaxed ones, have 0.
+        Initial deformation of the bumper (m; negative on the left), at least that by which the mass
+        presses it. 0 for a relaxed bumper and for other stops.
     isolator
-        What the isolator remembers where it has a memory (m).
+        Initial memory of the isolator (m), if its law has one; see `State`.
     max_cycles
-        Forcing cycles behind which a motion that has not settled is said to wander.
+        Number of forcing cycles after which a motion that has not settled counts as wandering.
     max_events
-        Contacts and detachments in one forcing cycle at which a state is given up.
+        Number of contacts and detachments in one forcing cycle at which a state is given up.
     threads
-        How many regions of states are followed at once; None for one a processor. No result depends
-        on it.
+        Number of threads (default: one per processor). It does not affect the result.
     where
         ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
-        of its scheduler (docs/how-to/many-machines.md). No result depends on it.
+        of its scheduler (docs/how-to/many-machines.md). It does not affect the result.
     progress
-        Called from the calling thread with the states done and all.
+        Function that is called in the calling thread with the number of states done and their
+        total.
 
     Returns
     -------
     xarray.Dataset
         Dims ``velocity``, ``displacement``: ``basin``, the number of the motion (-1: given up, -2:
-        behind a rigid stop), ``capture_cycles`` until it was sure, and ``level`` of refinement. Dim
-        ``attractor``, the largest motion first: ``motion``, ``period``, sizes, ``share`` of the
-        states with its 95% interval, ``border_distance`` and ``mirror_image``. Dim ``point``: where
-        they are at the section. ``basin_entropy``, ``border_entropy``, ``uncertainty_exponent``.
+        beyond a rigid stop), ``capture_cycles``, the cycles until the motion was certain, and
+        ``level`` of refinement. Dim ``attractor``, the largest motion first: ``motion``,
+        ``period``, sizes, ``share`` of the states with its 95% interval, ``border_distance`` and
+        ``mirror_image``. Dim ``point``: the points of the motions at the section.
+        ``basin_entropy``, ``border_entropy``, ``uncertainty_exponent``.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or nothing dies out, so that each state has its own motion.
+        If a value is invalid, or the rig has no dissipation, so that each state has its own motion.
     """
     rig = as_rig(rig, frequency)
     rig.check_frequency()
@@ -157,7 +158,7 @@ def _nodes(given: int | tuple[int, int]) -> tuple[int, int]:
 def span_of(
     given: Sequence[float | str] | None, quantity: Quantity, field: str
 ) -> tuple[float, float] | None:
-    """Read the lowest and the highest of a window; None if none is given."""
+    """Read the lowest and the highest value of a window; return None without a window."""
     if given is None:
         return None
     is_ordered = is_list(given) and hasattr(given, "__len__") and not isinstance(given, Set)
@@ -174,7 +175,7 @@ def span_of(
 def _others(
     oscillator: Oscillator, right: float | str, left: float | str, isolator: float | str
 ) -> NDArray[np.float64]:
-    """Deformations of the bumpers away from the mass, and the isolator's memory."""
+    """Return the deformations of untouched bumpers and the memory of the isolator."""
     values = [
         to_si(right, LENGTH, "right_bumper", minimum=0.0),
         -to_si(left, LENGTH, "left_bumper", maximum=0.0),
@@ -185,14 +186,17 @@ def _others(
         ("left_bumper", values[1], oscillator.left),
     ):
         if value and not hasattr(stop, "damping"):
-            raise InputError(f"{name}: {value:g} m, but no bumper there remembers; 0 is accepted")
+            raise InputError(
+                f"{name}: {value:g} m, but this side has no bumper that keeps a deformation; 0 "
+                "is accepted"
+            )
     return np.array(values)
 
 
 def _labelled(
     search: Search, points: Lattice, plan: Nodes, progress: Progress | None
 ) -> tuple[_Labels, NDArray[np.int32], NDArray[np.int8]]:
-    """Motion, cycles and level of each node; -1 where it was given up."""
+    """Return motion, cycles and level of each node; -1 where the state was given up."""
     low, high = walls(search.stage)
     outside = (points.displacement < low) | (points.displacement > high)
     # One more than the number of the motion; 0 is given up.
@@ -255,9 +259,9 @@ def _dataset(
         values, {"velocity": v, "displacement": u, "attractor": np.arange(len(known))}
     )
     rows, columns = (len(range(0, n, step)) for n in plan.shape)
-    data.attrs["lattice"] = f"each state of {columns} × {rows} was followed" + (
-        f"; then {plan.refine} times those beside a border, to {plan.shape[1]} × {plan.shape[0]}: "
-        "what is narrower than the first grid may be missed"
+    data.attrs["lattice"] = f"each of {columns} × {rows} states was computed" + (
+        f"; refined {plan.refine} times near borders, to {plan.shape[1]} × {plan.shape[0]}: "
+        "regions narrower than the first grid may be missed"
         if plan.refine
         else ""
     )

@@ -35,7 +35,7 @@ from vibroimpact.tasks.executors import placed
 from vibroimpact.tasks.threads import Progress, Workers
 
 _IMAGES = 400
-"""Images of the piece with which a curve begins, at most."""
+"""Largest number of images of the first piece of a curve."""
 
 
 def manifolds(
@@ -53,26 +53,27 @@ def manifolds(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Find the stable and unstable curves of saddles, and where they cross.
+    """Compute the stable and unstable manifolds (curves) of saddles, and their crossings.
 
-    What begins on a stable curve comes to the saddle; the borders of basins are such curves. What
-    comes from beside the saddle leaves along its unstable curve. Where the two cross there are
-    horseshoes, and with them transients as if chaotic. The section is at the phase of the
-    excitation.
+    A motion that starts on a stable curve converges to the saddle; the borders of basins are such
+    curves. A motion that starts next to the saddle leaves it along its unstable curve. If the two
+    curves cross, there are horseshoes and transients that look chaotic. The section is at the phase
+    of the excitation.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     saddles
-        Datasets of `orbit`, or states near saddle orbits. None for up to four saddles that the
-        borders between basins lead to.
+        Datasets of `orbit`, or states near saddle orbits. Default: up to four saddles to which the
+        borders between basins lead.
     displacement, velocity
-        Lowest and highest of the window, in m and m/s; None for that of `basins`.
+        Lowest and highest displacement (m) and velocity (m/s) of the window. Default: as in
+        `basins`.
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     period
-        Period of saddles that are given as states, in forcing cycles.
+        Period of those saddles that are passed as states (forcing cycles).
     spacing
         Largest distance between neighbouring points of a curve, where each side of the window has
         the length 1.
@@ -81,24 +82,25 @@ def manifolds(
     max_cycles, max_events, threads
         As in `basins`.
     progress
-        Called from the calling thread: with the states done and all where saddles are sought, then
-        with the curves done and all.
+        Function that is called in the calling thread: during the search for saddles with the number
+        of states done and their total, then with the number of curves done and their total.
 
     Returns
     -------
     xarray.Dataset
         Dim ``point``: ``curve_displacement``, ``curve_velocity`` and ``curve_number`` of all curves
-        one after the other, NaN where a curve jumps at a rigid stop. Dim ``curve``: ``curve_kind``
-        ("stable" or "unstable"), ``curve_saddle``, ``curve_length`` and ``curve_ended``, why it
-        ends. Dim ``saddle``: its points, period and multipliers. Dim ``crossing``: where stable and
-        unstable curves cross, with the numbers of both.
+        in sequence, NaN where a curve jumps at a rigid stop. Dim ``curve``: ``curve_kind``
+        ("stable" or "unstable"), ``curve_saddle``, ``curve_length`` and ``curve_ended``, the reason
+        why it ends. Dim ``saddle``: its points, period and multipliers. Dim ``crossing``: where
+        stable and unstable curves cross, with the numbers of both.
 
     Raises
     ------
     InputError
-        If a value cannot be used, an orbit is no saddle, or a state is more than displacement and
-        velocity: bumpers that relax slowly, isolators with a memory, power-law stops with a
-        restitution that the saddle presses at the phase of the excitation.
+        If a value is invalid, an orbit is not a saddle, or the state consists of more than
+        displacement and velocity. That is so for bumpers that relax slowly, isolators with a
+        memory, and power-law stops with a restitution that the saddle presses at the phase of the
+        excitation.
     """
     rig = as_rig(rig, frequency)
     rig.check_frequency()
@@ -112,8 +114,9 @@ def manifolds(
     stage = Stage(rig, max_events)
     if not forgets(stage):
         raise InputError(
-            "oscillator: a bumper or the isolator remembers more than a cycle, so that the curves "
-            "of saddles lie in no plane; bumpers that relax within a cycle are accepted"
+            "oscillator: a bumper or the isolator keeps its memory for more than a cycle, so the "
+            "curves of saddles do not lie in a plane; bumpers that relax within a cycle are "
+            "accepted"
         )
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
@@ -151,7 +154,7 @@ def _curves(
     workers: Workers,
     progress: Progress | None,
 ) -> list[list[tuple[str, Curve]]]:
-    """Of each saddle the two sides of the stable curve, then those of the unstable one."""
+    """Return both sides of the stable curve of each saddle, then both sides of the unstable one."""
     found: list[list[tuple[str, Curve]]] = []
     done, total = 0, 4 * len(saddles)
     for saddle in saddles:

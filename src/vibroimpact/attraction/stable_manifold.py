@@ -96,7 +96,7 @@ class _Chains:
                 return "it leaves the surroundings of the window"
             if total > longest:
                 self._cut(i + 1)
-                return "it is as long as was asked for"
+                return "it reaches the largest length"
             i += 1
         return ""
 

@@ -56,5 +56,5 @@ def unstable_curve(
             return Curve(broken(np.vstack(parts), measure), "it ends on a motion")
         last = length
         if total > measure.longest:
-            return Curve(broken(np.vstack(parts), measure), "it is as long as was asked for")
+            return Curve(broken(np.vstack(parts), measure), "it reaches the largest length")
     return Curve(broken(np.vstack(parts), measure), "as many images were made as were asked for")

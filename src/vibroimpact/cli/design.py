@@ -93,7 +93,8 @@ def design(
     suite = records_or_sines(what, found, scale, peak)
     table = what.study.design if what.study else DesignTable()
     ranges = parameter_values(what, "--vary", opt.by_name("--vary", vary) or table.vary or {})
-    limits = {**(table.limits or {}), **opt.by_name("--limit", limit)}
+    limits: dict[str, Any] = {name.replace("-", "_"): v for name, v in (table.limits or {}).items()}
+    limits |= opt.by_name("--limit", limit)
     designed = what.oscillator if suite else what.rig
     options: dict[str, Any] = {
         **opt.stated(fractile=table.fractile if fractile is None else fractile),

@@ -58,7 +58,8 @@ def calls(
 
     def decorate(command: _Command) -> _Command:
         library = read_arguments(function) if function else {}
-        own = _descriptions(inspect.getdoc(command) or "")
+        docstring = inspect.getdoc(command) or ""
+        own = _descriptions(docstring)
         hints = get_type_hints(command, include_extras=True)
         options = inspect.signature(command).parameters
         defaults = dict(command.__kwdefaults__ or {})
@@ -83,7 +84,7 @@ def calls(
         module = command.__module__.rpartition(".")[2]
         RENAMED[module] = {arguments[name]: _flag(name, hints[name]) for name in arguments}
         command.__kwdefaults__ = defaults
-        command.__doc__ = (command.__doc__ or "").partition("\n    Parameters\n")[0]
+        command.__doc__ = docstring.partition("\n\nParameters\n")[0]
         command.called_function = function  # type: ignore[attr-defined]
         command.called_arguments = arguments  # type: ignore[attr-defined]
         return command

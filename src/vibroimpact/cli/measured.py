@@ -1,4 +1,4 @@
-"""What a fit needs from the options: the shaking of the tests, the rig, pairs of values."""
+"""What a fit needs from the options: the shaking of the tests, pairs of values."""
 
 from __future__ import annotations
 
@@ -10,8 +10,6 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
-    from vibroimpact.cli.rig import Subject
-
 
 def shaking_of_tests(tests: list[xr.Dataset]) -> vi.Harmonic | None:
     """Return the shaking of the base that the files state; None if one does not state it."""
@@ -20,12 +18,13 @@ def shaking_of_tests(tests: list[xr.Dataset]) -> vi.Harmonic | None:
     return vi.Harmonic(float(tests[0].attrs.get("amplitude", 1.0)), 1.0)
 
 
-def rig_of_sine(what: Subject) -> vi.Rig | vi.Oscillator:
-    """Return the rig; without its shaking unless that is one sine of the base acceleration."""
-    shaking = what.shaking
-    if isinstance(shaking, vi.Harmonic) and shaking.of == "acceleration":
-        return vi.Rig(what.oscillator, shaking.amplitude)
-    return what.oscillator
+def with_amplitude(test: xr.Dataset, amplitude: str | None) -> xr.Dataset:
+    """Return a test with the amplitude of the option, which replaces that of the file."""
+    from vibroimpact.measurements.read import CALL
+
+    if amplitude is None:
+        return test
+    return test.assign_attrs(amplitude=amplitude, amplitude_source=CALL)
 
 
 def pair(text: str, option: str) -> tuple[str, str]:

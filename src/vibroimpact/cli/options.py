@@ -106,7 +106,7 @@ def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     for name, value in pairs:
-        key = name.replace("-", "_") or name
+        key = name.replace("-", "_")
         if key in found:
             raise InputError(f"{option}: {name!r} is given twice; once is accepted")
         found[key] = value

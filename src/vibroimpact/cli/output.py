@@ -197,8 +197,7 @@ def warnings_in_lines() -> Iterator[None]:
                 warn(str(message))
 
         warnings.showwarning = show
-        for shown in (InputWarning, RuntimeWarning):
-            warnings.simplefilter("always", shown)
+        warnings.simplefilter("always", InputWarning)
         yield
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -113,12 +114,13 @@ def has_normalised_curves(data: xr.Dataset, rig: Rig) -> bool:
 
 @contextmanager
 def results(what: Subject, output: OutputOptions) -> Iterator[Results]:
-    """Make the folder of the results before anything is computed.
+    """Make the folder of the results before anything is computed; warnings do not end a command.
 
     Raises
     ------
     InputError
         If it cannot be written to.
     """
-    with output_folder(output.output) as folder:
+    with output_folder(output.output) as folder, warnings.catch_warnings():
+        warnings.simplefilter("always", RuntimeWarning)
         yield Results(what, output, folder)

@@ -1,4 +1,4 @@
-"""Output variables of what is found of many motions at once: basins and maps."""
+"""Output variables of computations with many motions: basins, curves of saddles and maps."""
 
 from __future__ import annotations
 
@@ -10,29 +10,29 @@ MANY_MOTIONS: dict[str, Variable] = {
     "basin": Variable(
         "1",
         "steady motion that the state leads to",
-        "its number; -1 of a state that was given up, -2 of one behind a rigid stop",
+        "its number; -1: the state was given up, -2: the state lies beyond a rigid stop",
     ),
     "capture_cycles": Variable(
-        "1", "forcing cycles until it was sure where the state leads", "-1 where not followed"
+        "1", "forcing cycles until the final motion was certain", "-1: not simulated"
     ),
-    "mirror_image": Variable("1", "number of the mirror image", "-1 where it is not among them"),
-    "section_attractor": Variable("1", "number of the motion whose point it is"),
-    "states": Variable("1", "number of states that lead there"),
+    "mirror_image": Variable("1", "number of the mirror image", "-1: not among the motions"),
+    "section_attractor": Variable("1", "number of the motion that the point belongs to"),
+    "states": Variable("1", "number of states that lead to the motion"),
     "given_up": Variable("1", "number of states that were given up"),
-    "share": Variable("1", "share of the states that lead there"),
+    "share": Variable("1", "share of the states that lead to the motion"),
     **{
         f"share_{end}": Variable(
             "1",
             f"{which} end of the 95% interval of the share",
-            "as of states that are drawn at random; those of a grid know it better",
+            "computed as for randomly drawn states; the share on a grid is more accurate",
         )
         for end, which in (("low", "lower"), ("high", "upper"))
     },
     "border_distance": Variable(
         "m",
         "distance of the motion from the border of its basin",
-        "at the section, velocities over the angular frequency of the forcing; infinite if no "
-        "state leads elsewhere",
+        "at the section, with velocities divided by the angular frequency of the forcing; "
+        "infinite if no state leads to another motion",
     ),
     "basin_entropy": Variable("1", "basin entropy of boxes of 5 × 5 states"),
     "border_entropy": Variable(
@@ -41,7 +41,7 @@ MANY_MOTIONS: dict[str, Variable] = {
     "uncertainty_exponent": Variable(
         "1",
         "exponent of the share of uncertain states",
-        "1 of a smooth border; 2 less this is the border's dimension",
+        "1 for a smooth border; the dimension of the border is 2 minus this",
     ),
     "uncertainty_exponent_error": Variable("1", "standard error of the uncertainty exponent"),
     # stable and unstable curves
@@ -52,45 +52,59 @@ MANY_MOTIONS: dict[str, Variable] = {
     "curve_velocity": Variable("m s-1", "relative velocity on a curve"),
     "curve_kind": Variable("1", "stable or unstable"),
     "curve_saddle": Variable("1", "number of the saddle that the curve belongs to"),
-    "curve_length": Variable("1", "length of the curve", "sides of the window count 1 each"),
+    "curve_length": Variable(
+        "1", "length of the curve", "in units in which each side of the window has the length 1"
+    ),
     "curve_ended": Variable("1", "why the curve ends"),
     "saddle_displacement": Variable("m", "relative displacement of the saddle"),
     "saddle_velocity": Variable("m s-1", "relative velocity of the saddle"),
     "saddle_period": Variable("1", "period of the saddle in forcing cycles"),
-    "multiplier_growing": Variable("1", "multiplier of what grows at the saddle"),
-    "multiplier_dying": Variable("1", "multiplier of what dies out at the saddle"),
+    "multiplier_growing": Variable(
+        "1", "Floquet multiplier of the growing disturbance at the saddle"
+    ),
+    "multiplier_dying": Variable(
+        "1", "Floquet multiplier of the decaying disturbance at the saddle"
+    ),
     "crossing_displacement": Variable("m", "relative displacement where two curves cross"),
     "crossing_velocity": Variable("m s-1", "relative velocity where two curves cross"),
     "crossing_stable": Variable("1", "number of the stable curve that is crossed"),
     "crossing_unstable": Variable("1", "number of the unstable curve that crosses it"),
     # maps
-    "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1 is not known yet"),
+    "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1: not computed yet"),
     "confidence": Variable(
         "1",
         "confidence in the scenario",
-        "share of the variations of the thresholds, halved and doubled, that leave it the same",
+        "share of the variations of the thresholds (halved and doubled) that do not change the "
+        "scenario",
     ),
     "level": Variable(
         "1",
         "level of refinement at which the node was computed",
-        "-1: it was not, it has the scenario of the square around it",
+        "-1: not computed; the node has the scenario of the square around it",
     ),
     "extent": Variable(
         "1",
-        "width of secondary left hystereses and non-regular resonances over natural frequency",
+        "width of secondary left hystereses and non-regular resonances divided by the natural "
+        "frequency",
     ),
-    "penetration_ratio": Variable("1", "largest penetration over gap"),
+    "penetration_ratio": Variable("1", "largest penetration divided by the gap"),
     "resonance_ratio": Variable(
-        "1", "frequency of the primary resonance over that of free flight", "of η_d, forward"
+        "1", "frequency of the primary resonance divided by that without stops", "of η_d, forward"
     ),
     "peak_eta_a_forward": Variable("1", "largest η_a, forward"),
     "peak_eta_a_backward": Variable("1", "largest η_a, backward"),
     "peak_eta_d_forward": Variable("1", "largest η_d, forward"),
     "peak_eta_d_backward": Variable("1", "largest η_d, backward"),
-    "jump_down_ratio": Variable("1", "frequency of the downward jump over natural frequency"),
-    "jump_up_ratio": Variable("1", "frequency of the upward jump over natural frequency"),
-    "contact_low_ratio": Variable("1", "lowest frequency with contact over natural frequency"),
-    "contact_high_ratio": Variable("1", "highest frequency with contact over natural frequency"),
+    "jump_down_ratio": Variable(
+        "1", "frequency of the downward jump divided by the natural frequency"
+    ),
+    "jump_up_ratio": Variable("1", "frequency of the upward jump divided by the natural frequency"),
+    "contact_low_ratio": Variable(
+        "1", "lowest frequency with contact divided by the natural frequency"
+    ),
+    "contact_high_ratio": Variable(
+        "1", "highest frequency with contact divided by the natural frequency"
+    ),
     "left_hysteresis_count": Variable("1", "number of left hystereses"),
     "secondary_count": Variable("1", "number of regular secondary resonances"),
     "irregular_count": Variable("1", "number of ranges that are not regular"),

@@ -1,4 +1,4 @@
-"""Datasets to NetCDF files and back: never half-written, and checked when they are read."""
+"""Write datasets to NetCDF files in one step, and check the files when they are read."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from vibroimpact.datasets.tables import as_text
 from vibroimpact.errors import InputError, shown, warn_of_input
 
 _SEAL = b"\nvibroimpact sha256 "
-"""Stands before the digest at the end of a file; HDF5 knows its own length and ignores both."""
+"""Marks the digest at the end of a file. HDF5 knows its own length and ignores both."""
 _SEAL_LENGTH = len(_SEAL) + 2 * hashlib.sha256().digest_size
 
 
 def write_whole(path: Path | str, content: bytes | str) -> Path:
-    """Write a file next to `path`, then rename it: there is the old file or the new one, whole.
+    """Write a file next to `path`, then rename it, so that `path` is the complete old or new file.
 
-    The content is complete before anything is written, so that a full disk is an error of the
-    operating system here, and not one within the library of a format.
+    The content is complete before anything is written. A full disk therefore raises an error of the
+    operating system here, not one within the library of a format.
 
     Raises
     ------
@@ -61,16 +61,17 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
     Parameters
     ----------
     dataset
-        Several become the groups of the file. A blank or a slash in a name becomes an underscore.
+        A dataset, or a mapping of names to datasets, which become the groups of the file. A blank
+        or a slash in a name becomes an underscore.
     path
-        ``.nc`` is NetCDF, which keeps everything; ``.csv`` is the table of `to_table`, for a
-        spreadsheet, and holds one dataset.
+        File name. ``.nc`` writes NetCDF, which keeps everything. ``.csv`` writes the table of
+        `to_table` for a spreadsheet, and holds one dataset.
 
     Raises
     ------
     InputError
-        If the ending is another, or the file cannot be written; a file that was there is then as
-        it was.
+        If the file name ends otherwise, or the file cannot be written. An existing file is then
+        unchanged.
     """
     ending = check_path(path, "path").suffix.lower()
     if ending not in (".nc", ".csv"):
@@ -81,8 +82,8 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
     if ending == ".csv":
         if not isinstance(dataset, xr.Dataset):
             raise InputError(
-                f"path: {str(path)!r} would hold several datasets; a table for each, or .nc, is "
-                "accepted"
+                f"path: {str(path)!r} would hold several datasets; write one table per dataset, "
+                "or use .nc"
             )
         return write_whole(path, as_text(dataset))
     if isinstance(dataset, xr.Dataset):
@@ -93,8 +94,8 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
     names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
     if len(set(names.values())) < len(names):
         raise InputError(
-            f"dataset: the names {', '.join(map(repr, names))} are not different as groups of a "
-            "file; names that differ otherwise than by blanks and slashes are accepted"
+            f"dataset: the names {', '.join(map(repr, names))} are the same as groups of a file; "
+            "names that differ by more than blanks and slashes are accepted"
         )
     tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
     tree.attrs["vibroimpact_version"] = __version__
@@ -102,7 +103,7 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
 
 
 def _sealed(data: xr.Dataset | xr.DataTree) -> bytes:
-    """A NetCDF file with the digest of its bytes at its end."""
+    """Return a NetCDF file with the digest of its bytes at its end."""
     file = io.BytesIO()
     data.to_netcdf(file, engine="h5netcdf")
     content = file.getvalue()
@@ -110,12 +111,12 @@ def _sealed(data: xr.Dataset | xr.DataTree) -> bytes:
 
 
 def _unsealed(content: bytes) -> tuple[bytes, bool]:
-    """The NetCDF file without its digest, and whether it had one.
+    """Return the NetCDF file without its digest, and whether it had one.
 
     Raises
     ------
     ValueError
-        If the digest does not fit.
+        If the digest does not match the content.
     """
     seal = content[-_SEAL_LENGTH:]
     if not seal.startswith(_SEAL):
@@ -124,7 +125,7 @@ def _unsealed(content: bytes) -> tuple[bytes, bool]:
         return content, False
     content = content[:-_SEAL_LENGTH]
     if hashlib.sha256(content).hexdigest().encode() != seal.removeprefix(_SEAL):
-        raise ValueError("its content does not fit its checksum")
+        raise ValueError("its content does not match its checksum")
     return content, True
 
 
@@ -136,18 +137,18 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     path
         The file.
     group
-        Which of several datasets.
+        Name of the dataset, if the file holds several.
 
     Raises
     ------
     InputError
-        If the file is missing, damaged, or not one of this package's; or if it holds several
-        datasets, and ``group`` names none of them.
+        If the file is missing or damaged, or this package did not write it; or if it holds several
+        datasets, and ``group`` does not name one of them.
 
     Warns
     -----
     InputWarning
-        If the file has no checksum, because another program has written to it since.
+        If the file has no checksum, because another program has changed it.
     """
     if not check_path(path, "file").is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")
@@ -175,6 +176,6 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     if not is_sealed:
         warn_of_input(
             f"file {str(path)!r}",
-            ["it has no checksum, so another program changed it; damage would not be noticed"],
+            ["it has no checksum because another program changed it, so damage cannot be detected"],
         )
     return data

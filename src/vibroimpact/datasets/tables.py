@@ -12,35 +12,38 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _COLUMNS = {"component", "exponent", "multiplier", "component_after", "component_before", "bound"}
-"""Dims of a few labelled values, which stand beside one another."""
+"""Dims with a few labelled values, which become columns."""
 
 
 def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
-    """Return a dataset as a tidy table: a row for each frequency, sample, orbit or contact.
+    """Convert a dataset to a tidy table with one row per frequency, sample, orbit or contact.
 
     Parameters
     ----------
     dataset
-        What a function of this package returned.
+        Dataset that a function of this package returned.
     rows
         The dim whose entries are the rows, such as ``"event"`` or ``"contact_number"`` of a motion.
-        None for what the dataset is mainly about: rig, direction and frequency of a sweep, the
-        time of a motion, the points of a branch.
+        Default: the main dims of the dataset, which are rig, direction and frequency of a sweep,
+        the time of a motion, the points of a branch.
 
     Returns
     -------
     pandas.DataFrame
-        A column for each coordinate and each variable along the rows; a component of the state has
-        a column of its own. Values along other dims are left out. ``attrs["units"]`` has the units
-        of the columns.
+        One column per coordinate and per variable along the rows, and one per component of the
+        state. Values along other dims are left out. ``attrs["units"]`` holds the units of the
+        columns.
 
     Raises
     ------
     InputError
-        If it is no dataset, or nothing in it goes along ``rows``.
+        If it is not a dataset, or none of its variables has the dim ``rows``.
     """
     if not isinstance(dataset, xr.Dataset):
-        raise InputError(f"dataset: {shown(dataset)} is no dataset; what sweep returns is accepted")
+        raise InputError(
+            f"dataset: {shown(dataset)} is not a dataset; the result of a function such as sweep "
+            "is accepted"
+        )
     along = [variable.dims for variable in dataset.data_vars.values() if variable.dims]
     main = [tuple(dim for dim in dims if dim not in _COLUMNS) for dims in along]
     about = next((dims for dims in main if dims), ("component",))
@@ -67,7 +70,7 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
 
 
 def _side_by_side(name: str, variable: xr.DataArray, dims: list[object]) -> dict[str, xr.DataArray]:
-    """One array for each entry along some dims, named after it."""
+    """Return one array per entry along some dims, named after the entry."""
     if not dims:
         return {name: variable}
     dim, *rest = dims
@@ -79,7 +82,7 @@ def _side_by_side(name: str, variable: xr.DataArray, dims: list[object]) -> dict
 
 
 def as_text(dataset: xr.Dataset) -> str:
-    """Return the table of a dataset as comma-separated values, units in the first line."""
+    """Return the table of a dataset as comma-separated values, with the units in the first line."""
     frame = to_table(dataset)
     units = frame.attrs["units"]
     frame.columns = [

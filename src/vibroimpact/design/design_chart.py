@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.design.design_shaking import AnyRecords, design_rig
 from vibroimpact.design.limits import limits_of
@@ -46,65 +47,70 @@ def design_chart(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Return the trade-off between displacement and acceleration over parameters of a rig.
+    """Compute the trade-off between displacement and acceleration over parameters of a rig.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
-        Of a sine, the worst steady motion of all frequencies counts, swept up and down. Of a
-        record, the motion from rest counts.
+        If a sine shakes it, the largest steady motion over all frequencies counts, swept up and
+        down. If a record shakes it, the motion from rest counts.
     vary
-        Values of parameters by name, all combined, such as ``"gap"``, ``"bumper_stiffness"``,
-        ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` or ``"yield_force"``. Those
-        of stops are set on both sides, where the stop has them. ``"bumper_stiffness"`` keeps the
-        bumpers' damping, ``"stiffness_at_restitution"`` lets it follow, for the same restitution.
+        Values of parameters by name, in all combinations, such as ``"gap"``,
+        ``"bumper_stiffness"``, ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` or
+        ``"yield_force"``. Parameters of stops are set on both sides, if the stop has them.
+        ``"bumper_stiffness"`` keeps the damping of the bumpers; ``"stiffness_at_restitution"``
+        changes it so that the restitution is the same.
     records
-        A record, or several by name or as a list, in the place of what shakes the rig, which may
-        then be an `Oscillator` alone. A fractile over them counts, each from rest, at its own size.
+        A record, or several by name or as a list, which replace the shaking of the rig. The rig may
+        then be an `Oscillator` alone. Each run starts from rest, with the record unscaled, and the
+        fractile over the records counts.
     limits
-        What must not be exceeded, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
-        ``"peak_displacement"`` (m; ``_right``, ``_left``). A design that exceeds one is told as
-        the others are, and stands aside in ``pareto``.
+        Largest accepted values, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
+        ``"peak_displacement"`` (m; ``_right``, ``_left``). A design that exceeds a limit is
+        reported as the others are, but is excluded from ``pareto``.
     fractile
-        Share of the records below; 1 for the largest of all. It is taken of each quantity by
-        itself, interpolated between records, and limits are held against it.
+        Share of the records below the reported value; 1 for the largest of all. It is computed for
+        each quantity separately, by interpolation between records, and is compared with the limits.
     frequency_span
-        Lowest and highest frequency of the sines (Hz). None for a range about the primary
-        resonance, of each design.
+        Lowest and highest forcing frequency (Hz). Default: a range around the primary resonance of
+        each design.
     step
-        Step of the sweeps, as a share of the natural frequency, or smaller where the damping is
-        light; about the largest responses it is 64 times as fine.
+        Step of the sweeps, as a share of the natural frequency. It is smaller for light damping,
+        and 64 times as fine near the largest responses.
     tail
-        How long a motion is followed behind a record; see `seismic_response`.
+        Duration of free vibration after the record (s); see `seismic_response`.
     threads
-        How many designs are computed at once; None for one a processor. No result depends on it.
+        Number of threads (default: one per processor). It does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster, as of `scenario_map`. No result depends
-        on it.
+        ``"threads"``, ``"processes"``, or a dask cluster, as in `scenario_map`. It does not affect
+        the result.
     progress
-        Called from the calling thread with what is done and all there is.
+        Function that is called in the calling thread with the number of designs done and their
+        total.
 
     Returns
     -------
     xarray.Dataset
-        A dim for each parameter that is varied. ``peak_displacement`` (m; ``_right``, ``_left``),
+        One dim per parameter that is varied. ``peak_displacement`` (m; ``_right``, ``_left``),
         ``peak_acceleration`` (absolute, m/s²), ``peak_force`` of a stop (N), ``penetration`` beyond
-        a gap (m), ``hitting``: the share of the records that make the mass hit, or whether any sine
-        does. ``pareto``: whether no other design has less displacement without more acceleration,
-        or less acceleration without more displacement; of designs that do the same, such as hit
-        nothing, the first one counts. ``within_limits``, if there are limits: whether all are
-        kept. ``bumper_damping`` (N s/m) where a stiffness of both bumpers is varied. Of sines also
-        where the largest are (``displacement_frequency``, ``acceleration_frequency``), and
-        ``unsettled_count``, holds without a periodic motion, whose peaks are those of 100 cycles.
-        ``status`` is 0 where a design was done; values of one that was given up are NaN, and
-        infinite where the motion had no bound.
+        a gap (m), ``hitting``: the share of the records with which the mass hits a stop, or whether
+        it hits one with any sine. ``pareto``: whether no other design has less displacement without
+        more acceleration, or less acceleration without more displacement; among designs with equal
+        responses, such as those that hit nothing, the first one counts. ``within_limits``, if there
+        are limits: whether the design keeps all of them. ``bumper_damping`` (N s/m), if a stiffness
+        of both bumpers is varied. For sines also the frequencies of the largest values
+        (``displacement_frequency``, ``acceleration_frequency``), and ``unsettled_count``, the
+        number of holds without a periodic motion, whose peaks are those of 100 cycles. ``status``
+        is 0 for a completed design. The values of a design that was given up are NaN; those of an
+        unbounded motion are infinite.
 
     Raises
     ------
     InputError
-        If a value cannot be used.
+        If a value is invalid.
     """
+    check_progress(progress)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
@@ -128,12 +134,12 @@ def design_chart(
 
 
 def _designs(oscillator: Oscillator, vary: Any) -> Runs:
-    """Read which rigs are looked at.
+    """Read which rigs are computed.
 
     Raises
     ------
     InputError
-        If nothing is varied, or a value cannot be used.
+        If nothing is varied, or a value is invalid.
     """
     if not isinstance(vary, Mapping) or not vary:
         raise InputError(
@@ -144,7 +150,7 @@ def _designs(oscillator: Oscillator, vary: Any) -> Runs:
 
 
 def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
-    """The damping of both bumpers beside the stiffness that is varied, if they share one."""
+    """Return the damping of both bumpers along the varied stiffness, if they share one."""
     names = {one.name for one in plan.varied}
     if "bumper_damping" in names or not names & _STIFFNESSES:
         return {}
@@ -157,7 +163,7 @@ def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
 def _dataset(
     plan: Runs, found: Mapping[str, NDArray[Any]], limits: Mapping[str, float]
 ) -> xr.Dataset:
-    """What was found of each design, over what was varied."""
+    """Return the results of all designs, over the parameters that were varied."""
     within = np.ones(found["status"].shape, dtype=bool)
     for name, limit in limits.items():
         within &= found[name] <= limit
@@ -172,7 +178,7 @@ def _dataset(
 
 
 def warn(status: NDArray[Any], who: str) -> None:
-    """Tell of designs that were given up."""
+    """Warn of designs that were given up."""
     for code in np.unique(status[status != Status.DONE]):
         count = int((status == code).sum())
         warnings.warn(

@@ -1,4 +1,4 @@
-"""The least acceleration within ranges of parameters: which bumper for this gap."""
+"""Search for the least acceleration within ranges of parameters: the best bumper for a gap."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
@@ -19,6 +20,7 @@ from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Bumper, Oscillator
+from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.units import pretty
@@ -29,11 +31,11 @@ _Array = NDArray[np.float64]
 _Range = tuple[float | str, float | str]
 
 _STIFFNESSES = (0.1, 100.0)
-"""Of a bumper over that of the isolator, if no range is given."""
+"""Default range of a bumper's stiffness over that of the isolator."""
 _DAMPINGS = (0.01, 10.0)
-"""Of a bumper over the critical damping on the isolator."""
+"""Default range of a bumper's damping over the critical damping on the isolator."""
 _WIDE = 10.0
-"""Ratio of the ends of a range from which on it is searched by ratios, not by differences."""
+"""Ratio of the ends of a range from which it is searched logarithmically."""
 _EACH, _TIMES, _TOLERANCE = 12, 60, 1e-3
 """Designs for each parameter in a generation, generations, and the spread of the last one."""
 
@@ -49,7 +51,7 @@ class _Space(NamedTuple):
 
     @property
     def bounds(self) -> list[tuple[float, float]]:
-        """As the search sees them."""
+        """Bounds in the coordinates of the search."""
         ends = (
             np.where(self.logarithmic, np.log(np.where(self.logarithmic, end, 1.0)), end)
             for end in (self.low, self.high)
@@ -57,13 +59,13 @@ class _Space(NamedTuple):
         return list(zip(*ends, strict=True))
 
     def values(self, x: _Array) -> _Array:
-        """Values of the parameters, for columns of what the search sees."""
+        """Return the values of the parameters for columns in the coordinates of the search."""
         logs = self.logarithmic[:, np.newaxis]
         found = np.where(logs, np.exp(np.where(logs, x, 0.0)), x)
         return np.clip(found, self.low[:, np.newaxis], self.high[:, np.newaxis])
 
     def rigs(self, x: _Array) -> list[Oscillator]:
-        """The design of each column."""
+        """Return the rig of each column."""
         return [
             runs(self.rig, None, {n: [v] for n, v in zip(self.names, one, strict=True)}).oscillator(
                 (0,) * len(self.names)
@@ -73,7 +75,7 @@ class _Space(NamedTuple):
 
 
 class _Known:
-    """What is known of the designs that were tried, each computed once."""
+    """Results of the designs that were tried, each computed once."""
 
     def __init__(
         self, what: Asked, space: _Space, workers: Workers, progress: Progress | None
@@ -82,7 +84,7 @@ class _Known:
         self.rows: dict[bytes, dict[str, float]] = {}
 
     def __call__(self, x: _Array) -> list[dict[str, float]]:
-        """Of each column; what has no bound or was given up counts as infinite."""
+        """Return the results per column; an unbounded or abandoned motion counts as infinite."""
         columns = np.ascontiguousarray(x.reshape(len(self.space.names), -1).T)
         new = [one for one in columns if one.tobytes() not in self.rows]
         new = list({one.tobytes(): one for one in new}.values())
@@ -95,7 +97,7 @@ class _Known:
         return [self.rows[one.tobytes()] for one in columns]
 
     def of(self, name: str, x: _Array) -> _Array:
-        """One quantity of each column."""
+        """Return one quantity per column."""
         found = np.array([one[name] for one in self(x)])
         return np.where(np.isfinite(found), found, _VAST)
 
@@ -103,7 +105,7 @@ class _Known:
 _NEAR = 0.01
 """Share of a limit, or of a range, within which the best design is at its end."""
 _VAST = 1e30
-"""Stands for infinity, of which the search knows no more and no less."""
+"""Finite stand-in for infinity, for the search."""
 
 
 def least_acceleration(
@@ -122,51 +124,55 @@ def least_acceleration(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Return the design with the least acceleration: which bumper for this gap.
+    """Find the design with the least acceleration, such as the best bumper for a gap.
 
-    The acceleration jumps where the motion does and has several valleys, and each value is a whole
-    computation: differential evolution (Storn and Price 1997, by ``scipy.optimize``) needs no
-    derivative, leaves valleys, and tries whole generations at once, on all threads. It is
-    repeatable by its seed. It is no proof: another ``seed`` may find a lower valley.
+    The acceleration jumps where the motion jumps, has several local minima, and each value takes a
+    whole computation. The search therefore uses differential evolution (Storn and Price 1997, in
+    ``scipy.optimize``), which needs no derivative, can leave local minima, and tries whole
+    generations at once on all threads. The same seed gives the same result. The result is not
+    proved to be the global minimum: another ``seed`` may find a lower one.
 
     Parameters
     ----------
     rig, records, fractile, frequency_span, step, tail, threads, where
-        As of `design_chart`.
+        As in `design_chart`.
     ranges
-        Lowest and highest value of parameters by name, as those of `design_chart`. None for the
-        stiffness of the bumpers from 0.1 to 100 times that of the isolator and their damping from
-        0.01 to 10 times the critical one on it.
+        Lowest and highest value of parameters by name, as in `design_chart`. Default: stiffness of
+        the bumpers from 0.1 to 100 times that of the isolator, and their damping from 0.01 to 10
+        times the critical damping on it.
     gap
-        Gap of each side (m); None for those of the oscillator.
+        Gap of each side (m). Default: the gaps of the oscillator.
     limits
-        What must not be exceeded, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
+        Largest accepted values, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
         ``"peak_displacement"`` (m; ``_right``, ``_left``).
     seed
-        Of the search.
+        Random seed of the search.
     progress
-        Called from the calling thread with the designs tried, of nobody knows how many.
+        Function that is called in the calling thread with the number of designs tried; the total is
+        unknown.
 
     Returns
     -------
     xarray.Dataset
-        Without dims: the parameters by name, and the variables of `design_chart` there;
-        ``evaluations``, the designs that were tried. The attribute ``notes`` says if the best
-        design touches no stop, which limits it stays away from, and which parameters ended at an
-        end of their range.
+        Dataset without dims: the parameters by name, and the variables of `design_chart` for the
+        best design; ``evaluations``, the number of designs that were tried. The attribute ``notes``
+        reports whether the best design touches no stop, which limits do not bind, and which
+        parameters ended at an end of their range.
 
     Warns
     -----
     InputWarning
-        If the best design touches no stop: what the stops are like then plays no part.
+        If the best design touches no stop: the properties of the stops then do not matter.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or no design keeps the limits.
+        If a value is invalid, or no design keeps the limits.
     """
     from scipy.optimize import NonlinearConstraint, differential_evolution
 
+    check_progress(progress)
+    seed = whole(seed, "seed", 0)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
@@ -243,7 +249,7 @@ def _space(rig: Oscillator, ranges: Any) -> _Space:
 
 
 def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
-    """Ranges of a bumper for this isolator."""
+    """Return the default ranges of a bumper for this isolator."""
     if not rig.stops or not all(isinstance(stop, Bumper) for stop in rig.stops):
         raise InputError(
             "ranges: missing; without them the stiffness and damping of bumpers are searched, and "
@@ -261,11 +267,11 @@ def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
 
 def _untouched(rig: Oscillator, best: Mapping[str, float]) -> Iterator[str]:
     if rig.stops and not best["hitting"]:
-        yield "the best design touches no stop, so what the stops are like plays no part"
+        yield "the best design touches no stop, so the properties of the stops do not matter"
 
 
 def _slack(best: Mapping[str, float], limits: Mapping[str, float]) -> Iterator[str]:
-    """Limits that the best design does not come near."""
+    """Describe the limits that do not bind."""
     for name, limit in limits.items():
         if best[name] < (1.0 - _NEAR) * limit:
             quantity = QUANTITIES[VARIABLES[name].units]
@@ -276,7 +282,7 @@ def _slack(best: Mapping[str, float], limits: Mapping[str, float]) -> Iterator[s
 
 
 def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
-    """Parameters whose range may hide a better design."""
+    """Describe the parameters that ended at an end of their range."""
     for name, value, low, high, logs in zip(
         space.names, values, space.low, space.high, space.logarithmic, strict=True
     ):
@@ -290,7 +296,9 @@ def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
 
 def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:
     if not math.isfinite(best["peak_acceleration"]):
-        raise InputError(f"ranges: no design was done ({Status(int(best['status'])).advice})")
+        raise InputError(
+            f"ranges: no design could be computed ({Status(int(best['status'])).advice})"
+        )
     for name, limit in limits.items():
         if best[name] > limit:
             raise InputError(

@@ -1,4 +1,4 @@
-"""The gap that a mass needs so as to hit nothing: how far it moves without stops."""
+"""The gaps that a mass needs to hit nothing: its displacement without stops."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.design.design_shaking import AnyRecords, ByRecords, design_rig
 from vibroimpact.design.worst_sine import STEP, Sines
@@ -33,30 +34,31 @@ def required_gap(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Return the gaps at which a rig hits nothing: how far it moves without stops.
+    """Compute the gaps at which a rig hits nothing: its displacement without stops.
 
     Parameters
     ----------
     rig, records, fractile, frequency_span, step, tail, threads, where, progress
-        As of `design_chart`; the fractile is that of the larger side of each record, and of each
-        side by itself, so that the gap for both may exceed those of the two. Of sines and a linear
-        isolator the worst frequency is known in closed form, and the gap is that of the steady
-        motion: exact at any frequency of the range, all of them if none is given. Of other
-        isolators it is that of sweeps up and down. A transient may reach farther. Of records it is
-        exact: each begins at rest.
+        As in `design_chart`. The fractile is computed for the larger side of each record, and for
+        each side separately, so the common gap may exceed both one-sided gaps. For sines and a
+        linear isolator the worst frequency is known in closed form: the gap is exact for the steady
+        motion at any frequency of the range, or at all frequencies without a range. For other
+        isolators the gap comes from sweeps up and down. A transient may reach farther. For records
+        the gap is exact; each run starts at rest.
 
     Returns
     -------
     xarray.Dataset
-        ``required_gap`` (m) of each side if both are to have the same, ``required_gap_right`` and
-        ``required_gap_left`` if not; of sines ``displacement_frequency`` (Hz), of records
+        ``required_gap`` (m), if both sides shall have the same gap; ``required_gap_right`` and
+        ``required_gap_left``, if not. For sines also ``displacement_frequency`` (Hz), for records
         ``peak_displacement_right`` and ``peak_displacement_left`` of each (dim ``record``).
 
     Raises
     ------
     InputError
-        If a value cannot be used, or the free motion has no bound or was given up.
+        If a value is invalid, or the free motion is unbounded or was given up.
     """
+    check_progress(progress)
     workers = placed(threads, where)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
@@ -70,15 +72,15 @@ def required_gap(
         found = _swept(free, what.sines, workers, progress)
     if not np.isfinite(found["required_gap"]):
         raise InputError(
-            "shaking: the mass moves without bound where no stop holds it; an isolator that does "
-            "is accepted"
+            "shaking: without stops the motion of the mass is unbounded; an isolator that bounds "
+            "it is accepted"
         )
     parameters = {"oscillator": oscillator_parameters(oscillator), **what.parameters()}
     return describe(found, "vibroimpact.required_gap", parameters, what.notes())
 
 
 def _in_closed_form(free: Oscillator, sines: Sines) -> xr.Dataset:
-    """The displacement rises up to its resonance, and falls behind it."""
+    """Compute the gap in closed form: the displacement rises up to its resonance, then falls."""
     natural = free.natural_frequency
     worst = natural * peak_ratio(free.damping_ratio, sines.shaken)
     # Without a peak it is largest at an end; far beyond resonance stands for infinity.

@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine import batch
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.hold_rows import HoldRows, Settling, sweep_holds
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.scenarios.map_node import RIG
 from vibroimpact.scenarios.sweep_frequencies import LOW, MOST, cycles, highest
@@ -35,7 +35,7 @@ _ALIKE = 1e-6
 _FAR = 0.8
 """A sweep whose largest hold is smaller than this share of the other's is not looked at more."""
 _TOLERANCE = 1e-9
-_LEAST_CYCLES, _WINDOW, _MAX_EVENTS = 300, 100, 10_000
+_LEAST_CYCLES, _WINDOW = 300, 100
 _SOUND = (int(Status.DONE), int(Status.NOT_SETTLED))
 _UNBOUNDED = (int(Status.NOT_FINITE), int(Status.REVERSED))
 
@@ -61,7 +61,7 @@ class _Holds(NamedTuple):
     """Frequencies in the order in which they were held, with what was found."""
 
     frequency: _Array
-    results: _Array
+    rows: HoldRows
     states: _Array
 
 
@@ -137,36 +137,27 @@ class _Search:
         for size in (_displacement, _acceleration):
             for about in _to_be_refined(swept, size):
                 for _ in range(_LEVELS):
-                    at = _top(size(about.results))
-                    if not about.results[at, hold.PERIOD]:
+                    at = _top(size(about.rows))
+                    if not about.rows.period[at]:
                         break  # no smooth curve goes through a motion that is not periodic
                     about = self._finer(about, at)
                     every.append(about)
-        whole = _Holds(*(np.concatenate(parts) for parts in zip(*every, strict=True)))
+        whole = _Holds(
+            np.concatenate([one.frequency for one in every]),
+            HoldRows(np.concatenate([one.rows.array for one in every])),
+            np.concatenate([one.states for one in every]),
+        )
         return self._seen(whole)
 
     def _held(self, frequency: _Array, start: _Array) -> _Holds:
-        count = len(frequency)
-        results = np.empty((count, hold.RESULTS))
-        states = np.zeros((count, layout.STATE))
-        batch.sweep(
-            self.vector,
-            np.full(count, self.amplitude),
-            frequency,
-            self.phase,
-            start.copy(),
-            _TOLERANCE,
-            self.max_cycles,
-            _WINDOW,
-            _MAX_EVENTS,
-            hold.PATIENT,
-            results,
-            states,
-            self.tally,
+        levels = np.full(len(frequency), self.amplitude)
+        settling = Settling(_TOLERANCE, self.max_cycles, _WINDOW)
+        rows, states = sweep_holds(
+            self.vector, levels, frequency, self.phase, start, settling, self.tally
         )
         if self.tally[1]:
             raise Stopped
-        return _Holds(frequency, results, states)
+        return _Holds(frequency, rows, states)
 
     def _finer(self, held: _Holds, at: int) -> _Holds:
         """From the hold before the largest to the one behind it, in the sweep's own direction."""
@@ -175,13 +166,13 @@ class _Search:
             held.frequency[first], held.frequency[last], _FINER * (last - first) + 1
         )
         # The sweep carries on what it had reached there.
-        sound = held.results[first, hold.OUTCOME] in _SOUND
+        sound = held.rows.status[first] in _SOUND
         return self._held(places, held.states[first] if sound else self.start)
 
     def _seen(self, held: _Holds) -> Worst:
-        results = held.results
-        size = _displacement(results)
-        codes = judged(self.rig, results[:, hold.OUTCOME], size)
+        rows = held.rows
+        size = rows.peak_displacement
+        codes = judged(self.rig, rows.status, size)
         if np.isin(codes, _UNBOUNDED).any():
             beyond = (math.inf,) * 4
             status = int(codes[np.isin(codes, _UNBOUNDED)][0])
@@ -189,18 +180,18 @@ class _Search:
         sound = np.isin(codes, _SOUND)
         if not sound.all():
             return Worst(*(math.nan,) * 4, False, math.nan, math.nan, 0, int(codes[~sound][0]))
-        touching = (results[:, hold.HITS_RIGHT] > 0.0) | (results[:, hold.HITS_LEFT] > 0.0)
+        touching = (rows.impacts_right > 0.0) | (rows.impacts_left > 0.0)
         # What stays pressed all the time begins no contact.
-        right, left = results[:, hold.U_MOST], -results[:, hold.U_LEAST]
+        right, left = rows.displacement_max, -rows.displacement_min
         for stop, reached in ((self.rig.right, right), (self.rig.left, left)):
             if stop is not None:
                 touching |= reached > stop.gap
-        acceleration = _acceleration(results)
+        acceleration = rows.peak_acceleration
         return Worst(
             float(right.max()),
             float(left.max()),
             float(acceleration.max()),
-            float(results[:, [hold.FORCE_RIGHT, hold.FORCE_LEFT]].max()) * self.rig.mass,
+            float(np.maximum(rows.peak_force_right, rows.peak_force_left).max()) * self.rig.mass,
             bool(touching.any()),
             float(held.frequency[size.argmax()]),
             float(held.frequency[acceleration.argmax()]),
@@ -209,10 +200,10 @@ class _Search:
         )
 
 
-def _to_be_refined(swept: list[_Holds], size: Callable[[_Array], _Array]) -> list[_Holds]:
+def _to_be_refined(swept: list[_Holds], size: Callable[[HoldRows], _Array]) -> list[_Holds]:
     """The sweeps whose largest may be that of both; of two that are at one motion, one."""
-    tops = [_top(size(one.results)) for one in swept]
-    values = [float(size(one.results)[k]) for one, k in zip(swept, tops, strict=True)]
+    tops = [_top(size(one.rows)) for one in swept]
+    values = [float(size(one.rows)[k]) for one, k in zip(swept, tops, strict=True)]
     places = [float(one.frequency[k]) for one, k in zip(swept, tops, strict=True)]
     if places[0] == places[1] and math.isclose(*values, rel_tol=_ALIKE):
         return swept[:1]
@@ -224,11 +215,9 @@ def _top(size: _Array) -> int:
     return int(np.argmax(np.nan_to_num(size, nan=-1.0)))
 
 
-def _displacement(results: _Array) -> _Array:
-    found: _Array = np.maximum(results[:, hold.U_MOST], -results[:, hold.U_LEAST])
-    return found
+def _displacement(rows: HoldRows) -> _Array:
+    return rows.peak_displacement
 
 
-def _acceleration(results: _Array) -> _Array:
-    found: _Array = np.maximum(results[:, hold.A_MOST], -results[:, hold.A_LEAST])
-    return found
+def _acceleration(rows: HoldRows) -> _Array:
+    return rows.peak_acceleration

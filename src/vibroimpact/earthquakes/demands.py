@@ -1,11 +1,11 @@
-"""Many earthquakes at once: records, scales, gaps, stops and isolators as one dataset."""
+"""Demands of many earthquakes: records, scales, gaps, stops and isolators as one dataset."""
 
 from __future__ import annotations
 
 import itertools
 import math
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
@@ -14,6 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.arguments import check_list, check_progress, is_list
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, PEAKS, RESIDUALS, Shaken, peaks
@@ -22,9 +23,11 @@ from vibroimpact.earthquakes.seismic_response import with_both_sides
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.count_checks import check_max_events, whole
+from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model.rig import Rig
+from vibroimpact.response.plausibility import doubt_gaps
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
 from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read
@@ -58,61 +61,63 @@ def demands(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Return what records at several scales ask of rigs.
+    """Compute the demands (peak responses) of records at several scales on rigs.
 
-    Every run starts at rest; its peaks are those of `seismic_response`.
+    Every run starts at rest. Its peaks are defined as in `seismic_response`.
 
     Parameters
     ----------
     rig
         The rig: an `Oscillator`, a `Rig`, a laboratory case, its code, or the path of a study file;
-        or several, by name or as a list. The records shake it in the place of its own shaking.
+        or several, by name or as a list. The records replace its own shaking.
     records
-        One, or several: by name or as a list, whose names are those of their files.
+        One record, or several by name or as a list, which are named after their files.
     scales
-        Rising levels of shaking, greater than 0, in what ``intensity`` says; text with units, too.
+        Rising levels of shaking, greater than 0, in the measure ``intensity``; numbers or text with
+        units.
     intensity
-        What a scale is: ``"factor"``, the number that a record is multiplied by; ``"PGA"``, its
-        peak (m/s²); or a natural period (s) and a damping ratio, by whose pseudo-acceleration
-        (m/s²) it is scaled.
+        Measure of the scales: ``"factor"``, the number that a record is multiplied by; ``"PGA"``,
+        the peak of the record (m/s²); or a pair of natural period (s) and damping ratio, whose
+        pseudo-acceleration (m/s²) scales the record.
     gaps
         Gaps of each side (m); the same as ``vary={"gap": …}``.
     vary
-        Values of parameters by name, all combined, such as ``"bumper_stiffness"``,
-        ``"restitution"``, ``"right_gap"``, ``"damping_ratio"`` or ``"yield_force"``. Those of stops
-        are set on both sides, where the stop has them.
+        Values of parameters by name, in all combinations, such as ``"bumper_stiffness"``,
+        ``"restitution"``, ``"right_gap"``, ``"damping_ratio"`` or ``"yield_force"``. Parameters of
+        stops are set on both sides, if the stop has them.
     tail
         As of `seismic_response`.
     max_events
         As of `seismic_response`.
     store
-        Folder for the demands as a Zarr group, written block by block. If it holds the same,
-        unfinished, that is completed. None keeps them in memory.
+        Folder for the demands as a Zarr group, written block by block. An unfinished computation of
+        the same demands is resumed. Default: in memory.
     block
-        How many rigs and records make a block, with every scale: what is lost at most when the
-        computation is stopped.
+        Numbers of rigs and of records in a block, which holds every scale. At most the unfinished
+        blocks are lost if the computation is stopped.
     threads
-        How many runs are done at once; None for one a processor. No result depends on it.
+        Number of threads (default: one per processor). It does not affect the result.
     where
         ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
-        of its scheduler (docs/how-to/many-machines.md). No result depends on it.
+        of its scheduler (docs/how-to/many-machines.md). It does not affect the result.
     progress
-        Called from the calling thread with the runs done and all there are.
+        Function that is called in the calling thread with the number of runs done and their total.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``record``, ``scale``, ``rig`` if several were given, and one for each parameter that
-        is varied. Peaks, forces, impulses, counts and residual displacements as those of
-        `seismic_response`. ``status`` of each run: 0 done; values of others are NaN, and a
-        warning tells how many there are. ``factor`` is what a record was multiplied by,
-        ``intensity`` that of the record as it is.
+        Dims ``record``, ``scale``, ``rig`` for several rigs, and one per parameter that is varied.
+        Peaks, forces, impulses, counts and residual displacements as in `seismic_response`.
+        ``status`` of each run is 0 if it was completed; the values of other runs are NaN, and a
+        warning reports their number. ``factor`` is the number that a record was multiplied by,
+        ``intensity`` the measure of the unscaled record.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or the store holds something else.
+        If a value is invalid, or the store holds another computation.
     """
+    check_progress(progress)
     rigs = runs(rig, gaps, vary)
     shaking = suite(records)
     scaled = measure(intensity)
@@ -122,7 +127,7 @@ def demands(
         rigs,
         list(shaking.values()),
         factors,
-        None if tail is None else to_si(tail, TIME, "tail", minimum=0.0),
+        None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
         check_max_events(max_events),
         placed(threads, where),
     )
@@ -154,7 +159,9 @@ def demands(
             "intensity": ("record", known),
         },
     )
-    data = describe(with_both_sides(data), CREATED_BY, settings, record_notes(shaking))
+    data = with_both_sides(data)
+    notes = [*record_notes(shaking), *_doubted(rigs.rigs, next(iter(shaking.values())), data)]
+    data = describe(data, CREATED_BY, settings, notes)
     for name in ("scale", "intensity"):
         data[name].attrs.update(units=scaled.units, long_name=scaled.name)
     for one in rigs.varied:
@@ -163,24 +170,34 @@ def demands(
     return data
 
 
+def _doubted(rigs: Mapping[str, Oscillator], record: Record, data: xr.Dataset) -> list[str]:
+    """What is doubted of the rigs, each line once."""
+    lines: dict[str, None] = {}
+    for name, oscillator in rigs.items():
+        own = data.sel(rig=name) if "rig" in data.dims else data
+        peaks = own["peak_displacement"].values
+        lines |= dict.fromkeys(doubt_gaps(Rig(oscillator, record), peaks[np.isfinite(peaks)]))
+    return list(lines)
+
+
 class _Task(NamedTuple):
-    """What is computed, whatever it is kept in."""
+    """A computation of demands, independent of where its results are kept."""
 
     rigs: Runs
     records: list[Record]
     factors: _Array
-    """Of each record at each level."""
+    """Factor of each record at each level."""
     tail: float | None
     max_events: int
     threads: Workers
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Records and rigs."""
+        """Numbers of records and of rigs."""
         return (len(self.records), *self.rigs.shape)
 
     def block(self, one: Block, progress: Progress | None) -> dict[str, NDArray[Any]]:
-        """The demands of a block, shaped as its place."""
+        """Compute the demands of a block."""
         count = self.factors.shape[1]
         places = list(itertools.product(*(range(s.start, s.stop) for s in one.rigs)))
         rigs = [self.rigs.oscillator(at) for at in places]
@@ -198,7 +215,7 @@ class _Task(NamedTuple):
 
 
 def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | None) -> None:
-    """Compute the blocks that are not done."""
+    """Compute the unfinished blocks."""
     ready = read(group, _KIND.word, "done")
     levels = task.factors.shape[1]
     total = levels * math.prod(task.shape)
@@ -216,7 +233,7 @@ def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | No
 
 
 def _beyond(progress: Progress | None, before: int, total: int) -> Progress | None:
-    """Progress of a part that begins when so many runs are done."""
+    """Return the progress function of a part that begins when so many runs are done."""
     return progress and (lambda done, _: progress(before + done, total))
 
 
@@ -235,23 +252,22 @@ def _make(group: zarr.Group, task: _Task, most: int) -> None:
 
 
 def _levels(scales: Any, scaled: Measure) -> _Array:
-    """The levels of shaking, in SI units."""
-    if isinstance(scales, str) or not isinstance(scales, Iterable):
-        scales = [scales]
+    """Read the levels of shaking, in SI units."""
+    scales = check_list(scales, "scales") if is_list(scales) else [scales]
     levels = np.array(
         [to_si(value, scaled.quantity, f"scales[{i}]", above=0.0) for i, value in enumerate(scales)]
     )
     if not len(levels):
-        raise InputError("scales: none given; one or more are accepted")
+        raise InputError("scales: missing; one or more are accepted")
     for i in np.flatnonzero(np.diff(levels) <= 0.0):
         raise InputError(
-            f"scales[{i + 1}]: {levels[i + 1]:g} follows {levels[i]:g}; rising ones are accepted"
+            f"scales[{i + 1}]: {levels[i + 1]:g} follows {levels[i]:g}; rising scales are accepted"
         )
     return levels
 
 
 def _warn(status: NDArray[Any]) -> None:
-    """Tell of runs that were given up."""
+    """Warn of runs that were given up."""
     for code in np.unique(status[status != Status.DONE]):
         count = int((status == code).sum())
         warnings.warn(

@@ -1,4 +1,4 @@
-"""The motion of the mass as a record: what shakes that which stands on it."""
+"""The motion of the mass as a record that shakes equipment on it."""
 
 from __future__ import annotations
 
@@ -14,14 +14,15 @@ _GRID = 1e-6
 
 
 def floor_record(motion: xr.Dataset) -> Record:
-    """Return the absolute acceleration of the mass as a record, for its floor spectrum.
+    """Compute the absolute acceleration of the mass as a record, for its floor spectrum.
 
-    `response_spectrum` of it is the spectrum of what stands on the mass and is too light to shake
-    it. A sample is not the acceleration at its time, but its mean over the steps before and behind,
-    weighted by a triangle: the second difference of the absolute displacement. So it has the whole
-    impulse of contacts and of impacts on rigid stops, whose acceleration is infinite, whenever they
-    fall; what stands on the mass is moved rightly to the second order of the step. The step is
-    that of the motion's samples: a finer one, by ``samples``, is closer.
+    Its `response_spectrum` holds for equipment that stands on the mass and is too light to affect
+    it. A sample is not the acceleration at its time, but its mean over the steps before and after,
+    weighted by a triangle: the second difference of the absolute displacement. The record thus
+    contains the whole impulse of contacts, and of impacts on rigid stops, whose acceleration is
+    infinite, whenever they occur. The motion of the equipment is right to the second order of the
+    step. The step is that of the motion's samples; more ``samples`` in `simulate` make it more
+    accurate.
 
     Parameters
     ----------
@@ -31,13 +32,13 @@ def floor_record(motion: xr.Dataset) -> Record:
     Raises
     ------
     InputError
-        If it is no such motion, or has fewer than four samples.
+        If it is not such a motion, or has fewer than four samples.
     """
     origin = any_recorded(motion)
     if not isinstance(origin.excitation, Record):
         raise InputError(
-            "motion: it repeats itself; one through a Record is accepted, and spectrum shows the "
-            "harmonics of this one"
+            "motion: it is periodically forced; a motion through a Record is accepted, and "
+            "fourier_spectrum shows the harmonics of this one"
         )
     time = motion["time"].values
     if len(time) < 4:

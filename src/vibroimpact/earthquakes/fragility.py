@@ -21,7 +21,7 @@ from vibroimpact.model.units import pretty
 _Array = NDArray[np.float64]
 
 _TOLD = 5
-"""Curves without an interval, or curves that there are none of, that are told by name, at most."""
+"""Largest number of curves without an interval, or without a fit, that a message lists by name."""
 
 
 class Fit(NamedTuple):
@@ -33,7 +33,7 @@ class Fit(NamedTuple):
     """ln β."""
 
     def reached(self, logarithms: _Array) -> _Array:
-        """(ln s − ln θ)/β."""
+        """Return (ln s − ln θ)/β."""
         return (logarithms - self.log_median) / math.exp(self.log_dispersion)
 
 
@@ -44,43 +44,45 @@ def fragility(
     *,
     confidence: float = 0.9,
 ) -> xr.Dataset:
-    """Fit a lognormal fragility curve to how many records exceed a limit at each scale.
+    """Fit a lognormal fragility curve to the numbers of records that exceed a limit at each scale.
 
     P(scale) = Φ((ln scale − ln θ)/β), with θ and β of the largest binomial likelihood of the
     numbers of records above the limit (Baker 2015, Earthquake Spectra 31(1)).
 
     Since the same records are used at all scales, the numbers at two scales are not independent.
     Intervals therefore count each record once, by the two scales between which it begins to exceed.
-    They belong to a set of lognormal curves, each of which rises with the scale, and so does the
-    band. They hold for few records, too; the fitted β is then small on average, and lies in the
-    lower part of its interval.
+    They belong to a set of lognormal curves that rise with the scale, and so does the band. They
+    also hold for few records; the fitted β is then too small on average, and lies in the lower part
+    of its interval.
 
     Parameters
     ----------
     demands
         Dataset of `demands`.
     quantity
-        One of its peaks, such as ``"peak_acceleration"``; ``"impact_count"`` for impact itself.
+        Name of one of its peaks, such as ``"peak_acceleration"``; ``"impact_count"`` for the
+        occurrence of impact.
     limit
-        In SI units or as text with units; what is greater exceeds it. None for 0, of counts.
+        Limit that a greater value exceeds, in SI units or as text with units. Default: 0 for
+        counts; required for other quantities.
     confidence
-        Of the intervals, between 0 and 1.
+        Confidence level of the intervals, between 0 and 1.
 
     Returns
     -------
     xarray.Dataset
         ``median_capacity`` θ (in the scale's units), ``dispersion`` β and ``fitted_probability``
         over the scales, each with its ends ``…_bound`` (dim ``bound``: lower, upper);
-        ``exceeding`` and ``probability`` as those of `exceedance`. NaN where the records do not
-        determine a curve (no scale has both records above and below that begin or end to exceed at
-        others): a warning, and the attribute ``undetermined``, say of which rigs. Intervals are
-        unbounded if fewer than two records begin to exceed within the scales: a warning, and the
-        attribute ``unbounded``, say of which curves. Both say which levels would give one.
+        ``exceeding`` and ``probability`` as in `exceedance`. A curve is NaN if the records do not
+        determine it (no scale has both records above and below that begin or end to exceed at
+        others); a warning and the attribute ``undetermined`` list the rigs. Intervals are unbounded
+        if fewer than two records begin to exceed within the scales; a warning and the attribute
+        ``unbounded`` list the curves. Both state which levels would be needed.
 
     Raises
     ------
     InputError
-        As `exceedance`; if no rig has a curve, or there are fewer than 3 records.
+        As in `exceedance`; if no rig has a curve, or there are fewer than 3 records.
     """
     values = known(demands, quantity)
     least = limit_of(demands, quantity, limit)
@@ -151,7 +153,7 @@ def fragility(
 def _undetermined(
     none: NDArray[np.bool_], values: xr.DataArray, above: NDArray[np.bool_], what: str
 ) -> str:
-    """Which rigs have no curve, and which levels would give one; nothing if all have."""
+    """Describe which rigs have no curve, and which levels would give one; "" if all have one."""
     told = []
     for at in np.argwhere(none):
         why = _why(above[(slice(None), slice(None), *at)], values["scale"], what)
@@ -161,25 +163,25 @@ def _undetermined(
 
 
 def _why(above: NDArray[np.bool_], scale: xr.DataArray, what: str) -> str:
-    """Why a rig has no curve, and which levels would give one."""
+    """Explain why a rig has no curve, and which levels would give one."""
     match lacking(above.mean(axis=0)):
         case "higher levels":
-            return f"at no level is a record {what}; higher levels are accepted"
+            return f"no record is {what} at any level; higher levels are needed"
         case "lower levels":
-            return f"at every level all records are {what}; lower levels are accepted"
+            return f"all records are {what} at every level; lower levels are needed"
         case "finer levels":
             return (
-                f"there are no two levels at which some records are {what} and others are not; "
-                f"{_finer(above, scale)} are accepted"
+                f"fewer than two levels have some records {what} and others not; "
+                f"{_finer(above, scale)} are needed"
             )
     return (
         f"the share of the records that are {what} does not rise with the level; levels at which "
-        "it does are accepted"
+        "it rises are needed"
     )
 
 
 def lacking(shares: _Array) -> str:
-    """Which levels would give a curve where there is none, for the share that exceeds at each."""
+    """Return which levels would determine a curve, from the share that exceeds at each level."""
     if not shares.any():
         return "higher levels"
     if (shares == 1.0).all():
@@ -189,7 +191,7 @@ def lacking(shares: _Array) -> str:
 
 
 def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
-    """The levels between which the records begin to exceed."""
+    """Return the levels between which the records begin to exceed."""
     none, every = ~above.any(axis=0), above.all(axis=0)
     low = float(scale[np.flatnonzero(none)[-1] if none.any() else 0])
     high = float(scale[np.flatnonzero(every)[0] if every.any() else -1])
@@ -204,7 +206,7 @@ def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
 
 
 def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -> str:
-    """Which curves have no interval, and which levels would give one; nothing if all have."""
+    """Describe curves without an interval, and levels that would give one; "" if all have one."""
     told = []
     for at in np.argwhere(np.isinf(bounds[1])):
         one = above[(slice(None), slice(None), *at)]
@@ -214,18 +216,18 @@ def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -
     if not told:
         return ""
     return (
-        "no interval where fewer than two records begin to exceed within the levels; what would "
-        f"give one: {_listed(told)}"
+        "no interval is given if fewer than two records begin to exceed within the levels; "
+        f"needed for one: {_listed(told)}"
     )
 
 
 def _listed(told: list[str]) -> str:
-    more = [f"likewise {len(told) - _TOLD} more curves"] if len(told) > _TOLD else []
+    more = [f"and {len(told) - _TOLD} more curves"] if len(told) > _TOLD else []
     return "; ".join([*told[:_TOLD], *more])
 
 
 def _whose(values: xr.DataArray, at: NDArray[np.int64]) -> str:
-    """Of which rig a curve is, such as "for gap 200 mm"; nothing if there is one."""
+    """Return the rig of a curve in words, such as "for gap 200 mm"; "" for a single rig."""
     names = [_named(values[dim], i) for dim, i in zip(_others(values), at, strict=True)]
     return f"for {', '.join(names)}" if names else ""
 
@@ -235,7 +237,7 @@ def _others(values: xr.DataArray) -> list[str]:
 
 
 def _named(coordinate: xr.DataArray, at: int) -> str:
-    """One value of what is varied, such as gap 200 mm."""
+    """Return one value of a varied parameter in words, such as gap 200 mm."""
     name, value = str(coordinate.name), coordinate.values[at]
     words = name.replace("_", " ")
     if name not in PARAMETERS or PARAMETERS[name].measured is not None:
@@ -246,7 +248,7 @@ def _named(coordinate: xr.DataArray, at: int) -> str:
 def _curve(
     above: NDArray[np.bool_], logarithms: _Array, confidence: float
 ) -> dict[str, float | _Array] | None:
-    """The curve of one rig with its uncertainty; None if it is not determined."""
+    """Fit the curve of one rig with its uncertainty; None if it is not determined."""
     from scipy.special import ndtr
 
     exceeding, count = above.sum(axis=0), len(above)
@@ -270,20 +272,20 @@ def _curve(
 
 
 def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Fit | None:
-    """The curve of the largest binomial likelihood.
+    """Fit the curve of the largest binomial likelihood.
 
     Parameters
     ----------
     exceeding
-        Records that exceed at each scale, of `count`.
+        Number of records that exceed at each scale, out of `count`.
     logarithms
-        Of the scales.
+        Logarithms of the scales.
 
     Returns
     -------
     Fit or None
-        None where there is none: where all records that exceed do so at scales above all those at
-        which one does not, or the curve falls.
+        None if no curve is determined: all records that exceed do so at scales above all those at
+        which a record does not, or the curve falls.
     """
     from scipy.optimize import minimize
     from scipy.special import log_ndtr
@@ -295,7 +297,7 @@ def fit(exceeding: NDArray[np.int64], count: int, logarithms: _Array) -> Fit | N
     x = (logarithms - middle) / size
 
     def unlikely(line: _Array) -> tuple[float, _Array]:
-        """Minus the logarithm of the likelihood of Φ(a + b x), which is convex, and its slope."""
+        """Return minus the log-likelihood of Φ(a + b x), which is convex, and its slope."""
         z = line[0] + line[1] * x
         up, down = log_ndtr(z), log_ndtr(-z)
         density = -0.5 * z * z - 0.5 * math.log(math.tau)

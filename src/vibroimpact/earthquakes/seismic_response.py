@@ -1,4 +1,4 @@
-"""The seismic response of a rig: what a record asks of it, in a few numbers."""
+"""The seismic response of a rig to a record: peaks, impacts and energies."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
 from vibroimpact.engine.status import Status
 from vibroimpact.model import to_si
-from vibroimpact.model.count_checks import check_max_events
+from vibroimpact.model.count_checks import MOST_TAIL, check_max_events
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
@@ -25,12 +25,12 @@ LARGEST = {
     "peak_displacement": ("peak_displacement_right", "peak_displacement_left"),
     "peak_force": ("peak_force_right", "peak_force_left"),
 }
-"""The larger of two sides."""
+"""Variables that are the larger value of two sides."""
 SUMS = {
     "impulse": ("impulse_right", "impulse_left"),
     "impact_count": ("impact_count_right", "impact_count_left"),
 }
-"""Of both sides."""
+"""Variables that are the sum of both sides."""
 
 
 def seismic_response(
@@ -40,45 +40,45 @@ def seismic_response(
     max_events: int = MAX_EVENTS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Return what a record asks of a rig that was at rest: its peaks, and where the energy went.
+    """Compute the peak response of a rig to a record from rest, and where the energy went.
 
-    Peaks are those of the motion itself, between the record's samples and behind it, not of
-    samples of it (docs/theory.md, section 4).
+    Peaks are those of the continuous motion, between the samples of the record and after its end
+    (docs/theory.md, section 4).
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     tail
-        Duration of free vibration after the record, in seconds or as text such as ``"10s"``. None
-        for two natural periods of the softest spring.
+        Duration of free vibration after the record, in seconds or as text such as ``"10s"``.
+        Default: two natural periods of the softest spring.
     max_events
-        Contacts and detachments in one step of the record at which the motion is given up.
+        Number of contacts and detachments in one step of the record at which the motion is given
+        up.
     progress
-        Called from the calling thread with the steps of the record done and all there are.
+        Function that is called in the calling thread with the number of steps of the record done
+        and their total.
 
     Returns
     -------
     xarray.Dataset
-        Numbers without dims. ``peak_displacement`` (m; ``_right`` and ``_left`` to either side),
+        Dataset without dims. ``peak_displacement`` (m; ``_right`` and ``_left`` to either side),
         ``peak_acceleration`` (absolute, m/s²), ``peak_force`` (N) and ``impulse`` (N s) of the
-        stops, ``impact_count``, energies over the motion as those of `totals`. At an impact on a
-        rigid stop the force is infinite, and the acceleration is that before and behind it.
-
-        ``residual_displacement`` (m) is where the mass comes to rest. Where the isolator remembers
-        or sticks, the free motion is followed behind the tail until it swings by less than a
-        billionth of the peak displacement, for 2,000 natural periods at most, and the middle of its
-        last swing is taken: what nothing damps swings about where it would rest.
-        ``residual_swing`` (m) is half the width of that swing. Once it has fallen below a billionth
-        of the peak, it bounds the error. Elsewhere ``residual_displacement`` is the
-        equilibrium, and the swing that is left is not computed.
-
-        If the motion was given up all of them are NaN, and ``status`` says why.
+        stops, ``impact_count``, energies over the motion as in `totals`. At an impact on a rigid
+        stop the force is infinite, and the acceleration is that before and after it.
+        ``residual_displacement`` (m) is the position at which the mass comes to rest. If the
+        isolator has a memory or friction, the free motion is followed beyond the tail until it
+        swings by less than a billionth of the peak displacement, for 2,000 natural periods at most.
+        The result is the middle of its last swing: an undamped motion swings about the position at
+        which it would rest. ``residual_swing`` (m) is half the width of that swing. Once it has
+        fallen below a billionth of the peak, it bounds the error. For other isolators
+        ``residual_displacement`` is the equilibrium, and the remaining swing is not computed. If
+        the motion was given up, all values are NaN, and ``status`` gives the reason.
 
     Raises
     ------
     InputError
-        If it is no record, or a value cannot be used.
+        If a record does not shake the rig, or a value is invalid.
     """
     rig = as_rig(rig)
     oscillator, record = rig.oscillator, rig.record
@@ -86,7 +86,7 @@ def seismic_response(
     behind = (
         free_tail(Rig(oscillator, record))
         if tail is None
-        else to_si(tail, TIME, "tail", minimum=0.0)
+        else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
     )
     found = peaks(
         [Shaken(oscillator, record, np.ones(1))],
@@ -113,7 +113,7 @@ def seismic_response(
 
 
 def with_both_sides(data: xr.Dataset) -> xr.Dataset:
-    """Add what is the larger of two sides, or the sum of both, before them."""
+    """Add the variables that are the larger value or the sum of two sides."""
     both = {name: np.maximum(data[r], data[l]) for name, (r, l) in LARGEST.items()}  # noqa: E741
     both |= {name: data[r] + data[l] for name, (r, l) in SUMS.items()}  # noqa: E741
     return xr.Dataset({**both, **data.data_vars}, data.coords)

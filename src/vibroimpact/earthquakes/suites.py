@@ -1,4 +1,4 @@
-"""What a suite of records shows at each level of shaking: fractiles, shares above a limit."""
+"""Statistics of a suite of records at each level of shaking: fractiles, shares above a limit."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ _Array = NDArray[np.float64]
 
 _QUANTITIES = {"m": LENGTH, "m s-2": ACCELERATION, "N": FORCE, "1": DIMENSIONLESS}
 UNSTABLE = (int(Status.NOT_FINITE), int(Status.REVERSED))
-"""Runs that went beyond all limits; of others that were given up nothing is known."""
+"""Statuses of runs that exceeded all limits. Nothing is known of other runs that were given up."""
 _VAST = 1e300
-"""Stands for infinity where quantiles are interpolated."""
+"""Finite stand-in for infinity, for the interpolation of quantiles."""
 
 
 def fractiles(
@@ -39,30 +39,30 @@ def fractiles(
     quantity: str = "peak_displacement",
     shares: Sequence[float] = (0.16, 0.5, 0.84),
 ) -> xr.Dataset:
-    """Return fractiles over the records at each scale, or over the rigs of an ensemble.
+    """Compute fractiles over the records at each scale, or over the rigs of an ensemble.
 
-    Those over records are the curves of incremental dynamic analysis. Quantiles of a sample are
-    interpolated between its sorted values (Hyndman and Fan's seventh definition). A run that went
-    beyond all limits counts as infinite (Vamvatsikos and Cornell, 2002).
+    Fractiles over records are the curves of incremental dynamic analysis (IDA). Quantiles of a
+    sample are interpolated between its sorted values (Hyndman and Fan's seventh definition). A run
+    that exceeded all limits counts as infinite (Vamvatsikos and Cornell, 2002).
 
     Parameters
     ----------
     demands
-        Dataset of `demands`; or of `ensemble`, of whatever response.
+        Dataset of `demands`, or of `ensemble` with any response.
     quantity
-        One of its peaks, such as ``"peak_acceleration"``, or a variable of the response.
+        Name of one of its peaks, such as ``"peak_acceleration"``, or of a variable of the response.
     shares
-        Shares of the records or rigs below, from 0 to 1.
+        Shares of the records or rigs below the fractile, from 0 to 1.
 
     Returns
     -------
     xarray.Dataset
-        The quantity, with dim ``fractile`` in the place of ``record``, or of ``sample``.
+        The quantity, with the dim ``fractile`` instead of ``record`` or ``sample``.
 
     Raises
     ------
     InputError
-        If it is no such dataset, a value cannot be used, or runs were given up for their number of
+        If it is not such a dataset, a value is invalid, or runs were given up for their number of
         events or of steps.
     """
     over = "sample" if "sample" in getattr(demands, "dims", ()) else "record"
@@ -72,7 +72,7 @@ def fractiles(
         for i, share in enumerate(check_list(shares, "shares", 1000, "a list of shares"))
     ]
     if not chosen:
-        raise InputError("shares: none given; one or more from 0 to 1 are accepted")
+        raise InputError("shares: missing; one or more from 0 to 1 are accepted")
     found = quantiles(values.values, chosen, values.dims.index(over))
     dims = ("fractile", *(dim for dim in values.dims if dim != over))
     data = xr.Dataset({quantity: (dims, found)}, {"fractile": chosen, **_coords(values)})
@@ -80,7 +80,7 @@ def fractiles(
 
 
 def quantiles(values: _Array, shares: Sequence[float], axis: int) -> _Array:
-    """Quantiles along an axis, which comes first; values may be infinite, NaN is left out."""
+    """Compute quantiles along the first axis; values may be infinite, and NaN is left out."""
     known = np.minimum(values, _VAST)
     # Where nothing is known the quantile is NaN as well, which is no surprise.
     with warnings.catch_warnings():
@@ -92,7 +92,7 @@ def quantiles(values: _Array, shares: Sequence[float], axis: int) -> _Array:
 
 
 def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
-    """A variable of an ensemble, infinite where a motion went beyond all limits."""
+    """Return a variable of an ensemble, infinite where a motion exceeded all limits."""
     names = [str(name) for name, one in data.data_vars.items() if "sample" in one.dims]
     if quantity not in names:
         raise InputError(f"quantity: {shown(quantity)}; one of {', '.join(names)} is accepted")
@@ -102,7 +102,7 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
     unknown = int(values.isnull().sum())
     if unknown:
         warnings.warn(
-            f"fractiles: {unknown} of {values.size} values of {quantity} are not known, and are "
+            f"fractiles: {unknown} of {values.size} values of {quantity} are unknown and are "
             "left out",
             RuntimeWarning,
             stacklevel=3,
@@ -111,7 +111,7 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
 
 
 def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = None) -> xr.Dataset:
-    """Return the share of the records that exceed a limit at each scale.
+    """Compute the share of the records that exceed a limit at each scale.
 
     ``exceedance(demands, "impact_count")`` is the probability of impact.
 
@@ -120,19 +120,20 @@ def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = N
     demands
         Dataset of `demands`.
     quantity
-        One of its peaks.
+        Name of one of its peaks.
     limit
-        In SI units or as text with units; what is greater exceeds it. None for 0, of counts.
+        Limit that a greater value exceeds, in SI units or as text
+        with units. Default: 0 for counts; required for other quantities.
 
     Returns
     -------
     xarray.Dataset
-        ``exceeding``, a number of records, and ``probability``, over scales and rigs.
+        ``exceeding``, the number of records, and ``probability``, over scales and rigs.
 
     Raises
     ------
     InputError
-        As `fractiles`.
+        As in `fractiles`.
     """
     values = known(demands, quantity)
     least = limit_of(demands, quantity, limit)
@@ -145,12 +146,12 @@ def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = N
 
 
 def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> float:
-    """Read a limit of one of the peaks; None for 0, of what is counted.
+    """Read a limit of one of the peaks; None is 0 for counts.
 
     Raises
     ------
     InputError
-        If it is another quantity, or is missing where nothing is counted.
+        If it is another quantity, or is missing for a quantity that is not a count.
     """
     expected: Quantity = _QUANTITIES.get(demands[quantity].attrs["units"]) or DIMENSIONLESS
     if limit is None:
@@ -163,12 +164,13 @@ def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> f
 
 
 def known(demands: Any, quantity: str) -> xr.DataArray:
-    """One of the peaks, infinite where a run went beyond all limits.
+    """Return one of the peaks, infinite where a run exceeded all limits.
 
     Raises
     ------
     InputError
-        If it is no dataset of demands, has no such peak, or runs were given up otherwise.
+        If it is not a dataset of demands, has no such peak, or runs were given up for other
+        reasons.
     """
     held = isinstance(demands, xr.Dataset) and {"record", "scale"} <= set(demands.dims)
     if not held or "status" not in demands:
@@ -182,8 +184,8 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
     status = demands["status"].values
     for code in np.unique(status[(status != Status.DONE) & ~np.isin(status, UNSTABLE)]):
         raise InputError(
-            f"demands: {int((status == code).sum())} runs were given up, and nothing is known of "
-            f"them: {Status(int(code)).advice}"
+            f"demands: {int((status == code).sum())} runs were given up, and their values are "
+            f"unknown: {Status(int(code)).advice}"
         )
     found: xr.DataArray = demands[quantity].where(~np.isin(status, UNSTABLE), math.inf)
     return found
@@ -200,7 +202,7 @@ def _coords(values: xr.DataArray) -> dict[str, Any]:
 def described(
     data: xr.Dataset, created_by: str, demands: xr.Dataset, about: dict[str, Any]
 ) -> xr.Dataset:
-    """With units and meanings, those of the scale and of what is varied as they were."""
+    """Add units and meanings; keep those of the scale and of the varied parameters."""
     kept = {name: dict(demands[name].attrs) for name in data.coords if name in demands.coords}
     # A response of an ensemble may have names of its own.
     own = [name for name in data.data_vars if name not in VARIABLES]

@@ -1,4 +1,4 @@
-"""How a computation ended, in codes for the kernels and in words for people."""
+"""How a computation ended: status codes for the kernels, and advice in words."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import IntEnum
 
 
 class Status(IntEnum):
-    """Outcome of a trajectory or of a held frequency."""
+    """Outcome of a trajectory, or of the motion at one frequency."""
 
     DONE = 0
     NOT_SETTLED = 1
@@ -18,33 +18,38 @@ class Status(IntEnum):
 
     @property
     def advice(self) -> str:
-        """What happened, and what the user can do about it."""
+        """Describe what happened, and what the user can do about it."""
         return _ADVICE[self]
 
 
 MORE_CYCLES = "max_cycles in Python"
-"""How advice names the argument; a command that has it as an option names that instead."""
+"""Name of the argument in the advice. A command replaces it by the name of its option."""
 
 _ADVICE = {
     Status.DONE: "done",
     Status.NOT_SETTLED: (
-        "the motion had not settled when the last cycle allowed for it ended, and was measured "
-        f"from there; if you expect a slow transient, raise {MORE_CYCLES}"
+        "the motion did not settle within the allowed number of cycles, and was measured after "
+        f"them; for a slow transient, raise {MORE_CYCLES}"
     ),
     Status.TOO_MANY_EVENTS: (
-        "more contacts and detachments in one forcing cycle, or steps between them, than are "
-        "followed: the mass chatters (give the stop more damping or less restitution, or raise "
-        "max_events in Python), or a damping_exponent below 1 is too stiff near rest (raise it)"
+        "one forcing cycle has more contacts and detachments, or steps between them, than "
+        "max_events allows; if the mass chatters, give the stop more damping or less restitution, "
+        "or raise max_events in Python; if a damping_exponent below 1 makes the motion too stiff "
+        "near rest, raise the exponent"
     ),
     Status.TOO_MUCH_WORK: (
-        "the fastest rate of the rig is too many times the forcing frequency to follow one "
-        "cycle; raise the frequency or lower the largest stiffness or damping"
+        "the fastest rate of the rig is too large compared with the forcing frequency to compute "
+        "one cycle; raise the frequency, or lower the largest stiffness or damping"
     ),
-    Status.NOT_FINITE: "the motion left the range of numbers; check the orders of magnitude",
+    Status.NOT_FINITE: (
+        "the motion exceeded the range of floating-point numbers; check the orders of magnitude "
+        "of the input"
+    ),
     Status.STOPPED: "stopped on request",
     Status.REVERSED: (
-        "the motion went beyond where the softening isolator still pushes back, and its law is "
-        "hardly meant there; lower the amplitude, or give the isolator a term that hardens"
+        "the displacement exceeded the range in which the softening isolator has a restoring "
+        "force, so its law is hardly valid; lower the amplitude, or add a hardening term to the "
+        "isolator"
     ),
 }
 

@@ -24,17 +24,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold
-from vibroimpact.engine import motion as layout
-from vibroimpact.engine.status import DONE
 from vibroimpact.model import State, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.hold_rows import HoldRows, Settling, sweep_holds
 
 Array = NDArray[np.float64]
 
-_EXACT = (1e-12, 300, 100)
-_QUICK = (1e-7, 60, 20)
+_EXACT = Settling(1e-12, 300, 100, 2000)
+_QUICK = Settling(1e-7, 60, 20, 2000)
 """Tolerance, cycles to wait, and cycles over which what did not settle is measured."""
 _MAX_EVENTS = 2000
 _HALVINGS = 22
@@ -92,50 +90,27 @@ class SteppedRig:
 
         A `quick` hold is good enough to tell which of two branches it is on.
         """
-        tolerance, cycles, window = _QUICK if quick else _EXACT
-        rows = np.empty((len(frequency), hold.RESULTS))
-        states = np.zeros((len(frequency), layout.STATE))
-        batch.sweep(
+        rows, states = sweep_holds(
             self.vector,
             np.full(len(frequency), self.amplitude),
-            np.ascontiguousarray(frequency),
+            frequency,
             0.0,
-            (self.rest if state is None else state).copy(),
-            tolerance,
-            cycles,
-            window,
-            _MAX_EVENTS,
-            hold.PATIENT,
-            rows,
-            states,
-            np.zeros(2, dtype=np.int64),
+            self.rest if state is None else state,
+            _QUICK if quick else _EXACT,
         )
-        return rows, states
+        return rows.array, states
 
     def settled(self, start: State, frequency: float, phase: float) -> Array | None:
         """Where a state settles at a frequency (Hz), seen at a phase; None if it does not."""
-        rows = np.empty((1, hold.RESULTS))
-        states = np.zeros((1, layout.STATE))
-        batch.sweep(
-            self.vector,
-            np.array([self.amplitude]),
-            np.array([frequency]),
-            phase,
-            engine_state(self.oscillator, start),
-            *_EXACT,
-            _MAX_EVENTS,
-            hold.PATIENT,
-            rows,
-            states,
-            np.zeros(2, dtype=np.int64),
-        )
-        return states[0] if rows[0, hold.PERIOD] > 0 else None
+        levels, state = np.array([self.amplitude]), engine_state(self.oscillator, start)
+        rows, states = sweep_holds(self.vector, levels, np.array([frequency]), phase, state, _EXACT)
+        return states[0] if rows.period[0] > 0 else None
 
 
 def sizes(rows: Array) -> Array:
     """Logarithms of both excursions: what jumps are seen by."""
-    swing = rows[..., hold.U_MOST] - rows[..., hold.U_LEAST]
-    force = rows[..., hold.A_MOST] - rows[..., hold.A_LEAST]
+    held = HoldRows(rows)
+    swing, force = held.displacement_excursion, held.acceleration_excursion
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.nan_to_num(np.log(np.stack([swing, force], axis=-1)), nan=0.0, neginf=-50.0)
 
@@ -158,7 +133,7 @@ def follow(rig: SteppedRig, way: Way) -> Followed:
             elif place != at:
                 off[number] = _mend(rig, way, rows, states, size, (at, place), taken, clamped)
         rows = taken
-    settled = (rows[:, hold.OUTCOME] == DONE) & (rows[:, hold.PERIOD] > 0)
+    settled = HoldRows(rows).settled
     other = _untold(rig, way, swept_rows, states, size, places, settled & ~clamped)
     return Followed(rows, settled, off, clamped, other)
 
@@ -327,10 +302,10 @@ def _halved(
         seen = sizes(row)
         if np.abs(seen - before).max() <= np.abs(seen - after).max():
             low, state = middle, there
-            if row[hold.PERIOD] > 0:  # a transient beside a fold is no value of the branch
+            if HoldRows(row).period > 0:  # a transient beside a fold is no value of the branch
                 before, old = seen, row
         else:
             high = middle
-            if row[hold.PERIOD] > 0:
+            if HoldRows(row).period > 0:
                 after, new = seen, row
     return 0.5 * (low + high), old, new, bool(np.abs(after - before).max() > _REAL * whole)

@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold
 from vibroimpact.errors import InputError
 from vibroimpact.identification.branch_response import Followed, SteppedRig, Way, follow
 from vibroimpact.identification.overlay import Shown
@@ -18,6 +17,7 @@ from vibroimpact.measurements.names import CURVES
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import reference_excursions
 from vibroimpact.response.curve_pair import swept
+from vibroimpact.response.hold_rows import HoldRows
 from vibroimpact.response.resonance import APART, Jump
 
 Array = NDArray[np.float64]
@@ -32,12 +32,8 @@ _LARGE = 0.7
 """Logarithm of the factor from which on a break of one curve is a jump."""
 _UNEVEN = 1e-9
 """Share of its excursion by which a motion goes further to one side that is not its own image."""
-_COLUMNS = {
-    "displacement_max": hold.U_MOST,
-    "displacement_min": hold.U_LEAST,
-    "acceleration_max": hold.A_MOST,
-    "acceleration_min": hold.A_LEAST,
-}
+_EXTREMES = {"displacement_max", "displacement_min", "acceleration_max", "acceleration_min"}
+"""Names of `HoldRows` that are measured as they are."""
 
 
 class Points(NamedTuple):
@@ -136,15 +132,15 @@ class CurveTest:
     @property
     def blind(self) -> bool:
         """Whether only excursions were measured, under shaking that is its own mirror image."""
-        return self.rig.periodic.half_wave and not set(self.names) & set(_COLUMNS)
+        return self.rig.periodic.half_wave and not set(self.names) & _EXTREMES
 
     def calibrate(self, sensors: dict[str, float]) -> None:
         """Nothing begins with a measured value."""
 
     def reach(self, rig: Rig, unknowns: Array) -> tuple[float, float]:
         """How far the mass goes to the right and to the left at the holds (m)."""
-        rows = np.concatenate([found.rows for found in self.followed(rig)])
-        right, left = rows[:, hold.U_MOST].max(), -rows[:, hold.U_LEAST].min()
+        held = HoldRows(np.concatenate([found.rows for found in self.followed(rig)]))
+        right, left = held.displacement_max.max(), -held.displacement_min.min()
         return float(np.nan_to_num(right, nan=np.inf)), float(np.nan_to_num(left, nan=np.inf))
 
     @property
@@ -219,8 +215,9 @@ class CurveTest:
         """
         others = list(found.other.items())
         oscillator, shaken = rig.oscillator, rig.periodic
-        if oscillator.symmetric and shaken.half_wave and set(self.names) & set(_COLUMNS):
-            most, least = found.rows[:, hold.U_MOST], found.rows[:, hold.U_LEAST]
+        if oscillator.symmetric and shaken.half_wave and set(self.names) & _EXTREMES:
+            held = HoldRows(found.rows)
+            most, least = held.displacement_max, held.displacement_min
             uneven = np.flatnonzero(np.abs(most + least) > _UNEVEN * (most - least))
             every = [*((int(i), found.rows[i]) for i in uneven), *others]
             others += [(place, _mirrored(row)) for place, row in every]
@@ -228,12 +225,12 @@ class CurveTest:
 
     def _shown(self, rows: Array, largest: tuple[float, float], sensors: dict[str, float]) -> Array:
         """What is measured of holds, a column a quantity."""
-        swing = rows[:, hold.U_MOST] - rows[:, hold.U_LEAST]
-        push = rows[:, hold.A_MOST] - rows[:, hold.A_LEAST]
+        held = HoldRows(rows)
+        swing, push = held.displacement_excursion, held.acceleration_excursion
         columns = []
         for name in self.names:
-            if name in _COLUMNS:
-                of = rows[:, _COLUMNS[_seen_as(name, sensors)]]
+            if name in _EXTREMES:
+                of = getattr(held, _seen_as(name, sensors))
             elif name.startswith("eta"):
                 of = swing / largest[0] if name == "eta_d" else push / largest[1]
             else:
@@ -287,10 +284,16 @@ def _seen_as(name: str, sensors: dict[str, float]) -> str:
 
 def _mirrored(row: Array) -> Array:
     """Extremes of the mirror image of a motion."""
-    found = row.copy()
-    for most, least in ((hold.U_MOST, hold.U_LEAST), (hold.A_MOST, hold.A_LEAST)):
-        found[most], found[least] = -row[least], -row[most]
-    return found
+    own, image = HoldRows(row), HoldRows(row.copy())
+    image.displacement_max[...], image.displacement_min[...] = (
+        -own.displacement_min,
+        -own.displacement_max,
+    )
+    image.acceleration_max[...], image.acceleration_min[...] = (
+        -own.acceleration_min,
+        -own.acceleration_max,
+    )
+    return image.array
 
 
 def told_jumps(data: xr.Dataset) -> list[Jump]:

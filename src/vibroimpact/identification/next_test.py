@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list, check_name, check_variables
 from vibroimpact.datasets.description import describe
-from vibroimpact.engine import hold
 from vibroimpact.identification.branch_response import SteppedRig, sizes
 from vibroimpact.identification.free_parameters import NEAR_ZERO, SENSORS, size_of
 from vibroimpact.identification.results import rig_of
@@ -28,6 +27,7 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty, to_si
+from vibroimpact.response.hold_rows import HoldRows
 from vibroimpact.response.sweep import check_frequencies
 
 Array = NDArray[np.float64]
@@ -217,7 +217,7 @@ def _swept(rig: Rig, grid: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Logarithms of both excursions by direction and frequency, and where the motion settled."""
     stepped = SteppedRig(rig)
     rows = np.stack([stepped.sweep(grid)[0], stepped.sweep(grid[::-1])[0][::-1]])
-    return sizes(rows), rows[..., hold.PERIOD] > 0
+    return sizes(rows), HoldRows(rows).period > 0
 
 
 def _first_least(values: Array) -> tuple[int, ...]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple, cast
 
-from vibroimpact.arguments import is_list
+from vibroimpact.arguments import is_pair
 from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.model import access
 from vibroimpact.model.access import Read, Vary
@@ -104,12 +104,12 @@ class Parameter(NamedTuple):
 
 
 def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> Parameter:
-    """Look a parameter up; `of` says what an amplitude is one of.
+    """Look up a parameter; `of` names the quantity of an amplitude.
 
     Raises
     ------
     InputError
-        If there is none of that name.
+        If no parameter has that name.
     """
     key = name.replace("-", "_") if isinstance(name, str) else ""
     if key not in PARAMETERS:
@@ -125,20 +125,21 @@ def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[flo
     Raises
     ------
     InputError
-        If it is not a pair, a value cannot be used, or the range is empty.
+        If it is not a pair, a value is invalid, or the range is empty.
     """
-    if not is_list(span) or len(ends := list(cast("Iterable[float | str]", span))) != 2:
+    if not is_pair(span):
         raise InputError(
             f"{field}: {shown(span)}; the lowest and the highest value of {varied.name} are "
             "accepted, as (low, high)"
         )
+    ends = list(cast("Iterable[float | str]", span))
     low, high = (
         to_si(end, varied.quantity, f"{field}[{i}]", minimum=varied.least, maximum=varied.most)
         for i, end in enumerate(ends)
     )
     if not low < high:
         raise InputError(
-            f"{field}[1]: {high:g} does not lie above {field}[0], {low:g}; a larger value is "
+            f"{field}[1]: {high:g} is not greater than {field}[0], {low:g}; a larger value is "
             "accepted"
         )
     return low, high
@@ -154,7 +155,7 @@ def _of_stops(
     most: float | None = None,
     powers: bool = False,
 ) -> Iterator[Parameter]:
-    """A field of the stops: of both, and of each side; its unit may depend on an exponent."""
+    """Yield the parameters of a field of both stops and of each; an exponent may set the unit."""
 
     def measured(side: str) -> Callable[[Oscillator], Quantity] | None:
         def of(rig: Oscillator) -> Quantity:
@@ -186,7 +187,7 @@ def _of_isolator(
     long_name: str = "",
     powers: bool = False,
 ) -> Parameter:
-    """A field of the isolator; its unit may depend on an exponent."""
+    """Return the parameter of a field of the isolator; the unit may depend on an exponent."""
 
     def measured(rig: Oscillator) -> Quantity:
         return access.quantity(rig.isolator, field, "isolator has")
@@ -236,17 +237,17 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "proportional_stiffness",
             STIFFNESS,
-            "stiffness of both bumpers, their damping in proportion",
+            "stiffness of both bumpers, with damping in proportion",
             *access.in_proportion(lambda rig: 1.0),
             False,
         ),
         Parameter(
             "stiffness_at_restitution",
             STIFFNESS,
-            "stiffness of both bumpers, their restitution kept",
+            "stiffness of both bumpers, with constant restitution",
             *access.at_restitution(),
             False,
-            "C_j / √(K_j M) as it was",
+            "C_j / √(K_j M) is kept",
             straight=False,
         ),
         *_of_stops("damping", "bumper_damping", DAMPING),
@@ -276,7 +277,7 @@ PARAMETERS: dict[str, Parameter] = {
             "natural period on the isolator",
             *access.isolator_period(),
             False,
-            "2π √(M/K), its damping ratio as it was",
+            "2π √(M/K); the damping ratio is kept",
             straight=False,
         ),
         Parameter(
@@ -314,4 +315,4 @@ PARAMETERS: dict[str, Parameter] = {
 }
 """By name. `bumper_stiffness` keeps the bumpers' damping C_j, `proportional_stiffness` and
 `stiffness_ratio` keep their C_j/K_j, `stiffness_at_restitution` their C_j/√K_j, `isolator_period`
-keeps the damping ratio, and the ratios keep what else they are made of."""
+keeps the damping ratio, and the ratios keep the other quantities that they are made of."""

@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 from urllib.parse import quote
 
 import numpy as np
@@ -14,8 +14,10 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from vibroimpact._version import __version__
+from vibroimpact.arguments import check_name as check_one_of
+from vibroimpact.arguments import check_path, check_variables
 from vibroimpact.datasets.files import write_whole
-from vibroimpact.errors import InputError, in_one_line
+from vibroimpact.errors import InputError, in_one_line, shown
 from vibroimpact.figures import resonance_curves, save_figure
 from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
 from vibroimpact.identification.finding_texts import amplitude_words
@@ -84,8 +86,13 @@ def fit_report(
     """
     if not isinstance(result, xr.Dataset) or "fitted_value" not in result:
         raise InputError("result: this is no fit; a dataset of identify is accepted")
-    where = Path(folder)
+    where = check_path(folder, "folder")
+    if not where.is_dir():
+        raise InputError(f"folder: {shown(folder)} does not exist; an existing folder is accepted")
     check_name(name, "name")
+    check_one_of(figure, get_args(Format), "figure")
+    if comparison is not None:
+        check_variables(comparison, ["akaike"], "comparison", "a dataset of compare_fits")
     files: dict[str, Path] = {}
     figures: list[Figure] = []
 

@@ -14,14 +14,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold, orbit, section_map
+from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator
 from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_state, system_vector
-from vibroimpact.response.prepared_rig import PreparedRig, Settling
+from vibroimpact.response.hold_rows import HoldRows, Settling, sweep_holds
+from vibroimpact.response.prepared_rig import PreparedRig
 
 _Array = NDArray[np.float64]
 
@@ -55,15 +56,15 @@ class Held(NamedTuple):
     """The motion at one frequency."""
 
     frequency: float
-    results: _Array
-    """As `hold.measure` writes them."""
+    row: HoldRows
+    """What was measured of it."""
     state: _Array
     """Of the engine, at the section."""
 
     @property
     def single(self) -> bool:
         """Whether it repeats after one cycle."""
-        return bool(self.results[hold.OUTCOME] == Status.DONE and self.results[hold.PERIOD] == 1)
+        return bool(self.row.status == Status.DONE and self.row.period == 1)
 
 
 class Flight(NamedTuple):
@@ -152,9 +153,7 @@ def _changed(found: Held, last: Held) -> float:
 
     Where orbits are not isolated, a state says nothing.
     """
-    before, after = (
-        float(one.results[hold.U_MOST] - one.results[hold.U_LEAST]) for one in (last, found)
-    )
+    before, after = (float(one.row.displacement_excursion) for one in (last, found))
     return abs(after - before) / max(after, before) if max(after, before) > 0.0 else 0.0
 
 
@@ -167,7 +166,7 @@ def _ended(one: Flight, held: Held) -> Held:
 
     A free isolator whose damping vanishes with the motion takes longer than any patience.
     """
-    if held.results[hold.OUTCOME] != Status.NOT_SETTLED:
+    if held.row.status != Status.NOT_SETTLED:
         return held
     return _corrected(one, held.state, held.frequency) or held
 
@@ -209,7 +208,7 @@ def _corrected(one: Flight, near: _Array, frequency: float) -> Held | None:
     results[hold.PERIOD], results[hold.CYCLES], results[hold.OUTCOME] = 1, 0, Status.DONE
     state = np.zeros(layout.STATE)
     state[_PARTS] = point[_POINT]
-    return Held(frequency, results, state)
+    return Held(frequency, HoldRows(results), state)
 
 
 def _settled(one: Flight, begin: _Array, frequency: float, cycles: int) -> Held:
@@ -224,21 +223,7 @@ def _settled(one: Flight, begin: _Array, frequency: float, cycles: int) -> Held:
 
 def swept(one: Flight, begin: _Array, frequencies: Sequence[float]) -> list[Held]:
     """One motion after the other, each waited for a few cycles, from a state."""
-    results = np.empty((len(frequencies), hold.RESULTS))
-    states = np.zeros((len(frequencies), layout.STATE))
-    batch.sweep(
-        one.system,
-        np.array([one.level(frequency) for frequency in frequencies]),
-        np.array(frequencies),
-        0.0,
-        begin.copy(),
-        _TOLERANCE,
-        SOON,
-        SOON,
-        _MAX_EVENTS,
-        hold.PATIENT,
-        results,
-        states,
-        np.zeros(2, dtype=np.int64),
-    )
-    return [Held(*row) for row in zip(frequencies, results, states, strict=True)]
+    levels = np.array([one.level(frequency) for frequency in frequencies])
+    settling = Settling(_TOLERANCE, SOON, SOON)
+    rows, states = sweep_holds(one.system, levels, np.array(frequencies), 0.0, begin, settling)
+    return [Held(frequencies[k], rows[k], states[k]) for k in range(len(rows))]

@@ -12,7 +12,6 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold
 from vibroimpact.engine.status import Status
 from vibroimpact.model.equilibrium import equilibrium
 from vibroimpact.model.rig import Rig
@@ -26,6 +25,7 @@ from vibroimpact.response.free_response_branch import (
     from_rest,
     swept,
 )
+from vibroimpact.response.hold_rows import HoldRows
 
 _Array = NDArray[np.float64]
 
@@ -58,7 +58,7 @@ def swept_flight(rig: Rig, frequencies: _Array, levels: _Array) -> _Array:
     falling = [float(frequency) for frequency in frequencies[::-1]]
     begin = engine_state(one.oscillator, equilibrium(one.oscillator))
     found = swept(one, begin, falling)
-    if not all(held.results[hold.OUTCOME] == Status.DONE for held in found):
+    if not all(held.row.status == Status.DONE for held in found):
         # What settles slowly is not waited for.
         found = [from_rest(one, falling[0])]
         for frequency in falling[1:]:
@@ -68,14 +68,9 @@ def swept_flight(rig: Rig, frequencies: _Array, levels: _Array) -> _Array:
 
 
 def _excursions(found: list[Held]) -> _Array:
-    results = np.array([one.results for one in found])
-    excursions = np.array(
-        [
-            results[:, hold.U_MOST] - results[:, hold.U_LEAST],
-            results[:, hold.A_MOST] - results[:, hold.A_LEAST],
-        ]
-    )
-    excursions[:, results[:, hold.OUTCOME] != Status.DONE] = np.nan
+    rows = HoldRows(np.array([one.row.array for one in found]))
+    excursions = np.array([rows.displacement_excursion, rows.acceleration_excursion])
+    excursions[:, rows.status != Status.DONE] = np.nan
     return excursions
 
 

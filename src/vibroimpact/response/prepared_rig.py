@@ -8,13 +8,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold, lyapunov
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.memory import TERMS
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Repeated, Rig, State, equilibrium
 from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.hold_rows import MAX_EVENTS, HoldRows, Settling, sweep_holds
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import CYCLES, Progress, Tally, watched
 
@@ -22,21 +22,6 @@ _Array = NDArray[np.float64]
 
 _ROWS = 16_384
 """Cycles of one call of the engine, at most: their rows take 1 MB."""
-
-MAX_EVENTS = 10_000
-"""Contacts and releases in one forcing cycle at which a motion is given up, unless stated."""
-
-
-class Settling(NamedTuple):
-    """How long a frequency is held until the motion has settled."""
-
-    tolerance: float = 1e-12
-    """Distance between stroboscopic states, relative to the motion, at which it has settled."""
-    max_cycles: int = 2000
-    """Forcing cycles after which the wait ends."""
-    window: int = 500
-    """Forcing cycles over which a motion that did not settle is measured."""
-    max_events: int = MAX_EVENTS
 
 
 class PreparedRig(NamedTuple):
@@ -86,7 +71,7 @@ class PreparedRig(NamedTuple):
 
     def dwell(
         self, state: _Array, settling: Settling, progress: Progress | None = None
-    ) -> tuple[_Array, _Array]:
+    ) -> tuple[HoldRows, _Array]:
         """Hold the frequency until the motion has settled; Ctrl-C ends it.
 
         Parameters
@@ -100,28 +85,23 @@ class PreparedRig(NamedTuple):
 
         Returns
         -------
-        result, reached
-            As `engine.batch.sweep` writes them for one frequency.
+        row : HoldRows
+            What was measured.
+        reached : ndarray
+            The state at the end.
         """
-        result, reached = np.empty((1, hold.RESULTS)), np.zeros((1, layout.STATE))
+        found: list[tuple[HoldRows, _Array]] = []
         shaking = self.shaking
 
         def hold_it(tally: Tally) -> None:
-            batch.sweep(
-                self.vector,
-                np.array([shaking.amplitude]),
-                np.array([shaking.frequency]),
-                shaking.phase,
-                state.copy(),
-                *settling,
-                hold.PATIENT,
-                result,
-                reached,
-                tally,
+            sizes, places = np.array([shaking.amplitude]), np.array([shaking.frequency])
+            found.append(
+                sweep_holds(self.vector, sizes, places, shaking.phase, state, settling, tally)
             )
 
         watched(hold_it, settling.max_cycles, progress, CYCLES)
-        return result[0], reached[0]
+        ((rows, reached),) = found
+        return rows[0], reached[0]
 
     def sections(
         self,

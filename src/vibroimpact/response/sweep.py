@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list
+from vibroimpact.arguments import check_list, check_progress
 from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
@@ -29,11 +29,11 @@ from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.read_rig import AnyRig, as_rig, as_rigs
 from vibroimpact.model.rig import Rig, as_periodic
 from vibroimpact.response.engine_input import as_state
+from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.plausibility import doubt_gaps, note_stiff_stops, note_unbounded
-from vibroimpact.response.prepared_rig import Settling
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
-from vibroimpact.response.sweep_dataset import held
+from vibroimpact.response.sweep_dataset import sweep_dataset
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, each
 
@@ -160,6 +160,7 @@ def sweeps(
     InputError
         If a value cannot be used.
     """
+    check_progress(progress)
     named = periodic_rigs(rigs)
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
@@ -191,10 +192,9 @@ def sweeps(
     del done  # as large as both
     doubts: list[str] = []
     for r, rig in enumerate(pairs):
-        oscillator = rig.oscillator
-        swing = np.abs(results[r][..., [hold.U_LEAST, hold.U_MOST]]).max(axis=-1)
-        ended = judged(oscillator, results[r][..., hold.OUTCOME], swing)
-        results[r][..., hold.OUTCOME] = ended
+        oscillator, held = rig.oscillator, HoldRows(results[r])
+        swing = held.peak_displacement
+        held.status[...] = judged(oscillator, held.status, swing)
         doubts += [
             *doubt_gaps(rig, swing),
             *note_unbounded(rig),
@@ -202,7 +202,7 @@ def sweeps(
         ]
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)
-    data = held([rig.oscillator for rig in pairs], results, states, free, largest, angle)
+    data = sweep_dataset([rig.oscillator for rig in pairs], results, states, free, largest, angle)
     data = data.assign_coords(
         rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
     )

@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, hold
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine import hold
 from vibroimpact.errors import InputError
 from vibroimpact.model import Repeated, Rig, State, equilibrium
 from vibroimpact.response.analytic_free_response import (
@@ -17,8 +16,8 @@ from vibroimpact.response.analytic_free_response import (
     reference_excursions,
 )
 from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.hold_rows import Settling, sweep_holds
 from vibroimpact.response.numerical_free_response import swept_flight
-from vibroimpact.response.prepared_rig import Settling
 from vibroimpact.tasks.threads import Tally
 
 _Array = NDArray[np.float64]
@@ -84,24 +83,20 @@ def rows(
     Returns
     -------
     results, states : ndarray, shape (frequency, column)
-        As `engine.batch.sweep` writes them, but by rising frequency.
+        As `sweep_holds` gives them, but by rising frequency.
     """
     order = slice(None, None, 1 if direction == "forward" else -1)
-    found = np.empty((len(one.frequencies), hold.RESULTS))
-    reached = np.zeros((len(one.frequencies), layout.STATE))
-    batch.sweep(
+    found, reached = sweep_holds(
         one.rig,
-        np.ascontiguousarray(one.levels[order]),
-        np.ascontiguousarray(one.frequencies[order]),
+        one.levels[order],
+        one.frequencies[order],
         phase,
-        one.start.copy(),
-        *settling,
-        transient,
-        found,
-        reached,
+        one.start,
+        settling,
         tally,
+        transient,
     )
-    return found[order], reached[order]
+    return found.array[order], reached[order]
 
 
 def _levels(sizes: tuple[float, ...] | None, shaken: Repeated, grid: _Array) -> _Array:

@@ -8,12 +8,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold
 from vibroimpact.model import Oscillator
 from vibroimpact.response.engine_input import components
+from vibroimpact.response.hold_rows import HoldRows
 
 
-def held(
+def sweep_dataset(
     oscillators: Sequence[Oscillator],
     results: NDArray[np.float64],
     states: NDArray[np.float64],
@@ -39,19 +39,19 @@ def held(
         That of the section, rad.
     """
     dims = ("rig", "direction", "frequency")
-    found = [sizes(one, rows) for one, rows in zip(oscillators, results, strict=True)]
+    found = [sizes(one, HoldRows(part)) for one, part in zip(oscillators, results, strict=True)]
     # What is stacked is not kept a second time.
     told = {name: np.stack([one.pop(name) for one in found]) for name in list(found[0])}
     reference = largest[..., np.newaxis, np.newaxis]
-    period = results[..., hold.PERIOD].astype(np.int64)
+    rows = HoldRows(results)
     values = {
         **told,
         "eta_d": told["displacement_excursion"] / reference[0],
         "eta_a": told["acceleration_excursion"] / reference[1],
-        "motion": np.where(period > 0, "periodic", "undecided"),
-        "period": period,
-        "cycles": results[..., hold.CYCLES].astype(np.int64),
-        "status": results[..., hold.OUTCOME].astype(np.int64),
+        "motion": np.where(rows.period > 0, "periodic", "undecided"),
+        "period": rows.period,
+        "cycles": rows.cycles,
+        "status": rows.status.astype(np.int64),
     }
     data = xr.Dataset({name: (dims, value) for name, value in values.items()})
     data["section"] = ((*dims, "component"), components(states, phase))
@@ -62,7 +62,7 @@ def held(
     return data
 
 
-def sizes(oscillator: Oscillator, rows: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+def sizes(oscillator: Oscillator, rows: HoldRows) -> dict[str, NDArray[np.float64]]:
     """Extremes, contacts per cycle and contact forces of one rig, by the names of variables.
 
     Parameters
@@ -70,27 +70,23 @@ def sizes(oscillator: Oscillator, rows: NDArray[np.float64]) -> dict[str, NDArra
     oscillator
         The rig.
     rows
-        Rows of `hold`, their columns last.
+        What was measured of it.
     """
-    low, high = rows[..., hold.U_LEAST], rows[..., hold.U_MOST]
-    floor, ceiling = rows[..., hold.A_LEAST], rows[..., hold.A_MOST]
-    found = {
-        "displacement_excursion": high - low,
-        "acceleration_excursion": ceiling - floor,
-        "displacement_max": high,
-        "displacement_min": low,
-        "acceleration_max": ceiling,
-        "acceleration_min": floor,
-        "peak_displacement": np.maximum(np.abs(high), np.abs(low)),
-        "peak_acceleration": np.maximum(np.abs(ceiling), np.abs(floor)),
-        "eccentricity": 0.5 * (high + low),
-        "impacts_right": rows[..., hold.HITS_RIGHT],
-        "impacts_left": rows[..., hold.HITS_LEFT],
+    mass = oscillator.mass
+    return {
+        "displacement_excursion": rows.displacement_excursion,
+        "acceleration_excursion": rows.acceleration_excursion,
+        "displacement_max": rows.displacement_max,
+        "displacement_min": rows.displacement_min,
+        "acceleration_max": rows.acceleration_max,
+        "acceleration_min": rows.acceleration_min,
+        "peak_displacement": rows.peak_displacement,
+        "peak_acceleration": rows.peak_acceleration,
+        "eccentricity": 0.5 * (rows.displacement_max + rows.displacement_min),
+        "impacts_right": rows.impacts_right,
+        "impacts_left": rows.impacts_left,
+        "peak_force_right": mass * rows.peak_force_right,
+        "peak_impulse_right": mass * rows.peak_impulse_right,
+        "peak_force_left": mass * rows.peak_force_left,
+        "peak_impulse_left": mass * rows.peak_impulse_left,
     }
-    for side, force, impulse in (
-        ("right", hold.FORCE_RIGHT, hold.IMPULSE_RIGHT),
-        ("left", hold.FORCE_LEFT, hold.IMPULSE_LEFT),
-    ):
-        found[f"peak_force_{side}"] = oscillator.mass * rows[..., force]
-        found[f"peak_impulse_{side}"] = oscillator.mass * rows[..., impulse]
-    return found

@@ -20,7 +20,7 @@ from vibroimpact.model import State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, each_swept
 from vibroimpact.response.engine_input import components
-from vibroimpact.response.prepared_rig import Settling
+from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.tasks.threads import Tally
 
@@ -29,8 +29,6 @@ UNEVEN = 1e-6
 _TOLERANCE, _MAX_EVENTS = 1e-12, 10_000
 """As of `sweeps`."""
 _CONTACTS = ("impacts_right", "impacts_left")
-_TOUCHED = [hold.HITS_RIGHT, hold.HITS_LEFT, hold.FORCE_RIGHT, hold.FORCE_LEFT]
-"""What is above 0 where a stop is touched; as `in_contact` of `response.swept`."""
 DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
 
 
@@ -128,18 +126,20 @@ def swept_alone(
     for k, direction in enumerate(DIRECTIONS):
         found[k], reached = rows(ready, direction, 0.0, settling, tally, transient)
         states.append(reached)
-    each = found.transpose(2, 0, 1).copy()  # what was measured, one quantity behind the other
-    low, high = each[hold.U_LEAST], each[hold.U_MOST]
+    # One quantity after the other in memory.
+    each = HoldRows(np.moveaxis(found.transpose(2, 0, 1).copy(), 0, -1))
+    low, high = each.displacement_min, each.displacement_max
     excursion = high - low
-    period = each[hold.PERIOD].astype(np.int64)
+    period = each.period
+    touched = (each.impacts_right, each.impacts_left, each.peak_force_right, each.peak_force_left)
     both = Swept(
         frequencies,
         DIRECTIONS,
-        (each[hold.A_MOST] - each[hold.A_LEAST]) / ready.largest[1],
+        each.acceleration_excursion / ready.largest[1],
         excursion / ready.largest[0],
         period > 0,
         period,
-        np.any(each[_TOUCHED] > 0.0, axis=0),
+        np.logical_or.reduce([one > 0.0 for one in touched]),  # as `in_contact` of a dataset
     )
     curves = Curves(
         both,
@@ -149,8 +149,8 @@ def swept_alone(
         float(np.fmin.reduce(low, axis=None)),
     )
     section = components(np.array(states), 0.0)
-    plain = (each[hold.OUTCOME] == NOT_SETTLED) & (each[hold.CYCLES] < max_cycles)
-    contacts = found.take([hold.HITS_RIGHT, hold.HITS_LEFT], axis=-1)
+    plain = (each.status == NOT_SETTLED) & (each.cycles < max_cycles)
+    contacts = np.stack([each.impacts_right, each.impacts_left], axis=-1)
     return curves, Holds(frequencies, period, section, plain, contacts)
 
 

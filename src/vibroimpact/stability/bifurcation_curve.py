@@ -22,7 +22,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import is_list
+from vibroimpact.arguments import check_list, check_progress, is_pair
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.datasets.description import (
@@ -96,8 +96,15 @@ def bifurcation_curve(
     InputError
         If a value cannot be used, or the start is no bifurcation of this rig.
     """
+    check_progress(progress)
     rig = as_rig(rig, frequency)
     oscillator, excitation = rig.oscillator, rig.harmonic
+    names = check_list(parameters, "parameters", 2, "a list of two parameters")
+    for name in (one for one in names if not isinstance(one, str)):
+        raise InputError(f"parameters: {shown(name)} is not a name; two names are accepted")
+    if len(names) != 2:
+        raise InputError(f"parameters: {shown(parameters)}; two names are accepted")
+    parameters = (names[0], names[1])
     if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
         raise InputError(
             "start: this is not one bifurcation; data.isel(bifurcation=i) of a branch is accepted"
@@ -111,13 +118,15 @@ def bifurcation_curve(
     kind = start["bifurcation_kind"].item()
     phase = float(start["bifurcation_section"].sel(component="phase"))
     over = plane(Rig(oscillator, excitation.replace(phase=phase)), (parameters[0], parameters[1]))
-    if not is_list(spans) or len(spans) != 2:
+    if not is_pair(spans):
         raise InputError(
             f"spans: {shown(spans)}; a (low, high) pair for each of the two parameters is accepted"
         )
     ends = [
-        read_span(varied, spans[i], f"spans[{i}]")
-        for i, varied in enumerate((over.family.parameter, over.other))
+        read_span(varied, span, f"spans[{i}]")
+        for i, (varied, span) in enumerate(
+            zip((over.family.parameter, over.other), spans, strict=True)
+        )
     ]
     if not ends[1][0] <= over.value <= ends[1][1]:
         raise InputError(

@@ -21,6 +21,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator
 from vibroimpact.response import sweep_dataset
 from vibroimpact.response.analytic_free_response import reference_excursions
+from vibroimpact.response.hold_rows import HoldRows
 from vibroimpact.response.plausibility import note_unbounded
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.bifurcations import Bifurcation
@@ -152,7 +153,7 @@ def _sizes(oscillator: Oscillator, orbits: list[Orbit]) -> dict[str, _Array]:
     measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
     free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
     # Neither the mass nor whether a stop is rigid changes along a branch.
-    found = sweep_dataset.sizes(oscillator, measured)
+    found = sweep_dataset.sizes(oscillator, HoldRows(measured))
     return {
         **found,
         "eta_d": found["displacement_excursion"] / free[:, 0],

@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.status import Status
@@ -22,7 +21,8 @@ from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import engine_rig, engine_state
-from vibroimpact.response.prepared_rig import Settling, prepare
+from vibroimpact.response.hold_rows import HoldRows, Settling
+from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.stability.settle import Settled, reach_at_rest
 from vibroimpact.tasks.threads import Stopped, Tally
@@ -37,8 +37,7 @@ class Held(NamedTuple):
     """Where a motion went at one value, and what was measured of it there."""
 
     found: Settled
-    measured: _Array
-    """A row of `engine.hold`."""
+    measured: HoldRows
 
 
 def rigs_along(varied: Parameter, rig: Rig, values: Iterable[float]) -> list[Rig]:
@@ -106,9 +105,8 @@ def stepped(
 def _held(rig: Rig, state: _Array, settling: Settling) -> Held:
     engine = prepare(rig)
     row, reached = engine.dwell(state, settling)
-    swing = np.abs(row[[hold.U_LEAST, hold.U_MOST]]).max()
-    status = Status(int(judged(rig.oscillator, row[hold.OUTCOME], swing)))
-    found = Settled(engine, reached, int(row[hold.PERIOD]), int(row[hold.CYCLES]), status)
+    status = Status(int(judged(rig.oscillator, row.status, row.peak_displacement)))
+    found = Settled(engine, reached, int(row.period), int(row.cycles), status)
     return Held(found, row)
 
 
@@ -138,11 +136,7 @@ def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: i
     Vectors of the engine. Where there is neither, they are as large as the mass is moved by what
     shakes it slowly.
     """
-    sizes = [
-        np.abs(one.measured[[hold.U_LEAST, hold.U_MOST]]).max()
-        for one in met
-        if one.found.status in _SOUND
-    ]
+    sizes = [float(one.measured.peak_displacement) for one in met if one.found.status in _SOUND]
     gaps = [stop.gap for rig in every for stop in rig.oscillator.stops]
     size = max([0.0, *sizes, *gaps]) or max(reach_at_rest(one) for one in every)
     omega = float(np.median([rig.periodic.angular_frequency for rig in every]))

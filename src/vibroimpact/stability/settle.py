@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated, State
@@ -15,7 +14,8 @@ from vibroimpact.model.count_checks import share
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import engine_state
-from vibroimpact.response.prepared_rig import PreparedRig, Settling, prepare
+from vibroimpact.response.hold_rows import Settling
+from vibroimpact.response.prepared_rig import PreparedRig, prepare
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.stability.fixed_points import Orbit, vector_of
 from vibroimpact.tasks.threads import Progress
@@ -81,13 +81,13 @@ def approach(
             rig = rig.with_parts(rig.oscillator, rig.periodic.replace(phase=start.phase))
         start = engine_state(rig.oscillator, start)
     engine = prepare(rig)
-    result, reached = engine.dwell(start, Settling(tolerance, max_cycles, 1, max_events), progress)
+    row, reached = engine.dwell(start, Settling(tolerance, max_cycles, 1, max_events), progress)
     return Settled(
         engine,
         reached if np.isfinite(reached).all() else start,
-        int(result[hold.PERIOD]),
-        int(result[hold.CYCLES]),
-        Status(int(judged(rig.oscillator, result[hold.OUTCOME], np.nan))),
+        int(row.period),
+        int(row.cycles),
+        Status(int(judged(rig.oscillator, row.status, np.nan))),
     )
 
 

@@ -11,13 +11,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import excitation_from, motion_parameters
-from vibroimpact.engine import batch, hold
+from vibroimpact.engine import batch
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import extremes, harmonics
 from vibroimpact.response.engine_input import engine_rig, state_from, system_vector
-from vibroimpact.response.prepared_rig import Settling
+from vibroimpact.response.hold_rows import Settling
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.parameter_family import Family, family
@@ -155,7 +155,7 @@ def _held(at: Values, way: _Way, tally: Tally) -> list[Held]:
 
 def _ends(one: Held) -> tuple[float, float]:
     """How far a motion goes to both sides; of a symmetric rig the smaller first."""
-    ends = float(one.measured[hold.U_MOST]), -float(one.measured[hold.U_LEAST])
+    ends = float(one.measured.displacement_max), -float(one.measured.displacement_min)
     return (min(ends), max(ends)) if one.found.symmetric else ends
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import origin
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Rig
@@ -90,6 +91,7 @@ def ensemble(
         If a value cannot be used, a draw is one that the parameter cannot have, or the response
         gives no dataset over rigs.
     """
+    check_progress(progress)
     drawn = uncertain(rig, distributions)
     values = drawn.values(shares(draws, len(drawn.names), method, whole(seed, "seed", 0)))
     data = responded(drawn, values, response, block, progress)
@@ -107,7 +109,7 @@ def responded(
     progress: Progress | None,
 ) -> xr.Dataset:
     """The response of the rigs at rows of values, block by block, along ``sample``."""
-    if not callable(response):
+    if not callable(response) or isinstance(response, type):
         raise InputError(
             f"response: {shown(response)} is no function; one of a list of rigs is accepted, such "
             "as functools.partial(vibroimpact.sweeps, frequencies=...)"

@@ -1,0 +1,207 @@
+"""Held frequencies: what the engine measures of each, by name."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import batch, hold
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.status import Status
+from vibroimpact.tasks.threads import Tally
+
+_Array = NDArray[np.float64]
+
+MAX_EVENTS = 10_000
+"""Contacts and releases in one forcing cycle at which a motion is given up, unless stated."""
+
+
+class Settling(NamedTuple):
+    """How long a frequency is held until the motion has settled."""
+
+    tolerance: float = 1e-12
+    """Distance between stroboscopic states, relative to the motion, at which it has settled."""
+    max_cycles: int = 2000
+    """Forcing cycles after which the wait ends."""
+    window: int = 500
+    """Forcing cycles over which a motion that did not settle is measured."""
+    max_events: int = MAX_EVENTS
+
+
+class HoldRows:
+    """Measurements of held frequencies, by name; a view of the rows that the engine writes.
+
+    Forces and impulses are per unit mass.
+
+    Parameters
+    ----------
+    array : ndarray, shape (..., hold.RESULTS)
+        A row for each held frequency.
+    """
+
+    __slots__ = ("array",)
+
+    def __init__(self, array: _Array) -> None:
+        self.array = array
+
+    @classmethod
+    def empty(cls, *shape: int) -> HoldRows:
+        """Return rows for the engine to write."""
+        return cls(np.empty((*shape, hold.RESULTS)))
+
+    def __len__(self) -> int:
+        return len(self.array)
+
+    def __getitem__(self, index: object) -> HoldRows:
+        """Return some of the rows."""
+        return HoldRows(self.array[index])  # type: ignore[call-overload]
+
+    @property
+    def displacement_min(self) -> _Array:
+        """Smallest relative displacement (m)."""
+        return self.array[..., hold.U_LEAST]
+
+    @property
+    def displacement_max(self) -> _Array:
+        """Largest relative displacement (m)."""
+        return self.array[..., hold.U_MOST]
+
+    @property
+    def displacement_excursion(self) -> _Array:
+        """Largest less smallest relative displacement (m)."""
+        found: _Array = self.displacement_max - self.displacement_min
+        return found
+
+    @property
+    def peak_displacement(self) -> _Array:
+        """Largest relative displacement to either side (m)."""
+        found: _Array = np.maximum(np.abs(self.displacement_max), np.abs(self.displacement_min))
+        return found
+
+    @property
+    def acceleration_min(self) -> _Array:
+        """Smallest absolute acceleration (m/s²)."""
+        return self.array[..., hold.A_LEAST]
+
+    @property
+    def acceleration_max(self) -> _Array:
+        """Largest absolute acceleration (m/s²)."""
+        return self.array[..., hold.A_MOST]
+
+    @property
+    def acceleration_excursion(self) -> _Array:
+        """Largest less smallest absolute acceleration (m/s²)."""
+        found: _Array = self.acceleration_max - self.acceleration_min
+        return found
+
+    @property
+    def peak_acceleration(self) -> _Array:
+        """Largest absolute acceleration, without sign (m/s²)."""
+        found: _Array = np.maximum(np.abs(self.acceleration_max), np.abs(self.acceleration_min))
+        return found
+
+    @property
+    def impacts_right(self) -> _Array:
+        """Contacts with the right stop per forcing cycle."""
+        return self.array[..., hold.HITS_RIGHT]
+
+    @property
+    def impacts_left(self) -> _Array:
+        """Contacts with the left stop per forcing cycle."""
+        return self.array[..., hold.HITS_LEFT]
+
+    @property
+    def peak_force_right(self) -> _Array:
+        """Largest force of the right stop per unit mass (m/s²)."""
+        return self.array[..., hold.FORCE_RIGHT]
+
+    @property
+    def peak_force_left(self) -> _Array:
+        """Largest force of the left stop per unit mass (m/s²)."""
+        return self.array[..., hold.FORCE_LEFT]
+
+    @property
+    def peak_impulse_right(self) -> _Array:
+        """Largest impulse on the right rigid stop per unit mass (m/s)."""
+        return self.array[..., hold.IMPULSE_RIGHT]
+
+    @property
+    def peak_impulse_left(self) -> _Array:
+        """Largest impulse on the left rigid stop per unit mass (m/s)."""
+        return self.array[..., hold.IMPULSE_LEFT]
+
+    @property
+    def period(self) -> NDArray[np.int64]:
+        """Period in forcing cycles; 0 where the motion did not settle."""
+        return self.array[..., hold.PERIOD].astype(np.int64)
+
+    @property
+    def cycles(self) -> NDArray[np.int64]:
+        """Forcing cycles used."""
+        return self.array[..., hold.CYCLES].astype(np.int64)
+
+    @property
+    def status(self) -> _Array:
+        """How the hold ended, a `Status`; a view, to be changed in place."""
+        return self.array[..., hold.OUTCOME]
+
+    @property
+    def settled(self) -> NDArray[np.bool_]:
+        """Whether the motion became periodic."""
+        found: NDArray[np.bool_] = (self.status == Status.DONE) & (self.period > 0)
+        return found
+
+
+def sweep_holds(
+    vector: _Array,
+    amplitudes: _Array,
+    frequencies: _Array,
+    phase: float,
+    state: _Array,
+    settling: Settling,
+    tally: Tally | None = None,
+    transient: float = hold.PATIENT,
+) -> tuple[HoldRows, _Array]:
+    """Hold one frequency after the other, each from the state at which the last one ended.
+
+    Parameters
+    ----------
+    vector
+        The rig as the engine reads it.
+    amplitudes, frequencies
+        Of each hold.
+    phase
+        Of the section (rad).
+    state
+        The state at which the first hold begins, as the engine's vector. It is not changed.
+    settling
+        How long to wait for a steady motion.
+    tally
+        Counts the holds that are done and stops them. Default: none.
+    transient
+        Time (s) after which a motion that is plainly chaotic is no longer waited for.
+
+    Returns
+    -------
+    rows : HoldRows
+        What was measured, a row for each hold.
+    states : ndarray, shape (hold, component)
+        The state at the end of each hold.
+    """
+    count = len(frequencies)
+    rows, states = HoldRows.empty(count), np.zeros((count, layout.STATE))
+    batch.sweep(
+        vector,
+        np.ascontiguousarray(amplitudes),
+        np.ascontiguousarray(frequencies),
+        phase,
+        state.copy(),
+        *settling,
+        transient,
+        rows.array,
+        states,
+        np.zeros(2, dtype=np.int64) if tally is None else tally,
+    )
+    return rows, states
