@@ -1,4 +1,4 @@
-"""The error and the warning of input, and what to say of a name that does not exist."""
+"""Errors and warnings about input, and suggestions for unknown names."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import warnings
 from collections.abc import Iterable
 
 LONGEST = 320
-"""Letters of a message, full paths of files aside."""
+"""Largest number of characters of a message, excluding full paths of files."""
 _END = LONGEST // 3
-"""Letters kept of its end, which says what is accepted."""
+"""Number of characters kept of its end, which states what is accepted."""
 _LONG_WORD = re.compile(r"(\S{60})\S{140,}")
 """A value that was given whole; a path may have 200 letters."""
 _PATH = re.compile(r"'(?:/|[A-Za-z]:\\)[^']*'")
@@ -20,10 +20,10 @@ _LIST = re.compile(r"(?:[^\s,;:]+(?: [^\s,;:]+){0,3}, ){4,}")
 
 
 class InputError(ValueError):
-    """A value that the caller gave cannot be used.
+    """Raised if a value that the caller passed is invalid.
 
-    The message is one line of some 300 letters at most that names the field, the value and what is
-    accepted.
+    The message is one line of at most some 300 characters. It names the field, the value and what
+    is accepted.
     """
 
     def __init__(self, message: object = "") -> None:
@@ -31,9 +31,9 @@ class InputError(ValueError):
 
 
 class InputWarning(UserWarning):
-    """A value is used, but part of it had to be assumed, or it is probably not what was meant.
+    """Issued if a value is used, but part of it was assumed, or it is probably a mistake.
 
-    Commands print it as a line; datasets keep it in their attribute ``notes``.
+    Commands print it as a line. Datasets keep it in their attribute ``notes``.
     """
 
 
@@ -45,16 +45,16 @@ def warn_of_input(what: str, notes: Iterable[str], stacklevel: int = 3) -> None:
     what
         The input, such as ``"record 'quake.csv'"``.
     notes
-        What was assumed for it, or is doubted, in words.
+        Assumptions and doubts about it, in words.
     stacklevel
-        As of `warnings.warn`; 3 is the caller of the function that calls this.
+        As in `warnings.warn`; 3 is the caller of the function that calls this.
     """
     if told := "; ".join(notes):
         warnings.warn(f"{what}: {told}", InputWarning, stacklevel=stacklevel)
 
 
 def short_line(message: str) -> str:
-    """Write a message on one line of at most `LONGEST` letters, full paths of files aside.
+    """Write a message on one line of at most `LONGEST` characters, excluding full paths of files.
 
     The longest list in it loses items before its last one; if that is not enough, the message loses
     its middle.
@@ -75,7 +75,7 @@ def short_line(message: str) -> str:
 
 
 def shown(value: object) -> str:
-    """Show a refused value on one short line."""
+    """Show an invalid value on one short line."""
     try:
         text = " ".join(repr(value).split())
     except Exception:  # of a class that the user wrote
@@ -84,7 +84,7 @@ def shown(value: object) -> str:
 
 
 def meant(name: object, accepted: Iterable[str]) -> str:
-    """Words for the name that a wrong one is nearest to, such as ``did you mean gap?``, or none."""
+    """Suggest the accepted name nearest to a wrong one, such as ``did you mean gap?``, or ""."""
     if not isinstance(name, str):
         return ""
     written = name.strip().lower().replace("-", "_")
@@ -93,14 +93,15 @@ def meant(name: object, accepted: Iterable[str]) -> str:
 
 
 def unknown(name: object, accepted: Iterable[str]) -> str:
-    """Words for a message about a name that is none of those accepted."""
+    """Describe a name that is not accepted, for a message."""
     names = list(accepted)
     hint = meant(name, names)
     return f"{shown(name)}; {hint}{'One' if hint else 'one'} of {', '.join(names)} is accepted"
 
 
 UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
-"""Control characters, by which terminals can be steered, and those that turn text round."""
+"""Control characters, which can control terminals, and characters that change the text
+direction."""
 
 
 def printable(text: str) -> str:

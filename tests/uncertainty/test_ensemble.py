@@ -186,7 +186,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ({"block": 0}, "block"),
         ({"response": 3}, "response: 3 is no function"),
         ({"response": lambda rigs: vi.sweep(rigs[0], [2.0])}, "response: it gives "),
-        ({"rig": CASE.oscillator, "distributions": {"amplitude": "normal:5%"}}, "that of a sine"),
+        ({"rig": CASE.oscillator, "distributions": {"amplitude": "normal:5%"}}, "needs a sine"),
         ({"rig": vi.Rig(FREE, [0.1, 0.2])}, "shaking: a list"),
     ],
 )

@@ -1,4 +1,4 @@
-"""Start the explorer: until Ctrl-C for the command line, in the background for a notebook."""
+"""Start the explorer: in the foreground for the command line, in the background for a notebook."""
 
 from __future__ import annotations
 
@@ -25,18 +25,19 @@ def serve(
     Parameters
     ----------
     first
-        What a page begins with.
+        Initial state of a page.
     told
-        Called with the address as soon as pages are served.
+        Function that is called with the address as soon as the server is ready.
     host
-        Whose address is listened on; beyond this machine a token is part of the address.
+        Host name or address to listen on. If it is reachable from other machines, the address
+        contains a token.
     port
-        0 takes a free one.
+        Port number; 0 chooses a free one.
 
     Raises
     ------
     InputError
-        If the websocket library is missing, or host and port cannot be used.
+        If the websocket library is missing, or the host or port is invalid or in use.
     """
     asyncio.run(serving(first, host, port, told))
 
@@ -66,7 +67,7 @@ async def serving(
 
 
 class Explored:
-    """A page in a notebook; it is also opened by its `address`."""
+    """A page in a notebook; a browser can open it by its `address`."""
 
     def __init__(self, where: str, height: int) -> None:
         self.address = where
@@ -84,26 +85,26 @@ class Explored:
 
 
 def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
-    """Show the explorer in a notebook: turn a knob and see the resonance bend.
+    """Show the interactive explorer in a notebook: change a parameter and see the resonance curve.
 
-    One server a process runs in the background, for this machine only.
+    One server per process runs in the background. Only this machine can reach it.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     height
-        Of the page, in pixels.
+        Height of the page (pixels).
 
     Returns
     -------
     Explored
-        A notebook shows it; its ``address`` may be opened in a browser instead.
+        Object that a notebook displays. A browser can open its ``address`` instead.
 
     Raises
     ------
     InputError
-        If it is no rig that one sine shakes, or the websocket library is missing.
+        If the rig is not shaken by one sine, or the websocket library is missing.
     """
     if isinstance(height, bool) or not isinstance(height, int) or height < 1:
         raise InputError(f"height: {height!r}; a whole number of pixels is accepted")
@@ -119,7 +120,7 @@ _STARTING = threading.Lock()
 
 
 def _background() -> str:
-    """The address of this process's server, which is started by the first call."""
+    """Return the address of this process's server; the first call starts it."""
     with _STARTING:
         if not _RUNNING:
             ready = threading.Event()

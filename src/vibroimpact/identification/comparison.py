@@ -1,4 +1,4 @@
-"""Models beside each other: which one the data ask for."""
+"""Compare fits of several models to the same data."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ _CLEAR = 10.0
 
 
 def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    """Compare fits of several models to the same data, by information and by what they leave.
+    """Compare fits of several models to the same data, by information criteria and residuals.
 
     Parameters
     ----------
     fits
-        Datasets of `identify` by the name of their model.
+        Datasets of `identify`, by the name of the model.
 
     Returns
     -------
     xarray.Dataset
         Dim ``model``, the best first: ``akaike`` (corrected for few points), ``bayes``,
-        ``akaike_weight``, how many parameters it has, its noise and whether its residuals have a
-        shape. The attribute ``findings`` says it in words.
+        ``akaike_weight``, the number of parameters, the noise, and whether the residuals are
+        systematic. The attribute ``findings`` summarises the result in words.
 
     Raises
     ------
     InputError
-        If there are fewer than two, one is no fit, or they were fitted to other data.
+        If there are fewer than two fits, one is not a fit, or they were fitted to different data.
     """
     check_mapping(fits, "fits", "a mapping of names to fits")
     if len(fits) < 2:
@@ -94,12 +94,14 @@ _OTHER_UNITS = {f"{side}_stiffness" for side in ("bumper", "right", "left")}
 
 
 def remodelled(model: str, oscillator: Oscillator, depth: float) -> Oscillator:
-    """The rig with another law, about as strong; `depth` (m) is how far the mass goes into a stop.
+    """Return the rig with another law of similar strength.
+
+    `depth` (m) is the penetration into a stop.
 
     Raises
     ------
     InputError
-        If there is no such model, or the rig has nothing that it replaces.
+        If the model does not exist, or the rig has no part that it replaces.
     """
     if model not in MODELS:
         raise InputError(f"model: {unknown(model, MODELS)}")
@@ -112,10 +114,10 @@ def asked_of(model: str, asked: Mapping[str, Any]) -> dict[str, Any]:
     Parameters
     ----------
     model
-        Its name.
+        Name of the model.
     asked
-        Arguments of `identify`: ``free`` and ``priors`` as mappings, ``each`` and ``ties``. Bounds
-        and priors of what has another meaning in the model are left out.
+        Arguments of `identify`: ``free`` and ``priors`` as mappings, ``each`` and ``ties``.
+        Bounds and priors of parameters with another meaning in the model are left out.
     """
     names = _DISSIPATION if model == "hertz" else {}
     changed = _OTHER_UNITS | set(names) if model == "hertz" else set()
@@ -140,9 +142,9 @@ def asked_of(model: str, asked: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def hertzian(oscillator: Oscillator, depth: float) -> Oscillator:
-    """The rig with contacts of Hertz in the place of its bumpers.
+    """Return the rig with Hertz contacts instead of its bumpers.
 
-    Their forces, of spring and dashpot, are those of the bumper at a depth (m).
+    At a penetration depth (m), their spring and damping forces are those of the bumper.
 
     Raises
     ------
@@ -163,7 +165,7 @@ def hertzian(oscillator: Oscillator, depth: float) -> Oscillator:
 
 
 def softening(oscillator: Oscillator) -> Oscillator:
-    """The rig on an isolator with a cubic term, 0 to begin with.
+    """Return the rig with an isolator that has a cubic term, initially 0.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Parameters of rigs from measurements, with what is known of them and how well."""
+"""Identification of the parameters of rigs from measurements, with their uncertainty."""
 
 from __future__ import annotations
 
@@ -57,22 +57,22 @@ def identify(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Find parameters of rigs from measurements, and how well these determine them.
+    """Identify parameters of rigs from measurements, with their uncertainty.
 
     Parameters
     ----------
     rig
-        What was tested, with the values that are known and a guess of the others: a `Rig`, a
-        laboratory case, its code, or the path of a study file; or one for each test, as a list or
-        by name. If the data state or hold the shaking, theirs is used, and an `Oscillator` alone
-        is accepted; a warning and a finding report a rig whose shaking differs.
+        The tested rig, with its known values and a guess of the others: a `Rig`, a laboratory
+        case, its code, or the path of a study file; or one per test, as a list or by name. If the
+        data state or contain the shaking, it is used, and an `Oscillator` alone is accepted; a
+        warning and a finding report a rig whose shaking differs.
     data
         A dataset of `read_measurement`, or of `sweep` or `simulate`, or the path of a file; or
         several, as a list or by name.
     free
-        What is sought: names of parameters, such as ``"stiffness,bumper_damping"``; or a mapping
-        from names to a start, to bounds (low, high), to both (``{"start": ..., "low": ...}``), or
-        to None for the rig's own value. Of sensors there are ``displacement_scale``,
+        Parameters to fit: names, such as ``"stiffness,bumper_damping"``; or a mapping from names
+        to a starting value, to bounds (low, high), to both (``{"start": ..., "low": ...}``), or
+        to None for the rig's own value. Parameters of sensors are ``displacement_scale``,
         ``acceleration_scale``, ``displacement_offset`` and ``acceleration_offset``.
     each
         Free parameters that are fitted separately for each test; the others are shared. Default:
@@ -80,53 +80,55 @@ def identify(
     ties
         Parameters that are tied to others, such as ``{"left_gap": "right_gap"}``.
     priors
-        Mean and standard deviation of prior knowledge, by name.
+        Mean and standard deviation of a normal prior, by name of the parameter. Default: none.
     noise
-        Standard deviation of a measured value, as a share of it, such as 0.02. None for an
-        estimate from the fit.
+        Standard deviation of a measured value, as a share of it, such as 0.02. Default:
+        estimated from the fit.
     robust
-        Whether points that lie far off count less than their squares.
+        Whether outliers are given less weight than in least squares.
     confidence
-        Of the intervals.
+        Confidence level of the intervals.
     starts
-        Number of local fits, each from another starting point.
+        Number of local fits from different starting points.
     tried
         Number of points over the ranges of the free parameters among which the starting points
         are chosen.
     profiles
-        Whether intervals come from profiles of the likelihood, which may be asymmetric and end at
-        a bound; otherwise they are those of the covariance.
+        Whether intervals are computed from profiles of the likelihood, which may be asymmetric
+        and end at a bound. Otherwise they are computed from the covariance.
     draws
-        Number of bootstrap samples, drawn from the points.
+        Number of bootstrap samples, drawn from the measured points.
     posterior
-        Samples of the posterior, of curves, by emcee (``vibroimpact[posterior]``).
+        Number of posterior samples of a fit to curves, drawn by emcee
+        (``vibroimpact[posterior]``).
     window
         Forcing cycles of a time history in one segment; the initial state of each segment is
-        fitted with the parameters. None for 5. Use more for a regular motion, fewer for a chaotic
-        one.
+        fitted with the parameters. Default: 5. Use more for a regular motion, fewer for a
+        chaotic one.
     steady
-        Treat time histories as those of steady motions: they are compared with the motion that is
-        reached from the measured state, without initial states.
+        Whether time histories are records of steady motions. They are then compared with the
+        steady motion that is reached from the measured state, and no initial states are fitted.
     seed
         Random seed of starting points and bootstrap samples.
     threads
-        How many fits run at once; None for one a processor.
+        Number of threads (default: one per processor).
     progress
-        Called with the steps done, and all of them.
+        Function that is called with the number of steps done and their total.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``parameter``: ``fitted_value``, ``standard_error``, ``interval`` (``bound``: low, high)
-        and whether it is open there, ``covariance``, ``correlation``, the profiles, the bootstrap's
-        values. Dim ``point``: what was measured, what the fit has there, and the residual as a
-        share. Dim ``test``: noise, and whether the residuals have a shape. The attribute
-        ``findings`` says it in words, a line each; `fitted_rig` makes the rig of it.
+        Dim ``parameter``: ``fitted_value``, ``standard_error``, ``interval`` (``bound``: low,
+        high) and whether it is open at each end, ``covariance``, ``correlation``, the profiles
+        and the bootstrap values. Dim ``point``: measured value, fitted value, and residual as a
+        share. Dim ``test``: noise, and whether the residuals are systematic. The attribute
+        ``findings`` summarises the result in words, one finding per line. `fitted_rig` returns
+        the fitted rig.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or there are fewer points than unknowns.
+        If a value is invalid, or there are fewer points than unknowns.
 
     Warns
     -----
@@ -195,19 +197,20 @@ def identify(
 
 
 def fitted_rig(result: xr.Dataset, test: str | None = None) -> Rig:
-    """Return the rig that a fit has found, with the shaking of a test.
+    """Return the fitted rig, with the shaking of a test.
 
     Parameters
     ----------
     result
         Dataset of `identify`.
     test
-        Whose rig and shaking; None for the first test's, where the rig is the same in all.
+        Name of the test whose rig and shaking are returned. Default: the first test; required if
+        the rig is not the same in all tests.
 
     Raises
     ------
     InputError
-        If the dataset is no fit, or the test is not among its own.
+        If the dataset is not a fit, or it does not contain the test.
     """
     check_variables(result, ["fitted_value"], "result", "a dataset of identify")
     rigs = json.loads(result.attrs["rigs"])

@@ -1,10 +1,10 @@
-"""Which next test would tell most: the information of holds at candidate frequencies.
+"""The most informative next test: information of holds at candidate frequencies.
 
 To first order, a hold at which excursions have the derivatives R (in standard deviations of the
 measurement) takes the covariance C of a fit to C − C Rᵀ (1 + R C Rᵀ)⁻¹ R C.
 
-The derivatives are secants over one standard deviation along each axis of C: a hold beside a fold,
-which a rig that is as likely would have passed, tells nothing that can be counted on.
+The derivatives are secants over one standard deviation along each axis of C. A hold next to a fold,
+which an equally likely rig would have passed, therefore counts as uninformative.
 """
 
 from __future__ import annotations
@@ -56,37 +56,38 @@ def next_test(
     noise: float | None = None,
     margin: float = 0.02,
 ) -> xr.Dataset:
-    """Say which hold of a stepped sine would reduce the uncertainty of a fit most.
+    """Find the hold of a stepped sine that would reduce the uncertainty of a fit most.
 
     Parameters
     ----------
     result
         Dataset of `identify`.
     frequencies
-        Candidates in Hz; None for 121 from half the natural frequency to five times it.
+        Candidate frequencies (Hz). Default: 121 from half the natural frequency to five times it.
     amplitudes
-        Candidates, peak base accelerations (m/s², or text); None for half to twice that of the
+        Candidate peak base accelerations (m/s², or text). Default: from half to twice that of the
         test.
     test
-        Whose rig would be tested; None for the first.
+        Name of the test whose rig would be tested. Default: the first.
     noise
-        Of the test to come, a share of a value; None for that of the fit.
+        Standard deviation of the next test's values, as a share of the value. Default: that of the
+        fit.
     margin
-        Share of its frequency by which a hold keeps away from the jump that lies ahead of it in its
-        direction; 0 to go as close as the fit knows the jump.
+        Smallest distance of a hold to the next jump in its direction, as a share of its frequency.
+        With 0, a hold may be as close as the uncertainty of the jump allows.
 
     Returns
     -------
     xarray.Dataset
         Dims ``candidate_amplitude``, ``direction``, ``frequency`` and ``parameter``:
-        ``remaining_error``, each standard error behind the hold over that before it, and
+        ``remaining_error``, each standard error after the hold divided by that before it, and
         ``information`` about all parameters together (nats). NaN where the motion does not settle,
-        or a jump lies too near. The attribute ``findings`` says the best holds in words.
+        or a jump is too close. The attribute ``findings`` describes the best holds in words.
 
     Raises
     ------
     InputError
-        If the dataset is no fit, or a candidate cannot be used.
+        If the dataset is not a fit, or a candidate is invalid.
     """
     check_variables(result, ["covariance"], "result", "a dataset of identify")
     rigs = json.loads(result.attrs["rigs"])
@@ -150,7 +151,7 @@ def next_test(
 
 
 def _axes(covariance: Array) -> Array:
-    """Columns whose sum of outer products is the covariance: its axes, counted in errors."""
+    """Return the axes of the covariance: columns whose outer products add up to it."""
     error = np.sqrt(np.diag(covariance))
     size, axes = np.linalg.eigh(covariance / np.outer(error, error))
     found: Array = error[:, np.newaxis] * axes * np.sqrt(np.maximum(size, 0.0))
@@ -160,12 +161,13 @@ def _axes(covariance: Array) -> Array:
 def _slopes(
     rig: Rig, keys: list[str], test: str, grid: Array, axes: Array
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Changes of both excursions' logarithms by one deviation along each axis of the covariance.
+    """Compute changes of both log excursions by one deviation along each axis of the covariance.
 
     Returns
     -------
     slopes, known
-        By direction, frequency, excursion and axis; and where no jump is passed, and all settle.
+        Changes by direction, frequency, excursion and axis; and whether no jump is passed and all
+        motions settle.
     """
     own = [
         (row, PARAMETERS[bare])
@@ -198,7 +200,7 @@ def _slopes(
 
 
 def _far_from_jumps(rig: Rig, grid: Array, margin: float) -> NDArray[np.bool_]:
-    """Where a sweep can go on by a share of its frequency without a jump; by direction."""
+    """Return where a sweep can continue by a share of its frequency without a jump."""
     stepped = SteppedRig(rig)
     clear = np.ones((2, len(grid)), dtype=bool)
     for row, sign in enumerate((1.0, -1.0)):
@@ -214,16 +216,16 @@ def _far_from_jumps(rig: Rig, grid: Array, margin: float) -> NDArray[np.bool_]:
 
 
 def _swept(rig: Rig, grid: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Logarithms of both excursions by direction and frequency, and where the motion settled."""
+    """Compute log excursions by direction and frequency, and where the motion settled."""
     stepped = SteppedRig(rig)
     rows = np.stack([stepped.sweep(grid)[0], stepped.sweep(grid[::-1])[0][::-1]])
     return sizes(rows), HoldRows(rows).period > 0
 
 
 def _first_least(values: Array) -> tuple[int, ...]:
-    """Where the least value is; of those that rounding may part, the first one.
+    """Return the position of the least value; the first one of those that differ by rounding only.
 
-    Forward and backward sweeps often meet the same motion.
+    Forward and backward sweeps often reach the same motion.
     """
     least = float(np.nanmin(values))
     near = np.argwhere(values <= least + _TIE * abs(least))
@@ -231,7 +233,7 @@ def _first_least(values: Array) -> tuple[int, ...]:
 
 
 def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
-    """The best hold for each parameter that is known worst, and for all."""
+    """Describe the best hold for each of the most uncertain parameters, and for all."""
     lines = []
     relative = result["standard_error"].values / np.maximum(
         np.abs(result["fitted_value"].values), 1e-300

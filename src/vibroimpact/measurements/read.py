@@ -1,4 +1,4 @@
-"""Measured data from files of any usual program, as datasets with the names of this package."""
+"""Read measured data from files of common programs, as datasets with the names of this package."""
 
 from __future__ import annotations
 
@@ -58,41 +58,43 @@ def read_measurement(
         (``.h5``), universal (``.uff``, with ``vibroimpact[uff]``) or TDMS file (``.tdms``, with
         ``vibroimpact[tdms]``), or a NetCDF file of this package.
     columns
-        Names of the file's columns by variable, such as ``{"displacement_excursion": "Ed"}``,
-        where the names alone do not tell.
+        Names of the file's columns by variable, such as ``{"displacement_excursion": "Ed"}``, if
+        the names alone are not understood.
     units
-        Units by variable or by column, such as ``{"displacement_excursion": "mm"}``, instead of
-        those of the file.
+        Units by variable or by column, such as ``{"displacement_excursion": "mm"}``, which
+        replace those of the file.
     direction
-        ``"forward"`` or ``"backward"``, of curves that do not tell.
+        Sweep direction, ``"forward"`` or ``"backward"``, of curves for which the file states
+        none.
     group
-        Which of several tests of the file.
+        Name of the test, if the file holds several.
     amplitude
-        Peak base acceleration of the test (m/s², or text such as ``"0.05 g"``); comes before what
-        the file says (``amplitude = 0.05 g``, ``amplitude_g = 0.05``).
+        Peak base acceleration of the test (m/s², or text such as ``"0.05 g"``). It replaces the
+        value in the file (``amplitude = 0.05 g``, ``amplitude_g = 0.05``).
     frequency
-        Of the base's sine (Hz) in a time history; comes before what the file says.
+        Forcing frequency (Hz) of a time history. It replaces the value in the file.
     decimal
-        Decimal mark of a table of text, ``"."`` or ``","``, where the table alone does not tell.
+        Decimal mark of a text table, ``"."`` or ``","``. Default: detected; required if the
+        table is ambiguous.
 
     Returns
     -------
     xarray.Dataset
-        Curves have the dims ``direction`` and ``frequency``, and ``repeat`` where a frequency was
-        held more than once; histories have ``time``. Variables are named as in `sweep` and
-        `simulate`, in SI units. The attribute ``notes`` lists, a line each, what was assumed and
-        what was left out of columns and of single numbers; ``left_out`` names the columns that
-        were not understood, ``amplitude_source`` says where the amplitude is from.
+        Curves have the dims ``direction`` and ``frequency``, and ``repeat`` where a frequency
+        was measured more than once; histories have ``time``. Variables are named as in `sweep`
+        and `simulate`, in SI units. The attribute ``notes`` lists, one per line, the assumptions
+        and the columns and numbers that were left out; ``left_out`` names the columns that were
+        not understood, and ``amplitude_source`` the source of the amplitude.
 
     Raises
     ------
     InputError
-        If the file cannot be read, or a column or unit cannot be told.
+        If the file cannot be read, or a column or unit is ambiguous.
 
     Warns
     -----
     InputWarning
-        With what was assumed and what was left out, if anything was.
+        If assumptions were made, or columns or numbers were left out.
     """
     file = check_path(path, "measurement")
     for field, given in (("columns", columns), ("units", units)):
@@ -138,7 +140,7 @@ def read_measurement(
 
 
 def _tables(file: Path, decimal: Decimal | None) -> list[Columns]:
-    """What a file holds, by its ending; LabVIEW's are known by their first line."""
+    """Read the tables of a file, by its ending; the first line identifies LabVIEW files."""
     reader = _READERS.get(file.suffix.lower())
     if reader is not None:
         return reader(file)
@@ -147,12 +149,12 @@ def _tables(file: Path, decimal: Decimal | None) -> list[Columns]:
 
 
 def _clean(name: str) -> str:
-    """A name on one line, without control characters."""
+    """Return a name on one line, without control characters."""
     return " ".join(printable(name).split())
 
 
 def _cleaned(table: Columns) -> Columns:
-    """A table whose names, units and other texts are each one line, without control characters."""
+    """Return a table whose texts are each on one line, without control characters."""
     return table._replace(
         columns=tuple(
             one._replace(name=_clean(one.name), unit=one.unit and _clean(one.unit))
@@ -163,7 +165,7 @@ def _cleaned(table: Columns) -> Columns:
 
 
 def _filled(table: Columns, wanted: set[str]) -> Columns:
-    """A table without channels that hold nothing, which would stand for others of their meaning."""
+    """Return a table without empty channels, which would hide others of the same meaning."""
     empty = [
         column
         for column in table.columns
@@ -178,7 +180,7 @@ def _filled(table: Columns, wanted: set[str]) -> Columns:
 
 
 def is_measured(data: object) -> bool:
-    """Whether a dataset holds measured data."""
+    """Return whether a dataset holds measured data."""
     return isinstance(data, xr.Dataset) and data.attrs.get("kind") in ("curves", "history")
 
 
@@ -222,7 +224,7 @@ def as_measured(data: object, where: str = "data") -> xr.Dataset:
 
 
 def _runs(table: Columns) -> list[Columns]:
-    """The runs of a table whose columns are called ``Run 1: Time`` and so on, each by itself."""
+    """Split a table whose columns are called ``Run 1: Time`` and so on into its runs."""
     groups: dict[str, list[Column]] = {}
     for column in table.columns:
         run, mark, name = column.name.partition(":")
@@ -241,7 +243,7 @@ def _runs(table: Columns) -> list[Columns]:
 def _chosen(
     path: str, tables: list[Columns], group: str | None, wanted: set[str], notes: list[str]
 ) -> Columns:
-    """The test that is asked for, or the only one that has a time or a frequency."""
+    """Return the requested test, or the only one that has a time or a frequency."""
     if not tables:
         raise InputError(f"measurement: {path!r} holds no columns of numbers; some are accepted")
     names = [table.said.get("group") or str(i + 1) for i, table in enumerate(tables)]
@@ -262,7 +264,7 @@ def _chosen(
 
 
 def _has_axis(table: Columns, wanted: set[str]) -> bool:
-    """Whether a table has a time or a frequency, or columns that are asked for by name."""
+    """Return whether a table has a time, a frequency, or columns that are requested by name."""
     said = [meaning(column.name) for column in table.columns]
     known = any(one is not None and one.variable in AXES for one in said)
     return known or bool(wanted & {column.name for column in table.columns})
@@ -271,7 +273,7 @@ def _has_axis(table: Columns, wanted: set[str]) -> bool:
 def _known(
     table: Columns, columns: Mapping[str, str], units: Mapping[str, str], notes: list[str]
 ) -> tuple[dict[int, tuple[Meaning, Array]], list[str]]:
-    """What each column holds, in SI units; and those that are not understood."""
+    """Return the content of each column in SI units, and the columns that are not understood."""
     names = [column.name for column in table.columns]
     chosen = {}
     accepted = [*AXES, "direction", *CURVES, *HISTORIES]
@@ -329,7 +331,7 @@ def _known(
 
 
 def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: list[str]) -> str:
-    """What each column is read as, what is missing, and how to say it."""
+    """Describe how each column is read, what is missing, and how to specify it."""
     names = [column.name for column in table.columns]
     read = {names[i]: found.variable for i, (found, _) in known.items()}
     variables = set(read.values())
@@ -362,6 +364,6 @@ def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: li
 def _taken(
     said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, tuple[Meaning, Array]]
 ) -> bool:
-    """Whether another column holds the same."""
+    """Return whether another column holds the same quantity."""
     others = [*chosen.values(), *(one for one, _ in found.values())]
     return any((one.variable, one.direction) == (said.variable, said.direction) for one in others)

@@ -1,4 +1,4 @@
-"""Physical parameters to dimensionless ones and back (the paper's Section 7).
+"""Convert between physical and dimensionless parameters (the paper's Section 7).
 
 With ω0 = √(K/M), for the stop on side j:
 
@@ -8,7 +8,7 @@ With ω0 = √(K/M), for the stop on side j:
   amplitude in free flight, so that δ0_j = 1 just grazes;
 - damping factor ξ = C/(2√(K M)).
 
-A rigid stop is the limit λ_j → ∞; its restitution has no dimension as it is.
+A rigid stop is the limit λ_j → ∞; its restitution is already dimensionless.
 
 The paper's text calls δ the sum of both sides' gaps, but its Table 1 holds the gap of one
 side. Here a gap is always that of one side.
@@ -37,14 +37,14 @@ PerSide: TypeAlias = "float | str | tuple[float | str | None, float | str | None
 
 
 class DimensionlessBumper(Named):
-    """One bumper in dimensionless parameters.
+    """Dimensionless parameters of one bumper.
 
     Parameters
     ----------
     stiffness_ratio
         λ_j = K_j/K, greater than 0.
     gap
-        δ0_j = G0_j/u_max; 1 is grazing, below 0 it is preloaded.
+        δ0_j = G0_j/u_max; 1 is grazing, a negative gap is preloaded.
     relaxation_time
         τ_j = ω0 C_j/K_j, at least 0.
 
@@ -69,7 +69,7 @@ class DimensionlessBumper(Named):
 
 
 class DimensionlessRigidStop(Named):
-    """One rigid stop in dimensionless parameters.
+    """Dimensionless parameters of one rigid stop.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ _STOPS = Kinds(DimensionlessBumper, DimensionlessRigidStop)
 
 
 class Dimensionless(Model):
-    """An oscillator under a given base acceleration, in dimensionless parameters.
+    """Dimensionless parameters of an oscillator under a given base acceleration.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ class Dimensionless(Model):
         Raises
         ------
         InputError
-            If a value cannot be used, or if a gap is not 0 while free flight has no finite
+            If a value is invalid, or if a gap is not 0 and the motion without stops has no finite
             resonance peak to scale it by (see ``peak_displacement``).
         """
         m = to_si(mass, MASS, "mass", above=0.0)
@@ -192,13 +192,13 @@ def from_dimensionless(
     stiffness: float | str = 1.0,
     amplitude: float | str = 1.0,
 ) -> Rig:
-    """Return the physical rig with bumpers of the given dimensionless parameters.
+    """Return the physical rig with given dimensionless parameters of its bumpers.
 
     Parameters
     ----------
     stiffness_ratio
-        λ = K_j/K: one number for both sides, or a pair (right, left). None, alone or in the
-        pair, is a side without a bumper, whatever the gap and the relaxation time say.
+        λ = K_j/K: one number for both sides, or a pair (right, left). None, alone or in the pair,
+        means a side without a bumper, for any gap and relaxation time.
     gap
         δ0 = G0_j/u_max of one side (1 is grazing); one number or a pair (right, left).
     relaxation_time
@@ -213,12 +213,13 @@ def from_dimensionless(
     Returns
     -------
     Rig
-        With the base acceleration by which the gaps are scaled; they hold only at that one.
+        Rig with the base acceleration that scales the gaps; the dimensionless gaps hold only at
+        that acceleration.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or if a gap is not 0 while free flight has no finite
+        If a value is invalid, or if a gap is not 0 and the motion without stops has no finite
         resonance peak to scale it by (see ``peak_displacement``).
 
     Examples
@@ -252,13 +253,13 @@ def to_dimensionless(rig: AnyRig) -> Dimensionless:
     Returns
     -------
     Dimensionless
-        ξ, and of each side λ, δ0 and τ of its bumper, or e and δ0 of its rigid stop.
+        ξ, and for each side λ, δ0 and τ of its bumper, or e and δ0 of its rigid stop.
 
     Raises
     ------
     InputError
-        If the isolator or a stop is not linear. If the amplitude cannot be used, or if a gap is
-        not 0 while free flight has no finite resonance peak to scale it by (see
+        If the isolator or a stop is not linear. If the amplitude is invalid, or if a gap is not 0
+        and the motion without stops has no finite resonance peak to scale it by (see
         ``peak_displacement``).
     """
     found = as_rig(rig)

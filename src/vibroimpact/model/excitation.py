@@ -1,7 +1,7 @@
-"""What drives the oscillator over and over: one sine, or several harmonics.
+"""Periodic excitation: one sine, or several harmonics.
 
-Either moves the base, by an acceleration or a displacement of given amplitude, or is a force on
-the mass. The amplitude's dimension says which.
+It either moves the base, with a given acceleration or displacement, or is a force on the mass. The
+dimension of the amplitude determines which.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ MOST = 32
 
 
 class _Repeated(Model):
-    """What both have in common; `of` follows from the amplitude's unit, if it has one."""
+    """Base of both excitations; `of` follows from the unit of the amplitude, if it has one."""
 
     _quiet: ClassVar[Mapping[str, Any]] = {"of": "acceleration"}
 
@@ -47,12 +47,12 @@ class _Repeated(Model):
 
     @property
     def quantity(self) -> Quantity:
-        """What the amplitude is measured in."""
+        """Quantity of the amplitude."""
         return QUANTITIES[self.of]
 
     @property
     def moves_base(self) -> bool:
-        """Whether the base moves; else a force acts on the mass, and the base stands still."""
+        """Whether the base moves. Otherwise a force acts on the mass, and the base stands still."""
         return self.of != "force"
 
     @property
@@ -77,7 +77,7 @@ class _Repeated(Model):
 
 
 class Harmonic(_Repeated):
-    """One sine, A sin(2π f t + φ).
+    """Sinusoidal excitation, A sin(2π f t + φ).
 
     Parameters
     ----------
@@ -89,10 +89,10 @@ class Harmonic(_Repeated):
         f in Hz, greater than 0; or text such as ``"2.5 Hz"``. An angle over a time, such as
         ``"15.7 rad/s"``, is converted to cycles per second.
     phase
-        φ in rad; or text such as ``"90 deg"``.
+        φ in rad; or text such as ``"90 deg"``. Default: 0.
     of
-        What a number is the amplitude of: ``"acceleration"`` (m/s²), ``"displacement"`` (m) or
-        ``"force"`` (N).
+        Quantity of an amplitude without unit: ``"acceleration"`` (m/s², the default),
+        ``"displacement"`` (m) or ``"force"`` (N).
 
     Raises
     ------
@@ -126,42 +126,42 @@ class Harmonic(_Repeated):
 
     @property
     def half_wave(self) -> bool:
-        """Whether half a period later everything is the other way round: of a sine it is."""
+        """Whether the excitation is antisymmetric over half a period, as a sine always is."""
         return True
 
     def at(self, angle: ArrayLike) -> NDArray[np.float64]:
-        """Base acceleration (m/s²), or the force (N), at angles ωt + φ (rad)."""
+        """Return the base acceleration (m/s²) or the force (N) at angles ωt + φ (rad)."""
         size = self.amplitude
         if self.of == "displacement":
             size *= -(self.angular_frequency**2)
         return np.asarray(size * np.sin(angle))
 
     def acceleration(self, mass: float, omega: ArrayLike) -> NDArray[np.float64]:
-        """Peak base acceleration (m/s²) that shakes this mass as much at ω (rad/s)."""
+        """Return the equivalent peak base acceleration (m/s²) for this mass at ω (rad/s)."""
         return _as_acceleration(self.of, np.asarray(self.amplitude), mass, np.asarray(omega))
 
 
 class Periodic(_Repeated):
-    """Several harmonics of one frequency, Σ A_n sin(n (2π f t + φ) + φ_n), n = 1, 2, ….
+    """Sum of harmonics of one frequency, Σ A_n sin(n (2π f t + φ) + φ_n), n = 1, 2, ….
 
     Parameters
     ----------
     frequency
-        f in Hz of the whole, greater than 0; or text such as ``"2.5 Hz"``.
+        Fundamental frequency f in Hz, greater than 0; or text such as ``"2.5 Hz"``.
     amplitudes
         A_1, A_2, …, each as the amplitude of a `Harmonic` and all of one dimension; at most 32.
-        0 leaves a harmonic out.
+        0 omits a harmonic.
     phases
-        φ_1, φ_2, … in rad, or texts such as ``"90 deg"``; none are zeros.
+        φ_1, φ_2, … in rad, or texts such as ``"90 deg"``. Default: all 0.
     phase
-        φ in rad: where in its period it begins.
+        φ in rad: the point of the period at which the excitation starts. Default: 0.
     of
-        What numbers are amplitudes of, as in `Harmonic`.
+        Quantity of amplitudes without unit, as in `Harmonic`.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or there are not as many phases as amplitudes.
+        If a value is invalid, or the numbers of phases and amplitudes differ.
     """
 
     frequency: Annotated[float, Accepts(FREQUENCY, above=0.0)]
@@ -211,16 +211,16 @@ class Periodic(_Repeated):
 
     @property
     def amplitude(self) -> float:
-        """The largest of the amplitudes: what is varied where the shape is kept."""
+        """Largest of the amplitudes, which is varied when the shape is kept."""
         return max(self.amplitudes)
 
     @property
     def half_wave(self) -> bool:
-        """Whether half a period later everything is the other way round: no even harmonics."""
+        """Whether the excitation is antisymmetric over half a period: it has no even harmonics."""
         return not any(self.amplitudes[1::2])
 
     def at(self, angle: ArrayLike) -> NDArray[np.float64]:
-        """Base acceleration (m/s²), or the force (N), at angles ωt + φ (rad)."""
+        """Return the base acceleration (m/s²) or the force (N) at angles ωt + φ (rad)."""
         order = np.arange(1, len(self.amplitudes) + 1)
         sizes = np.array(self.amplitudes)
         if self.of == "displacement":
@@ -229,7 +229,7 @@ class Periodic(_Repeated):
         return np.asarray(np.sin(turned) @ sizes)
 
     def acceleration(self, mass: float, omega: ArrayLike) -> NDArray[np.float64]:
-        """Peak base accelerations (m/s²) of the harmonics that shake this mass as much at ω.
+        """Return the equivalent peak base accelerations (m/s²) of the harmonics for this mass at ω.
 
         The last axis is that of the harmonics; ω (rad/s) is that of the fundamental.
         """
@@ -258,12 +258,12 @@ def _as_acceleration(
 
 
 def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[float, Of]:
-    """An amplitude in SI units, and what it is one of.
+    """Return an amplitude in SI units, and its quantity.
 
     Raises
     ------
     InputError
-        If it cannot be used, or its unit is not that of what it is said to be.
+        If it is invalid, or its unit does not fit the quantity.
     """
     if of is not None and not (isinstance(of, str) and of in QUANTITIES):
         raise InputError(f"of: {shown(of)}; {', '.join(map(repr, QUANTITIES))} is accepted")

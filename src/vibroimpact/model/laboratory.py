@@ -5,8 +5,8 @@ Any part may be a value instead: ``B3-10mm-A3``, ``510kN/m-G1-0.05g``.
 
 Two parameter sets exist. ``"table"`` covers every case: the isolator's equivalent stiffness
 for each acceleration, with the paper's ξ = 0.15 and τ_r = 0.01 (Section 7 and Table 1).
-``"identified"`` covers the two cases of Section 5 whose parameters were fitted one by one;
-they differ slightly from the table's and are kept beside them.
+``"identified"`` covers the two cases of Section 5 whose parameters were fitted individually. They
+differ slightly from those of the table.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ class Case:
     Attributes
     ----------
     code
-        Its code: names in capitals, values as they were given.
+        Code of the case: names in capitals, values as passed.
     oscillator
         The oscillator.
     amplitude
@@ -117,12 +117,12 @@ class Case:
 
     @property
     def rig(self) -> Rig:
-        """The rig, whose frequency is left open."""
+        """The rig, with an open frequency."""
         return Rig(self.oscillator, self.amplitude, name=self.code)
 
     @property
     def slug(self) -> str:
-        """The code as a file name: without a slash, a space or a sign outside ASCII."""
+        """The code as a file name: without slash, space or non-ASCII character."""
         return re.sub(r"[^A-Za-z0-9.+-]+", "_", self.code).strip("_")
 
     def __repr__(self) -> str:
@@ -178,15 +178,15 @@ def case(code: str, parameters: Parameters = "table") -> Case:
     ----------
     code
         Bumper, total gap and table acceleration joined by hyphens, such as ``B2-G1-A3``. Any
-        part may be a value with its unit: ``B3-10mm-A3``, ``510kN/m-G1-0.05g``. ``Ginf`` is
-        free flight. Names may be written in any case; units may not.
+        part may be a value with its unit: ``B3-10mm-A3``, ``510kN/m-G1-0.05g``. ``Ginf`` means no
+        stops. Names may be written in any case; units may not.
     parameters
         ``"table"``: the isolator's equivalent stiffness for the acceleration, ξ = 0.15 and
         τ_r = 0.01. A value between two of the tested accelerations takes the stiffness
-        interpolated linearly between theirs; outside 0.03 to 0.05 g nothing was measured, and
-        the case is refused.
-        ``"identified"``: the fitted parameters of Section 5, for B2-G1-A3 and B2-G2-A2 only.
-        ``"refined"``: the bumpers of ``"table"`` and the first isolator of ``REFINED``.
+        interpolated linearly between theirs; outside 0.03 to 0.05 g nothing was measured, and an
+        error is raised. ``"identified"``: the fitted parameters of Section 5, for B2-G1-A3 and
+        B2-G2-A2 only. ``"refined"``: the bumpers of ``"table"`` and the first isolator of
+        ``REFINED``.
 
     Returns
     -------
@@ -196,8 +196,8 @@ def case(code: str, parameters: Parameters = "table") -> Case:
     Raises
     ------
     InputError
-        If the code or the parameter set is unknown, a value cannot be used, or the case has
-        no identified parameters.
+        If the code or the parameter set is unknown, a value is invalid, or the case has no
+        identified parameters.
     """
     if not isinstance(code, str):
         raise InputError(f"case: {shown(code)} is not a case code; {_ACCEPTED}")
@@ -248,7 +248,7 @@ def campaign(parameters: Parameters = "table") -> tuple[Case, ...]:
     Parameters
     ----------
     parameters
-        As for `case`; ``"identified"`` does not cover them all.
+        As in `case`; ``"identified"`` does not cover all tests.
 
     Returns
     -------

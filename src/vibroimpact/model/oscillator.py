@@ -1,8 +1,8 @@
 """The vibrating mass, its isolator and its two stops (the paper's Fig. 1).
 
 ``M ü + C u̇ + K u + (contact force) = -M A_t(t)`` for the linear isolator, with ``u`` the
-displacement relative to the base; the others have forces of their own. A stop pushes and never
-pulls.
+displacement relative to the base. The other isolators have their own forces. A stop pushes and
+never pulls.
 """
 
 from __future__ import annotations
@@ -32,28 +32,29 @@ class Oscillator(Model):
     Parameters
     ----------
     mass
-        M in kg, greater than 0; or text such as ``"550 kg"``. A table may have the ``weight``
-        M g instead, in N or text such as ``"50 MN"``.
+        M in kg, greater than 0; or text such as ``"550 kg"``. In a table, the ``weight`` M g may
+        replace it, in N or as text such as ``"50 MN"``.
     isolator
-        Its `Isolator`, `FrictionIsolator`, `BilinearIsolator`, `PolynomialIsolator`,
+        An `Isolator`, `FrictionIsolator`, `BilinearIsolator`, `PolynomialIsolator`,
         `BoucWenIsolator` or `ExponentialIsolator`; or a mapping with the fields of one (with its
         ``kind`` if it is not linear), or with the arguments of its ``from_period`` or
         ``from_strength`` for this mass.
     right
-        What is met at positive displacement: a `Bumper`, a `RigidStop`, a `PowerBumper`, a
-        `JankowskiBumper`, a mapping with the fields of one (with its ``kind`` if it is no
-        `Bumper`, which may have a ``restitution`` for this mass in place of its damping), or None.
+        Stop at positive displacement: a `Bumper`, a `RigidStop`, a `PowerBumper`, a
+        `JankowskiBumper`, or a mapping with the fields of one (with its ``kind`` if it is not a
+        `Bumper`; a `Bumper` may have a ``restitution`` for this mass instead of its damping).
+        Default: None, no stop.
     left
-        What is met at negative displacement, likewise.
+        Stop at negative displacement, as for ``right``.
     force
-        A constant force on the mass in N, positive to the right, such as its weight or wind; or
-        text such as ``"-5.4 kN"``.
+        Constant force on the mass in N, positive to the right, such as its weight or wind; or text
+        such as ``"-5.4 kN"``. Default: 0.
 
     Raises
     ------
     InputError
-        If a value cannot be used; the message has its path, such as ``right.gap``. If two
-        rigid stops leave the mass no room, or nothing holds it against the force.
+        If a value is invalid; the message contains its path, such as ``right.gap``. If two rigid
+        stops leave the mass no room, or no spring or stop balances the force.
     """
 
     _quiet: ClassVar[Mapping[str, Any]] = {"force": 0.0}
@@ -77,7 +78,7 @@ class Oscillator(Model):
 
     @classmethod
     def table_keys(cls) -> list[str]:
-        """What a table of it may hold."""
+        """Return the keys that a table of an oscillator may hold."""
         return [*super().table_keys(), "weight"]
 
     @model_validator(mode="before")
@@ -128,7 +129,7 @@ class Oscillator(Model):
 
     @model_validator(mode="after")
     def _held(self) -> Self:
-        """Where no spring bounds the motion, stops must; what friction holds needs none."""
+        """Check that a spring, friction or stops hold the mass against the constant force."""
         strongest = self.isolator.strongest
         against = self.right if self.force > 0.0 else self.left
         slips = self.force != 0.0 and abs(self.force) >= strongest
@@ -160,7 +161,7 @@ class Oscillator(Model):
 
     @property
     def stops(self) -> tuple[Stop, ...]:
-        """The stops that are there, the right one first."""
+        """Existing stops, the right one first."""
         return tuple(stop for stop in (self.right, self.left) if stop is not None)
 
     @property
@@ -187,7 +188,8 @@ class Oscillator(Model):
     def damping_ratio(self) -> float:
         """Damping factor of the isolator, ξ = C/(2√(K M)) (the paper's Section 7).
 
-        It is that of the dashpot in small motions; what friction and yielding take comes on top.
+        It describes the dashpot in small motions. Friction and yielding dissipate additional
+        energy.
 
         Raises
         ------
@@ -203,7 +205,7 @@ class Oscillator(Model):
         Raises
         ------
         InputError
-            As `damping_ratio`.
+            As in `damping_ratio`.
         """
         self._springs("damping ratio")
         if self.isolator.damping_exponent != 1.0:
@@ -222,21 +224,21 @@ class Oscillator(Model):
 
     @property
     def linear(self) -> bool:
-        """Whether its forces are linear but for what contacts begin and end.
+        """Whether the forces are linear between the start and the end of contacts.
 
-        So it is for an `Isolator` without damping exponent between stops of the kinds `Bumper` and
+        True for an `Isolator` without damping exponent between stops of the kinds `Bumper` and
         `RigidStop`.
         """
         return self.isolator.linear and all(stop.linear for stop in self.stops)
 
     def check_linear(self, what: str, stops: bool = True) -> None:
-        """Refuse what makes sense for linear laws only.
+        """Raise an error if a law is not linear.
 
         Raises
         ------
         InputError
-            If the isolator, or one of the `stops`, follows another law; the line says that it has
-            no ``what``.
+            If the isolator, or one of the `stops`, follows another law; the message names the
+            missing ``what``.
         """
         parts = {"isolator": self.isolator, "right": self.right, "left": self.left}
         for name, part in parts.items():
@@ -248,13 +250,13 @@ class Oscillator(Model):
 
     @property
     def symmetric(self) -> bool:
-        """Whether it is its own mirror image."""
+        """Whether the oscillator is its own mirror image."""
         return self.right == self.left and self.force == 0.0
 
     def mirrored(self) -> Oscillator:
-        """Return its mirror image: right and left exchanged, and the force turned round."""
+        """Return the mirror image: right and left exchanged, and the force reversed."""
         return self.replace(right=self.left, left=self.right, force=-self.force + 0.0)
 
     def without_bumpers(self) -> Oscillator:
-        """Return the same mass and isolator in free flight."""
+        """Return the same mass and isolator without stops."""
         return self.replace(right=None, left=None)

@@ -1,4 +1,4 @@
-"""A measured motion of the base: an acceleration at equal times, with straight lines between."""
+"""A measured motion of the base: equally spaced samples of acceleration, linear between them."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ LEAST_STEP, MOST_STEP = 1e-12, 1e9
 
 
 class Record:
-    """A measured base acceleration A_t, linear between its samples and zero behind them.
+    """A measured base acceleration A_t, linear between its samples and zero after the last one.
 
     Parameters
     ----------
     acceleration
         The samples in m/s², at least 2; or a pint quantity.
     step
-        Time between them in s, greater than 0; or text such as ``"10 ms"``.
+        Time between samples in s, greater than 0; or text such as ``"10 ms"``.
 
     Raises
     ------
     InputError
-        If a sample is no finite number, there are fewer than 2, or the step cannot be used.
+        If a sample is not finite, there are fewer than 2, or the step is invalid.
     """
 
     __slots__ = ("_about", "_acceleration", "_step")
@@ -64,36 +64,38 @@ class Record:
         label: str | None = None,
         decimal: str | None = None,
     ) -> Record:
-        """Read a record from a file, whose format is known by its content.
+        """Read a record from a file, whose format is detected from its content.
 
         PEER AT2, COSMOS and CSMIP V1 and V2, USGS SMC, GeoNet V1A and V2A, K-NET and KiK-net,
-        ESM, columns of numbers; SAC and miniSEED where obspy is installed. A file may be packed by
-        gzip. Nothing is filtered, cut or shifted. What is assumed or doubted, such as a unit that
-        nobody states or a peak of 30 g, is an `InputWarning`, and stands in ``about.notes``.
+        ESM, columns of numbers; SAC and miniSEED where obspy is installed. A file may be compressed
+        with gzip. The samples are not filtered, cut or shifted. Assumptions and doubts, such as a
+        missing unit or a peak of 30 g, raise an `InputWarning` and are listed in ``about.notes``.
 
         Parameters
         ----------
         path
             The file.
         component
-            Which of several: its name in the file, such as ``"90"``, ``"Up"`` or ``"HNE"``, or its
-            number from 1 on.
+            Component, if the file holds several: its name in the file, such as ``"90"``, ``"Up"``
+            or ``"HNE"``, or its number, starting from 1.
         unit
-            Of the values, instead of the file's: of an acceleration, such as ``"g"``, or of a
-            displacement of the base, such as ``"mm"`` (`from_displacement`). m/s² where neither
-            says.
+            Unit of the values, which replaces that of the file: of an acceleration, such as
+            ``"g"``, or of a displacement of the base, such as ``"mm"`` (`from_displacement`).
+            Default: that of the file; m/s² if it states none.
         step
-            Time between samples (s, or text with a unit), instead of the file's, or of its times.
+            Time between samples (s, or text with a unit), which replaces that of the file or of its
+            times.
         station, label
-            Names of the station and of the component, instead of the file's.
+            Names of the station and of the component, which replace those of the file.
         decimal
-            Decimal mark of a table, ``"."`` or ``","``, where the table alone does not tell.
+            Decimal mark of a table, ``"."`` or ``","``. Default: detected; required if the table is
+            ambiguous.
 
         Raises
         ------
         InputError
-            If the file cannot be read, in one line that names the file's; if it has several
-            components and none is chosen; or if its values make no record.
+            If the file cannot be read (the message names the line), if it has several components
+            and none is chosen, or if its values do not form a record.
         """
         values, spacing, quantity, about = read_values(
             path, component, unit, step, checked(decimal)
@@ -122,24 +124,24 @@ class Record:
     def from_displacement(cls, displacement: ArrayLike, step: float | str) -> Record:
         """Return the record of a base whose displacement was measured.
 
-        The displacement is taken as the cubic spline through the samples (with the ends of de
-        Boor's "not-a-knot"): the smoothest curve whose acceleration is linear between them. Its
-        second derivative is right to the second order of the step. The base's velocity at the
-        first sample is that of the spline; a motion from rest is at rest relative to the base.
+        The displacement is interpolated by a cubic spline (with de Boor's "not-a-knot" ends), whose
+        acceleration is linear between the samples. Its second derivative is accurate to the second
+        order of the step. The base's velocity at the first sample is that of the spline; a motion
+        from rest is at rest relative to the base.
 
         Parameters
         ----------
         displacement
             The samples in m, at least 8; or a pint quantity.
         step
-            Time between them in s, greater than 0; or text such as ``"10 ms"``.
+            Time between samples in s, greater than 0; or text such as ``"10 ms"``.
 
         Raises
         ------
         InputError
-            If it cannot be used, or cannot be differentiated twice: if it jumps, or is so rough
-            that the peak acceleration grows by more than half when all samples
-            are used instead of every other one.
+            If a value is invalid, or the displacement cannot be differentiated twice: if it jumps,
+            or is so rough that the peak acceleration grows by more than half when all samples are
+            used instead of every other one.
         """
         from scipy.interpolate import CubicSpline
 
@@ -165,53 +167,53 @@ class Record:
 
     @property
     def acceleration(self) -> NDArray[np.float64]:
-        """The samples of the base acceleration, m/s²."""
+        """Samples of the base acceleration (m/s²)."""
         return self._acceleration
 
     @property
     def step(self) -> float:
-        """Time between two samples, s."""
+        """Time between two samples (s)."""
         return self._step
 
     @property
     def about(self) -> About:
-        """Where it comes from: file, format, station, component, unit; and what was done to it."""
+        """Source of the record (file, format, station, component, unit), and how it was changed."""
         return self._about
 
     @property
     def duration(self) -> float:
-        """From the first to the last sample, s."""
+        """Time from the first to the last sample (s)."""
         return (len(self._acceleration) - 1) * self._step
 
     @property
     def time(self) -> NDArray[np.float64]:
-        """Times of the samples, s."""
+        """Times of the samples (s)."""
         return np.asarray(np.arange(len(self._acceleration)) * self._step, dtype=np.float64)
 
     @property
     def peak(self) -> float:
-        """The largest size of the acceleration, m/s²."""
+        """Largest absolute acceleration (m/s²)."""
         return float(np.abs(self._acceleration).max())
 
     @property
     def peak_time(self) -> float:
-        """When the acceleration is largest first, s."""
+        """Time at which the absolute acceleration first reaches its peak (s)."""
         return float(np.abs(self._acceleration).argmax()) * self._step
 
     def scaled(self, scale: float | str = 1.0, *, peak: float | str | None = None) -> Record:
-        """Return the record times a number, or made so large that its peak is the given one.
+        """Return the record multiplied by a number, or scaled to a peak.
 
         Parameters
         ----------
         scale
-            The number; not 0.
+            Factor, not 0.
         peak
-            The peak in m/s², or text such as ``"0.3 g"``, instead.
+            Peak of the scaled record in m/s², or text such as ``"0.3 g"``; instead of ``scale``.
 
         Raises
         ------
         InputError
-            If a value cannot be used, or the record is 0 throughout.
+            If a value is invalid, or the record is 0 throughout.
         """
         factor = to_si(scale, DIMENSIONLESS, "scale")
         if peak is not None:
@@ -228,12 +230,13 @@ class Record:
         return self._changed(self._acceleration * factor, f"scaled by {factor:.6g}")
 
     def cut(self, start: float | str = 0.0, end: float | str | None = None) -> Record:
-        """Return the part between two times, from sample to sample; it begins at time 0 again.
+        """Return the part between two times; the new record starts at time 0.
 
         Parameters
         ----------
         start, end
-            In s, or text with a unit; the nearest samples are taken. None for the end.
+            Start and end of the part, in s or text with a unit; rounded to the nearest samples.
+            Default: the start and the end of the record.
 
         Raises
         ------
@@ -254,12 +257,12 @@ class Record:
         return self._changed(self._acceleration[first:behind], told)
 
     def levelled(self, baseline: Literal["mean", "line"] = "mean") -> Record:
-        """Return the record less its mean, or less the straight line that fits it best.
+        """Return the record minus its mean, or minus the straight line that fits it best.
 
         Raises
         ------
         InputError
-            If the baseline is another.
+            If the name of the baseline is unknown.
         """
         degree = _DEGREES.get(baseline)
         if degree is None:
@@ -273,19 +276,19 @@ class Record:
         return self._changed(self._acceleration - line, told)
 
     def _changed(self, values: NDArray[np.float64], note: str) -> Record:
-        """With other samples, which is noted."""
+        """Return a copy with other samples; the change is noted."""
         made = Record(values, self._step)
         made._about = self._about._replace(notes=(*self._about.notes, note))
         return made
 
     def at(self, time: ArrayLike) -> NDArray[np.float64]:
-        """Base acceleration (m/s²) at any times (s); zero before and behind the record."""
+        """Return the base acceleration (m/s²) at any times (s); 0 outside the record."""
         return np.asarray(
             np.interp(np.asarray(time), self.time, self._acceleration, left=0.0, right=0.0)
         )
 
     def __eq__(self, other: object) -> bool:
-        """Whether all samples and the step are the same."""
+        """Return whether all samples and the step are the same."""
         if not isinstance(other, Record):
             return NotImplemented
         return self._step == other._step and np.array_equal(self._acceleration, other._acceleration)
@@ -305,7 +308,7 @@ class Record:
         return table("Record", self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
-        """What it is, in words; where it comes from, if it was read."""
+        """Describe the record in words, with its source if it was read."""
         about = self._about
         return [
             *(
@@ -321,7 +324,7 @@ class Record:
 
 
 def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDArray[np.float64]:
-    """Numbers in SI units that nobody can change.
+    """Return read-only numbers in SI units.
 
     Raises
     ------

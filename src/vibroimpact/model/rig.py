@@ -1,4 +1,4 @@
-"""The rig: what vibrates and what shakes it. The first argument of every public function."""
+"""The rig, an oscillator with its excitation: the first argument of every public function."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _EXAMPLE = 'Rig(oscillator, "0.05 g") or Rig(oscillator, Harmonic("0.05 g", "2 H
 
 @dataclass(frozen=True, init=False)
 class Rig:
-    """What vibrates and what shakes it.
+    """An oscillator and its excitation.
 
     Parameters
     ----------
@@ -35,31 +35,31 @@ class Rig:
         The mass with its isolator and its stops.
     shaking
         The peak A of the base acceleration in m/s², greater than 0; or a text such as
-        ``"0.05 g"``, ``"5 mm"`` (displacement of the base) or ``"120 N"`` (force on the mass). The
-        frequency is then left open. Or a `Harmonic`, a `Periodic` or a `Record`. For sweeps, a
-        list has one amplitude for each frequency. None leaves the shaking open, for functions
-        that get it from elsewhere.
+        ``"0.05 g"``, ``"5 mm"`` (displacement of the base) or ``"120 N"`` (force on the mass).
+        The frequency then stays open. Or a `Harmonic`, a `Periodic` or a `Record`. For sweeps, a
+        list with one amplitude per frequency. None leaves the shaking open, for functions that
+        get it from another argument.
     frequency
-        Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: that of the shaking; an
-        amplitude alone leaves it open.
+        Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: that of the shaking; open
+        if the shaking is an amplitude alone.
     name
-        What datasets, tables and legends call it.
+        Name of the rig in datasets, tables and legends.
 
     Attributes
     ----------
     oscillator : Oscillator
     shaking : Harmonic, Periodic, Record or None
-        Where the frequency is open, that of the shaking has no meaning.
+        If the frequency is open, that of the shaking has no meaning.
     frequency : float or None
         In Hz; None if it is open, or a record shakes the rig.
     amplitudes : tuple of float or None
-        One for each frequency of a sweep, in the units of the shaking.
+        One per frequency of a sweep, in the units of the shaking.
     name : str or None
 
     Raises
     ------
     InputError
-        If the oscillator is not an `Oscillator`, or the shaking or the frequency cannot be used.
+        If the oscillator is not an `Oscillator`, or the shaking or the frequency is invalid.
 
     Examples
     --------
@@ -124,7 +124,7 @@ class Rig:
 
     @property
     def amplitude(self) -> float:
-        """Amplitude of the periodic shaking, the largest of several; m/s², m or N."""
+        """Amplitude of the periodic shaking, or the largest of its harmonics (m/s², m or N)."""
         return self.periodic.amplitude
 
     @property
@@ -147,13 +147,13 @@ class Rig:
         Raises
         ------
         InputError
-            As of `periodic`, and if the frequency is open.
+            As in `periodic`, and if the frequency is open.
         """
         self.check_frequency()
         return self.periodic
 
     def check_frequency(self) -> None:
-        """Refuse a rig without a forcing frequency.
+        """Raise an error for a rig without a forcing frequency.
 
         Raises
         ------
@@ -172,7 +172,7 @@ class Rig:
     def of_open_frequency(
         cls, oscillator: Oscillator, shaking: Repeated | Record | None, name: str | None = None
     ) -> Rig:
-        """Return a rig whose shaking has a shape, and a frequency without meaning."""
+        """Return a rig whose shaking has a shape but an open frequency."""
         rig = cls(oscillator, shaking, name=name)
         object.__setattr__(rig, "frequency", None)
         return rig
@@ -198,7 +198,7 @@ class Rig:
         Raises
         ------
         InputError
-            If something else does, or nothing.
+            If something else shakes the rig, or nothing does.
         """
         if not isinstance(self.shaking, Record):
             raise InputError(
@@ -218,9 +218,9 @@ class Rig:
         *,
         keep_open: bool = True,
     ) -> Rig:
-        """Return a copy with another oscillator, and perhaps another shaking.
+        """Return a copy with another oscillator, and optionally another shaking.
 
-        A frequency that is open stays so, unless ``keep_open`` is False.
+        An open frequency stays open, unless ``keep_open`` is False.
         """
         frequency = self.frequency
         if isinstance(shaking, Harmonic | Periodic) and not (frequency is None and keep_open):
@@ -249,7 +249,7 @@ class Rig:
         return table(title, [*self.oscillator.rows(), ("shaking", self._shaking_text())])
 
     def _open(self) -> object:
-        """The shaking whose frequency is open, by its amplitude if that is all there is to it."""
+        """Return the shaking with an open frequency, as its amplitude if it is a plain sine."""
         shaking = self.periodic
         if isinstance(shaking, Harmonic) and shaking.phase == 0.0:
             return shaking.amplitude if shaking.of == "acceleration" else self._shaking_text()
@@ -267,13 +267,13 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
     Returns
     -------
     shaking, amplitudes
-        The frequency of an amplitude alone has no meaning. `amplitudes` are those of a list, of
-        which the shaking has the largest.
+        If only an amplitude is passed, the frequency has no meaning. `amplitudes` are those of a
+        list; the shaking has the largest one.
 
     Raises
     ------
     InputError
-        If it cannot be used, is missing, or is 0.
+        If it is invalid, missing, or 0.
     """
     if isinstance(value, Record):
         raise InputError(
@@ -282,7 +282,7 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
         )
     if value is None:
         raise InputError(
-            f"{where}: missing, and the rig does not say it; an acceleration greater than 0 is "
+            f"{where}: missing, and the rig has none; an acceleration greater than 0 is "
             'accepted, such as "0.05 g", or a displacement or a force'
         )
     if isinstance(value, Harmonic | Periodic):
@@ -302,7 +302,7 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
 
 
 def _misplaced(value: object) -> str:
-    """Say what stands in the place of an oscillator."""
+    """Describe the value that was passed instead of an oscillator."""
     if isinstance(value, Harmonic | Periodic | Record):
         return f"a {type(value).__name__} shakes a rig and comes second"
     return f"{shown(value)} is not an Oscillator"

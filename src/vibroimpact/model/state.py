@@ -1,4 +1,4 @@
-"""Where a motion starts, and where it can be taken up again."""
+"""The state of an oscillator, from which a motion starts or is resumed."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def _contact(value: Any) -> int | None:
 class State(Model):
     """The state of an oscillator at one instant.
 
-    A bumper's deformation belongs to it, since it outlives the contact: a bumper that the
-    mass has left is still relaxing.
+    The deformation of a bumper belongs to the state because it outlasts the contact: a bumper that
+    the mass has left is still relaxing.
 
     Parameters
     ----------
@@ -40,8 +40,9 @@ class State(Model):
         u̇ in m/s, relative to the base.
     right_bumper
         Deformation u_R in m of the right bumper, at least 0. None: at rest, or pressed by
-        the mass if the displacement exceeds the gap. Of a stop without memory that is pressed,
-        the speed in m/s at which it was met, from which a restitution makes its dissipation.
+        the mass if the displacement exceeds the gap. For a compressed stop without memory: the
+        speed in m/s at the start of the contact, which determines the dissipation if the stop has a
+        restitution.
     left_bumper
         Deformation u_L in m of the left bumper, at most 0. None: as for the right one.
     phase
@@ -50,8 +51,8 @@ class State(Model):
         Stop that the mass touches: -1 left, 0 none, 1 right, 2 both. None: deduced from the
         displacement and the deformations.
     isolator
-        What a hysteretic isolator remembers, in m: the deformation z of its elastic part, the
-        z of Bouc and Wen, and of the exponential model the hysteretic force over k_a - k_b.
+        Memory of a hysteretic isolator, in m: the deformation z of its elastic part, the z of Bouc
+        and Wen, or, for the exponential model, the hysteretic force divided by k_a - k_b.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The report of a fit: what is known, how well, what the model lacks, what to test next."""
+"""The report of a fit: parameters, uncertainty, defects of the model, and the best next test."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ from vibroimpact.reports.study import study_text
 from vibroimpact.response.sweep import sweep
 
 _DENSE = 4
-"""Frequencies of a computed curve for each measured one, at least."""
+"""Least number of computed frequencies per measured one."""
 
 _MARKS = re.compile(r"[\\|<>`*]|\](?=[(\[:])")
-"""What begins a cell, a tag, code, emphasis or a link's address in Markdown."""
+"""Characters that start a cell, a tag, code, emphasis or a link's address in Markdown."""
 
 Format = Literal["png", "pdf", "svg"]
 
@@ -58,7 +58,7 @@ def fit_report(
     comparison: xr.Dataset | None = None,
     figure: Format = "png",
 ) -> dict[str, Path]:
-    """Write the report of a fit, with its figures and a study file of each fitted rig.
+    """Write the report of a fit, with its figures and a study file per fitted rig.
 
     Parameters
     ----------
@@ -67,25 +67,26 @@ def fit_report(
     folder
         An existing folder.
     name
-        What the files' names begin with.
+        Prefix of the file names.
     comparison
         Dataset of `compare_fits`, if other models were fitted.
     figure
-        Format of the figures.
+        File format of the figures, such as ``"png"``.
 
     Returns
     -------
     dict
-        The paths: ``report`` (HTML), ``markdown``, ``study`` (one for each different rig) and the
+        The paths: ``report`` (HTML), ``markdown``, ``study`` (one per different rig) and the
         figures.
 
     Raises
     ------
     InputError
-        If the dataset is no fit, the name has control characters, or a file cannot be written.
+        If the dataset is not a fit, the name contains control characters, or a file cannot be
+        written.
     """
     if not isinstance(result, xr.Dataset) or "fitted_value" not in result:
-        raise InputError("result: this is no fit; a dataset of identify is accepted")
+        raise InputError("result: this is not a fit; a dataset of identify is accepted")
     where = check_path(folder, "folder")
     if not where.is_dir():
         raise InputError(f"folder: {shown(folder)} does not exist; an existing folder is accepted")
@@ -111,13 +112,22 @@ def fit_report(
             curves = sweep(Rig(rig.oscillator, rig.amplitude), _dense(measured["frequency"].values))
             si = not any(str(name).startswith("eta_") for name in measured)
             drawn(key, resonance_curves(curves, measured=measured, physical=si),
-                  f"{test}: measured points over the curves of the fitted rig")  # fmt: skip
+                  f"{test}: measured points and curves of the fitted rig")  # fmt: skip
         else:
-            drawn(key, fit_history(result, str(test)), f"{test}: measured, and the fitted motion")
-    drawn("residuals", fit_residuals(result), "What the fit leaves; the band is 2 deviations")
+            drawn(key, fit_history(result, str(test)), f"{test}: measured motion and fitted motion")
+    drawn(
+        "residuals",
+        fit_residuals(result),
+        "Residuals of the fit; the band is 2 standard deviations",
+    )
     if "profile_rise" in result:
-        drawn("profiles", fit_profiles(result), "How well each parameter is known: the fit worsens "
-              "by the dotted line at the ends of its interval")  # fmt: skip
+        drawn(
+            "profiles",
+            fit_profiles(result),
+            "Profile of each parameter: the dotted line is the increase of the deviance at the "
+            "ends "
+            "of the interval",
+        )
     for key, text, label in _studies(result, name):
         path = where / f"{key}.toml"
         files[label] = write_whole(path, text)
@@ -145,12 +155,12 @@ def fit_report(
 
 
 def _inert(text: str) -> str:
-    """Escape what Markdown would read as tables, links or tags."""
+    """Escape characters that Markdown would read as tables, links or tags."""
     return _MARKS.sub(r"\\\g<0>", in_one_line(text))
 
 
 def _each_text(value: Any, change: Callable[[str], str]) -> Any:
-    """Change each text in nested lists and mappings; of a figure its caption, not its file."""
+    """Change each text in nested lists and mappings; for a figure its caption, not its file."""
     if isinstance(value, str):
         return change(value)
     if isinstance(value, dict):
@@ -163,7 +173,7 @@ def _each_text(value: Any, change: Callable[[str], str]) -> Any:
 
 
 def parameter_rows(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
-    """Name, value, standard error, interval and meaning of each parameter, as text."""
+    """Return name, value, standard error, interval and meaning of each parameter, as text."""
     rows = []
     for key in result["parameter"].values:
         one = result.sel(parameter=key)
@@ -188,7 +198,7 @@ def parameter_rows(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
 
 
 def amplitude_of(result: xr.Dataset, test: str) -> str:
-    """The peak base acceleration that a fit took for a test, and where it is from, as text."""
+    """Return the peak base acceleration of a test and its source, as text."""
     known = "amplitude_source" in result  # not in fits of older versions
     source = str(result["amplitude_source"].sel(test=test).values) if known else ""
     return amplitude_words(rig_of(json.loads(result.attrs["rigs"])[test]).periodic, source)
@@ -199,7 +209,7 @@ def _sensor(name: str) -> Quantity:
 
 
 def measured_of(result: xr.Dataset, test: str) -> xr.Dataset:
-    """The measured curves of a test, from the points of a fit."""
+    """Return the measured curves of a test, from the points of a fit."""
     mine = result.isel(point=np.flatnonzero(result["point_test"].values == test))
     place, way = mine["point_place"].values, mine["point_direction"].values
     grid = np.unique(place)
@@ -223,7 +233,7 @@ def measured_of(result: xr.Dataset, test: str) -> xr.Dataset:
 
 
 def _dense(frequency: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """The measured frequencies, and others between them."""
+    """Return the measured frequencies, and others between them."""
     if len(frequency) < 2:
         return np.array(frequency)
     count = max(200, _DENSE * len(frequency))
@@ -234,7 +244,7 @@ def _dense(frequency: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
 
 
 def _studies(result: xr.Dataset, name: str) -> Iterable[tuple[str, str, str]]:
-    """Key, text and label of the study files: one for each different rig."""
+    """Return key, text and label of the study files, one per different rig."""
     rigs = json.loads(result.attrs["rigs"])
     stems = file_stems(rigs)
     seen: set[str] = set()

@@ -1,4 +1,4 @@
-"""Contacts one by one: when, how long, how hard, and what they cost."""
+"""The contacts of a motion: times, durations, forces and energies."""
 
 from __future__ import annotations
 
@@ -28,31 +28,32 @@ _Array = NDArray[np.float64]
 _Numbers = NDArray[np.int64]
 
 GRAZING = 1e-3
-"""A contact grazes if it closes slower than this share of the motion's largest speed."""
+"""A contact counts as grazing if its closing speed is below this share of the motion's largest
+speed."""
 
 
 def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
-    """List the contacts of a motion, one row a contact.
+    """List the contacts of a motion, one row per contact.
 
-    Times, forces and integrals are exact to rounding; nothing depends on the samples. A contact
-    that had begun before the record, or goes on behind it, is left out; that of a periodic
-    motion is taken round its end.
+    Times, forces and integrals are exact to rounding and do not depend on the samples. A contact
+    that starts before the record or continues after its end is left out. In a periodic motion, a
+    contact that continues after the end is completed from the start of the period.
 
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples, through a `Record`, too.
+        Dataset of `steady`, or of `simulate` with samples, including a motion through a `Record`.
     grazing
         Share of the motion's largest speed below which a closing velocity is flagged as grazing.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``contact_number``, in the order of their beginning. Velocities are relative to the
-        base; forces press on the mass, positive; energies are lost in the bumper's dashpot.
-        An impact on a rigid stop lasts 0 s: its force has no finite peak (NaN), but an impulse,
-        and it loses energy at once. A rest on it is a contact of its own. Through a `Record`, which
-        has no period, there are no phases and no shares of one.
+        Dim ``contact_number``, in the order of their start. Velocities are relative to the base;
+        forces on the mass are positive; energies are lost in the dashpot of the bumper. An impact
+        on a rigid stop lasts 0 s: its force has no finite peak (NaN), but it has an impulse and an
+        energy loss. A rest on the stop is a separate contact. A motion through a `Record` has no
+        period, so phases and shares of the period are missing.
 
     Raises
     ------
@@ -72,14 +73,14 @@ def contact_log(
     rows: NDArray[np.float64] | None,
     share: float = GRAZING,
 ) -> xr.Dataset:
-    """As `contacts`, of a motion that has been cut into phases, and perhaps measured.
+    """List the contacts of a motion that is already cut into phases, and perhaps measured.
 
     Parameters
     ----------
     motion, origin, every
-        The motion, where it comes from, and its phases.
+        The motion, its origin, and its phases.
     rows
-        What `phases.measured` found of each phase by itself; None if nobody has looked.
+        Results of `phases.measured` for each phase; None if they were not computed.
     share
         As ``grazing`` of `contacts`.
     """
@@ -129,7 +130,7 @@ def contact_log(
 
 
 def _in_the_cycle(chosen: _Contacts, shaken: Repeated | Record) -> dict[str, _Array]:
-    """When in the forcing's period contacts begin and end; nothing of a record, which has none."""
+    """Return the phases of the forcing at which contacts begin and end; empty for a record."""
     if isinstance(shaken, Record):
         return {}
     share = chosen.length / shaken.period
@@ -141,10 +142,10 @@ def _in_the_cycle(chosen: _Contacts, shaken: Repeated | Record) -> dict[str, _Ar
 
 
 class _Contacts(NamedTuple):
-    """Contacts, one value each, or one row of a state; force and impulse per unit mass."""
+    """Arrays with one value per contact, or one row of a state; force and impulse per unit mass."""
 
     order: NDArray[np.int64]
-    """The phase in which it begins."""
+    """Index of the phase in which the contact begins."""
     side: NDArray[np.int64]
     begin: _Array
     angle: _Array
@@ -159,10 +160,10 @@ class _Contacts(NamedTuple):
     peak: _Array
     """Largest absolute acceleration."""
     peak_time: _Array
-    """From the beginning of the contact."""
+    """Time since the start of the contact."""
 
     def take(self, chosen: NDArray[np.int64]) -> _Contacts:
-        """The chosen contacts."""
+        """Return the chosen contacts."""
         parts = {name: values[chosen] for name, values in self._asdict().items()}
         return _Contacts(**parts)
 
@@ -170,7 +171,7 @@ class _Contacts(NamedTuple):
 def _lasting(
     every: Phases, origin: Recorded[Any], side: int, rows: NDArray[np.float64] | None
 ) -> _Contacts:
-    """The contacts with a bumper, or rests on a rigid stop, of one side."""
+    """Find the contacts with a bumper, or rests on a rigid stop, of one side."""
     runs = _runs(every, origin, side)
     count = len(runs)
     part = np.array([i for run in runs for i in run], dtype=np.int64)
@@ -220,7 +221,7 @@ def _lasting(
 
 
 def _runs(every: Phases, origin: Recorded[Any], side: int) -> list[_Numbers]:
-    """The phases of each contact of a side that the record holds from beginning to end."""
+    """Find the phases of each complete contact of a side."""
     touched = touches(every.contact, side)
     end = len(touched) - 1
     begins = np.flatnonzero(touched & ~np.append(False, touched[:-1]))
@@ -237,7 +238,7 @@ def _runs(every: Phases, origin: Recorded[Any], side: int) -> list[_Numbers]:
 
 
 def _impacts(motion: xr.Dataset, every: Phases, origin: Recorded[Any]) -> _Contacts:
-    """The impacts on rigid stops: contacts of no duration, whose force has no finite peak."""
+    """Find the impacts on rigid stops: contacts of no duration, whose force has no finite peak."""
     at = np.flatnonzero(every.struck)
     before, behind, event = every.last[at - 1], every.first[at], every.event[at]
     sharp = np.maximum(
@@ -264,7 +265,7 @@ def _impacts(motion: xr.Dataset, every: Phases, origin: Recorded[Any]) -> _Conta
 
 
 def _relaxing(every: Phases, origin: Recorded[Any], side: int, runs: list[_Numbers]) -> _Array:
-    """Energy that the free bumper loses behind each contact, until it is pressed again."""
+    """Compute the energy that the free bumper loses after each contact, until the next one."""
     lost = np.zeros(len(runs))
     touched = touches(every.contact, side)
     number = np.full(len(touched), -1)

@@ -1,4 +1,4 @@
-"""Response spectra of records: the largest response of linear oscillators, and its directions."""
+"""Response spectra of records: the largest response of linear oscillators, also over directions."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.tasks.threads import Progress, Tally, available, each
 
 DIRECTIONS = 180
-"""Of a pair of components: every degree of half a turn."""
+"""Directions of a pair of components: every degree of half a turn."""
 
 _LEAST, _MOST = 1e-9, 1e9
-"""Natural periods in s, beyond what anyone means and within what numbers hold."""
+"""Accepted natural periods (s): far beyond any use, and within the range of numbers."""
 
 _Array = NDArray[np.float64]
 
@@ -34,39 +34,39 @@ def response_spectrum(
     *,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Return the response spectra of a record, or of two perpendicular components of one.
+    """Compute the response spectra of a record, or of its two perpendicular components.
 
-    The largest sizes of the relative displacement u, of its velocity and of the absolute
-    acceleration ü + A_t of oscillators ü + 2ζω u̇ + ω² u = −A_t from rest. They are exact for the
-    record, straight between its samples and 0 behind them: what is largest between samples, or in
-    the free vibration behind the record, counts (docs/theory.md, section 17).
+    The spectra are the largest absolute values of the relative displacement u, of its velocity and
+    of the absolute acceleration ü + A_t of oscillators ü + 2ζω u̇ + ω² u = −A_t from rest. They are
+    exact for the record, which is linear between its samples and 0 after them: peaks between
+    samples, and in the free vibration after the record, are included (docs/theory.md, section 17).
 
     Parameters
     ----------
     record
-        A `Record`, or two of the same step and length.
+        A `Record`, or two components with the same step and length.
     periods
-        Natural periods in s, 0 or more; one or several. At 0 the mass moves with the base.
+        Natural periods (s), 0 or greater; one or several. At 0 the mass moves with the base.
     damping
         Damping ratios ζ, from 0 to less than 1; one or several.
     progress
-        Called with how many oscillators are done and how many there are.
+        Function that is called with the number of oscillators done and their total.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``damping_ratio`` and ``natural_period`` (s), those of a single number left out:
+        Dims ``damping_ratio`` and ``natural_period`` (s), except for a single number:
         ``spectral_displacement`` (m), ``spectral_velocity`` (m/s), ``spectral_acceleration``
-        (m/s²), ``pseudo_velocity`` ω max|u| and ``pseudo_acceleration`` ω² max|u|. Of two
-        components a dim ``orientation`` before them: ``"first"``, ``"second"``, and the median
-        and the largest of the maxima in 180 directions, a degree apart: ``"RotD50"`` and
-        ``"RotD100"``.
+        (m/s²), ``pseudo_velocity`` ω max|u| and ``pseudo_acceleration`` ω² max|u|. For two
+        components, an additional first dim ``orientation``: ``"first"``, ``"second"``, and the
+        median and the largest of the maxima in 180 directions in steps of one degree: ``"RotD50"``
+        and ``"RotD100"``.
 
     Raises
     ------
     InputError
-        If it is no record, or components differ in step or length; if a period or a damping ratio
-        cannot be used.
+        If it is not a record, components differ in step or length, or a period or a damping ratio
+        is invalid.
     """
     check_progress(progress)
     components = _components(record)
@@ -89,7 +89,7 @@ def response_spectrum(
 
 
 def _turned(components: Sequence[Record]) -> list[Record]:
-    """The record in each direction: in its own, or in 180 of two components."""
+    """Return the record in each direction: its own, or 180 directions of two components."""
     if len(components) == 1:
         return list(components)
     first, second = (one.acceleration for one in components)
@@ -101,7 +101,7 @@ def _turned(components: Sequence[Record]) -> list[Record]:
 def _found(
     components: Sequence[Record], omega: _Array, zeta: _Array, progress: Progress | None
 ) -> _Array:
-    """The largest |u|, |u̇|/ω and |ü + A_t|/ω² (m): direction, quantity, oscillator."""
+    """Compute the largest |u|, |u̇|/ω and |ü + A_t|/ω² (m): direction, quantity, oscillator."""
     records = _turned(components)
     out = np.empty((len(records), omega.size, spectra.FOUND))
     # Periods are dealt out in turn: short ones take longer.
@@ -132,7 +132,7 @@ def _found(
 def _dataset(
     components: Sequence[Record], period: _Array, ratio: _Array, values: _Array
 ) -> xr.Dataset:
-    """With names and units; `values` in m, but for the acceleration at the period 0."""
+    """Return a dataset with names and units; `values` in m, except the acceleration at period 0."""
     dims = ["orientation"] if len(components) == 2 else []
     dims += ["damping_ratio"] * ratio.ndim + ["natural_period"] * period.ndim
     if len(components) == 1:
@@ -163,7 +163,7 @@ def _dataset(
 
 
 def _components(record: Any) -> tuple[Record, ...]:
-    """One record, or two that belong together."""
+    """Read one record, or two matching components."""
     given = tuple(record) if isinstance(record, list | tuple) else (record,)
     if not 1 <= len(given) <= 2 or not all(isinstance(one, Record) for one in given):
         raise InputError(
@@ -176,14 +176,14 @@ def _components(record: Any) -> tuple[Record, ...]:
     ):
         if one != other:
             raise InputError(
-                f"record: components with {what} {one:g} and {other:g}; the same of both are "
-                "accepted (Record.cut makes them as long)"
+                f"record: components with {what} {one:g} and {other:g}; the same in both is "
+                "accepted (Record.cut shortens a record)"
             )
     return given
 
 
 def _numbers(values: ArrayLike, field: str, least: float, below: float, accepted: str) -> _Array:
-    """One number or a list of them, 0 or from the least on."""
+    """Read one number or a list of numbers that are 0 or at least `least`."""
     if is_list(values):
         values = check_list(values, field)
     try:

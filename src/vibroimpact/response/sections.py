@@ -1,4 +1,4 @@
-"""Sections of a motion: once a forcing cycle (stroboscopic), and at every contact (impact)."""
+"""Poincaré sections of a motion: stroboscopic (once per forcing cycle), and at every contact."""
 
 from __future__ import annotations
 
@@ -26,29 +26,28 @@ _NAMES = ("displacement", "velocity", "right_bumper", "left_bumper")
 def stroboscopic_section(
     motion: xr.Dataset, phase: float | str = 0.0, cycles: int | None = None
 ) -> xr.Dataset:
-    """Look at a motion once a forcing cycle, always at the same phase.
+    """Compute the stroboscopic section of a motion: its state once per forcing cycle.
 
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples; the motion is followed from its
-        beginning.
+        Dataset of `steady`, or of `simulate` with samples; the motion is simulated from its start.
     phase
-        The forcing's phase θ at which to look, rad: the base acceleration is then A sin θ.
+        Phase θ of the forcing at the section (rad): the base acceleration is then A sin θ.
     cycles
-        How many points; None for as many as the record has whole cycles.
+        Number of points. Default: the number of whole cycles of the motion.
 
     Returns
     -------
     xarray.Dataset
         Dim ``section_point``: ``section_displacement``, ``section_velocity`` and the bumpers'
-        deformations. If the motion met the event limit there are fewer points than asked for, and a
-        warning says so.
+        deformations. If the motion reached the event limit, there are fewer points than requested,
+        and a warning is issued.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a motion with samples, or a value cannot be used.
+        If the dataset is not that of a motion with samples, or a value is invalid.
     """
     origin = recorded(motion)
     angle = to_si(phase, ANGLE, "phase")
@@ -89,12 +88,12 @@ def stroboscopic_section(
 
 
 def impact_section(motion: xr.Dataset) -> xr.Dataset:
-    """Look at a motion at every contact: the forcing's phase and the closing velocity.
+    """Compute the impact section of a motion: forcing phase and closing velocity at every contact.
 
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples (one a cycle is enough).
+        Dataset of `steady`, or of `simulate` with samples (one per cycle is enough).
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Time histories: one motion, sampled, with every contact and detachment at its exact time."""
+"""Time histories: one sampled motion, with the exact time of every contact and detachment."""
 
 from __future__ import annotations
 
@@ -48,45 +48,45 @@ def simulate(
     max_events: int = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Follow a motion for a number of forcing cycles, or through a record.
+    """Simulate a motion for a number of forcing cycles, or through a record.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     cycles
-        How long, in forcing cycles, greater than 0; the last may be incomplete. Not for a record,
-        which says itself how long it is.
+        Duration in forcing cycles, greater than 0; the last cycle may be incomplete. Not
+        accepted for a record, which has its own duration.
     start
-        Where the motion starts: a `State`, the dataset of an earlier call or its
-        ``final_state`` (which carries the phase on); None is rest.
+        Initial state: a `State`, the dataset of an earlier call or its ``final_state`` (which
+        continues the phase). Default: rest.
     samples
-        Samples per forcing cycle, or per step of a record. They affect no other result. None for
-        256 per forcing cycle, and 1 per step of a record. With 0 only ``final_state`` is
+        Samples per forcing cycle, or per step of a record. They affect no other result. Default:
+        256 per forcing cycle, or 1 per step of a record. With 0 only ``final_state`` is
         returned, and memory does not grow with ``cycles``.
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     tail
-        Duration of free vibration after a record, in seconds or as text such as ``"10s"``. None
-        for 0.
+        Duration of free vibration after a record, in seconds or as text such as ``"10s"``.
+        Default: 0.
     max_events
-        Contacts and detachments in one forcing cycle, or one step of a record, at which the
-        motion is given up.
+        Number of contacts and detachments in one forcing cycle, or one step of a record, at which
+        the motion is given up.
     progress
-        Called now and then with the cycles, or steps of the record, done and all there are.
+        Function that is called from time to time with the number of cycles, or steps of the
+        record, done and their total.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``time`` (s; the end included) and ``event``. ``left_bumper`` and its clearance
-        have the paper's signs (eq. 4). ``final_state`` can be given as ``start``. If the
-        motion was given up, what was found until then, and the attribute ``status``
-        says why.
+        Dims ``time`` (s; including the end) and ``event``. ``left_bumper`` and its clearance
+        have the paper's signs (eq. 4). ``final_state`` can be passed as ``start``. If the motion
+        was given up, the dataset ends there, and the attribute ``status`` gives the reason.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
+        If a value is invalid, or an undamped mass without stops is at resonance.
     """
     rig = as_rig(rig, frequency)
     oscillator = rig.oscillator
@@ -98,12 +98,14 @@ def simulate(
     if isinstance(excitation, Record):
         if cycles is not None:
             raise InputError(
-                f"cycles: {cycles!r}, but a record has none; tail, a time, is accepted beside it"
+                f"cycles: {cycles!r}, but a record has none; use tail, a time, instead"
             )
         behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
         return through(Rig(oscillator, excitation), behind, start, samples, max_events, progress)
     if tail is not None:
-        raise InputError(f"tail: {tail!r} is for a Record; cycles say how long this shaking lasts")
+        raise InputError(
+            f"tail: {tail!r} is accepted for a Record only; cycles set the duration of this shaking"
+        )
     if cycles is None:
         raise InputError("cycles: missing; a number greater than 0 is accepted, such as 100")
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
@@ -182,7 +184,7 @@ def simulate(
 
 
 def _cycles(count: int, samples: int, length: float | None) -> NDArray[np.float64]:
-    """Times of the samples in forcing cycles; `length` is the end where it was reached."""
+    """Return the times of the samples in forcing cycles; `length` is included if it was reached."""
     cycle = np.arange(count, dtype=np.float64)  # whole numbers would take ten times as long
     cycle /= samples
     if length is not None:  # the last value is the end itself, which need not lie on the grid
@@ -193,7 +195,7 @@ def _cycles(count: int, samples: int, length: float | None) -> NDArray[np.float6
 def _shaking(
     excitation: Repeated, phase: float, cycle: NDArray[np.float64], samples: int
 ) -> tuple[str, NDArray[np.float64]]:
-    """Base acceleration or force at the samples, every cycle the same but for the last sample."""
+    """Return the base acceleration or force at the samples, which repeats in every cycle."""
     angles = 2.0 * np.pi * (np.arange(samples) / samples) + phase
     values = np.empty(len(cycle))
     whole, rest = divmod(len(cycle), samples)

@@ -1,4 +1,4 @@
-"""Fourier spectra: exact harmonics of a periodic motion, a windowed transform of any other."""
+"""Fourier spectra: exact harmonics of a periodic motion, a windowed transform of other motions."""
 
 from __future__ import annotations
 
@@ -21,34 +21,34 @@ _Complex = NDArray[np.complex128]
 
 _QUANTITIES = ("displacement", "velocity", "acceleration")
 MOST_LINES = 20_000
-"""Lines of a periodic motion."""
+"""Largest number of lines of a periodic motion."""
 
 
 def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
-    """Return the Fourier spectrum of displacement, velocity and absolute acceleration.
+    """Compute the Fourier spectrum of displacement, velocity and absolute acceleration.
 
     The acceleration is that of finite forces, without the impulses of impacts on rigid stops.
 
-    Of a periodic motion the harmonics are exact: each phase is integrated times exp(−iνt) by the
-    quadrature of its series (docs/theory.md, section 7), so that there is neither leakage nor a
-    sampling error. Any other motion is transformed with a Hann
-    window over the whole forcing cycles of its record; a line between two points of the transform
-    is then up to 15 % too low, and lines closer than two such points run together.
+    For a periodic motion the harmonics are exact: each phase is multiplied by exp(−iνt) and
+    integrated by the quadrature of its series (docs/theory.md, section 7), without leakage or
+    sampling error. Other motions are transformed with a Hann window over the whole forcing cycles
+    of the record. A line between two points of the transform is then up to 15 % too low, and lines
+    closer than two such points merge.
 
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples; or a measured history, whose orders are
-        those of the sine of its base.
+        Dataset of `steady`, or of `simulate` with samples; or a measured history, whose orders
+        refer to the sine of its base.
     highest
-        Highest order f / f_exc.
+        Highest order f / f_exc of the result.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``order`` (f / f_exc; that of order 0 is the mean), with ``line_frequency`` in Hz.
-        Amplitudes and phases of the cosines whose sum is the motion, from the beginning of the
-        record. The attribute ``method`` says how they were found.
+        Dim ``order`` (f / f_exc; order 0 is the mean), with ``line_frequency`` in Hz. Amplitudes
+        and phases of the cosines whose sum is the motion, counted from the start of the record. The
+        attribute ``method`` describes how they were computed.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
 
 
 def _exact(origin: Recorded[Repeated], parts: Phases, order: NDArray[np.float64]) -> list[_Complex]:
-    """Complex amplitudes at the given orders: of u, u̇ and ü + A_t."""
+    """Compute complex amplitudes of u, u̇ and ü + A_t at the given orders."""
     found = np.zeros((fourier.QUANTITIES, len(order)))
     rig, size, frequency = asked(origin)
     rows = table(origin, parts, np.zeros(len(parts.contact), dtype=np.int64))
@@ -93,14 +93,14 @@ def _exact(origin: Recorded[Repeated], parts: Phases, order: NDArray[np.float64]
 def _windowed(
     motion: xr.Dataset, origin: Recorded[Repeated], highest: float
 ) -> tuple[NDArray[np.float64], list[_Complex], int]:
-    """Orders, complex amplitudes, and the number of cycles used: the first whole ones."""
+    """Compute orders, complex amplitudes, and the number of cycles used (the first whole ones)."""
     samples = int(np.searchsorted(motion["cycle"].values, 1.0 - 1e-9))
     cycles = int(origin.cycles + 1e-9)
     count = cycles * samples
     if cycles < 1 or count < 4:
         raise InputError(
-            f"motion: a record of {origin.cycles:g} cycles and {count} samples has no spectrum; "
-            "at least one cycle and four samples are accepted"
+            f"motion: a record of {origin.cycles:g} cycles and {count} samples is too short for "
+            "a spectrum; at least one cycle and four samples are accepted"
         )
     order = np.arange(count // 2 + 1) / cycles
     kept = order <= highest
@@ -109,7 +109,7 @@ def _windowed(
 
 
 def _lines(values: NDArray[np.float64]) -> _Complex:
-    """Complex amplitudes of even samples over whole cycles, through a Hann window."""
+    """Compute complex amplitudes of even samples over whole cycles, with a Hann window."""
     count = len(values)
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(count) / count)
     mean = values.mean()
@@ -119,9 +119,9 @@ def _lines(values: NDArray[np.float64]) -> _Complex:
 
 
 def _of_measured(motion: xr.Dataset, highest: float) -> xr.Dataset:
-    """The spectrum of a measured history, over the whole cycles of its forcing.
+    """Compute the spectrum of a measured history, over the whole cycles of its forcing.
 
-    Its samples are taken over, by a spline, to times that divide these cycles evenly.
+    A spline resamples it at times that divide these cycles evenly.
     """
     time = motion["time"].values
     held = {name: motion[name].values for name in _QUANTITIES if name in motion}
@@ -130,8 +130,8 @@ def _of_measured(motion: xr.Dataset, highest: float) -> xr.Dataset:
     cycles = 0 if sine is None else int((time[-1] - time[0]) * sine.frequency + 1e-9)
     if sine is None or cycles < 1 or not held:
         raise InputError(
-            "motion: the measured history has no whole cycle of a sine; one cycle of "
-            "displacement, velocity or acceleration and at least 8 samples are accepted"
+            "motion: the measured history does not contain a whole cycle of a sine; at least one "
+            "cycle of displacement, velocity or acceleration with 8 samples is accepted"
         )
     span = cycles / sine.frequency
     count = int(np.searchsorted(time, time[0] + span))

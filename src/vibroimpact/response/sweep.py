@@ -1,7 +1,7 @@
 """Stepped-sine sweeps: pseudo-resonance curves, forward and backward.
 
-As in the experiment (the paper's Section 3), each frequency is held until the motion is steady,
-then the next one begins from the state and the phase that were reached.
+As in the experiment (the paper's Section 3), each frequency is held until the motion is steady. The
+next one starts from the final state and phase.
 """
 
 from __future__ import annotations
@@ -54,37 +54,37 @@ def sweep(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Sweep the frequency up and down, holding each one until the motion is steady.
+    """Sweep the frequency up and down, and hold each frequency until the motion is steady.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     frequencies
-        The frequencies to hold in Hz, rising; or text such as ``"2.5 Hz"``.
+        Frequencies in Hz, rising; or texts such as ``"2.5 Hz"``.
     directions
-        ``"forward"`` (rising), ``"backward"`` (falling) or both. Each sweep starts afresh.
+        ``"forward"`` (rising), ``"backward"`` (falling) or both. Both sweeps start from ``start``.
     start, phase, tolerance, max_cycles, window, max_events, threads, progress
         As in `sweeps`.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``direction`` and ``frequency``. ``eta_d`` and ``eta_a`` are the excursions over
-        those of the largest free flight at any frequency, whatever range is swept (the paper's
-        Section 4); an undamped isolator has none, and they are taken over 2A/ω0² and 2A.
-        ``displacement_max`` and ``displacement_min`` are how far the mass goes to the right and to
-        the left of u = 0, ``peak_displacement`` and ``peak_acceleration`` the larger size of both
-        ends; ``peak_force_right`` and ``peak_force_left`` are what either stop pushes with at most,
-        infinite in an impact on a rigid one, of which ``peak_impulse_right`` and
-        ``peak_impulse_left`` are the largest impulses.
-        ``section`` is the state at the end of each hold; ``status`` and ``motion`` say how
-        each hold ended. Values are NaN only where ``status`` says that there is none.
+        Dims ``direction`` and ``frequency``. ``eta_d`` and ``eta_a`` are the excursions divided by
+        the largest ones without stops at any frequency, independent of the swept range (the paper's
+        Section 4). Without damping of the isolator these do not exist, and the excursions are
+        divided by 2A/ω0² and 2A. ``displacement_max`` and ``displacement_min`` are the largest
+        displacements to the right and to the left of u = 0; ``peak_displacement`` and
+        ``peak_acceleration`` are the larger absolute values of both sides. ``peak_force_right`` and
+        ``peak_force_left`` are the largest contact forces of the stops, infinite for an impact on a
+        rigid stop, for which ``peak_impulse_right`` and ``peak_impulse_left`` are the largest
+        impulses. ``section`` is the state at the end of each hold; ``status`` and ``motion``
+        describe how each hold ended. Values are NaN only where ``status`` reports that none exists.
 
     Raises
     ------
     InputError
-        If a value cannot be used.
+        If a value is invalid.
     """
     data = sweeps(
         [as_rig(rig)],
@@ -119,7 +119,7 @@ def sweeps(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Sweep many rigs at once, in parallel over threads.
+    """Sweep many rigs in parallel.
 
     Parameters
     ----------
@@ -129,36 +129,36 @@ def sweeps(
     frequencies, directions
         As in `sweep`.
     start
-        Where every sweep starts; None is rest.
+        Initial state of every sweep. Default: rest.
     phase
         Phase φ of the base acceleration A sin(ωt + φ) at the stroboscopic section, in rad.
     tolerance
         A motion counts as steady once its stroboscopic state is within this distance (relative)
         of an orbit of at most 16 forcing cycles.
     max_cycles
-        Largest number of forcing cycles before a motion is steady; up to 50 times as many while
-        the motion still approaches an orbit, as with light damping.
+        Largest number of forcing cycles before a motion is steady. A motion that is still
+        approaching an orbit, as with light damping, gets up to 50 times as many.
     window
-        Forcing cycles over which a motion that did not settle is measured.
+        Number of forcing cycles over which a motion that did not settle is measured.
     max_events
-        Contacts and detachments in one forcing cycle at which a hold is given up.
+        Number of contacts and detachments in one forcing cycle at which a hold is given up.
     threads
-        How many sweeps run at once; None for one a processor. No result depends on it.
+        Number of threads (default: one per processor). It does not affect the result.
     where
         ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
-        of its scheduler (docs/how-to/many-machines.md). No result depends on it.
+        of its scheduler (docs/how-to/many-machines.md). It does not affect the result.
     progress
-        Called from the calling thread while the sweeps run.
+        Function that is called in the calling thread with the work done and the total.
 
     Returns
     -------
     xarray.Dataset
-        As `sweep`, with the dim ``rig`` first.
+        As in `sweep`, with the dim ``rig`` first.
 
     Raises
     ------
     InputError
-        If a value cannot be used.
+        If a value is invalid.
     """
     check_progress(progress)
     named = periodic_rigs(rigs)
@@ -228,16 +228,16 @@ def sweeps(
 
 
 def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]:
-    """Frequencies in Hz: at least one, positive, rising.
+    """Read frequencies in Hz: at least one, positive, rising.
 
     Raises
     ------
     InputError
-        With the position and the value of the first one that is not.
+        If they are not; the message has the position and the value of the first wrong one.
     """
     if isinstance(frequencies, str):
         raise InputError(
-            f"frequencies: {shown(frequencies)} is one text; a list of frequencies is accepted"
+            f"frequencies: {shown(frequencies)} is a single text; a list of frequencies is accepted"
         )
     items = list(check_list(frequencies, "frequencies"))
     if isinstance(frequencies, np.ndarray) and frequencies.dtype == float and frequencies.ndim == 1:
@@ -261,7 +261,7 @@ def periodic_rigs(rigs: Any) -> dict[str, Rig]:
     Raises
     ------
     InputError
-        If there is none, or one cannot be used.
+        If there is none, or one is invalid.
     """
     found = as_rigs(rigs)
     for name, rig in found.items():
@@ -284,7 +284,7 @@ def _directions(directions: Sequence[str]) -> tuple[str, ...]:
 
 
 def advice(data: xr.Dataset) -> list[str]:
-    """What the holds that did not end well ask for, in words; empty where all did."""
+    """Return the advice for frequencies whose motion did not end well; empty if all did."""
     codes, counts = np.unique(data["status"].values, return_counts=True)
     return [
         f"{count} of {data['status'].size} holds: {Status(code).advice}"

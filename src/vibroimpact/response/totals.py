@@ -1,4 +1,4 @@
-"""A whole motion measured: its exact extremes, and where the energy went."""
+"""Exact extremes of a whole motion, and its energies."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ from vibroimpact.response.phase_measures import measured, view
 
 
 def totals(motion: xr.Dataset) -> xr.Dataset:
-    """Return the exact extremes of a motion, between its samples too, and its energies.
+    """Compute the exact extremes of a motion, also between its samples, and its energies.
 
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples, through a `Record`, too.
+        Dataset of `steady`, or of `simulate` with samples, including a motion through a `Record`.
 
     Returns
     -------
     xarray.Dataset
-        The extremes and excursions of the displacement and of the absolute acceleration, as
-        those of a sweep, and the energies over the whole motion: ``total_supplied`` by what
-        shakes the mass, ``total_isolator`` and ``total_bumpers`` lost in the isolator and in the
-        stops. They begin at ``initial_state``: of a mass that starts on a rigid stop and moves
-        into it, the impact counts, and the first sample is already behind it (a note says so).
+        The extremes and excursions of the displacement and of the absolute acceleration, as in a
+        sweep, and the energies over the whole motion: ``total_supplied`` by the excitation,
+        ``total_isolator`` and ``total_bumpers`` lost in the isolator and in the stops. They start
+        at ``initial_state``: if the mass starts on a rigid stop and moves into it, that impact is
+        included, although the first sample follows it (a note reports this).
 
     Raises
     ------
@@ -59,7 +59,7 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
 
 
 def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
-    """Whether the mass starts on a rigid stop and moves into it, in words."""
+    """Describe in words that the mass starts on a rigid stop and moves into it, if so."""
     if "initial_state" not in motion or not motion.sizes.get("time"):
         return []
     before = float(motion["initial_state"].sel(component="velocity"))
@@ -68,12 +68,12 @@ def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
         return []
     return [
         f"the motion starts with an impact, from {before:.6g} to {behind:.6g} m/s: the energies "
-        "count it, and the first sample is behind it"
+        "include it, and the first sample is after it"
     ]
 
 
 def extremes(origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]) -> dict[str, float]:
-    """Extremes and excursions, of a motion whose phases were measured."""
+    """Return extremes and excursions of a motion whose phases were measured."""
     side = view(every)
     face = side * origin.of_side(side, "gap")
     # A left contact is measured towards the bumper.
@@ -95,7 +95,7 @@ def extremes(origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]) ->
 def energies(
     origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]
 ) -> tuple[float, float, float]:
-    """Energy (J) supplied, and lost in the isolator and in the stops, over the whole motion."""
+    """Return the energy (J) supplied, lost in the isolator and lost in the stops."""
     mass = origin.oscillator.mass
     rows = rows[~chattered(every)]
     stops = rows[:, [measure.LOST_RIGHT, measure.LOST_LEFT]].sum()

@@ -1,4 +1,4 @@
-"""Name the scenario of one rig, with the evidence for it."""
+"""Classify one rig by its scenario, with the evidence."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ from vibroimpact.scenarios.thresholds import Thresholds, checked
 from vibroimpact.tasks.threads import Progress
 
 MAX_CYCLES = 2000
-"""Forcing cycles to wait for a steady motion, at least."""
+"""Least number of forcing cycles to wait for a steady motion."""
 LEAST = 4
-"""Frequencies, for curves are looked at."""
+"""Least number of frequencies of a resonance curve."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Classification:
         Share of the variations of the thresholds, each halved and each doubled, under which
         the scenario is the same.
     evidence
-        What the curves show, in words.
+        Features of the curves, in words.
     alternatives
         The variations that give another scenario: (threshold, its value) to scenario.
     features
@@ -52,7 +52,7 @@ class Classification:
     thresholds
         Those that were used.
     sweep
-        The resonance curves, as `vibroimpact.sweep` gives them.
+        The resonance curves, as returned by `vibroimpact.sweep`.
     """
 
     named: Scenario
@@ -78,42 +78,42 @@ def classify_scenario(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Name the scenario of a rig: S0 to S6, or unclassified (the paper's Sections 4.3 and 6).
+    """Classify a rig by its scenario: S0 to S6, or unclassified (the paper's Sections 4.3 and 6).
 
-    The rig is swept forward and backward. Motions that did not become periodic are named by
-    the growth of disturbances, and the branch of orbits through the primary resonance tells the
-    jumps exactly: also those of a hysteresis so narrow that it hides between two frequencies.
+    The rig is swept forward and backward. Motions that did not become periodic are classified by
+    the growth of disturbances. The branch of orbits through the primary resonance gives the exact
+    jumps, also of a hysteresis so narrow that it lies between two frequencies.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     frequencies
-        The frequencies to hold in Hz, rising. None for steps of a hundredth of the natural
-        frequency from 0.4 times it to beyond where the primary resonance can lie.
+        Frequencies of the sweeps in Hz, rising. Default: steps of a hundredth of the natural
+        frequency, from 0.4 times the natural frequency to beyond the highest possible primary
+        resonance.
     thresholds
-        Where one scenario ends and the next begins; see `Thresholds`.
+        Limits between the scenarios; see `Thresholds`.
     max_cycles
-        Forcing cycles to wait for a steady motion. None for 2000, and more where damping is
-        light.
+        Number of forcing cycles to wait for a steady motion. Default: 2000, and more for light
+        damping.
     threads, progress
         As in `sweeps`.
 
     Returns
     -------
     xarray.Dataset
-        The resonance curves, as `sweep` gives them, with the number of the ``scenario`` and what
-        it was found from, under the names of `scenario_map`. ``confidence`` is the share of the
-        variations of the thresholds, each halved and each doubled, under which the scenario is
-        the same. ``fold_frequency`` holds the frequencies at which the branch of the primary
-        resonance turns back. Attributes: ``label`` (``"S0"`` to ``"S6"``, or
-        ``"unclassified"``), ``meaning``, ``evidence``, and ``alternatives``, which lists the
-        variations that give another scenario.
+        The resonance curves, as in `sweep`, with the number of the ``scenario`` and the features
+        that determine it, named as in `scenario_map`. ``confidence`` is the share of the variations
+        of the thresholds, each halved and each doubled, under which the scenario is the same.
+        ``fold_frequency`` holds the frequencies at which the branch of the primary resonance turns
+        back. Attributes: ``label`` (``"S0"`` to ``"S6"``, or ``"unclassified"``), ``meaning``,
+        ``evidence``, and ``alternatives``, which lists the variations that give another scenario.
 
     Raises
     ------
     InputError
-        If a value cannot be used.
+        If a value is invalid.
     """
     found = classify(
         rig,
@@ -155,7 +155,7 @@ def classify(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Classification:
-    """Classify a rig as `classify_scenario` does, and keep the evidence as it was found."""
+    """Classify a rig as `classify_scenario` does, and return the evidence as objects."""
     check_progress(progress)
     used = checked(thresholds)
     rig = one_sine(as_rig(rig))

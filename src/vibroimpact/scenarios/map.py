@@ -32,12 +32,12 @@ DAMPING_RATIO, RELAXATION_TIME = 0.15, 0.01
 MOST_REFINED = 8
 """Levels of refinement: nodes 256 times as dense as those of the first grid."""
 _FEW = 10
-"""Rigs that a thread sweeps at a time, at most."""
+"""Largest number of rigs that a thread sweeps at a time."""
 _LAST = 3
-"""By how much smaller the last tasks of a block are."""
+"""Factor by which the last tasks of a block are smaller."""
 _MANY = 500
-"""Nodes of the first grid for which it pays to start processes: a third of what a rig takes is
-Python's, which threads do in turn."""
+"""Least number of nodes of the first grid for which starting processes is worthwhile: a third of
+the time per rig is spent in Python, which threads execute in turn."""
 
 
 MOST_NODES = 4_000_000
@@ -59,60 +59,63 @@ def scenario_map(
     where: Any = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Name the scenarios over two parameters.
+    """Compute a map of scenarios over two parameters.
 
     Parameters
     ----------
     rig
-        What has all other parameters: a `Rig`, a laboratory case, its code, or the path of a study
-        file, shaken by one sine. None for ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5, on two sides.
+        The rig with all other parameters, shaken by one sine: a `Rig`, a laboratory case, its code,
+        or the path of a study file. Default: ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on both
+        sides.
     x, y
         Name and rising values of a parameter. Physical: ``"gap"`` (m, of each side),
-        ``"amplitude"`` (in the unit of the rig's), ``"bumper_stiffness"`` (N/m, at the rig's
-        damping C_j), ``"proportional_stiffness"`` (N/m, at the rig's C_j/K_j).
-        Dimensionless: ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ,
-        ``"damping_ratio"`` ξ, ``"restitution"`` e. They are set on both sides alike, where the
-        stop has them: a rigid one has only a gap and a restitution. Between dimensionless ones
-        δ0 is kept where it is not varied, beside a physical one the gap.
-        ``"log"`` or ``"linear"`` behind the values says how they are refined, if they do not.
+        ``"amplitude"`` (in the unit of the rig's amplitude), ``"bumper_stiffness"`` (N/m, at the
+        rig's damping C_j), ``"proportional_stiffness"`` (N/m, at the rig's C_j/K_j). Dimensionless:
+        ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ, ``"damping_ratio"`` ξ,
+        ``"restitution"`` e. They are set equally on both sides, if the stop has them; a rigid stop
+        has only a gap and a restitution. If both parameters are dimensionless and δ0 is not varied,
+        δ0 is kept; with a physical parameter the gap is kept. ``"log"`` or ``"linear"`` after the
+        values selects the spacing of refined values, if the values do not show it.
     step
         Step of the sweeps, as a share of the natural frequency.
     refine
-        Number of times that the nodes near a border are made twice as dense. Nothing is computed
-        between nodes of the same scenario: regions smaller than a square of the first grid may be
-        missed.
+        Number of times that the nodes near a border are made twice as dense. No nodes are computed
+        between nodes of the same scenario, so regions smaller than a square of the first grid may
+        be missed.
     thresholds
         See `Thresholds`.
     max_cycles
-        Forcing cycles to wait for a steady motion. None for 300, and more where damping is light;
-        what is plainly chaotic when its transient has died is then not waited for.
+        Number of forcing cycles to wait for a steady motion. Default: 300, and more for light
+        damping; a motion that is clearly chaotic after its transient is then not continued.
     store
-        Folder for the map as a Zarr group, written block by block. If it holds the same map,
-        unfinished, that is completed. None keeps the map in memory.
+        Folder for the map as a Zarr group, written block by block. An unfinished computation of the
+        same map is resumed. Default: in memory.
     block
-        Nodes of the first grid along each side of a block. So much is lost at most when the
-        computation is stopped, and held in memory at a time.
+        Number of nodes of the first grid along each side of a block. At most the unfinished blocks
+        are lost if the computation is stopped. One block is held in memory at a time.
     threads
-        How many rigs are computed at once; None for one a processor. No result depends on it.
+        Number of threads (default: one per processor). It does not affect the result.
     where
         ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
-        of its scheduler (docs/how-to/many-machines.md). None for processes where the first grid
-        has at least 500 nodes and more than one may run, else threads. No result depends on it.
+        of its scheduler (docs/how-to/many-machines.md). Default: processes, if the first grid has
+        at least 500 nodes and more than one process may run; otherwise threads. It does not affect
+        the result.
     progress
-        Called from the calling thread with the nodes done and those known so far to be wanted.
+        Function that is called in the calling thread with the number of nodes done and the number
+        required so far.
 
     Returns
     -------
     xarray.Dataset
         Dims are the names of y and x. ``scenario`` (0 to 6, or 7 for unclassified;
         ``flag_meanings`` names them), ``confidence``, ``level`` and features: peaks, jumps,
-        counts of left hystereses, of regular and of non-regular ranges. With a store, values
-        are read from it when they are used.
+        counts of left hystereses, of regular and of non-regular ranges. With a store, values are
+        read from it on demand.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or the store holds something else.
+        If a value is invalid, or the store holds another computation.
     """
     check_progress(progress)
     start = _base(rig)
@@ -161,7 +164,7 @@ def scenario_map(
 
 
 def map_workers(nodes: int, threads: int | None, where: Any) -> Workers:
-    """Where the work for a map with so many nodes in its first grid is done."""
+    """Return where to compute a map with this number of nodes in its first grid."""
     if where is None:
         several = breadth(placed(threads)) > 1 and may_start()
         where = PROCESSES if nodes >= _MANY and several else THREADS
@@ -187,7 +190,7 @@ class _Plan(NamedTuple):
                 yield r, c, (slice(row, row + self.chunk), slice(column, column + self.chunk))
 
     def values(self, row: int, column: int) -> Values:
-        """Of the two parameters at a node."""
+        """Return the values of both parameters at a node."""
         x, y = self.axes
         return {x.name: float(x.values[column]), y.name: float(y.values[row])}
 
@@ -204,7 +207,7 @@ def _level(
     progress: Progress | None,
     done: int,
 ) -> int:
-    """Compute the nodes of one level that are wanted; return how many are done by then."""
+    """Compute the required nodes of one level; return the total number of nodes done."""
     chosen = plan.nodes.wanted(level, _known(plan, held, level - 1))
     total = done + int(chosen.sum())
     for row, column, place in plan.blocks():
@@ -222,7 +225,7 @@ def _level(
 
 
 def _known(plan: _Plan, held: MapStore, level: int) -> Scenarios:
-    """Scenario of the nodes that are known when a level is complete."""
+    """Return the scenarios of the nodes that are known when a level is complete."""
     scenarios, levels = held.computed()
     known = np.full(plan.nodes.shape, UNKNOWN, dtype=np.int8)
     for one in range(level + 1):

@@ -1,4 +1,4 @@
-"""Where one scenario ends and the next begins: every threshold, and its reason."""
+"""The thresholds between scenarios, with their reasons."""
 
 from __future__ import annotations
 
@@ -11,30 +11,30 @@ from vibroimpact.errors import InputError, shown
 
 @dataclass(frozen=True)
 class Thresholds:
-    """The thresholds of `classify_scenario`, all of them shares.
+    """The thresholds of `classify_scenario`, all dimensionless.
 
     Attributes
     ----------
     prominence
-        Least prominence of a secondary resonance in η_a, as a share of its height. Smaller
-        ripples would be lost in any measurement. It parts S2 from S3.
+        Least prominence of a secondary resonance in η_a, as a share of its height. No measurement
+        could detect smaller ripples. It separates S2 from S3.
     extent
         Least width of all secondary left hystereses and non-regular resonances together, as a
         share of the natural frequency. A test steps by 0.08 to 0.09 of it (0.1 Hz, the paper's
-        Section 3): where they cover less, no hold of such a test need fall on them. It parts S2
-        and S3 from S4.
+        Section 3): if they are narrower, a test may have no frequency step within them. It
+        separates S2 and S3 from S4.
     touch
-        Largest share by which the gap is smaller than free flight's amplitude for a contact to
-        be called grazing (1 - δ0). The tests called so in the paper's Fig. 14 have 0.07, the
-        next ones 0.22. It parts S1 from S2 and S6.
+        Largest value of 1 - δ0 for which a contact is called grazing: the share by which the gap is
+        smaller than the amplitude without stops. The tests called grazing in the paper's Fig. 14
+        have 0.07, the next ones 0.22. It separates S1 from S2 and S6.
     deformation
         Largest penetration, as a share of the gap, of a grazing contact: a lightly damped mass
-        that grazes on one motion may hit hard on another. It parts S1 from S2 and S6.
+        that grazes on one motion may hit hard on another. It separates S1 from S2 and S6.
 
     Raises
     ------
     InputError
-        If one is not a number greater than 0 and at most 1.
+        If a threshold is not a number greater than 0 and at most 1.
     """
 
     prominence: float = 0.02
@@ -57,14 +57,14 @@ class Thresholds:
         return tuple(field.name for field in fields(cls))
 
     def variations(self) -> Iterator[tuple[str, Thresholds]]:
-        """Each threshold halved and doubled in turn, the others as they are, with its name."""
+        """Yield thresholds with one of them halved or doubled, with its name and value."""
         for name in self.names():
             for factor in (0.5, 2.0):
                 yield name, replace(self, **{name: min(1.0, factor * getattr(self, name))})
 
 
 def checked(given: object) -> Thresholds:
-    """The thresholds to use; None is the defaults.
+    """Return the thresholds to use; None gives the defaults.
 
     Raises
     ------

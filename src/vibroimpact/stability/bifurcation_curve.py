@@ -62,7 +62,7 @@ def bifurcation_curve(
     most_points: int = 2000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Follow a bifurcation in two parameters.
+    """Continue a bifurcation in two parameters.
 
     Parameters
     ----------
@@ -74,27 +74,27 @@ def bifurcation_curve(
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     parameters
-        The two parameters, by the names that `branch` takes.
+        Names of the two parameters, as in `branch`.
     spans
-        Lowest and highest value of each.
+        Lowest and highest value of each parameter, in SI units or as text.
     most_points
-        Points in each direction after which it is given up.
+        Largest number of points in each direction.
     progress
-        Called with the number of points so far as the curve is followed, and with None until it
-        has been.
+        Function that is called with the number of points so far and None, since the total is
+        unknown until the end.
 
     Returns
     -------
     xarray.Dataset
         Dim ``point`` along the curve: both parameters by name, the ``section`` of the orbit and
-        its multipliers. Dim ``cusp_number``: the parameters ``cusp_first`` and ``cusp_second`` of
-        each cusp, where the curve turns back on itself. The attributes ``ended_low`` and
-        ``ended_high`` say why it ends.
+        its multipliers. Dim ``cusp_number``: the parameters ``cusp_first`` and ``cusp_second``
+        of each cusp, where the curve turns back on itself. The attributes ``ended_low`` and
+        ``ended_high`` give the reasons why it ends.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or the start is no bifurcation of this rig.
+        If a value is invalid, or the start is not a bifurcation of this rig.
     """
     check_progress(progress)
     rig = as_rig(rig, frequency)
@@ -107,11 +107,13 @@ def bifurcation_curve(
     parameters = (names[0], names[1])
     if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
         raise InputError(
-            "start: this is not one bifurcation; data.isel(bifurcation=i) of a branch is accepted"
+            "start: this is not a single bifurcation; data.isel(bifurcation=i) of a branch is "
+            "accepted"
         )
     if start.attrs.get("parameter") != parameters[0].replace("-", "_"):
         raise InputError(
-            f"parameters: {parameters[0]!r} is not what the start was found along; "
+            f"parameters: {parameters[0]!r} is not the parameter along which the start was "
+            "computed; "
             f"{start.attrs.get('parameter')!r} is accepted first"
         )
     most_points = whole(most_points, "most_points")
@@ -130,13 +132,13 @@ def bifurcation_curve(
     ]
     if not ends[1][0] <= over.value <= ends[1][1]:
         raise InputError(
-            f"spans[1]: {ends[1][0]:g} to {ends[1][1]:g} leaves out the rig's {parameters[1]}, "
-            f"{over.value:g}; a range that holds it is accepted"
+            f"spans[1]: {ends[1][0]:g} to {ends[1][1]:g} does not contain the rig's "
+            f"{parameters[1]}, {over.value:g}; a range that contains it is accepted"
         )
     if kind == BREAKING and not over.symmetric:
         raise InputError(
-            f"parameters: {parameters[1]!r} leaves no symmetry to break; one that changes both "
-            "sides alike, such as 'gap', is accepted"
+            f"parameters: {parameters[1]!r} destroys the symmetry that the bifurcation breaks; a "
+            "parameter that changes both sides equally, such as 'gap', is accepted"
         )
     system, y = _start(over, kind, start, ends)
     first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))

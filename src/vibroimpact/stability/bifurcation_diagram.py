@@ -1,4 +1,4 @@
-"""The bifurcation diagram by brute force: where motions settle, over any parameter."""
+"""Bifurcation diagrams by brute force: the steady motions over any parameter."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _Array = NDArray[np.float64]
 CREATED_BY = "vibroimpact.bifurcation_diagram"
 DIRECTIONS = ("up", "down")
 _BLOCK = 32
-"""Values that one thread holds at a time where none is carried on to the next."""
+"""Number of values per task, if motions are not continued to the next value."""
 
 
 def bifurcation_diagram(
@@ -71,67 +71,70 @@ def bifurcation_diagram(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Hold one value of a parameter after the other, and look at what each motion settles on.
+    """Compute a bifurcation diagram: the steady motions at a series of values of a parameter.
 
-    It shows attractors only, periodic or not, as far as the starts lead to them; `branch` follows
-    orbits whether stable or not.
+    It shows attractors only, periodic or not, to which the initial states lead. `branch` follows
+    both stable and unstable orbits.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     parameter
-        What is varied, as of `branch`.
+        Name of the parameter that is varied, as in `branch`.
     span
         Lowest and highest value of the parameter, in SI units or as text.
     steps
-        Number of values, both ends included.
+        Number of values, including both ends.
     frequency
-        Forcing frequency (Hz), where another parameter is varied. Default: that of the rig.
+        Forcing frequency (Hz), if another parameter is varied. Default: that of the rig.
     directions
-        ``"up"``, ``"down"`` or both: from rest at the first value, each of the others begins
-        where the one before has ended.
+        ``"up"``, ``"down"`` or both: the first value starts from rest, each other value from the
+        final state of the previous one.
     starts
-        States by name, from each of which every value begins.
+        Further initial states by name; every value is also started from each of them.
     random
-        Number of additional random starts, the same at every value. Displacements and velocities
-        reach 1.5 times the largest displacement of the other motions, or the widest gap.
+        Number of additional random initial states, the same at every value. Displacements and
+        velocities reach 1.5 times the largest displacement of the other motions, or the widest
+        gap.
     seed
-        Random seed. The same seed gives the same starts.
+        Random seed. The same seed gives the same initial states.
     section
-        ``"stroboscopic"``, once a forcing cycle; or ``"impacts"``, as each contact begins.
+        ``"stroboscopic"``, once per forcing cycle; or ``"impacts"``, at the start of each
+        contact.
     log
-        Space the values evenly on a logarithmic axis.
+        Whether the values are spaced evenly on a logarithmic axis.
     points
-        Forcing cycles whose section is kept of a motion that does not settle.
+        Number of forcing cycles whose section is kept for a motion that does not settle.
     exponent_cycles
-        Forcing cycles over which the growth of disturbances is averaged of such a motion.
+        Number of forcing cycles over which the growth of disturbances of such a motion is
+        averaged.
     tolerance, max_cycles, max_events
         As in `sweeps`.
     threads
-        How many starts or blocks of values run at once; None for one a processor. No result
-        depends on it.
+        Number of threads (default: one per processor). It does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster, as of `scenario_map`. No result depends
-        on it.
+        ``"threads"``, ``"processes"``, or a dask cluster, as in `scenario_map`. It does not
+        affect the result.
     progress
-        Called from the calling thread with the holds done and all.
+        Function that is called in the calling thread with the number of holds done and their
+        total.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``start``, the parameter and ``section_point``. Of a stroboscopic section
-        ``section_displacement``, ``section_velocity`` and the bumpers' deformations, of one at
-        impacts ``contact_side``, ``contact_start_phase`` and ``contact_start_velocity``: of a
-        periodic motion the points of one period, the rest is NaN. ``motion`` and ``period`` name
-        it, ``exponents`` (1/s) are its two largest Lyapunov exponents, with
-        ``exponents_uncertainty``; extremes and forces are as of `sweep`, and ``section`` is the
-        state at the end of each hold, from which `branch` goes on.
+        Dims ``start``, the parameter and ``section_point``. A stroboscopic section has
+        ``section_displacement``, ``section_velocity`` and the bumpers' deformations; a section
+        at impacts has ``contact_side``, ``contact_start_phase`` and ``contact_start_velocity``.
+        For a periodic motion it has the points of one period, and the rest is NaN. ``motion``
+        and ``period`` classify the motion; ``exponents`` (1/s) are its two largest Lyapunov
+        exponents, with ``exponents_uncertainty``. Extremes and forces are as in `sweep`, and
+        ``section`` is the state at the end of each hold, from which `branch` can start.
 
     Raises
     ------
     InputError
-        If a value cannot be used.
+        If a value is invalid.
     """
     check_progress(progress)
     rig = from_lowest(as_rig(rig, frequency), parameter, span)
@@ -140,7 +143,9 @@ def bifurcation_diagram(
     ends = read_span(varied, span)
     log = check_flag(log, "log")
     if log and ends[0] <= 0.0:
-        raise InputError(f"span[0]: {ends[0]:g}; of a logarithmic axis a value above 0 is accepted")
+        raise InputError(
+            f"span[0]: {ends[0]:g}; for a logarithmic axis a value above 0 is accepted"
+        )
     count = whole(steps, "steps", 2, MOST_LISTED)
     values: _Array = np.geomspace(*ends, count) if log else np.linspace(*ends, count)
     values[0], values[-1] = ends
@@ -214,11 +219,11 @@ def bifurcation_diagram(
 
 
 class _Part(NamedTuple):
-    """Values that are held one after the other."""
+    """Values that one task computes in sequence."""
 
     name: str
     start: _Array | None
-    """From which every value begins; None where each goes on from the one before."""
+    """Initial state of every value; None if each value starts from the previous one."""
     values: slice
     down: bool = False
 
@@ -226,7 +231,7 @@ class _Part(NamedTuple):
 def _ways(
     directions: Sequence[str], starts: Mapping[str, Any] | None, random: int, rig: Oscillator
 ) -> dict[str, _Array | None]:
-    """Where motions begin: None where they are carried on."""
+    """Return the initial states: None for directions, in which motions are continued."""
     given = (directions,) if isinstance(directions, str) else check_list(directions, "directions")
     for direction in given:
         check_name(direction, DIRECTIONS, "directions")
@@ -235,13 +240,15 @@ def _ways(
         if name in DIRECTIONS:
             raise InputError(f"starts: {name!r} is a direction; another name is accepted")
     if not (given or named or random):
-        raise InputError("directions: none, and no starts; a direction or a start is accepted")
+        raise InputError(
+            "directions: empty, and no starts; at least one direction or start is accepted"
+        )
     ways: dict[str, _Array | None] = dict.fromkeys(given)
     return ways | {str(name): engine_state(rig, as_state(one)) for name, one in named.items()}
 
 
 def _parts(ways: Mapping[str, _Array | None], count: int) -> list[_Part]:
-    """The values of each way: at once where they are carried on, in blocks where they are not."""
+    """Split the values into tasks: one per direction, and blocks for each initial state."""
     blocks = [slice(i, i + _BLOCK) for i in range(0, count, _BLOCK)]
     return [
         _Part(name, start, values, down=start is None and name == "down")
@@ -258,7 +265,7 @@ def _dataset(
     section: Kind,
     phase: float,
 ) -> xr.Dataset:
-    """With names; the points of each value are filled up with NaN."""
+    """Return a dataset with names; the points of each value are padded with NaN."""
     seen = list(itertools.chain.from_iterable(found.values()))
     shape, dims = (len(found), len(values)), ("start", name)
     most = max((len(one.points) for one in seen), default=0)

@@ -1,4 +1,4 @@
-"""Branches of periodic orbits along a parameter, stable or not, with their bifurcations."""
+"""Branches of stable and unstable periodic orbits over a parameter, with their bifurcations."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from vibroimpact.stability.parameter_family import Family, family
 from vibroimpact.tasks.threads import Progress, counted
 
 _GROWN = 3.0
-"""Size over that of the first orbit from which a motion that still grows is reported as such."""
+"""Growth relative to the first orbit from which a motion is reported as still growing."""
 
 
 def branch(
@@ -37,54 +37,56 @@ def branch(
     most_points: int = 5000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Follow a branch of periodic orbits in both directions from one of its orbits.
+    """Continue a branch of periodic orbits in both directions from one of its orbits.
 
-    Pseudo-arclength continuation with the exact derivative of the map from section to section;
-    it goes round folds and through changes of the contacts. A motion that is its own mirror image
-    is followed as such.
+    The method is pseudo-arclength continuation with the exact derivative of the map from section to
+    section. It continues around folds and through changes of the contact sequence. A motion that is
+    its own mirror image is continued as a symmetric one.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     start
-        A state near that orbit, at the excitation's phase; None for where the motion from rest
-        settles.
+        A state near the first orbit, at the phase of the excitation. Default: the steady motion
+        reached from rest.
     frequency
-        Forcing frequency of the first orbit (Hz). Default: that of the rig; where it is open and
-        the frequency is varied, the lowest of the span.
+        Forcing frequency of the first orbit (Hz). Default: that of the rig; if it is open and the
+        frequency is varied, the lowest of the span.
     parameter
-        What is varied: "frequency", "amplitude", "force" (constant); "gap", "bumper_stiffness",
-        "bumper_damping" or "restitution" of both sides, "right_gap", "left_gap",
-        "right_stiffness" and so on of one; "stiffness", "damping" and whatever other number the
-        isolator has, such as "yield_force"; what other numbers the stops have, such as
-        "dissipation", "bumper_exponent" or "bumper_mass"; "proportional_stiffness" and
-        "stiffness_ratio" (λ) of the bumpers at a fixed C_j/K_j, "stiffness_at_restitution" at a
-        fixed restitution, "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
+        Name of the parameter that is varied: "frequency", "amplitude", "force" (constant); "gap",
+        "bumper_stiffness", "bumper_damping" or "restitution" of both sides, "right_gap", "
+        ""left_gap",
+        "right_stiffness" and so on for one side; "stiffness", "damping" and any other number of the
+        isolator, such as "yield_force"; other numbers of the stops, such as "dissipation",
+        "bumper_exponent" or "bumper_mass"; "proportional_stiffness" and "stiffness_ratio" (λ) of
+        the bumpers at a fixed C_j/K_j, "stiffness_at_restitution" at a fixed restitution,
+        "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
     span
         Lowest and highest value of the parameter, in SI units or as text.
     period
-        Of the orbits, in forcing cycles; None for that of the motion from rest, or 1 with a start.
+        Period of the orbits (forcing cycles). Default: that of the motion from rest, or 1 with a
+        start.
     most_points
-        Orbits in each direction after which it is given up.
+        Largest number of orbits in each direction.
     progress
-        Called with the number of orbits so far as the branch is followed, and with None until
-        it has been.
+        Function that is called with the number of orbits so far and None, since the total is
+        unknown until the end.
 
     Returns
     -------
     xarray.Dataset
         Dim ``point`` along the branch: the parameter by its name, ``arclength``, extremes,
-        excursions, ``eta_d`` and ``eta_a`` (over the largest free flight of the isolator at any
+        excursions, ``eta_d`` and ``eta_a`` (divided by the largest excursion without stops at any
         frequency), ``eccentricity``, impacts per cycle, ``multiplier_real`` and ``_imag`` (dim
         ``multiplier``, the largest first), ``stable`` and ``section``. Dim ``bifurcation``: kind,
         parameter, state and multipliers of each. The attributes ``ended_low`` and ``ended_high``
-        say why the branch ends at its beginning and at its end.
+        give the reasons why the branch ends on either side.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or Newton's method finds no orbit near the start.
+        If a value is invalid, or Newton's method finds no orbit near the start.
     """
     check_progress(progress)
     rig = from_lowest(as_rig(rig, frequency), parameter, span)
@@ -102,9 +104,9 @@ def turning_points(
     span: tuple[float, float],
     most_points: int = 5000,
 ) -> list[float]:
-    """Frequencies (Hz) at which a branch of orbits of one cycle turns back.
+    """Return the frequencies (Hz) at which a branch of period-1 orbits turns back.
 
-    Where nothing else is asked of it: the arguments are those of `branch`.
+    The arguments are those of `branch`.
     """
     _, span, first = _first_orbit(rig, start, "frequency", span, 1)
     path = InContact if bounded_by_flight(first) else Branch
@@ -123,7 +125,7 @@ def _first_orbit(
     span: tuple[float | str, float | str],
     period: int | None,
 ) -> tuple[Family, tuple[float, float], Orbit]:
-    """What is varied, over which range, and the first orbit."""
+    """Return the varied parameter, its range, and the first orbit."""
     fam = family(Rig(rig.oscillator, rig.harmonic), parameter)
     ends = read_span(fam.parameter, span)
     if not ends[0] <= fam.value <= ends[1]:
@@ -139,7 +141,7 @@ def _first_orbit(
 def follow_both_ways(
     first: Orbit, span: tuple[float, float], most_points: int, progress: Progress | None = None
 ) -> Followed:
-    """Follow a branch both ways from an orbit, and find its bifurcations."""
+    """Continue a branch in both directions from an orbit, and locate its bifurcations."""
     stations, ended, closed = _both_ways(first, span, most_points, progress)
     return Followed(stations, list(bifurcations.find(stations)), ended, closed)
 
@@ -151,7 +153,7 @@ def _both_ways(
     progress: Progress | None = None,
     path: type[Branch] = Branch,
 ) -> tuple[list[Station], tuple[str, str], bool]:
-    """The orbits of a branch in its order, why it ends on either side, and whether it is closed."""
+    """Return the orbits of a branch in order, why it ends, and whether it is closed."""
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
         start = Station(first, first.tangent(sense * HELD), 0.0, 0)
@@ -166,7 +168,7 @@ def _both_ways(
 
 
 def _why(trace: arclength.Trace[Station]) -> str:
-    """Why a branch ends; where its points were used up, whether its motion still grows."""
+    """Return why a branch ends, and after the last point whether its motion still grows."""
     if trace.is_complete:
         return trace.ended
     chosen = (trace.points[0], trace.points[len(trace.points) // 2], trace.points[-1])

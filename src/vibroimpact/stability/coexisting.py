@@ -1,4 +1,4 @@
-"""Motions that coexist at one frequency, found from several starts."""
+"""Coexisting steady motions at one frequency, found from several initial states."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _RANDOM_SIZE = 1.5
 
 
 class _Kept(NamedTuple):
-    """A motion, and the starts that led to it or to its mirror image."""
+    """A motion, and the initial states that led to it or to its mirror image."""
 
     found: Settled
     motion: xr.Dataset
@@ -56,12 +56,12 @@ def coexisting_motions(
     max_events: int = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Find the steady motions at one frequency from several starts.
+    """Find the coexisting steady motions at one frequency from several initial states.
 
-    The starts are rest, where a forward sweep arrives from below and a backward sweep from
-    above, the given ones, random ones, and, if the rig is symmetric, the mirror image of what
-    these lead to. Motions that differ only by whole forcing cycles are one, and so are a motion
-    and its mirror image.
+    The initial states are rest, the final states of a forward sweep from below and of a backward
+    sweep from above, ``starts``, and random states. If the rig is symmetric, the mirror images of
+    the motions are used as well. Motions that differ only by whole forcing cycles count as one, and
+    so do a motion and its mirror image.
 
     Parameters
     ----------
@@ -70,36 +70,36 @@ def coexisting_motions(
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     frequencies
-        Frequencies of the sweeps in Hz, rising; those below the excitation's are held going up,
-        those above going down. None for steps of a hundredth of the natural frequency from 0.3
-        to 6 times it; of the excitation's own where the isolator has no stiffness.
+        Frequencies of the sweeps in Hz, rising. Those below the excitation frequency are swept
+        upwards, those above downwards. Default: steps of a hundredth of the natural frequency from
+        0.3 to 6 times it; of the excitation frequency if the isolator has no stiffness.
     starts
-        Further starts by name.
+        Further initial states by name.
     random
-        Number of random starts, with displacements and velocities up to 1.5 times the largest that
-        the other starts lead to.
+        Number of random initial states, with displacements and velocities up to 1.5 times the
+        largest of the motions that the other initial states lead to.
     seed
-        Random seed. The same seed gives the same starts.
+        Random seed. The same seed gives the same initial states.
     window, max_cycles, exponent_cycles, max_events
         As in `steady`.
     progress
-        Called after each start with the number of starts followed and their total, which is not
-        known (None) while mirror images may be added.
+        Function that is called after each initial state with the number done and the total. The
+        total is None while mirror images may be added.
 
     Returns
     -------
     xarray.Dataset
-        Along ``attractor``, the motion with the largest excursion first: the numbers of `steady`
+        Dim ``attractor``, the motion with the largest excursion first: the numbers of `steady`
         (``motion``, ``period``, extremes, impacts, exponents, energies, …) and ``evidence``.
-        ``starts`` names the starts that led to a motion, ``mirrored_starts`` those that led to
-        its mirror image; ``mirror_pair`` tells whether that is another motion. Motions that were
-        given up stand last, with their ``status``. ``final_state`` continues a motion: its
-        history is ``steady(rig, start=found.isel(attractor=0))``.
+        ``starts`` names the initial states that led to a motion, ``mirrored_starts`` those that led
+        to its mirror image; ``mirror_pair`` states whether the mirror image is a different motion.
+        Motions that were given up come last, with their ``status``. ``final_state`` continues a
+        motion; its history is ``steady(rig, start=found.isel(attractor=0))``.
 
     Raises
     ------
     InputError
-        If a value cannot be used.
+        If a value is invalid.
     """
     rig = as_rig(rig, frequency)
     motions = find_motions(
@@ -123,7 +123,7 @@ def coexisting_motions(
 
 
 def _without_history(motion: xr.Dataset) -> xr.Dataset:
-    """What is one number, word or state of a motion."""
+    """Return the variables that are one number, word or state of a motion."""
     kept = [
         name
         for name, one in motion.items()
@@ -149,10 +149,10 @@ def find_motions(
     max_events: int = 10_000,
     progress: Progress | None = None,
 ) -> list[xr.Dataset]:
-    """Return the motions that coexist as datasets of `steady`, with their histories.
+    """Find the coexisting motions as datasets of `steady`, with their histories.
 
-    The attributes ``starts`` and ``mirrored_starts`` of each name the starts that led to it and
-    to its mirror image. Parameters and errors are those of `coexisting_motions`.
+    The attributes ``starts`` and ``mirrored_starts`` of each name the initial states that led to it
+    and to its mirror image. Parameters and errors are those of `coexisting_motions`.
     """
     oscillator, excitation = rig.oscillator, rig.harmonic
     random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
@@ -212,7 +212,7 @@ def find_motions(
 
 
 def _wall(stop: Stop | None) -> float:
-    """How far the mass may go on the side of a stop (m)."""
+    """Return the largest displacement on the side of a stop (m)."""
     return stop.gap if isinstance(stop, RigidStop) else math.inf
 
 
@@ -230,7 +230,7 @@ def _labelled(one: _Kept, max_events: int) -> xr.Dataset:
 
 
 def _at_phase(found: Settled, excitation: Repeated, max_events: int) -> Settled:
-    """The motion at the section of the given excitation, wherever its start had its own."""
+    """Return the motion at the section of the excitation, for any phase of its initial state."""
     ahead = ((excitation.phase - found.excitation.phase) / (2.0 * math.pi)) % 1.0
     there = found.engine.at_phase(excitation.phase)
     if ahead == 0.0:
@@ -242,7 +242,7 @@ def _at_phase(found: Settled, excitation: Repeated, max_events: int) -> Settled:
 
 
 def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int, int, int]) -> None:
-    """Add a motion to those that are known, or its start to the one that it is."""
+    """Add a new motion, or add its initial state to a known motion."""
     for one in kept:
         if one.found.period != found.period or one.found.status is not found.status:
             continue

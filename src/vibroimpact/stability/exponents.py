@@ -1,4 +1,4 @@
-"""Lyapunov exponents from the exact tangent flow, over many rigs and frequencies at once."""
+"""Lyapunov exponents from the exact tangent flow, for many rigs and frequencies."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import DONE, Progress, Tally, each
 
 DISCARD = 100
-"""Cycles in which the disturbances turn into their directions."""
+"""Cycles in which the disturbances align with their directions."""
 
 
 class _Grown(NamedTuple):
-    """What one motion shows, per second."""
+    """Results of one motion, per second."""
 
     exponents: NDArray[np.float64]
     uncertainty: NDArray[np.float64]
@@ -58,12 +58,11 @@ def lyapunov_exponents(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Find the two largest Lyapunov exponents of many motions, in parallel over threads.
+    """Compute the two largest Lyapunov exponents of many motions in parallel.
 
-    Disturbances go through each phase by its closed form and through contacts and detachments
-    by their saltation matrices (docs/theory.md, section 6). Nothing waits for a motion to
-    settle: of a motion that does, the exponents are those of its orbit only if ``transient`` is
-    long enough.
+    Disturbances follow the closed form of each phase, and saltation matrices at contacts and
+    detachments (docs/theory.md, section 6). The computation does not wait until a motion settles:
+    if it settles, the exponents are those of its orbit only if ``transient`` is long enough.
 
     Parameters
     ----------
@@ -73,39 +72,40 @@ def lyapunov_exponents(
     frequencies
         Excitation frequencies in Hz, rising.
     cycles
-        Forcing cycles over which the growth is averaged.
+        Number of forcing cycles over which the growth is averaged.
     transient
-        Forcing cycles before that; another 100 are used to turn the disturbances.
+        Number of forcing cycles before the average; another 100 are used to align the disturbances.
     start
-        Where every motion starts; None is rest.
+        Initial state of every motion. Default: rest.
     vary
-        Values of parameters by name, as of `branch`, all combined: ``{"gap": [5e-3, 6e-3]}``.
+        Values of parameters by name, as in `branch`, in all combinations: ``{"gap": [5e-3,
+        6e-3]}``.
     phase
         Phase φ of the base acceleration A sin(ωt + φ) at the start, in rad.
     max_events
-        Contacts and detachments in one forcing cycle at which a motion is given up.
+        Number of contacts and detachments in one forcing cycle at which a motion is given up.
     threads
-        How many motions run at once; None for one a processor. No result depends on it.
+        Number of threads (default: one per processor). It does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster, as of `scenario_map`. No result depends
-        on it.
+        ``"threads"``, ``"processes"``, or a dask cluster, as in `scenario_map`. It does not affect
+        the result.
     progress
-        Called from the calling thread with the forcing cycles done and all, those of ``transient``
-        and of the directions included.
+        Function that is called in the calling thread with the number of forcing cycles done and
+        their total, including those of ``transient`` and of the alignment.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``rig``, ``frequency``, one for each parameter that is varied, and ``exponent`` (the
+        Dims ``rig``, ``frequency``, one per parameter that is varied, and ``exponent`` (the
         largest first): ``exponents`` in 1/s,
         their ``exponents_uncertainty`` (of the mean, from 32 blocks of cycles; infinite with
         fewer cycles), ``effective_damping``, ``exponents_cycles``, ``status``, and ``settling``:
-        whether the motion still came closer to a periodic one, of which a warning tells.
+        whether the motion was still converging to a periodic one, for which a warning is issued.
 
     Raises
     ------
     InputError
-        If a value cannot be used.
+        If a value is invalid.
     """
     check_progress(progress)
     named = periodic_rigs(rigs)
@@ -203,9 +203,9 @@ def lyapunov_exponents(
     data = describe(data, "vibroimpact.lyapunov_exponents", parameters)
     if count := sum(f.settling for f in found):
         warnings.warn(
-            f"{count} of {len(found)} motions still approach a periodic one after "
-            f"{transient} + {DISCARD} cycles: their exponents are not those of its orbit; a larger "
-            "transient is accepted; `settling` tells which",
+            f"{count} of {len(found)} motions were still converging to a periodic one after "
+            f"{transient} + {DISCARD} cycles, so their exponents are not those of its orbit; use "
+            "a larger transient; `settling` marks these motions",
             RuntimeWarning,
             stacklevel=2,
         )
@@ -221,7 +221,7 @@ def _rig_at(
     phase: float,
     values: Iterable[tuple[Varied, int]],
 ) -> Rig:
-    """A rig and its forcing at one of the frequencies and a value of each parameter."""
+    """Return the rig at one of the frequencies and one value of each parameter."""
     numbers = [(PARAMETERS[one.name], float(one.values[k])) for one, k in values]
     here = rig.periodic.replace(frequency=float(grid[i]), phase=phase)
     moved = vary_all(Rig(rig.oscillator, here), numbers)

@@ -1,4 +1,4 @@
-"""One periodic orbit, stable or not, by Newton's method."""
+"""One stable or unstable periodic orbit by Newton's method."""
 
 from __future__ import annotations
 
@@ -24,20 +24,21 @@ def orbit(
     frequency: float | str | None = None,
     samples: int = 256,
 ) -> xr.Dataset:
-    """Find the periodic orbit near a state, whether it is stable or not.
+    """Compute the periodic orbit near a state, stable or unstable.
 
-    Newton's method on the stroboscopic map over the period, with its exact derivative.
+    The method is Newton's, applied to the stroboscopic map over the period with its exact
+    derivative.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     start
-        A state near the orbit's, at the excitation's phase; None for where the motion from rest
-        settles.
+        A state near the orbit, at the phase of the excitation. Default: the steady motion reached
+        from rest.
     period
-        In forcing cycles; None for that of the motion from rest, or 1 with a start. A warning says
-        if what is found without a start is not the motion from rest.
+        Period in forcing cycles. Default: that of the motion from rest, or 1 with a start. Without
+        a start, a warning is issued if the orbit is not the motion reached from rest.
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     samples
@@ -46,14 +47,15 @@ def orbit(
     Returns
     -------
     xarray.Dataset
-        What `steady` gives of the orbit, and ``monodromy`` (the derivative of u, u̇, u_R, u_L
-        after a period), ``multiplier_real`` and ``_imag``, ``residual`` (of the map, over the
-        motion's size); the attribute ``contacts`` is the sequence of contacts, R or L.
+        The variables of `steady` for the orbit, and ``monodromy`` (the derivative of u, u̇, u_R,
+        u_L after one period with respect to their initial values), ``multiplier_real`` and
+        ``_imag``, ``residual`` (of the map, divided by the size of the motion); the attribute
+        ``contacts`` is the sequence of contacts, R or L.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or Newton's method finds no orbit near the start.
+        If a value is invalid, or Newton's method finds no orbit near the start.
     """
     rig = as_rig(rig, frequency)
     rig.check_frequency()

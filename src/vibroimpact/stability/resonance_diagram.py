@@ -1,4 +1,4 @@
-"""The full resonance diagram: every branch of orbits that sweeps and bifurcations lead to."""
+"""Full resonance diagrams: all branches of orbits that sweeps and bifurcations lead to."""
 
 from __future__ import annotations
 
@@ -48,12 +48,13 @@ def resonance_diagram(
     basins: xr.Dataset | Sequence[xr.Dataset] = (),
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Follow all branches of periodic orbits over a range of the frequency or another parameter.
+    """Compute all branches of periodic orbits over a range of the frequency or another parameter.
 
-    Branches are begun from where motions settle that are carried on up and down the range, from
-    free flight, and from every symmetry breaking and period doubling that is found on the way. A
-    branch that none of these leads to is isolated: ``random`` starts at each value find it where
-    some of its orbits are stable, and the more surely `basins`, however small theirs are.
+    Branches start from the steady motions of sweeps up and down the range, from the motion
+    without contact, and from every symmetry breaking and period doubling on these branches. A
+    branch that none of these leads to is isolated. ``random`` initial states at each value find
+    it if some of its orbits are stable; `basins` find it more reliably, even if its basins are
+    small.
 
     Parameters
     ----------
@@ -62,38 +63,39 @@ def resonance_diagram(
     span
         Lowest and highest value of the parameter, in SI units or as text.
     parameter
-        What is varied, as of `branch`.
+        Name of the parameter that is varied, as in `branch`.
     frequency
-        Forcing frequency (Hz), where another parameter is varied. Default: that of the rig.
+        Forcing frequency (Hz), if another parameter is varied. Default: that of the rig.
     phase
-        Forcing phase of the sections, rad.
+        Phase of the forcing at the sections (rad).
     longest
-        Longest period of the orbits that are followed, in forcing cycles.
+        Longest period of the orbits (forcing cycles).
     most_branches, most_points
-        Branches, and orbits in each direction of one, after which it is given up.
+        Largest number of branches, and of orbits in each direction of a branch.
     starts
         Number of values of the parameter at which motions are started.
     random
-        Number of random starts at each value of the parameter at which motions are started (40
-        values by default). They find isolated
-        branches of stable orbits.
+        Number of random initial states at each value of the parameter at which motions are
+        started (40 values by default). They find isolated branches of stable orbits.
     seed
-        Random seed. The same seed gives the same starts.
+        Random seed. The same seed gives the same initial states.
     basins
-        Datasets of `basins` at values of the parameter, whose motions are followed as well.
+        Datasets of `basins` at values of the parameter, whose motions are continued as well.
+        Default: none.
     progress
-        Called with the branches done and those known.
+        Function that is called with the number of branches done and of branches known so far.
 
     Returns
     -------
     xarray.Dataset
-        As `branch`, with the number of the ``branch`` of each point. Of a mirrored pair of
-        branches one is followed. The attribute ``complete`` is 0 if ``most_branches`` was reached.
+        As in `branch`, with the number of the ``branch`` of each point. Only one of a mirrored
+        pair of branches is computed. The attribute ``complete`` is 0 if ``most_branches`` was
+        reached.
 
     Raises
     ------
     InputError
-        If a value cannot be used.
+        If a value is invalid.
     """
     check_progress(progress)
     rig = as_rig(rig, frequency)
@@ -102,8 +104,8 @@ def resonance_diagram(
     if registered(parameter).name == "frequency":
         if frequency is not None:
             raise InputError(
-                f"frequency: {shown(frequency)}, but it is varied; it is accepted where another "
-                "parameter is"
+                f"frequency: {shown(frequency)}, but the frequency is the varied parameter; a "
+                "value is accepted only if another parameter is varied"
             )
         rig = rig.at(read_span(PARAMETERS["frequency"], span)[1])
     fam = family(Rig(rig.oscillator, rig.harmonic.replace(phase=phase)), parameter)
@@ -157,7 +159,7 @@ def resonance_diagram(
 
 
 def _used(origin: Bifurcation | None, followed: list[Followed], span: tuple[float, float]) -> bool:
-    """Whether a branch that was followed has already turned in a bifurcation."""
+    """Return whether a computed branch has already turned in a bifurcation."""
     if origin is None:
         return False
     return any(
@@ -170,7 +172,7 @@ def _used(origin: Bifurcation | None, followed: list[Followed], span: tuple[floa
 
 
 def on_branch(orbit: Orbit, one: Followed) -> bool:
-    """Whether an orbit lies on a branch, up to whole cycles and the mirror."""
+    """Return whether an orbit lies on a branch, up to whole cycles and its mirror image."""
     section = one.stations[0].orbit.section
     if section.period != orbit.section.period or section.mirror != orbit.section.mirror:
         return False

@@ -1,4 +1,4 @@
-"""Steady motion: what a rig settles on, measured exactly and named."""
+"""Steady motions: measured exactly and classified."""
 
 from __future__ import annotations
 
@@ -43,18 +43,19 @@ from vibroimpact.tasks.threads import Progress
 _Array = NDArray[np.float64]
 
 ANTISYMMETRIC = 1e-8
-"""Distance from the own mirror image, over the motion's size, below which they are one."""
+"""Distance of a motion from its mirror image, divided by its size, below which both are the
+same."""
 APPROACHED = 0.05
-"""Distance, over the motion's size, from the orbit that it settles on slowly."""
+"""Distance from the orbit to which a motion slowly converges, divided by its size."""
 NEUTRAL = 1e-6
 """Logarithm of the largest multiplier below which an orbit counts as neither stable nor unstable:
-from what is left of a transient nothing smaller can be told."""
+the rest of a transient hides smaller values."""
 _UNDECIDED = (
-    "its largest multiplier is 1 as far as can be told: it is not isolated, or is approached more "
-    "slowly than exponentially, so that it may not have settled"
+    "its largest multiplier is 1 within the accuracy: the orbit is not isolated, or it is "
+    "approached more slowly than exponentially, so the motion may not have settled"
 )
 MOST_CYCLES = 5_000_000
-"""Cycles over which exponents are averaged: about 0.3 GB."""
+"""Largest number of cycles over which exponents are averaged: about 0.3 GB."""
 
 
 def steady(
@@ -70,43 +71,44 @@ def steady(
     max_events: int = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Follow a motion until it is steady; record, measure and name what it has become.
+    """Simulate a rig until its motion is steady; record, measure and classify the motion.
 
     Parameters
     ----------
     rig
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
     start
-        Where the motion starts; None is rest.
+        Initial state. Default: rest.
     samples
         Samples per forcing cycle, at least 1. They affect no other result.
     frequency
         Forcing frequency (Hz). Default: that of the rig.
     window
-        Number of forcing cycles that are recorded of a motion that does not settle.
+        Number of recorded forcing cycles of a motion that does not settle.
     tolerance, max_cycles, max_events
         As in `sweeps`.
     exponent_cycles
-        Forcing cycles over which the growth of disturbances is averaged where it decides what
-        kind of motion it is; of a periodic motion the exponents follow from one period.
+        Number of forcing cycles over which the growth of disturbances is averaged, if it is needed
+        to classify the motion. The exponents of a periodic motion follow from one period.
     progress
-        Called from the calling thread with the cycles done and the most there are: first of those
-        until the motion settles, then of those over which exponents are averaged.
+        Function that is called in the calling thread with the number of cycles done and the largest
+        possible number: first until the motion settles, then for the average of the exponents.
 
     Returns
     -------
     xarray.Dataset
-        What `simulate` gives, over one period or over the window; the `contacts` of it; and
+        The variables of `simulate`, over one period or over the window; those of `contacts`; and
         ``motion`` ("periodic", "quasi-periodic", "chaotic" or "undecided") with ``period``,
         ``exponents``, ``exponents_uncertainty`` and ``exponents_cycles``, whether it is
         ``stable`` and ``antisymmetric``, the exact extremes, ``eccentricity``, impacts and
-        energies per forcing cycle. The attribute ``evidence`` says why it is called so. If the
-        motion met the event limit, the record ends there, and ``status`` says so.
+        energies per forcing cycle. The attribute ``evidence`` gives the reason for the
+        classification. If the motion reached the event limit, the record ends there, and ``status``
+        reports it.
 
     Raises
     ------
     InputError
-        If a value cannot be used, or an undamped mass that no bumper stops is at resonance.
+        If a value is invalid, or an undamped mass without stops is at resonance.
     """
     rig = as_rig(rig, frequency)
     oscillator = rig.oscillator
@@ -149,7 +151,7 @@ def describe_motion(
     max_events: int,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Name a motion, record it and measure it."""
+    """Classify a motion, record it and measure it."""
     used, slowly = found.cycles, ""
     if not found.period:
         state = found.state.copy()
@@ -162,7 +164,7 @@ def describe_motion(
             return _given_up(found._replace(status=status), samples, max_events)
         if kind.returns and (orbit := approached(found, kind.returns)) is not None:
             found = orbit._replace(cycles=used)
-            slowly = "; it settles slowly, and was found by Newton's method"
+            slowly = "; it settles slowly, and was computed by Newton's method"
     if found.period:
         kind, damping, cycles, status = judge_orbit(found, max_events)
         if status is not Status.DONE:
@@ -195,7 +197,7 @@ def describe_motion(
 
 
 def approached(found: Settled, period: int) -> Settled | None:
-    """The stable orbit that a motion settles on slowly, by Newton's method."""
+    """Compute the stable orbit to which a motion slowly converges, by Newton's method."""
     along = family(found.rig, "frequency")
     here = state_from(found.state, found.excitation.phase)
     try:
@@ -209,7 +211,7 @@ def approached(found: Settled, period: int) -> Settled | None:
 
 
 def _stable(kind: Judgement) -> int:
-    """1 or 0; -1 where the largest exponent is zero as far as can be told."""
+    """Return 1 or 0; -1 if the largest exponent is zero within its accuracy."""
     largest, spread = (float(one[0]) * kind.period for one in (kind.exponents, kind.uncertainty))
     return -1 if abs(largest) <= max(NEUTRAL, spread) else int(largest < 0.0)
 
@@ -227,9 +229,9 @@ def _record(
 
 
 def _mirror_distance(found: Settled, state: _Array, period: int, max_events: int) -> float:
-    """Distance of a periodic motion from its own mirror image half a period later.
+    """Return the distance of a periodic motion from its own mirror image half a period later.
 
-    Half a period must turn the forcing round, so that the period is an odd number of cycles.
+    The forcing must change its sign after half a period, so the period is an odd number of cycles.
     """
     if period % 2 == 0:
         return math.nan
@@ -240,7 +242,7 @@ def _mirror_distance(found: Settled, state: _Array, period: int, max_events: int
 
 
 def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:
-    """Add the scalars, the contact log, the exact extremes, and what follows from them."""
+    """Add the scalars, the contact log, the exact extremes, and quantities derived from them."""
     periodic = scalars["period"] > 0
     origin = Recorded(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
     every = cut(data, origin)
@@ -264,7 +266,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
 
 
 def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
-    """What a motion did in the cycle in which it met a limit, from the section before it."""
+    """Record a motion in the cycle in which it reached a limit, from the previous section."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
         data = _record(found, found.state, samples, 1, max_events)
@@ -272,7 +274,7 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
             data = _until_the_last_event(data, found, samples)
     if not data.sizes["time"]:
         told = found.status.advice
-        raise InputError(f"excitation: nothing of the motion could be followed: {told}")
+        raise InputError(f"excitation: the motion could not be simulated: {told}")
     warnings.warn(
         f"steady stopped in cycle {found.cycles}: {found.status.advice}",
         RuntimeWarning,
@@ -297,7 +299,7 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
 
 
 def _until_the_last_event(data: xr.Dataset, found: Settled, samples: int) -> xr.Dataset:
-    """The part of a cycle that was followed: up to its last event, or nothing but its start."""
+    """Return the simulated part of a cycle: up to its last event, or only its start."""
     length = 0.0
     if data.sizes["event"]:
         length = float(data["event_cycle_time"][-1]) * found.excitation.frequency

@@ -1,4 +1,4 @@
-"""The same tasks on a dask cluster; what a lost worker did is done again."""
+"""Run tasks on a dask cluster; the tasks of a lost worker are repeated."""
 
 from __future__ import annotations
 
@@ -15,21 +15,23 @@ from vibroimpact.tasks.threads import LostError, Progress, Tally
 _Item = TypeVar("_Item")
 _Found = TypeVar("_Found")
 
-_AWAY = "where: the cluster went away; the same call completes what it has in a store"
+_AWAY = (
+    "where: the connection to the cluster was lost; if a store is used, repeat the call to resume"
+)
 _ASKED = 1.0
-"""Seconds between two looks at whether there are workers, while nothing comes back."""
+"""Seconds between two checks for workers, while no result arrives."""
 _SOON, _LONGEST = 5.0, 300.0
-"""Seconds without any worker after which a line is printed, and after which it is an error."""
+"""Seconds without any worker after which a line is printed, and after which an error is raised."""
 
 
 class Cluster(NamedTuple):
-    """Where tasks are done in the place of threads."""
+    """A dask cluster that runs tasks instead of threads."""
 
     client: Any
     """A `distributed.Client`."""
 
     def width(self) -> int:
-        """How many tasks it does at once.
+        """Number of tasks that run at once.
 
         Raises
         ------
@@ -47,7 +49,7 @@ class Cluster(NamedTuple):
         total: int,
         progress: Progress | None,
     ) -> list[_Found]:
-        """As `threads.each`; the tasks and what they find travel."""
+        """Run tasks as `threads.each` does; tasks and results are sent over the network."""
         hands = _Hands(self)
         try:
             return dealt(hands, task, items, total, progress)
@@ -78,7 +80,7 @@ class _Hands:
         return [next(self.completed)]
 
     def _wait(self) -> None:
-        """Wait until something is done; not for ever where no worker is there to do it."""
+        """Wait until a task is done, but not forever if there is no worker."""
         client, done = self.cluster.client, self.completed
         asked = begin = time.monotonic()
         printed = False
@@ -94,7 +96,7 @@ class _Hands:
             elif now - begin > _LONGEST:
                 raise LostError(
                     f"where: the cluster has had no worker for {_LONGEST:g} s; a cluster with "
-                    "workers is accepted, and the same call completes what it has in a store"
+                    "workers is accepted; if a store is used, repeat the call to resume"
                 )
             elif now - begin > _SOON and not printed:
                 printed = True
@@ -108,4 +110,6 @@ class _Hands:
         try:
             return taken.result()
         except self.distributed.KilledWorker as killed:
-            raise LostError(f"where: the cluster's workers die of a task ({killed})") from killed
+            raise LostError(
+                f"where: a task kills the workers of the cluster ({killed})"
+            ) from killed

@@ -1,4 +1,4 @@
-"""Where many tasks are done: on threads, on processes, or on a dask cluster."""
+"""Choose where tasks run: on threads, on processes, or on a dask cluster."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ _MARKS = ("tcp://", "tls://", "ucx://", "ws://", "wss://", "inproc://")
 
 
 def placed(threads: int | None, where: Any = THREADS) -> Workers:
-    """Where tasks are done.
+    """Return where tasks run.
 
     Parameters
     ----------
     threads
-        How many threads or processes; None for one a processor.
+        Number of threads or processes (default: one per processor).
     where
         ``"threads"``, ``"processes"``, a `distributed.Client`, or a scheduler's address such as
         ``"tcp://10.0.0.1:8786"``.
@@ -35,7 +35,7 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
     Raises
     ------
     InputError
-        If there is no such cluster, or dask is not installed.
+        If the cluster does not exist, or dask is not installed.
     """
     if isinstance(where, str) and where in (THREADS, PROCESSES):
         number = None if threads is None else whole(threads, "threads")
@@ -43,12 +43,14 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
             return number
         if not may_start():
             raise InputError(
-                "where: 'processes', within a process that may not start others (a daemon, such "
-                "as a worker of a cluster); 'threads' is accepted there"
+                "where: 'processes' is not possible within a process that may not start others "
+                "(a daemon, such as a worker of a cluster); 'threads' is accepted there"
             )
         return Processes(number)
     if threads is not None:
-        raise InputError(f"threads: {threads}; on a cluster its workers say how many there are")
+        raise InputError(
+            f"threads: {threads}; a cluster sets this number by its workers; None is accepted"
+        )
     if importlib.util.find_spec("distributed") is None:
         raise InputError(
             f"where: {shown(where)} needs dask, which is not installed: "

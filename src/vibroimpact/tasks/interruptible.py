@@ -1,7 +1,7 @@
-"""A long computation in short calls of the engine, so that Ctrl-C ends it within a second.
+"""Split a long computation into short calls of the engine, so that Ctrl-C ends it within a second.
 
-While compiled code runs, Python notices no interrupt. A motion is therefore followed some cycles
-at a time; where it is cut changes no bit of it.
+While compiled code runs, Python does not notice an interrupt. A motion is therefore simulated some
+cycles at a time; the result does not depend on the splits.
 """
 
 from __future__ import annotations
@@ -11,22 +11,23 @@ import time
 from vibroimpact.tasks.threads import Progress, stop_if_unwanted
 
 _SHORT, _LONG = 0.1, 0.4
-"""A call that takes less or more than this (s) makes the next one twice or half as long."""
+"""Target duration of a call (s). If a call takes less or more, the next one is twice or half as
+long."""
 _VERY_SHORT, _MUCH_LONGER = 0.01, 8
 """A call that takes less than this (s) makes the next one so many times as long."""
 
 
 class Calls:
-    """How far each call goes, by how long the calls before it took.
+    """Length of each call, from the durations of earlier calls.
 
     Parameters
     ----------
     total
-        Steps in all, such as forcing cycles; the last one may be incomplete.
+        Total number of steps, such as forcing cycles; the last one may be incomplete.
     progress
-        Called between two calls with the steps done and all there are.
+        Function that is called between two calls with the number of steps done and their total.
     most
-        Steps of one call; None for as many as take a while.
+        Largest number of steps of one call. Default: as many as fit the target duration.
     """
 
     def __init__(
@@ -39,12 +40,12 @@ class Calls:
         self._begin = 0.0
 
     def end(self, at: int) -> float:
-        """The step at which the call that begins now at a step should end.
+        """Return the step at which a call that starts at `done` should end.
 
         Raises
         ------
         Stopped
-            If the task that this is a part of is not wanted any more.
+            If the task that this is a part of was cancelled.
         """
         stop_if_unwanted()
         now = time.monotonic()

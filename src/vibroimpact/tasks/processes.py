@@ -1,4 +1,4 @@
-"""The same tasks on processes of this machine, each with an interpreter of its own."""
+"""Run tasks on processes of this machine, each with its own interpreter."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ _Item = TypeVar("_Item")
 _Found = TypeVar("_Found")
 
 _IDLE = 10.0
-"""Seconds after which processes that have nothing to do end."""
+"""Seconds after which idle processes end."""
 _ORPHANED = 0.5
-"""Seconds between two checks of a process whether that which started it still lives."""
+"""Seconds between two checks of a process whether its parent still runs."""
 
 
 def may_start() -> bool:
-    """Whether this process may start others; a daemon may not."""
+    """Return whether this process may start others; a daemon may not."""
     return not multiprocessing.current_process().daemon
 
 
 def end_with(parent: int) -> None:
-    """End this process soon after its parent has ended, even if a signal killed that.
+    """End this process soon after its parent has ended, even if a signal killed the parent.
 
-    A process in the middle of a task would go on for as long as the task takes.
+    Otherwise a process would continue until the end of its task.
     """
 
     def watch() -> None:
@@ -62,13 +62,13 @@ class _Hands(NamedTuple):
 
 
 class Processes(NamedTuple):
-    """Where tasks are done in the place of threads."""
+    """Processes that run tasks instead of threads."""
 
     number: int | None
-    """How many; None for one a processor."""
+    """Number of processes; None for one per processor."""
 
     def width(self) -> int:
-        """How many tasks they do at once."""
+        """Number of tasks that run at once."""
         return self.number or available()
 
     def each(
@@ -78,7 +78,7 @@ class Processes(NamedTuple):
         total: int,
         progress: Progress | None,
     ) -> list[_Found]:
-        """As `threads.each`; the tasks and what they find travel."""
+        """Run tasks as `threads.each` does; tasks and results are sent between processes."""
         loky: Any = importlib.import_module("loky")
 
         # The same processes again, where they have not ended: starting takes a second.
@@ -94,8 +94,8 @@ class Processes(NamedTuple):
                 return dealt(_Hands(pool, self.width()), task, items, total, progress)
         except loky.process_executor.TerminatedWorkerError as died:
             raise LostError(
-                f"where: a process died, perhaps for want of memory ({died}); the same call "
-                "completes what it has in a store"
+                f"where: a process died, perhaps because memory ran out ({died}); if a store is "
+                "used, repeat the call to resume"
             ) from died
         except BaseException:
             pool.shutdown(wait=True, kill_workers=True)

@@ -1,4 +1,4 @@
-"""How far a long computation is: a line on the page of a notebook, or on a terminal."""
+"""Progress of a long computation: a line in a notebook or on a terminal."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from vibroimpact.stderr import print_line
 from vibroimpact.tasks.threads import Progress
 
 _WIDTH = 24
-"""Characters of a terminal's bar."""
+"""Width of the bar on a terminal (characters)."""
 LINES = 30.0
-"""Seconds between two lines where standard error is no terminal."""
+"""Seconds between two lines if standard error is not a terminal."""
 _TOO_EARLY = 2.0
-"""Seconds before which no time left is estimated."""
+"""Seconds before the remaining time is estimated."""
 
 
 def _as_duration(seconds: float) -> str:
-    """Write a time as people say it: 40 s, 3 min, 2.5 h."""
+    """Write a duration in a readable unit: 40 s, 3 min, 2.5 h."""
     if seconds < 99.5:
         return f"{seconds:.0f} s"
     if seconds < 99.5 * 60.0:
@@ -30,7 +30,7 @@ def _as_duration(seconds: float) -> str:
 
 
 def in_words(what: str, done: int, total: int | None, passed: float) -> str:
-    """Say how much is done, in what time, and how long the rest will take about."""
+    """Describe how much is done, the elapsed time, and the estimated remaining time."""
     text = f"{what} {done}{'' if total is None else f'/{total}'}, {_as_duration(passed)}"
     if total is None or not 0 < done < total or passed < _TOO_EARLY:
         return text
@@ -38,13 +38,13 @@ def in_words(what: str, done: int, total: int | None, passed: float) -> str:
 
 
 class _Clock:
-    """The time since something began; several jobs one after the other begin anew each time."""
+    """Time since the start of a job; restarted for each of several consecutive jobs."""
 
     def __init__(self) -> None:
         self._begin, self._done = time.monotonic(), 0
 
     def passed(self, done: int) -> float:
-        """Seconds since it began, by how much is done."""
+        """Return the seconds since the start, given how much is done."""
         if done < self._done:
             self._begin = time.monotonic()
         self._done = done
@@ -52,7 +52,7 @@ class _Clock:
 
 
 def progress_lines(what: str) -> Progress:
-    """Return a function that prints a line of progress each `LINES` s, for logs of long jobs."""
+    """Return a function that prints a line of progress every `LINES` s, for logs of long jobs."""
     clock, printed = _Clock(), time.monotonic()
 
     def show(done: int, total: int | None) -> None:
@@ -66,21 +66,20 @@ def progress_lines(what: str) -> Progress:
 
 
 def progress_bar(what: str = "done", *, every: float = 0.2) -> Progress:
-    """Return a function that shows progress, for the argument ``progress`` of what takes long.
+    """Return a function that shows progress, for the argument ``progress`` of long computations.
 
-    In a notebook it writes one line, anew as things go on, and leaves it there; on a terminal one
-    line on standard error, which it clears at the end. Elsewhere, such as in the log of a batch
-    job, it writes a line each half minute. It estimates the time that is left, and needs no further
-    package::
+    In a notebook it updates one line. On a terminal it updates one line on standard error, which it
+    clears at the end. Elsewhere, such as in the log of a batch job, it writes a line every half
+    minute. It estimates the remaining time, and needs no other package::
 
         vi.scenario_map(x, y, rig, progress=vi.progress_bar("map"))
 
     Parameters
     ----------
     what
-        What is going on, in a word.
+        Name of the computation, in a word.
     every
-        Least time in s between two changes.
+        Least time between two updates (s).
     """
     clock, shown = _Clock(), -math.inf
     display = _notebook()
@@ -117,7 +116,7 @@ def progress_bar(what: str = "done", *, every: float = 0.2) -> Progress:
 
 
 def _notebook() -> Callable[..., Any] | None:
-    """What writes on a notebook's page, if this is one."""
+    """Return the display of a notebook, if this is one."""
     if "IPython" not in sys.modules:
         return None
     from IPython import get_ipython

@@ -1,4 +1,4 @@
-"""Many independent tasks on threads or a cluster, with progress, and all stopped on Ctrl-C."""
+"""Run many independent tasks on threads or a cluster, with progress; Ctrl-C stops all."""
 
 from __future__ import annotations
 
@@ -22,42 +22,42 @@ _Item = TypeVar("_Item")
 _Found = TypeVar("_Found")
 
 _POLL = 0.05
-"""Seconds between two reports of progress, and at most until Ctrl-C is noticed."""
+"""Seconds between two reports of progress, and the longest time until Ctrl-C is noticed."""
 
 Tally: TypeAlias = NDArray[np.int64]
-"""Of a task: [0] is what it has done so far, [1] becomes nonzero where it is to stop, [2] counts
-the cycles of a hold that goes on."""
+"""Counters of a task: [0] is the work done so far, [1] becomes nonzero if it shall stop, [2] counts
+the cycles of the current hold."""
 
 DONE, CYCLES = 0, 2
-"""What progress is counted by."""
+"""Function that counts progress."""
 
 _current = threading.local()
-"""Its `tally` is that of the task that a thread does."""
+"""Its `tally` belongs to the task that the thread runs."""
 
 Progress = Callable[[int, int | None], None]
-"""Called now and then with how much is done and how much there is to do, None if nobody knows."""
+"""Function that is called with the amount done and the total, None if it is unknown."""
 
 
 class Elsewhere(Protocol):
-    """Where tasks are done in the place of threads (`processes`, `cluster`)."""
+    """Interface of workers other than threads (`processes`, `cluster`)."""
 
     def width(self) -> int:
-        """How many are done at once."""
+        """Number of tasks that run at once."""
         ...
 
     def each(
         self, task: Callable[..., Any], items: Sequence[Any], total: int, progress: Progress | None
     ) -> list[Any]:
-        """Do a task for each item."""
+        """Run a task for each item."""
         ...
 
 
 Workers: TypeAlias = int | Elsewhere | None
-"""So many threads, one a processor, or what is in their place."""
+"""Number of threads, None for one per processor, or other workers."""
 
 
 def counted(progress: Progress | None) -> Callable[[object], None] | None:
-    """What tells `progress`, each time it is called, that one more is done, of nobody knows."""
+    """Return a function that reports one more item to `progress` per call; the total is unknown."""
     if progress is None:
         return None
     count = itertools.count(1)
@@ -65,14 +65,14 @@ def counted(progress: Progress | None) -> Callable[[object], None] | None:
 
 
 def available() -> int:
-    """Processors that this process may use."""
+    """Return the number of processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def breadth(threads: Workers) -> int:
-    """How many tasks are done at once."""
+    """Return the number of tasks that run at once."""
     if threads is None:
         return available()
     return threads if isinstance(threads, int) else threads.width()
@@ -87,33 +87,33 @@ def each(
     progress: Progress | None = None,
     counted_by: int = DONE,
 ) -> list[_Found]:
-    """Do a task for each item, many at once; all stop when one fails, or on Ctrl-C.
+    """Run a task for each item, many at once; all stop if one fails, or on Ctrl-C.
 
-    All that is computed for many rigs, records or values goes through here. A task is a function
-    of its item alone: it writes nowhere but to its tally, and returns what it has found.
+    Every computation for many rigs, records or values uses this function. A task is a function of
+    its item alone: it writes only to its tally, and returns its result.
 
     Parameters
     ----------
     task
-        Called with an item and the tally of its own; it frees the interpreter lock while it
-        computes.
+        Function that is called with an item and its tally. It releases the interpreter lock while
+        it computes.
     items
-        What it is done for.
+        Items for which the task runs.
     steps
-        What the tallies add up to, where tasks count steps of their own; None where an item is
-        one step, which is counted here.
+        Total of the tallies, if tasks count their own steps. None if each item is one step, which
+        is counted here.
     threads
-        How many run at once, None for one a processor; or a cluster, where a task has no tally
-        but its own. No result depends on it.
+        Number of threads (default: one per processor); or a cluster, where a task has only its own
+        tally. It does not affect the result.
     progress
-        Called from the calling thread.
+        Function that is called in the calling thread.
     counted_by
-        What of the tallies progress adds up.
+        Function that counts progress from the tallies.
 
     Returns
     -------
     list
-        What was found, in the order of the items.
+        Results, in the order of the items.
     """
     check_progress(progress)
     if not items:
@@ -159,15 +159,15 @@ def each(
 
 
 class Stopped(Exception):  # noqa: N818 - nothing went wrong
-    """Raised in a task whose result is not wanted any more."""
+    """Raised in a task that was cancelled."""
 
 
 class LostError(InputError):
-    """What the tasks ran on went away, or died again and again."""
+    """Raised if the workers were lost, or died repeatedly."""
 
 
 def alone(task: Callable[[_Item, Tally], _Found], item: _Item) -> _Found:
-    """A task where nobody stops it; its tally stays there."""
+    """Run a task that cannot be cancelled; its tally is not shared."""
     tally = np.zeros(3, dtype=np.int64)
     with _doing(tally):
         return task(item, tally)
@@ -179,12 +179,12 @@ def watched(
     progress: Progress | None = None,
     counted_by: int = DONE,
 ) -> _Found:
-    """Do one long task so that Ctrl-C ends it: on a thread of its own, unless this is one.
+    """Run one long task so that Ctrl-C ends it: on a separate thread, unless this is one.
 
     Parameters
     ----------
     task
-        Called with a tally; it ends soon after [1] becomes nonzero.
+        Function that is called with a tally; it ends soon after [1] becomes nonzero.
     steps, progress, counted_by
         As in `each`.
     """
@@ -206,7 +206,7 @@ def watched(
 
 
 def stop_if_unwanted() -> None:
-    """Raise `Stopped` if this thread does a task whose result is not wanted any more."""
+    """Raise `Stopped` if this thread runs a task that was cancelled."""
     tally: Tally | None = getattr(_current, "tally", None)
     if tally is not None and tally[1]:
         raise Stopped
@@ -214,7 +214,7 @@ def stop_if_unwanted() -> None:
 
 @contextlib.contextmanager
 def _doing(tally: Tally) -> Iterator[None]:
-    """Make a tally that of this thread's task."""
+    """Set the tally of this thread's task."""
     before = getattr(_current, "tally", None)
     _current.tally = tally
     try:

@@ -1,1 +1,1 @@
-"""What uncertain parameters of a rig make of its response."""
+"""Effects of uncertain parameters on the response of a rig."""

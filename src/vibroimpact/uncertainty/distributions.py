@@ -1,4 +1,4 @@
-"""Distributions of uncertain parameters: frozen ones of scipy.stats, or texts."""
+"""Distributions of uncertain parameters: frozen distributions of scipy.stats, or texts."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _Array = NDArray[np.float64]
 
 
 class Distribution(Protocol):
-    """What is asked of a distribution: any frozen one of `scipy.stats` has it."""
+    """Interface of a distribution, which every frozen distribution of `scipy.stats` has."""
 
     def ppf(self, q: _Array) -> _Array:
-        """Values below which the shares q lie (the inverse of the distribution function)."""
+        """Return the quantiles at the shares q (the inverse of the distribution function)."""
 
 
 KINDS = (
@@ -39,24 +39,25 @@ def distribution(
     ----------
     given
         A frozen distribution of `scipy.stats`, in SI units; or a text as in `KINDS`, such as
-        ``"normal:7.5 mm:0.5 mm"`` or ``"uniform:5%"``. A sigma is that of the logarithm.
+        ``"normal:7.5 mm:0.5 mm"`` or ``"uniform:5%"``. SIGMA is the standard deviation of the
+        logarithm.
     varied
         The parameter.
     own
-        Tells the rig's own value, from which shares are taken.
+        Function that returns the rig's own value, to which shares refer.
     field
-        Names it in messages.
+        Name of the field in messages.
 
     Raises
     ------
     InputError
-        If it is none.
+        If it is not a distribution.
     """
     if not isinstance(given, str):
         if not callable(getattr(given, "ppf", None)) or not hasattr(given, "args"):
             raise InputError(
-                f"{field}: {shown(given)} is no distribution; a frozen one of scipy.stats or a "
-                f"text is accepted, {KINDS}"
+                f"{field}: {shown(given)} is not a distribution; a frozen distribution of "
+                f"scipy.stats or a text is accepted, {KINDS}"
             )
         frozen: Distribution = given
         return frozen
@@ -68,7 +69,7 @@ def distribution(
 
 
 class _Unknown(Exception):  # noqa: N818 - turned into words
-    """No such kind, or not so many numbers."""
+    """Raised for an unknown kind, or a wrong count of numbers."""
 
 
 def _made(
@@ -111,7 +112,9 @@ def _made(
             first, last = pair(low, high)
             middle = value(mode)
             if not first <= middle <= last:
-                raise InputError(f"{field}: the mode {mode!r} lies outside; one within is accepted")
+                raise InputError(
+                    f"{field}: the mode {mode!r} lies outside; a mode between the ends is accepted"
+                )
             made = stats.triang((middle - first) / (last - first), first, last - first)
         case _:
             raise _Unknown
@@ -125,7 +128,7 @@ def _positive(value: float, field: str) -> float:
 
 
 def told(given: Any) -> str:
-    """A distribution as text, for a dataset's attributes."""
+    """Describe a distribution as text, for the attributes of a dataset."""
     if isinstance(given, str):
         return given
     kept = [f"{number:.12g}" for number in given.args]
@@ -134,12 +137,12 @@ def told(given: Any) -> str:
 
 
 def check_values(values: _Array, varied: Parameter, field: str) -> None:
-    """Refuse draws that the parameter cannot have.
+    """Raise an error for draws that the parameter does not accept.
 
     Raises
     ------
     InputError
-        With the worst of them.
+        If a draw is invalid; the message has the worst one.
     """
     least, most = varied.least, varied.most
     short = np.zeros(values.shape, dtype=bool) if least is None else values < least
@@ -161,12 +164,12 @@ def check_values(values: _Array, varied: Parameter, field: str) -> None:
 
 
 def check_names(distributions: Any) -> dict[str, Any]:
-    """The distributions by parameter.
+    """Read the distributions by parameter.
 
     Raises
     ------
     InputError
-        If it is no mapping, or empty.
+        If it is not a mapping, or is empty.
     """
     if not isinstance(distributions, Mapping) or not distributions:
         raise InputError(

@@ -23,17 +23,17 @@ from vibroimpact.uncertainty.random_rigs import Method, Uncertain, shares, uncer
 _Array = NDArray[np.float64]
 
 Response = Callable[[list[Any]], xr.Dataset]
-"""A function of a list of rigs that gives a dataset with the dim ``rig``, such as `sweeps`."""
+"""A function of a list of rigs that returns a dataset with the dim ``rig``, such as `sweeps`."""
 
 CREATED_BY = "vibroimpact.ensemble"
 
 _FIRST = 64
-"""Rigs that the response is asked for at first, and at least."""
+"""Number of rigs of the first call of the response, and the least number."""
 _LASTS = 2.0
-"""Seconds that it then takes at a time, if it is quick: often enough to tell `progress`, and
-seldom enough to wait for the last of many workers."""
+"""Target duration (s) of a call of a fast response: often enough for `progress`, and rarely enough
+that many workers seldom wait for the last one."""
 _GROWS = 8
-"""By how much more rigs are asked for than before, at most: the first time it may compile."""
+"""Largest factor between the numbers of rigs of consecutive calls: the first call may compile."""
 
 
 def ensemble(
@@ -47,11 +47,11 @@ def ensemble(
     block: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Draw rigs from the distributions of their parameters, and ask what each responds.
+    """Draw rigs from the distributions of their parameters, and compute the response of each.
 
     The response is any function of a list of rigs that returns a dataset with the dim ``rig``:
-    `sweeps`, `demands` and `lyapunov_exponents` are such functions, their other arguments given
-    beforehand, and `for_each_rig` makes one of a function of a single rig::
+    `sweeps`, `demands` and `lyapunov_exponents` are such functions, with their other arguments
+    fixed by `functools.partial`. `for_each_rig` makes one from a function of a single rig::
 
         vi.ensemble(case, {"gap": "normal:5%"}, functools.partial(vi.sweeps, frequencies=grid))
 
@@ -61,35 +61,36 @@ def ensemble(
         The rig: a `Rig`, a laboratory case, its code, or the path of a study file; or an
         `Oscillator` alone, for a response to records.
     distributions
-        By parameter, as of `branch`: frozen distributions of ``scipy.stats`` in SI units, or texts
-        such as ``"normal:7.5 mm:0.5 mm"``, ``"lognormal:0.2"`` or ``"uniform:10%"`` (of the rig's
-        own value). They are independent of each other.
+        Distributions by name of the parameter, as in `branch`: frozen distributions of
+        ``scipy.stats`` in SI units, or texts such as ``"normal:7.5 mm:0.5 mm"``,
+        ``"lognormal:0.2"`` or ``"uniform:10%"`` (of the rig's own value). The parameters are drawn
+        independently of each other.
     response
-        Called with a list of some rigs at a time.
+        Function that is called with a list of rigs, several at a time.
     draws
-        Number of random rigs; a power of 2 for the method sobol.
+        Number of random rigs; a power of 2 for the method ``"sobol"``.
     method
         Sampling method: ``"sobol"`` (scrambled Sobol sequence), ``"latin"`` (Latin hypercube) or
         ``"random"``.
     seed
         Random seed. The same seed gives the same rigs.
     block
-        How many rigs the response is asked for at a time; None for 64 or as many as take two
-        seconds, whichever is more.
+        Number of rigs per call of the response. Default: 64, or as many as take two seconds, if
+        these are more.
     progress
-        Called with the rigs done and all.
+        Function that is called with the number of rigs done and their total.
 
     Returns
     -------
     xarray.Dataset
-        What the response is, with dim ``sample`` in the place of ``rig``, along which the drawn
-        values of each parameter stand by its name.
+        The response, with the dim ``sample`` instead of ``rig``, and the drawn values of each
+        parameter as a coordinate with its name.
 
     Raises
     ------
     InputError
-        If a value cannot be used, a draw is one that the parameter cannot have, or the response
-        gives no dataset over rigs.
+        If a value is invalid, the parameter does not accept a draw, or the response does not return
+        a dataset over rigs.
     """
     check_progress(progress)
     drawn = uncertain(rig, distributions)
@@ -108,11 +109,11 @@ def responded(
     block: int | None,
     progress: Progress | None,
 ) -> xr.Dataset:
-    """The response of the rigs at rows of values, block by block, along ``sample``."""
+    """Compute the response of the rigs at rows of values, block by block, along ``sample``."""
     if not callable(response) or isinstance(response, type):
         raise InputError(
-            f"response: {shown(response)} is no function; one of a list of rigs is accepted, such "
-            "as functools.partial(vibroimpact.sweeps, frequencies=...)"
+            f"response: {shown(response)} is not a function; a function of a list of rigs is "
+            "accepted, such as functools.partial(vibroimpact.sweeps, frequencies=...)"
         )
     rigs = drawn.rigs(values)
     parts: list[xr.Dataset] = []
@@ -139,24 +140,24 @@ def responded(
 
 
 def _part(data: Any, count: int, names: list[str]) -> xr.Dataset:
-    """What a response gives of some rigs, checked."""
+    """Return the checked response of some rigs."""
     if not isinstance(data, xr.Dataset) or data.sizes.get("rig") != count:
         got = dict(data.sizes) if isinstance(data, xr.Dataset) else shown(data)
         raise InputError(
-            f"response: it gives {got} for {count} rigs; a dataset with the dim rig, one for each "
-            "of them, is accepted"
+            f"response: it gives {got} for {count} rigs; a dataset with the dim rig and one "
+            "entry per rig is accepted"
         )
     for name in names:
         if name in data.variables:
             raise InputError(
                 f"distributions: {name!r} is a variable of the response itself; other parameters "
-                "are accepted beside it"
+                "are accepted with this response"
             )
     return data.drop_vars("rig", errors="ignore").rename_dims(rig="sample")
 
 
 def labelled(data: xr.Dataset, drawn: Uncertain, values: _Array) -> xr.Dataset:
-    """With the drawn values of each parameter, and their units."""
+    """Add the drawn values of each parameter, with their units."""
     for i, varied in enumerate(drawn.parameters):
         meaning = {"units": varied.units, "long_name": varied.long_name}
         data = data.assign_coords({varied.name: ("sample", values[:, i], meaning)})
@@ -166,15 +167,15 @@ def labelled(data: xr.Dataset, drawn: Uncertain, values: _Array) -> xr.Dataset:
 def for_each_rig(
     function: Callable[[Rig], xr.Dataset], threads: int | None = None
 ) -> Callable[[list[Rig]], xr.Dataset]:
-    """Make a function of many rigs from a function of one, for `ensemble` and `sensitivity`.
+    """Make a function of many rigs from a function of one rig, for `ensemble` and `sensitivity`.
 
     Parameters
     ----------
     function
-        Called with a rig; it returns a dataset whose dims have the same sizes for all rigs. For
+        Function of a rig that returns a dataset whose dims have the same sizes for all rigs. For
         example ``lambda rig: vi.steady(rig)[["displacement_max", "period"]]``.
     threads
-        How many run at once; None for one a processor.
+        Number of threads (default: one per processor).
     """
 
     def responses(rigs: list[Rig]) -> xr.Dataset:

@@ -1,4 +1,4 @@
-"""Rigs whose parameters are drawn: shares from 0 to 1 in, rigs out."""
+"""Random rigs: shares from 0 to 1 are converted to parameters of rigs."""
 
 from __future__ import annotations
 
@@ -44,16 +44,16 @@ class Uncertain(NamedTuple):
 
     @property
     def names(self) -> list[str]:
-        """Of the parameters."""
+        """Names of the parameters."""
         return [one.name for one in self.parameters]
 
     def values(self, shares: _Array) -> _Array:
-        """Values of the parameters, a column each, where their distributions reach these shares.
+        """Return the quantiles of the parameters at these shares, one column per parameter.
 
         Raises
         ------
         InputError
-            If a parameter cannot have one.
+            If a parameter does not accept a value.
         """
         # A share of 0 or 1 may lie at infinity.
         inside = np.clip(shares, 2.0**-53, 1.0 - 2.0**-53)
@@ -69,16 +69,16 @@ class Uncertain(NamedTuple):
 
     @property
     def shaken(self) -> Repeated | None:
-        """What shakes it, unless that is left open."""
+        """The shaking, unless it is open."""
         return None if self.base.shaking is None else self.base.periodic
 
     def rig(self, values: _Array) -> Rig:
-        """The rig at one value of each parameter.
+        """Return the rig at one value of each parameter.
 
         Raises
         ------
         InputError
-            If it cannot have these values together.
+            If the values are invalid together.
         """
         pairs = [
             (varied, float(value)) for varied, value in zip(self.parameters, values, strict=True)
@@ -86,12 +86,12 @@ class Uncertain(NamedTuple):
         return vary_all(self.base, pairs)
 
     def rigs(self, values: _Array) -> list[Rig]:
-        """A rig for each row of values.
+        """Return one rig per row of values.
 
         Raises
         ------
         InputError
-            If one cannot be, or two parameters are one.
+            If a rig is invalid, or two parameters set the same number.
         """
         found = [self.rig(row) for row in values]
         first = found[0]
@@ -104,7 +104,7 @@ class Uncertain(NamedTuple):
         return found
 
     def about(self) -> dict[str, Any]:
-        """What a dataset says of it."""
+        """Return the attributes for a dataset."""
         shaking = {} if self.shaken is None else excitation_parameters(self.shaken)
         return {
             "oscillator": oscillator_parameters(self.oscillator),
@@ -119,7 +119,7 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     Raises
     ------
     InputError
-        If one cannot be used, or the rig has no such parameter.
+        If a distribution is invalid, or the rig has no such parameter.
     """
     alone = isinstance(rig, Oscillator)
     base = as_rig(rig, oscillator_alone=True)
@@ -134,7 +134,7 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
         varied = varied.of(oscillator)
         if shaken is None and varied.name in ("frequency", "amplitude", "gap_ratio"):
             raise InputError(
-                f"{field}: {varied.name} is that of a sine, and the rig has none; "
+                f"{field}: {varied.name} needs a sine, and the rig is not shaken by one; "
                 "Rig(oscillator, amplitude) is accepted as the rig"
             )
 
@@ -146,17 +146,19 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
         made.append(distribution(one, varied, own, field))
     texts = {varied.name: told(one) for varied, one in zip(parameters, given.values(), strict=True)}
     if len(texts) < len(parameters):
-        raise InputError("distributions: a parameter is given twice; one of each is accepted")
+        raise InputError(
+            "distributions: a parameter appears twice; one distribution per parameter is accepted"
+        )
     return Uncertain(base, tuple(parameters), tuple(made), texts)
 
 
 def shares(count: object, columns: int, method: str, seed: int) -> _Array:
-    """Points that fill the unit cube: a row a sample, a column a parameter.
+    """Return points that fill the unit cube: one row per sample, one column per parameter.
 
     Raises
     ------
     InputError
-        If there is no such method, or the count is no power of 2 for Sobol's points.
+        If the method is unknown, or the count is not a power of 2 for Sobol's points.
     """
     n = whole(count, "draws", most=MOST_DRAWS)
     check_name(method, METHODS, "method")
@@ -171,15 +173,15 @@ def shares(count: object, columns: int, method: str, seed: int) -> _Array:
 
 
 def check_power(number: int, field: str, what: str) -> None:
-    """Refuse what is no power of 2.
+    """Raise an error unless a number is a power of 2.
 
     Raises
     ------
     InputError
-        With the next one.
+        If it is not; the message suggests the next power of 2.
     """
     if number & (number - 1):
         following = 1 << number.bit_length()
         raise InputError(
-            f"{field}: {number}; of {what} a power of 2 is accepted, such as {following}"
+            f"{field}: {number}; for {what} a power of 2 is accepted, such as {following}"
         )

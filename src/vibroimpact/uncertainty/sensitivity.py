@@ -1,4 +1,4 @@
-"""Which uncertain parameter matters: Sobol's indices of the variance."""
+"""Sensitivity of a response to uncertain parameters: Sobol's indices of the variance."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _Array = NDArray[np.float64]
 CREATED_BY = "vibroimpact.sensitivity"
 CONFIDENCE = 0.95
 _RESAMPLES = 100
-"""Bootstrap samples of the intervals of `peak_sensitivity`."""
+"""Number of bootstrap samples for the intervals of `peak_sensitivity`."""
 
 
 def sensitivity(
@@ -40,38 +40,39 @@ def sensitivity(
     block: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Return how much of the variance of a response each uncertain parameter makes.
+    """Compute the share of the variance of a response that is due to each uncertain parameter.
 
-    By the estimators of Saltelli et al. (2010), from ``draws`` × (parameters + 2) rigs.
+    The estimators are those of Saltelli et al. (2010), from ``draws`` × (parameters + 2) rigs.
 
     Parameters
     ----------
     rig, distributions, response, block
-        As of `ensemble`.
+        As in `ensemble`.
     quantity
-        A variable of the response; a dataset of it has its other dims.
+        Name of a variable of the response; the result has its other dims.
     draws
-        Points of each of the two sets, a power of 2.
+        Number of points in each of the two sets, a power of 2.
     seed
-        The same one gives the same indices.
+        Random seed. The same seed gives the same indices.
     resamples
-        Of the points, for 95 % intervals of the indices by bootstrapping; 0 for none.
+        Number of bootstrap samples for 95 % intervals of the indices; 0 for no intervals.
     progress
-        Called with the rigs done and all.
+        Function that is called with the number of rigs done and their total.
 
     Returns
     -------
     xarray.Dataset
         Dim ``uncertain_parameter``, and those of the quantity: ``first_order``, the share of the
-        variance that the parameter makes by itself, and ``total_order``, with all that it makes
-        together with others; their ``first_order_interval`` and ``total_order_interval`` (dim
-        ``bound``) if asked for; ``mean`` and ``variance`` of the quantity, over the first two
-        sets. An index is NaN where a response is, or where nothing varies.
+        variance due to the parameter alone, and ``total_order``, the share including its
+        interactions with other parameters; their ``first_order_interval`` and
+        ``total_order_interval`` (dim ``bound``) if ``resamples`` is not 0; ``mean`` and
+        ``variance`` of the quantity, over the first two sets. An index is NaN if a response is
+        NaN or does not vary.
 
     Raises
     ------
     InputError
-        As of `ensemble`; or if the response has no such quantity.
+        As in `ensemble`; or if the response has no such quantity.
     """
     check_progress(progress)
     drawn = uncertain(rig, distributions)
@@ -121,10 +122,10 @@ def sensitivity(
 
 
 def _orders(found: _Array) -> tuple[_Array, _Array]:
-    """First and total orders: (b) and (f) of Table 2 of Saltelli et al. (2010).
+    """Compute first and total orders: (b) and (f) of Table 2 of Saltelli et al. (2010).
 
-    Of values of the two sets and of the mixed ones, on the axis before the last; NaN where a value
-    is, or where nothing varies.
+    The axis before the last holds the values of both sets and of the mixed ones. An index is NaN if
+    a value is NaN, or if nothing varies.
     """
     both, mixed = found[..., :2, :], found[..., 2:, :]
     a, b = (both[..., i : i + 1, :] - both.mean(axis=(-2, -1))[..., None, None] for i in (0, 1))
