@@ -81,6 +81,15 @@ def test_a_study_need_not_say_the_amplitude_that_the_file_says(file, tmp_path, c
     assert found["value"] == pytest.approx(31900.0, rel=0.01)
 
 
+def test_an_amplitude_of_the_study_that_the_file_replaces_is_reported(file, tmp_path, capsys):
+    words = ["identify", str(file), "--rig", "B2-G2-A3", "--free", "stiffness", "--starts", "1"]
+    assert main([*words, "-o", str(tmp_path)]) == 0
+    printed = capsys.readouterr()
+    line = "the amplitude is 0.04 g, from test.csv; that of the rig, 0.05 g, is not used"
+    assert line in " ".join(printed.err.split())
+    assert line in " ".join(printed.out.split())
+
+
 def test_an_amplitude_without_a_unit_is_told_and_named_where_nothing_fits(file, tmp_path, capsys):
     path = tmp_path / "bare.csv"
     path.write_text(file.read_text().replace("0.04 g", "0.04", 1))

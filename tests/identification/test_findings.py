@@ -132,6 +132,32 @@ def test_the_cost_tells_a_right_fit_from_a_wrong_one():
     assert right.attrs["cost"] == pytest.approx(0.5 * 0.01**2 * data[EXCURSIONS[0]].size * 2, 0.5)
 
 
+@pytest.mark.parametrize("shaking", ["0.06 g", "5 mm", ["0.04 g"] * len(GRID)])
+def test_a_shaking_of_the_rig_that_the_data_replace_is_reported(shaking):
+    data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
+    with pytest.warns(
+        vi.InputWarning, match=r"the amplitude is 0\.04 g, from the data; .* not used"
+    ):
+        found = vi.identify(vi.Rig(CASE.oscillator, shaking), data, "stiffness", **QUICK)
+    assert "test 1: the amplitude is 0.04 g, from the data; " in found.findings
+    assert found.fitted_value.values[0] == pytest.approx(31900.0, rel=0.01)
+    rounded = data.assign_attrs(amplitude=0.3923)
+    same = vi.identify(vi.Rig(CASE.oscillator, "0.04 g"), rounded, "stiffness", **QUICK)
+    assert "not used" not in same.findings
+
+
+def test_a_measured_base_and_its_frequency_replace_those_of_the_rig():
+    data = vi.simulate(vi.Rig(CASE.oscillator, vi.Harmonic("0.04 g", 1.5)), 6, samples=40)
+    given = vi.Rig(CASE.oscillator, vi.Harmonic("0.06 g", 1.7))
+    with pytest.warns(vi.InputWarning, match="the frequency is 1.5 Hz, from the data; that of the"):
+        found = vi.identify(given, data, "stiffness", **QUICK)
+    assert "the amplitude is 0.04 g, from the measured base; that of the rig, 0.06 g" in (
+        found.findings
+    )
+    same = vi.identify(vi.Rig(CASE.oscillator, "0.04 g"), data, "stiffness", **QUICK)
+    assert "not used" not in same.findings
+
+
 def test_the_table_of_a_fit_has_its_intervals(tmp_path):
     data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
     found = vi.identify(CASE.oscillator, data, "stiffness,gap", tried=0, starts=1)

@@ -54,3 +54,27 @@ def test_a_refit_that_stays_in_the_wrong_valley_is_mended_from_its_neighbours(ga
     for end in (found.low, found.high):
         assert least(problem, end) == pytest.approx(1.959964**2, rel=0.02)
     assert (found.open_low, found.open_high) == (False, False)
+
+
+class Rounded(Problem):
+    """One unknown: a rise of 1.3 a², which jumps by 3 at a = 1.4; each cost with rounding errors."""
+
+    def __init__(self, seed):
+        self.draw, self.tail, self.scale = np.random.default_rng(seed), np.inf, np.ones(1)
+        self.low, self.high = np.array([-9.0]), np.array([9.0])
+
+    def cost(self, x):
+        rise = 1.3 * x[0] ** 2 + (3.0 if x[0] > 1.4 else 0.0)
+        return 0.5 * (4.0 + rise) * (1.0 + 1e-12 * self.draw.normal())
+
+
+def test_ends_do_not_depend_on_rounding():
+    """Processors differ in it: no value that is tried may move by more than the fit itself."""
+    found = set()
+    for seed in range(20):
+        around = SimpleNamespace(freedom=10**6, error=np.array([0.7 + 1e-12 * seed]))
+        one = profile(Rounded(seed), np.zeros(1), 0, around)
+        found.add((one.low, one.high))
+    ((low, high),) = found
+    assert low == pytest.approx(-1.959964 / np.sqrt(1.3), rel=0.01)
+    assert 1.4 < high < 1.4 * 1.01

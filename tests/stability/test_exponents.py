@@ -191,6 +191,28 @@ def test_a_direction_that_sticking_takes_is_lost_in_every_answer():
     assert steady[1] == -math.inf
 
 
+@pytest.mark.filterwarnings("ignore:steady. its largest multiplier is 1:RuntimeWarning")
+@pytest.mark.parametrize(
+    ("isolator", "restitution", "gap", "amplitude"),
+    [
+        (vi.BoucWenIsolator(1.0, 0.2, 0.25, 0.05, exponent=2), 0.5, -0.3, 0.3),
+        (vi.BoucWenIsolator(1.0, 0.2, 0.25, 0.05, exponent=2), 0.9, -0.3, 0.3),
+        (vi.BilinearIsolator(1.0, 0.2, 0.25, 0.05), 0.5, -0.1, 0.2),
+    ],
+)
+def test_what_an_isolator_remembers_through_a_rest_grows_alike_in_every_answer(
+    isolator, restitution, gap, amplitude
+):
+    """A rest takes displacement and velocity; what the isolator remembers is the first exponent."""
+    oscillator = vi.Oscillator(1.0, isolator, right=vi.RigidStop(restitution, gap))
+    rig = vi.Rig(oscillator, vi.Harmonic(amplitude, 0.03))
+    steady = vi.steady(rig)["exponents"].values
+    averaged = vi.lyapunov_exponents(rig, [0.03], 50, transient=50)["exponents"].values.ravel()
+    assert -0.2 < steady[0] < 1e-10
+    assert averaged[0] == pytest.approx(steady[0], rel=1e-6, abs=1e-10)
+    assert averaged[1] == steady[1] == -math.inf
+
+
 def test_strong_damping_leaves_a_second_exponent():
     """A multiplier of 5e-29, lost in rounding beside 0.45: their sum is the damping."""
     rig, shaken = vi.Oscillator(1.0, vi.Isolator(1.0, 8.0)), vi.Harmonic(1.0, 0.8 / (2 * math.pi))

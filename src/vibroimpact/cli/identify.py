@@ -73,7 +73,7 @@ def identify(
     compare
         Other models that are also fitted: hertz, softening or hertz,softening. Default: none.
     """
-    from vibroimpact.cli.measured import pair, rig_of_sine, shaking_of_tests
+    from vibroimpact.cli.measured import pair, shaking_of_tests
     from vibroimpact.cli.output import progress_bar, tell
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
@@ -90,7 +90,8 @@ def identify(
         "decimal": decimal,
     }
     tests = [vi.read_measurement(path, **reading) for path in data]
-    what = subject(rig, changes, output.name, shaking_of_tests(tests))
+    stated = shaking_of_tests(tests)
+    what = subject(rig, changes, output.name, otherwise=stated)
     names = [name.strip().replace("-", "_") for name in free.split(",")]
     limits = {
         name: pair(text, "--bounds") for name, text in opt.by_name("--bounds", bounds).items()
@@ -99,7 +100,7 @@ def identify(
         raise InputError(f"--bounds: {sorted(strange)[0]!r} is not free; {free} is accepted")
     with results(what, output) as written:
         fits = fit_models(
-            rig_of_sine(what),
+            what.oscillator if what.shaking is stated else what.rig,
             tests,
             {name: limits.get(name) for name in names},
             [name.strip() for name in compare.split(",")] if compare else [],

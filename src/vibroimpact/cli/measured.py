@@ -1,4 +1,4 @@
-"""What a fit needs from the options: the shaking of the tests, the rig, pairs of values."""
+"""What a fit needs from the options: the shaking of the tests, pairs of values."""
 
 from __future__ import annotations
 
@@ -10,22 +10,12 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     import xarray as xr
 
-    from vibroimpact.cli.rig import Subject
-
 
 def shaking_of_tests(tests: list[xr.Dataset]) -> vi.Harmonic | None:
     """Return the shaking of the base that the files state; None if one does not state it."""
     if any("amplitude" not in t.attrs and "base_acceleration" not in t for t in tests):
         return None
     return vi.Harmonic(float(tests[0].attrs.get("amplitude", 1.0)), 1.0)
-
-
-def rig_of_sine(what: Subject) -> vi.Rig | vi.Oscillator:
-    """Return the rig; without its shaking unless that is one sine of the base acceleration."""
-    shaking = what.shaking
-    if isinstance(shaking, vi.Harmonic) and shaking.of == "acceleration":
-        return vi.Rig(what.oscillator, shaking.amplitude)
-    return what.oscillator
 
 
 def pair(text: str, option: str) -> tuple[str, str]:

@@ -120,6 +120,7 @@ def subject(
     options: RigOptions,
     name: str | None = None,
     shaken: Repeated | Record | None = None,
+    otherwise: Repeated | None = None,
 ) -> Subject:
     """Return the rig that a case code or the path of a study file names, with changes.
 
@@ -133,6 +134,8 @@ def subject(
         What the files are called, instead of the rig and its changes.
     shaken
         What shakes it, whatever the case or the study says.
+    otherwise
+        What shakes it if neither the case, the study nor the options say it.
 
     Raises
     ------
@@ -150,6 +153,7 @@ def subject(
         return changed(found.oscillator, given), shaking
 
     oscillator, shaking = rig_of(options)
+    shaking = otherwise if shaking is None else shaking
     if shaking is None:
         raise InputError(
             f"study {text!r}: excitation.amplitude: missing; an acceleration greater than 0 is "

@@ -68,6 +68,8 @@ def findings(
                 f"{test.name}: {', '.join(map(repr, left))} of the file not understood, and not "
                 "used; columns= of read_measurement says what a column holds"
             )
+        unused = str(test.data.attrs["unused_shaking"]).splitlines()
+        lines += [f"{test.name}: {line}" for line in unused]
         if test.kind == "curves":
             lines += stray_values(test.name, test.data)
         shaken = problem.rig_of(x, test)[0].periodic

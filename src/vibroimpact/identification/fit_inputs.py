@@ -13,16 +13,23 @@ from vibroimpact.identification.curve_residuals import CurveTest
 from vibroimpact.identification.history_residuals import HistoryTest
 from vibroimpact.identification.least_squares import Test
 from vibroimpact.measurements.read import as_measured
-from vibroimpact.model.excitation import Harmonic, Periodic
+from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.names import check_name
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.read_rig import as_rig
+from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig, as_periodic
-from vibroimpact.model.units import to_si
+from vibroimpact.model.units import pretty, to_si
 
 BASE = "the measured base"
 """Where the amplitude of a history is from whose base was measured."""
+RIG = "the rig"
+"""Where the amplitude is from if the data do not state it."""
+_STATED = 1e-3
+"""Share by which an amplitude that a file states may differ from that of the rig: it is rounded."""
+_MEASURED = 0.02
+"""The same share for an amplitude or a frequency that was measured."""
 
 
 def tests_of(rig: Any, data: Any, noise: Any, window: int | None, steady: bool) -> list[Test]:
@@ -43,10 +50,13 @@ def tests_of(rig: Any, data: Any, noise: Any, window: int | None, steady: bool) 
         share = None if share is None else to_si(share, DIMENSIONLESS, "noise", above=0.0)
         shaken, source = _shaken_rig(tested, measured, where)
         measured = measured.assign_attrs(amplitude_source=source)
+        test: Test
         if measured.attrs["kind"] == "curves":
-            found.append(CurveTest(name, measured, shaken, share))
+            test = CurveTest(name, measured, shaken, share)
         else:
-            found.append(HistoryTest(name, measured, shaken, share, window, steady))
+            test = HistoryTest(name, measured, shaken, share, window, steady)
+        test.data = test.data.assign_attrs(unused_shaking="\n".join(_unused(tested, test, source)))
+        found.append(test)
     return found
 
 
@@ -86,7 +96,7 @@ def _shaken_rig(rig: Rig, data: xr.Dataset, where: str) -> tuple[Rig, str]:
     chosen: Any = data.attrs.get("amplitude")
     source = str(data.attrs.get("amplitude_source", "the data"))
     if chosen is None:
-        chosen, source = rig.shaking, "the rig"
+        chosen, source = rig.shaking, RIG
         if rig.amplitudes is not None:
             chosen = rig.amplitudes
     base = data.attrs["kind"] == "history" and "base_acceleration" in data
@@ -103,6 +113,41 @@ def _shaken_rig(rig: Rig, data: xr.Dataset, where: str) -> tuple[Rig, str]:
     if sizes is not None or not isinstance(shaken, Harmonic | Periodic):
         raise InputError("shaking: a list of amplitudes; a rig for each test is accepted, by name")
     return Rig(rig.oscillator, shaken), source
+
+
+def _unused(rig: Rig, test: Test, source: str) -> list[str]:
+    """Lines about the shaking of the rig that differs from that of the data, which is used."""
+    own, used = rig.shaking, test.rig.periodic
+    if own is None or not _is_sine(test):
+        return []
+    lines = []
+    share = _MEASURED if source == BASE else _STATED
+    one_sine = isinstance(own, Harmonic) and rig.amplitudes is None
+    if source != RIG and not (one_sine and _agree(own, used, share)):
+        instead = f"that of the rig, {_size(own)}," if one_sine else "the shaking of the rig"
+        lines.append(
+            f"the amplitude is {_size(used)}, from {in_one_line(source)}; {instead} is not used"
+        )
+    if test.kind == "history" and rig.frequency is not None:
+        measured = used.frequency
+        if abs(measured - rig.frequency) > _MEASURED * rig.frequency:
+            lines.append(
+                f"the frequency is {measured:.4g} Hz, from the data; that of the rig, "
+                f"{rig.frequency:.4g} Hz, is not used"
+            )
+    return lines
+
+
+def _is_sine(test: Test) -> bool:
+    return not isinstance(getattr(test, "shaking", None), Record)
+
+
+def _agree(one: Repeated, other: Repeated, share: float) -> bool:
+    return one.of == other.of and abs(one.amplitude - other.amplitude) <= share * other.amplitude
+
+
+def _size(shaking: Repeated) -> str:
+    return pretty(shaking.amplitude, shaking.quantity, 4)
 
 
 def ties_of(ties: Mapping[str, str] | None) -> dict[str, str]:

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_name, check_variables
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.identification import results
 from vibroimpact.identification.equivalent_rigs import rivals
 from vibroimpact.identification.fit_inputs import tests_of, ties_of
@@ -64,8 +64,8 @@ def identify(
     rig
         What was tested, with the values that are known and a guess of the others: a `Rig`, a
         laboratory case, its code, or the path of a study file; or one for each test, as a list or
-        by name. Where the data say what shook it, that counts, and an `Oscillator` alone is
-        accepted.
+        by name. If the data state or hold the shaking, theirs is used, and an `Oscillator` alone
+        is accepted; a warning and a finding report a rig whose shaking differs.
     data
         A dataset of `read_measurement`, or of `sweep` or `simulate`, or the path of a file; or
         several, as a list or by name.
@@ -127,6 +127,11 @@ def identify(
     ------
     InputError
         If a value cannot be used, or there are fewer points than unknowns.
+
+    Warns
+    -----
+    InputWarning
+        If the shaking of the data is used, and that of the rig differs.
     """
     starts, tried = whole(starts, "starts"), whole(tried, "tried", least=0)
     posterior = whole(posterior, "posterior", least=0)
@@ -140,6 +145,8 @@ def identify(
     if any(one.name == "amplitude" for one in given):
         for test in tests:
             test.data = test.data.assign_attrs(amplitude_source="the fit")
+    for test in tests:
+        warn_of_input(f"data {test.name!r}", test.data.attrs["unused_shaking"].splitlines())
     for test in tests:
         test.calibrate(written(given, [one.start for one in given], test.rig, test.name, {})[1])
     problem = Problem(tests, given, ties_of(ties), [max(t.noise, _COARSE) for t in tests], _TAIL)

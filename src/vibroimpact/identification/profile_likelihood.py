@@ -28,6 +28,9 @@ _CLOSE = 0.01
 to such a share of its distance from the fit."""
 _VALUES = 14
 """At most, to each side."""
+_PARTS = 32
+"""Parts of a bracket at whose ends values are tried: rounding, which differs between processors,
+moves none of them."""
 _PATIENT = 6
 """Values beyond which those between are halved, instead of drawn along a line."""
 
@@ -181,6 +184,7 @@ def _end(refits: _Refits, sign: float, limit: float, step: float) -> tuple[float
     far = first + sign * _FARTHEST * max(abs(first), 1.0)
     low, high = problem.low[refits.number], problem.high[refits.number]
     bound = float(max(low, far) if sign < 0.0 else min(high, far))
+    step = _two_digits(step)
     for count in range(_VALUES):
         inner, outer = _bracket(refits, sign, limit)
         if outer is None:
@@ -190,7 +194,7 @@ def _end(refits: _Refits, sign: float, limit: float, step: float) -> tuple[float
             # The root of the rise grows almost along a straight line.
             a, b = np.sqrt(refits.rise(inner)), np.sqrt(refits.rise(outer))
             share = np.clip((np.sqrt(limit) - a) / (b - a), 0.1, 0.9) if count < _PATIENT else 0.5
-            value = float(inner + share * (outer - inner))
+            value = float(inner + round(_PARTS * share) / _PARTS * (outer - inner))
         refits.add(value, sign)
         inner, outer = _bracket(refits, sign, limit)
         for end in (inner, outer):
@@ -202,8 +206,12 @@ def _end(refits: _Refits, sign: float, limit: float, step: float) -> tuple[float
             if inner == bound:
                 break
             grown = np.sqrt(limit / max(refits.rise(inner), 0.02 * limit))
-            step = max(float(grown - 1.0) * abs(inner - first), 0.3 * step)
+            step = _two_digits(max(float(grown - 1.0) * abs(inner - first), 0.3 * step))
     return (bound, True) if outer is None else (outer, False)
+
+
+def _two_digits(step: float) -> float:
+    return float(f"{step:.1e}")
 
 
 def _bracket(refits: _Refits, sign: float, limit: float) -> tuple[float, float | None]:

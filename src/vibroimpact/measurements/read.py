@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -102,7 +103,7 @@ def read_measurement(
         raise InputError(f"measurement: {str(path)!r} does not exist; a file of a test is accepted")
     regular(file, "measurement")
     if file.suffix.lower() == ".nc":
-        return _checked(load(file))
+        return _checked(load(file)).assign_attrs(_stated(amplitude, frequency))
     columns = {variable: _clean(name) for variable, name in (columns or {}).items()}
     units = {_clean(name): unit for name, unit in (units or {}).items()}
     tables = [_cleaned(table) for table in _tables(file, checked(decimal))]
@@ -179,6 +180,12 @@ def _filled(table: Columns, wanted: set[str]) -> Columns:
 def is_measured(data: object) -> bool:
     """Whether a dataset holds measured data."""
     return isinstance(data, xr.Dataset) and data.attrs.get("kind") in ("curves", "history")
+
+
+def _stated(amplitude: object, frequency: object) -> dict[str, Any]:
+    """Attributes for what the call says of the base."""
+    said = shaking(Columns("", (), {}), {"amplitude": amplitude, "frequency": frequency}, [])
+    return {**said, **({"amplitude_source": CALL} if amplitude is not None else {})}
 
 
 def _checked(data: xr.Dataset) -> xr.Dataset:

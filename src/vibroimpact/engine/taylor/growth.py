@@ -47,6 +47,14 @@ def start_growth(plan: Vector, q: Vector, w: Vector, weight: float, mode: int) -
 
 
 @kernel
+def _start_second(w: Vector, weight: float) -> None:
+    """Start the second disturbance again; the first one goes on."""
+    for i in range(DISTURBANCE):
+        w[i] = 0.0
+    w[0], w[1] = 1.0 / weight, 1.0
+
+
+@kernel
 def _unit(plan: Vector, a: Vector, weight: float, mode: int) -> float:
     """Bring a disturbance to unit size; return the logarithm of its size."""
     size = math.sqrt(_product(plan, a, a, weight, mode))
@@ -71,6 +79,8 @@ def grow(plan: Vector, notes: Growth, stretch: Stretch) -> Growth:
     two = _unit(plan, w, weight, mode)
     first += one
     both += one + two
-    if one == -math.inf or two == -math.inf:  # what comes to rest forgets
+    if one == -math.inf:  # a rest leaves nothing of either
         start_growth(plan, q, w, weight, mode)
+    elif two == -math.inf:  # of one at most, such as what the isolator remembers
+        _start_second(w, weight)
     return Growth(q, w, weight, length, first, both, dissipation + lost, 0.0)
