@@ -106,6 +106,62 @@ def test_nonsense_is_one_line(name: str, folder: Path, monkeypatch: pytest.Monke
                 pytest.fail(f"{name}({field}={label}): {type(error).__name__}: {error}")
 
 
+@pytest.mark.parametrize("wrong", [5, "x", int, [print]])
+def test_a_progress_that_is_not_a_function_is_one_line(wrong, folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    for function, given in arguments.calls(folder).values():
+        if "progress" in given:
+            with pytest.raises(vi.InputError, match=r"^progress: "):
+                function(**{**given, "progress": wrong})
+
+
+COUNTS = ("seed", "random", "samples", "window", "max_cycles", "max_events", "exponent_cycles")
+
+
+@pytest.mark.parametrize("wrong", [0.5, "x", -1, None, [1], 10**400])
+@pytest.mark.parametrize("name", ["bifurcation_diagram", "coexisting_motions", "steady"])
+def test_a_count_that_is_not_one_is_one_line(name, wrong, folder):
+    function, given = arguments.calls(folder)[name]
+    for field in set(COUNTS) & set(given):
+        with pytest.raises(vi.InputError, match=rf"^{field}: .* whole number"):
+            function(**{**given, field: wrong})
+
+
+WRONG = [
+    ("directions", 5),
+    ("directions", Path("up")),
+    ("section", {"a": 1}),
+    ("log", np.array(["a", "b"])),
+    ("log", None),
+    ("span", {1.4, 1.6}),
+    ("span", range(10**9)),
+    ("random", 10**12),
+]
+
+
+@pytest.mark.parametrize(("field", "wrong"), WRONG)
+def test_what_a_diagram_cannot_use_is_one_line(field, wrong, folder):
+    function, given = arguments.calls(folder)["bifurcation_diagram"]
+    with pytest.raises(vi.InputError, match=rf"^{field}"):
+        function(**{**given, field: wrong})
+
+
+@pytest.mark.parametrize("wrong", [5, None, ("frequency",), ("frequency", 5), {1: 2}, ("a",) * 9])
+def test_parameters_of_a_curve_that_are_not_two_names_are_one_line(wrong, folder):
+    function, given = arguments.calls(folder)["bifurcation_curve"]
+    with pytest.raises(vi.InputError, match=r"^parameters: "):
+        function(**{**given, "parameters": wrong})
+
+
+def test_a_value_without_a_text_of_its_own_is_named_by_its_type():
+    class Odd:
+        def __repr__(self):
+            raise RuntimeError
+
+    with pytest.raises(vi.InputError, match="mass: a Odd"):
+        vi.Oscillator(Odd(), vi.Isolator(1.0, 1.0))
+
+
 OSCILLATOR = vi.Oscillator(1.0, vi.Isolator(100.0, 1.0), right=vi.Bumper(1e4, 5.0, 0.01))
 SHAKING = vi.Harmonic(1.0, 1.0)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Set, Sized
 from pathlib import Path
 from typing import Any, cast
 
@@ -152,6 +152,29 @@ def is_list(value: object) -> bool:
     value = getattr(value, "magnitude", value)  # of a quantity
     is_scalar = isinstance(value, str | bytes | Mapping) or getattr(value, "ndim", 1) == 0
     return isinstance(value, Iterable) and not is_scalar
+
+
+def is_pair(value: object) -> bool:
+    """Whether a value has two items in an order."""
+    return is_list(value) and not isinstance(value, Set) and _length(value) == 2
+
+
+def check_flag(value: object, field: str) -> bool:
+    """Return a truth value.
+
+    Raises
+    ------
+    InputError
+        If it is something else.
+    """
+    kind = getattr(getattr(value, "dtype", None), "kind", "")  # of a value of numpy
+    if not isinstance(value, bool) and (kind != "b" or getattr(value, "ndim", 1)):
+        raise InputError(f"{field}: {shown(value)}; True or False is accepted")
+    return bool(value)
+
+
+def _length(value: object) -> int:
+    return len(value) if isinstance(value, Sized) else -1
 
 
 def _is_encodable(text: str) -> bool:

@@ -76,7 +76,10 @@ def short_line(message: str) -> str:
 
 def shown(value: object) -> str:
     """Show a refused value on one short line."""
-    text = " ".join(repr(value).split())
+    try:
+        text = " ".join(repr(value).split())
+    except Exception:  # of a class that the user wrote
+        text = f"a {type(value).__name__}"
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 

@@ -185,7 +185,7 @@ def test_it_is_saved_and_read(tmp_path) -> None:
         ({"scales": ["3 m"]}, r"scales\[0\]: '3 m'"),
         ({"intensity": "PGV"}, 'intensity: \'PGV\'; "factor", "PGA"'),
         ({"intensity": (0.0, 0.05)}, r"intensity\[0\]: 0"),
-        ({"gaps": 0.01}, "gaps: 0.01 is no list"),
+        ({"gaps": 0.01}, "gaps: 0.01 is not a list"),
         ({"gaps": []}, "gaps: no values"),
         ({"gaps": [0.01, 0.01]}, "gaps: a value is given twice"),
         ({"gaps": ["1 kg"]}, r"gaps\[0\]: "),

@@ -57,7 +57,7 @@ def test_a_refit_that_stays_in_the_wrong_valley_is_mended_from_its_neighbours(ga
 
 
 class Rounded(Problem):
-    """One unknown: a rise of 1.3 a², which jumps by 3 at a = 1.4; each cost with rounding errors."""
+    """One unknown: a rise of 1.3 a², jumping by 3 at a = 1.4; each cost with rounding errors."""
 
     def __init__(self, seed):
         self.draw, self.tail, self.scale = np.random.default_rng(seed), np.inf, np.ones(1)

@@ -160,7 +160,7 @@ def test_over_any_parameters():
     [
         ({"frequency": [1.0]}, "vary: 'frequency' has an argument of its own"),
         ({"colour": [1.0]}, "vary: 'colour'"),
-        ({"gap": 3e-3}, "is no list of values"),
+        ({"gap": 3e-3}, "is not a list"),
         ({"gap": [1e-3, 1e-3]}, "given twice"),
         ({"cubic": [1.0]}, "cubic"),
     ],

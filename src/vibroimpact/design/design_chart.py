@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.design.design_shaking import AnyRecords, design_rig
 from vibroimpact.design.limits import limits_of
@@ -105,6 +106,7 @@ def design_chart(
     InputError
         If a value cannot be used.
     """
+    check_progress(progress)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )

@@ -18,7 +18,7 @@ from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.count_checks import share
+from vibroimpact.model.count_checks import MOST_TAIL, share
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
 from vibroimpact.model.read_rig import as_rig
 from vibroimpact.response.record_dataset import record_notes
@@ -206,7 +206,7 @@ def design_rig(
         return found.oscillator, ByRecords(
             suite(records),
             to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),
-            None if tail is None else to_si(tail, TIME, "tail", minimum=0.0),
+            None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
         )
     shaken = one_sine(found)
     return found.oscillator, BySines(

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
@@ -19,6 +20,7 @@ from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Bumper, Oscillator
+from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.units import pretty
@@ -167,6 +169,8 @@ def least_acceleration(
     """
     from scipy.optimize import NonlinearConstraint, differential_evolution
 
+    check_progress(progress)
+    seed = whole(seed, "seed", 0)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.design.design_shaking import AnyRecords, ByRecords, design_rig
 from vibroimpact.design.worst_sine import STEP, Sines
@@ -57,6 +58,7 @@ def required_gap(
     InputError
         If a value cannot be used, or the free motion has no bound or was given up.
     """
+    check_progress(progress)
     workers = placed(threads, where)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail

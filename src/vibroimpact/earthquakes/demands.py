@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
@@ -14,6 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.arguments import check_list, check_progress, is_list
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, PEAKS, RESIDUALS, Shaken, peaks
@@ -22,7 +23,7 @@ from vibroimpact.earthquakes.seismic_response import with_both_sides
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.count_checks import check_max_events, whole
+from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.response.record_dataset import record_notes
@@ -113,6 +114,7 @@ def demands(
     InputError
         If a value cannot be used, or the store holds something else.
     """
+    check_progress(progress)
     rigs = runs(rig, gaps, vary)
     shaking = suite(records)
     scaled = measure(intensity)
@@ -122,7 +124,7 @@ def demands(
         rigs,
         list(shaking.values()),
         factors,
-        None if tail is None else to_si(tail, TIME, "tail", minimum=0.0),
+        None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
         check_max_events(max_events),
         placed(threads, where),
     )
@@ -236,8 +238,7 @@ def _make(group: zarr.Group, task: _Task, most: int) -> None:
 
 def _levels(scales: Any, scaled: Measure) -> _Array:
     """The levels of shaking, in SI units."""
-    if isinstance(scales, str) or not isinstance(scales, Iterable):
-        scales = [scales]
+    scales = check_list(scales, "scales") if is_list(scales) else [scales]
     levels = np.array(
         [to_si(value, scaled.quantity, f"scales[{i}]", above=0.0) for i, value in enumerate(scales)]
     )

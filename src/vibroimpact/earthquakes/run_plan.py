@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import itertools
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.arguments import VALUES, check_mapping
+from vibroimpact.arguments import VALUES, check_list, check_mapping, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, Rig
 from vibroimpact.model.parameters import PARAMETERS
@@ -108,7 +108,7 @@ def suite(records: Any) -> dict[str, Record]:
     if isinstance(records, Mapping):
         found = {str(name): one for name, one in records.items()}
     else:
-        listed = list(records) if isinstance(records, Iterable) else [records]
+        listed = check_list(records, "records") if is_list(records) else [records]
         found = {}
         for i, one in enumerate(listed):
             about = one.about if isinstance(one, Record) else None

@@ -13,7 +13,7 @@ from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
 from vibroimpact.engine.status import Status
 from vibroimpact.model import to_si
-from vibroimpact.model.count_checks import check_max_events
+from vibroimpact.model.count_checks import MOST_TAIL, check_max_events
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
@@ -86,7 +86,7 @@ def seismic_response(
     behind = (
         free_tail(Rig(oscillator, record))
         if tail is None
-        else to_si(tail, TIME, "tail", minimum=0.0)
+        else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
     )
     found = peaks(
         [Shaken(oscillator, record, np.ones(1))],

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_name, check_variables
+from vibroimpact.arguments import check_flag, check_name, check_progress, check_variables
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.identification import results
 from vibroimpact.identification.equivalent_rigs import rivals
@@ -133,10 +133,13 @@ def identify(
     InputWarning
         If the shaking of the data is used, and that of the rig differs.
     """
+    check_progress(progress)
     starts, tried = whole(starts, "starts"), whole(tried, "tried", least=0)
     posterior = whole(posterior, "posterior", least=0)
     draws, seed = whole(draws, "draws", least=0), whole(seed, "seed", least=0)
     confidence = share(confidence, "confidence")
+    robust, steady = check_flag(robust, "robust"), check_flag(steady, "steady")
+    profiles = check_flag(profiles, "profiles")
     window = None if window is None else whole(window, "window")
     threads = (os.cpu_count() or 1) if threads is None else whole(threads, "threads")
     tests = tests_of(rig, data, noise, window, steady)

@@ -35,6 +35,13 @@ MOST_EVENTS = 10_000_000
 """Contacts and detachments in one cycle at which a run may be given up."""
 
 
+MOST_TAIL = 1e8
+"""Seconds of free vibration after a record."""
+
+MOST_STARTS = 1_000_000
+"""Random initial states of one call."""
+
+
 def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int:
     """Read a whole number, numpy's included.
 

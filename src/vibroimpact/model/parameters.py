@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple, cast
 
-from vibroimpact.arguments import is_list
+from vibroimpact.arguments import is_pair
 from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.model import access
 from vibroimpact.model.access import Read, Vary
@@ -127,11 +127,12 @@ def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[flo
     InputError
         If it is not a pair, a value cannot be used, or the range is empty.
     """
-    if not is_list(span) or len(ends := list(cast("Iterable[float | str]", span))) != 2:
+    if not is_pair(span):
         raise InputError(
             f"{field}: {shown(span)}; the lowest and the highest value of {varied.name} are "
             "accepted, as (low, high)"
         )
+    ends = list(cast("Iterable[float | str]", span))
     low, high = (
         to_si(end, varied.quantity, f"{field}[{i}]", minimum=varied.least, maximum=varied.most)
         for i, end in enumerate(ends)

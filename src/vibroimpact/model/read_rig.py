@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from vibroimpact.arguments import is_list
+from vibroimpact.arguments import check_list, is_list, is_pair
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import laboratory
 from vibroimpact.model.excitation import Harmonic, Periodic
@@ -69,13 +69,13 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
     InputError
         If there is none, or one is not a rig.
     """
-    alone = is_one_rig(rigs) or not isinstance(rigs, Iterable)
+    alone = is_one_rig(rigs) or not (is_list(rigs) or isinstance(rigs, Mapping))
     if isinstance(rigs, Mapping):
         items = [(str(name), rig) for name, rig in rigs.items()]
     elif alone:
         items = [("", rigs)]
     else:
-        items = [("", rig) for rig in rigs]
+        items = [("", rig) for rig in check_list(rigs, where)]
     if not items:
         raise InputError(f"{where}: the list is empty; at least one rig is accepted")
     read = []
@@ -125,6 +125,7 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
 
 def from_lowest(rig: Rig, parameter: str, span: Any) -> Rig:
     """Return a rig at the lowest frequency of a span, if the frequency is varied and left open."""
-    if rig.frequency is None and parameter == "frequency" and is_list(span) and len(span):
-        return rig.at(span[0])
+    open_and_varied = isinstance(parameter, str) and parameter == "frequency"
+    if rig.frequency is None and open_and_varied and is_pair(span):
+        return rig.at(next(iter(span)))
     return rig

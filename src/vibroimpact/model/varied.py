@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.arguments import check_list
+from vibroimpact.errors import InputError
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.rig import Rig
@@ -54,8 +55,7 @@ def varied(
     known = parameter(name, "vary").of(rig)
     if known.name in but:
         raise InputError(f"vary: {name!r} {why}; a parameter of the rig is accepted")
-    if isinstance(values, str) or not isinstance(values, Iterable):
-        raise InputError(f"{field}: {shown(values)} is no list of values; one or more are accepted")
+    values = check_list(values, field, what="a list of values")
     limits: dict[str, Any] = {"minimum": known.least} if known.zero else {"above": 0.0}
     numbers = [
         to_si(value, known.quantity, f"{field}[{i}]", **limits, maximum=known.most)

@@ -14,8 +14,9 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from vibroimpact._version import __version__
+from vibroimpact.arguments import check_path
 from vibroimpact.datasets.files import write_whole
-from vibroimpact.errors import InputError, in_one_line
+from vibroimpact.errors import InputError, in_one_line, shown
 from vibroimpact.figures import resonance_curves, save_figure
 from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
 from vibroimpact.identification.finding_texts import amplitude_words
@@ -84,7 +85,9 @@ def fit_report(
     """
     if not isinstance(result, xr.Dataset) or "fitted_value" not in result:
         raise InputError("result: this is no fit; a dataset of identify is accepted")
-    where = Path(folder)
+    where = check_path(folder, "folder")
+    if not where.is_dir():
+        raise InputError(f"folder: {shown(folder)} does not exist; an existing folder is accepted")
     check_name(name, "name")
     files: dict[str, Path] = {}
     figures: list[Figure] = []

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.arguments import check_list, is_list
+from vibroimpact.arguments import check_list, check_progress, is_list
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine import spectra
 from vibroimpact.errors import InputError, shown
@@ -68,6 +68,7 @@ def response_spectrum(
         If it is no record, or components differ in step or length; if a period or a damping ratio
         cannot be used.
     """
+    check_progress(progress)
     components = _components(record)
     period = _numbers(periods, "periods", _LEAST, _MOST, "periods of 0, or from 1e-9 to 1e9 s,")
     ratio = _numbers(damping, "damping", 0.0, 1.0, "damping ratios from 0 to less than 1")

@@ -23,7 +23,7 @@ from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Record, Repeated, State, equilibrium, to_si
-from vibroimpact.model.count_checks import check_max_events, check_samples, whole
+from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
@@ -100,7 +100,7 @@ def simulate(
             raise InputError(
                 f"cycles: {cycles!r}, but a record has none; tail, a time, is accepted beside it"
             )
-        behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
+        behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
         return through(Rig(oscillator, excitation), behind, start, samples, max_events, progress)
     if tail is not None:
         raise InputError(f"tail: {tail!r} is for a Record; cycles say how long this shaking lasts")

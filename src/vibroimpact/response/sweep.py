@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list
+from vibroimpact.arguments import check_list, check_progress
 from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
@@ -160,6 +160,7 @@ def sweeps(
     InputError
         If a value cannot be used.
     """
+    check_progress(progress)
     named = periodic_rigs(rigs)
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)

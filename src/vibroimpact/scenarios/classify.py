@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError
 from vibroimpact.model.read_rig import AnyRig, as_rig
@@ -155,6 +156,7 @@ def classify(
     progress: Progress | None = None,
 ) -> Classification:
     """Classify a rig as `classify_scenario` does, and keep the evidence as it was found."""
+    check_progress(progress)
     used = checked(thresholds)
     rig = one_sine(as_rig(rig))
     held = default_frequencies(rig) if frequencies is None else frequencies

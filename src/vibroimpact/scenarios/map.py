@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.grids.refinement import UNKNOWN, Nodes, Scenarios
@@ -113,6 +114,7 @@ def scenario_map(
     InputError
         If a value cannot be used, or the store holds something else.
     """
+    check_progress(progress)
     start = _base(rig)
     first, second = (
         axis(given, where, start.base.sine.of) for given, where in ((x, "x"), (y, "y"))

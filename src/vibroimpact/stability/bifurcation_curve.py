@@ -22,7 +22,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import is_list
+from vibroimpact.arguments import check_list, check_progress, is_list
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.datasets.description import (
@@ -96,8 +96,15 @@ def bifurcation_curve(
     InputError
         If a value cannot be used, or the start is no bifurcation of this rig.
     """
+    check_progress(progress)
     rig = as_rig(rig, frequency)
     oscillator, excitation = rig.oscillator, rig.harmonic
+    names = check_list(parameters, "parameters", 2, "a list of two parameters")
+    for name in (one for one in names if not isinstance(one, str)):
+        raise InputError(f"parameters: {shown(name)} is not a name; two names are accepted")
+    if len(names) != 2:
+        raise InputError(f"parameters: {shown(parameters)}; two names are accepted")
+    parameters = (names[0], names[1])
     if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
         raise InputError(
             "start: this is not one bifurcation; data.isel(bifurcation=i) of a branch is accepted"

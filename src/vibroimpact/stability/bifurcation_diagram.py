@@ -10,7 +10,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import STARTS, check_mapping
+from vibroimpact.arguments import (
+    MOST_LISTED,
+    STARTS,
+    check_flag,
+    check_list,
+    check_mapping,
+    check_name,
+    check_progress,
+)
 from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
@@ -21,7 +29,7 @@ from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Rig, State
-from vibroimpact.model.count_checks import check_max_events, share, whole
+from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, share, whole
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
@@ -125,17 +133,18 @@ def bifurcation_diagram(
     InputError
         If a value cannot be used.
     """
+    check_progress(progress)
     rig = from_lowest(as_rig(rig, frequency), parameter, span)
     oscillator, excitation = rig.oscillator, rig.harmonic
     varied = registered(parameter, of=excitation.of).of(oscillator)
     ends = read_span(varied, span)
+    log = check_flag(log, "log")
     if log and ends[0] <= 0.0:
         raise InputError(f"span[0]: {ends[0]:g}; of a logarithmic axis a value above 0 is accepted")
-    count = whole(steps, "steps", 2)
+    count = whole(steps, "steps", 2, MOST_LISTED)
     values: _Array = np.geomspace(*ends, count) if log else np.linspace(*ends, count)
     values[0], values[-1] = ends
-    if section not in POINT:
-        raise InputError(f"section: {section!r}; one of {', '.join(POINT)} is accepted")
+    check_name(section, POINT, "section")
     settling = Settling(
         share(tolerance, "tolerance"),
         whole(max_cycles, "max_cycles"),
@@ -145,7 +154,8 @@ def bifurcation_diagram(
     look = Look(
         section, settling.window, whole(exponent_cycles, "exponent_cycles"), settling.max_events
     )
-    random, workers = whole(random, "random", 0), placed(threads, where)
+    random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
+    workers = placed(threads, where)
     ways = _ways(directions, starts, random, oscillator)
     every = rigs_along(varied, rig, values)
     vectors = [engine_rig(one) for one in every]
@@ -192,8 +202,8 @@ def bifurcation_diagram(
             "oscillator": oscillator_parameters(oscillator),
             **excitation_parameters(excitation),
             "parameter": varied.name,
-            "low": span[0],
-            "high": span[1],
+            "low": ends[0],
+            "high": ends[1],
             "seed": seed,
             **settling._asdict(),
             **look._asdict(),
@@ -217,10 +227,9 @@ def _ways(
     directions: Sequence[str], starts: Mapping[str, Any] | None, random: int, rig: Oscillator
 ) -> dict[str, _Array | None]:
     """Where motions begin: None where they are carried on."""
-    given = (directions,) if isinstance(directions, str) else tuple(directions)
+    given = (directions,) if isinstance(directions, str) else check_list(directions, "directions")
     for direction in given:
-        if direction not in DIRECTIONS:
-            raise InputError(f"directions: {direction!r}; 'up' and 'down' are accepted")
+        check_name(direction, DIRECTIONS, "directions")
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     for name in named:
         if name in DIRECTIONS:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
 from vibroimpact.model import Rig, State
@@ -85,6 +86,7 @@ def branch(
     InputError
         If a value cannot be used, or Newton's method finds no orbit near the start.
     """
+    check_progress(progress)
     rig = from_lowest(as_rig(rig, frequency), parameter, span)
     fam, ends, first = _first_orbit(rig, start, parameter, span, period)
     most_points = whole(most_points, "most_points")

@@ -14,7 +14,7 @@ from vibroimpact.arguments import STARTS, check_mapping, check_progress
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Repeated, RigidStop, State, Stop
-from vibroimpact.model.count_checks import whole
+from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, state_from
@@ -27,7 +27,7 @@ from vibroimpact.stability.settle import (
     reach,
     reach_at_rest,
 )
-from vibroimpact.stability.steady import describe_motion, steady
+from vibroimpact.stability.steady import describe_motion, read_lengths, steady
 from vibroimpact.tasks.threads import Progress, counted
 
 _RANDOM_SIZE = 1.5
@@ -101,6 +101,7 @@ def coexisting_motions(
     InputError
         If a value cannot be used.
     """
+    check_progress(progress)
     rig = as_rig(rig, frequency)
     motions = find_motions(
         rig,
@@ -155,8 +156,9 @@ def find_motions(
     to its mirror image. Parameters and errors are those of `coexisting_motions`.
     """
     oscillator, excitation = rig.oscillator, rig.harmonic
-    random = whole(random, "random", 0)
-    samples, window = whole(samples, "samples"), whole(window, "window")
+    random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
+    samples, window, exponent_cycles = read_lengths(samples, window, exponent_cycles)
+    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     kept: list[_Kept] = []
     given_up: dict[Status, tuple[State | NDArray[np.float64], list[str]]] = {}

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.arguments import VALUES, check_mapping
+from vibroimpact.arguments import VALUES, check_mapping, check_progress
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
@@ -107,6 +107,7 @@ def lyapunov_exponents(
     InputError
         If a value cannot be used.
     """
+    check_progress(progress)
     named = periodic_rigs(rigs)
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)

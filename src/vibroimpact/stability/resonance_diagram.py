@@ -9,10 +9,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_list, check_progress
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
-from vibroimpact.model.count_checks import whole
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model.count_checks import MOST_CYCLES, MOST_STARTS, whole
 from vibroimpact.model.parameters import PARAMETERS, read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
@@ -93,23 +94,25 @@ def resonance_diagram(
     InputError
         If a value cannot be used.
     """
+    check_progress(progress)
     rig = as_rig(rig, frequency)
     if rig.amplitudes is not None:
         raise InputError("shaking: a list of amplitudes; one amplitude is accepted")
-    if parameter == "frequency":
+    if isinstance(parameter, str) and parameter == "frequency":
         if frequency is not None:
             raise InputError(
-                f"frequency: {frequency!r}, but it is varied; it is accepted where another "
+                f"frequency: {shown(frequency)}, but it is varied; it is accepted where another "
                 "parameter is"
             )
         rig = rig.at(read_span(PARAMETERS["frequency"], span)[1])
     fam = family(Rig(rig.oscillator, rig.harmonic.replace(phase=phase)), parameter)
     ends = read_span(fam.parameter, span)
-    longest, starts = whole(longest, "longest"), whole(starts, "starts")
+    longest = whole(longest, "longest", most=MOST_CYCLES)
+    starts = whole(starts, "starts", most=MOST_STARTS)
     most_branches = whole(most_branches, "most_branches")
     most_points = whole(most_points, "most_points")
-    random, seed = whole(random, "random", 0), whole(seed, "seed", 0)
-    given = [basins] if isinstance(basins, xr.Dataset) else list(basins)
+    random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
+    given = [basins] if isinstance(basins, xr.Dataset) else check_list(basins, "basins")
     begin = values(fam, ends, starts)
     followed: list[Followed] = []
     waiting: list[tuple[Orbit, Bifurcation | None]] = [

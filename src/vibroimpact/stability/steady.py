@@ -110,14 +110,8 @@ def steady(
     """
     rig = as_rig(rig, frequency)
     oscillator = rig.oscillator
-    samples, window = whole(samples, "samples"), whole(window, "window")
+    samples, window, exponent_cycles = read_lengths(samples, window, exponent_cycles)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
-    exponent_cycles = whole(exponent_cycles, "exponent_cycles")
-    check_samples(window, samples, "window")
-    if exponent_cycles > MOST_CYCLES:
-        raise InputError(
-            f"exponent_cycles: {exponent_cycles} cycles; at most {MOST_CYCLES} are accepted"
-        )
     check_progress(progress)
     state = equilibrium(oscillator) if start is None else as_state(start)
     found = approach(rig, state, tolerance, max_cycles, max_events, progress)
@@ -127,6 +121,24 @@ def steady(
     if progress:
         progress(max_cycles, max_cycles)  # it may have settled long before
     return data
+
+
+def read_lengths(samples: object, window: object, exponent_cycles: object) -> tuple[int, int, int]:
+    """Read how many samples and cycles are recorded, and over how many growth is averaged.
+
+    Raises
+    ------
+    InputError
+        If one is not a whole number of at least 1, or they are too many.
+    """
+    samples, window = whole(samples, "samples"), whole(window, "window")
+    exponent_cycles = whole(exponent_cycles, "exponent_cycles")
+    check_samples(window, samples, "window")
+    if exponent_cycles > MOST_CYCLES:
+        raise InputError(
+            f"exponent_cycles: {exponent_cycles} cycles; at most {MOST_CYCLES} are accepted"
+        )
+    return samples, window, exponent_cycles
 
 
 def describe_motion(

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import origin
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Rig
@@ -90,6 +91,7 @@ def ensemble(
         If a value cannot be used, a draw is one that the parameter cannot have, or the response
         gives no dataset over rigs.
     """
+    check_progress(progress)
     drawn = uncertain(rig, distributions)
     values = drawn.values(shares(draws, len(drawn.names), method, whole(seed, "seed", 0)))
     data = responded(drawn, values, response, block, progress)

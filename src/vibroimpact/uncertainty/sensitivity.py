@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator
@@ -73,6 +74,7 @@ def sensitivity(
     InputError
         As of `ensemble`; or if the response has no such quantity.
     """
+    check_progress(progress)
     drawn = uncertain(rig, distributions)
     count, resampled_sets = whole(draws, "draws"), whole(resamples, "resamples", 0)
     check_power(count, "draws", "Sobol's points")
