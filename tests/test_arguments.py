@@ -86,6 +86,15 @@ def test_every_public_function_has_a_valid_call(folder: Path) -> None:
             assert set(given) == set(arguments.parameters(name)), name
 
 
+def test_valid_calls_are_valid(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Otherwise nonsense in one argument would be refused for another one."""
+    monkeypatch.chdir(folder)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for function, given in arguments.calls(folder).values():
+            function(**given)
+
+
 @pytest.mark.parametrize("name", QUICK)
 def test_nonsense_is_one_line(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
@@ -142,6 +151,39 @@ WRONG = [
 @pytest.mark.parametrize(("field", "wrong"), WRONG)
 def test_what_a_diagram_cannot_use_is_one_line(field, wrong, folder):
     function, given = arguments.calls(folder)["bifurcation_diagram"]
+    with pytest.raises(vi.InputError, match=rf"^{field}"):
+        function(**{**given, field: wrong})
+
+
+@pytest.mark.parametrize(
+    ("name", "field", "wrong"),
+    [
+        ("Record.from_displacement", "step", 1e-320),
+        ("demands", "gaps", range(10**9)),
+        ("demands", "gaps", np.array(5.0)),
+        ("demands", "scales", range(1, 10**9)),
+        ("design_chart", "records", np.array(5.0)),
+        ("design_chart", "tail", 10**12),
+        ("bifurcation_curve", "spans", {1, 2}),
+        ("bifurcation_diagram", "steps", 10**12),
+        ("fit_report", "comparison", [1.0]),
+        ("fit_report", "folder", 5),
+        ("fit_report", "folder", "nowhere"),
+        ("identify", "robust", np.eye(2)),
+        ("identify", "profiles", "no"),
+        ("least_acceleration", "seed", 0.5),
+        ("lyapunov_exponents", "rigs", range(10**9)),
+        ("lyapunov_exponents", "rigs", np.array(5.0)),
+        ("required_gap", "records", range(10**9)),
+        ("resonance_diagram", "basins", 5),
+        ("resonance_diagram", "parameter", np.eye(2)),
+        ("resonance_diagram", "starts", 10**12),
+        ("scenario_map", "step", 1e-300),
+    ],
+)
+def test_what_cannot_be_used_is_one_line(name, field, wrong, folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    function, given = arguments.calls(folder)[name]
     with pytest.raises(vi.InputError, match=rf"^{field}"):
         function(**{**given, field: wrong})
 

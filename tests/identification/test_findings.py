@@ -146,6 +146,14 @@ def test_a_shaking_of_the_rig_that_the_data_replace_is_reported(shaking):
     assert "not used" not in same.findings
 
 
+def test_the_amplitude_of_a_computed_sweep_is_its_own():
+    data = vi.sweep(vi.Rig(CASE.oscillator, "0.04 g"), GRID)
+    with pytest.warns(vi.InputWarning, match=r"the amplitude is 0\.04 g, from the data; that of"):
+        found = vi.identify(vi.Rig(CASE.oscillator, "0.05 g"), data, "stiffness", **QUICK)
+    assert found.fitted_value.values[0] == pytest.approx(31900.0, rel=1e-6)
+    assert vi.fitted_rig(found).amplitude == pytest.approx(0.04 * 9.80665)
+
+
 def test_a_measured_base_and_its_frequency_replace_those_of_the_rig():
     data = vi.simulate(vi.Rig(CASE.oscillator, vi.Harmonic("0.04 g", 1.5)), 6, samples=40)
     given = vi.Rig(CASE.oscillator, vi.Harmonic("0.06 g", 1.7))

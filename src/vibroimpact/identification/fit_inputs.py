@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.read_rig import as_rig
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import Rig, as_periodic
+from vibroimpact.model.rig import ANY_FREQUENCY, Rig, as_periodic
 from vibroimpact.model.units import pretty, to_si
 
 BASE = "the measured base"
@@ -93,7 +94,7 @@ def _of(given: Any, name: str, names: list[str], field: str) -> Any:
 
 def _shaken_rig(rig: Rig, data: xr.Dataset, where: str) -> tuple[Rig, str]:
     """The rig with its shaking, and where that is from: the data, or else the rig."""
-    chosen: Any = data.attrs.get("amplitude")
+    chosen: Any = data.attrs.get("amplitude", _of_sweep(data))
     source = str(data.attrs.get("amplitude_source", "the data"))
     if chosen is None:
         chosen, source = rig.shaking, RIG
@@ -113,6 +114,15 @@ def _shaken_rig(rig: Rig, data: xr.Dataset, where: str) -> tuple[Rig, str]:
     if sizes is not None or not isinstance(shaken, Harmonic | Periodic):
         raise InputError("shaking: a list of amplitudes; a rig for each test is accepted, by name")
     return Rig(rig.oscillator, shaken), source
+
+
+def _of_sweep(data: xr.Dataset) -> Harmonic | None:
+    """The sine of a computed sweep, which its dataset states; None of other data."""
+    if data.attrs.get("created_by") != "vibroimpact.sweep":
+        return None
+    (rig,) = json.loads(data.attrs["parameters"])["rigs"]
+    size = rig.get("amplitude")
+    return Harmonic(size, ANY_FREQUENCY, of=rig["of"]) if isinstance(size, float) else None
 
 
 def _unused(rig: Rig, test: Test, source: str) -> list[str]:

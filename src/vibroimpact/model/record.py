@@ -25,6 +25,9 @@ _OFF = 0.05
 """Share of the peak from which on a mean that is left in is told."""
 _DEGREES = {"mean": 0, "line": 1}
 
+LEAST_STEP, MOST_STEP = 1e-12, 1e9
+"""Time between two samples, in s."""
+
 
 class Record:
     """A measured base acceleration A_t, linear between its samples and zero behind them.
@@ -46,7 +49,7 @@ class Record:
 
     def __init__(self, acceleration: ArrayLike, step: float | str) -> None:
         self._acceleration = _samples(acceleration, ACCELERATION, "acceleration")
-        self._step = to_si(step, TIME, "step", above=0.0)
+        self._step = to_si(step, TIME, "step", minimum=LEAST_STEP, maximum=MOST_STEP)
         self._about = About()
 
     @classmethod
@@ -141,7 +144,7 @@ class Record:
         from scipy.interpolate import CubicSpline
 
         values = _samples(displacement, LENGTH, "displacement", 8)
-        spacing = to_si(step, TIME, "step", above=0.0)
+        spacing = to_si(step, TIME, "step", minimum=LEAST_STEP, maximum=MOST_STEP)
 
         def differentiated(every: int) -> NDArray[np.float64]:
             some = values[::every]

@@ -14,7 +14,7 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from vibroimpact._version import __version__
-from vibroimpact.arguments import check_path
+from vibroimpact.arguments import check_path, check_variables
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError, in_one_line, shown
 from vibroimpact.figures import resonance_curves, save_figure
@@ -89,6 +89,8 @@ def fit_report(
     if not where.is_dir():
         raise InputError(f"folder: {shown(folder)} does not exist; an existing folder is accepted")
     check_name(name, "name")
+    if comparison is not None:
+        check_variables(comparison, ["akaike"], "comparison", "a dataset of compare_fits")
     files: dict[str, Path] = {}
     figures: list[Figure] = []
 

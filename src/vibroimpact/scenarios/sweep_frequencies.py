@@ -141,12 +141,17 @@ def held(oscillator: Oscillator, high: float, step: float) -> NDArray[np.float64
 
 def grid(high: float, step: float) -> NDArray[np.float64]:
     """Multiples of `step` above `LOW` up to `high` at least."""
-    count = math.ceil((high - LOW) / step - 1e-9)
+    count = (high - LOW) / step - 1e-9
+    if count > MOST and (high - LOW) / STEP <= MOST:
+        raise InputError(
+            f"step: {step:g} takes {count:.3g} frequencies; a step that takes at most {MOST} is "
+            "accepted"
+        )
     if count > MOST:
         raise InputError(
             f"stiffness: with its stops the rig may resonate up to {high:.3g} times its natural "
             f"frequency, which takes {count:.3g} frequencies; stops that need at most {MOST} are "
             "accepted"
         )
-    values: NDArray[np.float64] = LOW + step * np.arange(count + 1, dtype=np.float64)
+    values: NDArray[np.float64] = LOW + step * np.arange(math.ceil(count) + 1, dtype=np.float64)
     return values

@@ -22,7 +22,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list, check_progress, is_list
+from vibroimpact.arguments import check_list, check_progress, is_pair
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.datasets.description import (
@@ -118,13 +118,15 @@ def bifurcation_curve(
     kind = start["bifurcation_kind"].item()
     phase = float(start["bifurcation_section"].sel(component="phase"))
     over = plane(Rig(oscillator, excitation.replace(phase=phase)), (parameters[0], parameters[1]))
-    if not is_list(spans) or len(spans) != 2:
+    if not is_pair(spans):
         raise InputError(
             f"spans: {shown(spans)}; a (low, high) pair for each of the two parameters is accepted"
         )
     ends = [
-        read_span(varied, spans[i], f"spans[{i}]")
-        for i, varied in enumerate((over.family.parameter, over.other))
+        read_span(varied, span, f"spans[{i}]")
+        for i, (varied, span) in enumerate(
+            zip((over.family.parameter, over.other), spans, strict=True)
+        )
     ]
     if not ends[1][0] <= over.value <= ends[1][1]:
         raise InputError(

@@ -15,6 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.count_checks import MOST_CYCLES, MOST_STARTS, whole
 from vibroimpact.model.parameters import PARAMETERS, read_span
+from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
@@ -98,7 +99,7 @@ def resonance_diagram(
     rig = as_rig(rig, frequency)
     if rig.amplitudes is not None:
         raise InputError("shaking: a list of amplitudes; one amplitude is accepted")
-    if isinstance(parameter, str) and parameter == "frequency":
+    if registered(parameter).name == "frequency":
         if frequency is not None:
             raise InputError(
                 f"frequency: {shown(frequency)}, but it is varied; it is accepted where another "
