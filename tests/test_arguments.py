@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import arguments
 import vibroimpact as vi
@@ -168,6 +169,7 @@ def test_what_a_diagram_cannot_use_is_one_line(field, wrong, folder):
         ("bifurcation_diagram", "steps", 10**12),
         ("fit_report", "comparison", [1.0]),
         ("fit_report", "folder", 5),
+        ("fit_report", "figure", np.eye(30)),
         ("fit_report", "folder", "nowhere"),
         ("identify", "robust", np.eye(2)),
         ("identify", "profiles", "no"),
@@ -179,6 +181,11 @@ def test_what_a_diagram_cannot_use_is_one_line(field, wrong, folder):
         ("resonance_diagram", "parameter", np.eye(2)),
         ("resonance_diagram", "starts", 10**12),
         ("scenario_map", "step", 1e-300),
+        ("ensemble", "method", xr.Dataset({"a": 1})),
+        ("ensemble", "response", int),
+        ("sensitivity", "quantity", [1.0]),
+        ("sensitivity", "resamples", 10**12),
+        ("sensitivity", "draws", 2**40),
     ],
 )
 def test_what_cannot_be_used_is_one_line(name, field, wrong, folder, monkeypatch):

@@ -38,6 +38,9 @@ MOST_EVENTS = 10_000_000
 MOST_TAIL = 1e8
 """Seconds of free vibration after a record."""
 
+MOST_DRAWS, MOST_RESAMPLES = 2**20, 100_000
+"""Random rigs of one call, and sets of them that are drawn again."""
+
 MOST_STARTS = 1_000_000
 """Random initial states of one call."""
 

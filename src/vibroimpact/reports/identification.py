@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 from urllib.parse import quote
 
 import numpy as np
@@ -14,6 +14,7 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from vibroimpact._version import __version__
+from vibroimpact.arguments import check_name as check_one_of
 from vibroimpact.arguments import check_path, check_variables
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError, in_one_line, shown
@@ -89,6 +90,7 @@ def fit_report(
     if not where.is_dir():
         raise InputError(f"folder: {shown(folder)} does not exist; an existing folder is accepted")
     check_name(name, "name")
+    check_one_of(figure, get_args(Format), "figure")
     if comparison is not None:
         check_variables(comparison, ["akaike"], "comparison", "a dataset of compare_fits")
     files: dict[str, Path] = {}

@@ -109,7 +109,7 @@ def responded(
     progress: Progress | None,
 ) -> xr.Dataset:
     """The response of the rigs at rows of values, block by block, along ``sample``."""
-    if not callable(response):
+    if not callable(response) or isinstance(response, type):
         raise InputError(
             f"response: {shown(response)} is no function; one of a list of rigs is accepted, such "
             "as functools.partial(vibroimpact.sweeps, frequencies=...)"

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from vibroimpact.arguments import check_name
 from vibroimpact.datasets.description import excitation_parameters, oscillator_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
-from vibroimpact.model.count_checks import whole
+from vibroimpact.model.count_checks import MOST_DRAWS, whole
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
@@ -157,9 +158,8 @@ def shares(count: object, columns: int, method: str, seed: int) -> _Array:
     InputError
         If there is no such method, or the count is no power of 2 for Sobol's points.
     """
-    n = whole(count, "draws")
-    if method not in METHODS:
-        raise InputError(f"method: {method!r}; one of {', '.join(METHODS)} is accepted")
+    n = whole(count, "draws", most=MOST_DRAWS)
+    check_name(method, METHODS, "method")
     if method == "sobol":
         check_power(n, "draws", "Sobol's points")
         found: _Array = qmc.Sobol(columns, rng=seed).random(n)

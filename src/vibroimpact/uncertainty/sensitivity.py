@@ -10,11 +10,10 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from vibroimpact.arguments import check_progress
+from vibroimpact.arguments import check_name, check_progress
 from vibroimpact.datasets.description import describe
-from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator
-from vibroimpact.model.count_checks import whole
+from vibroimpact.model.count_checks import MOST_DRAWS, MOST_RESAMPLES, whole
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.threads import Progress
 from vibroimpact.uncertainty.distributions import Distribution
@@ -76,7 +75,8 @@ def sensitivity(
     """
     check_progress(progress)
     drawn = uncertain(rig, distributions)
-    count, resampled_sets = whole(draws, "draws"), whole(resamples, "resamples", 0)
+    count = whole(draws, "draws", most=MOST_DRAWS)
+    resampled_sets = whole(resamples, "resamples", 0, MOST_RESAMPLES)
     check_power(count, "draws", "Sobol's points")
     seed = whole(seed, "seed", 0)
     columns = len(drawn.names)
@@ -85,9 +85,11 @@ def sensitivity(
     # Of each parameter the first set with that column of the second one.
     sets = [a, b, *(np.where(np.arange(columns) == i, b, a) for i in range(columns))]
     data = responded(drawn, drawn.values(np.concatenate(sets)), response, block, progress)
-    if quantity not in data or "sample" not in data[quantity].dims:
-        names = [str(name) for name, one in data.data_vars.items() if "sample" in one.dims]
-        raise InputError(f"quantity: {shown(quantity)}; one of {', '.join(names)} is accepted")
+    check_name(
+        quantity,
+        [str(key) for key, one in data.variables.items() if "sample" in one.dims],
+        "quantity",
+    )
     values = data[quantity].transpose(..., "sample").astype(float)
     one = values.isel(sample=0, drop=True)
     found = values.values.reshape(*one.shape, columns + 2, count)
