@@ -24,8 +24,16 @@ FREE, FOUND = "displacement of free flight, 523.4 mm", r"displacement that was f
         (lambda rig: vi.steady(vi.Rig(rig, vi.Harmonic("0.1 g", 0.4))), RIG, FREE),
         (lambda rig: vi.steady(vi.Rig(rig, vi.Harmonic("0.1 g", 0.4))), SLIDING, FOUND),
         (lambda rig: vi.seismic_response(vi.Rig(rig, RECORD)), RIG, FOUND),
+        (lambda rig: vi.demands(rig, RECORD), RIG, FOUND),
     ],
-    ids=["sweep", "sweep sliding", "steady", "steady sliding", "seismic_response"],
+    ids=[
+        "sweep",
+        "sweep sliding",
+        "steady",
+        "steady sliding",
+        "seismic_response",
+        "demands",
+    ],
 )
 def test_a_gap_of_metres_that_were_millimetres_is_doubted(of, rig, whose):
     told = rf"^gap: 250 m is \d+.* times the largest {whose}; is 250 mm meant\?$"

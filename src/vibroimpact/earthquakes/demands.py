@@ -26,6 +26,8 @@ from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model.rig import Rig
+from vibroimpact.response.plausibility import doubt_gaps
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
 from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read
@@ -156,13 +158,25 @@ def demands(
             "intensity": ("record", known),
         },
     )
-    data = describe(with_both_sides(data), CREATED_BY, settings, record_notes(shaking))
+    data = with_both_sides(data)
+    notes = [*record_notes(shaking), *_doubted(rigs.rigs, next(iter(shaking.values())), data)]
+    data = describe(data, CREATED_BY, settings, notes)
     for name in ("scale", "intensity"):
         data[name].attrs.update(units=scaled.units, long_name=scaled.name)
     for one in rigs.varied:
         data[one.name].attrs.update(units=one.units, long_name=one.long_name)
     _warn(found["status"])
     return data
+
+
+def _doubted(rigs: Mapping[str, Oscillator], record: Record, data: xr.Dataset) -> list[str]:
+    """What is doubted of the rigs, each line once."""
+    lines: dict[str, None] = {}
+    for name, oscillator in rigs.items():
+        own = data.sel(rig=name) if "rig" in data.dims else data
+        peaks = own["peak_displacement"].values
+        lines |= dict.fromkeys(doubt_gaps(Rig(oscillator, record), peaks[np.isfinite(peaks)]))
+    return list(lines)
 
 
 class _Task(NamedTuple):

@@ -14,8 +14,9 @@ from vibroimpact.engine import recorded
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
 from vibroimpact.model import Record, State, equilibrium
-from vibroimpact.model.count_checks import check_samples
+from vibroimpact.model.count_checks import MOST_SAMPLES, check_samples
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
@@ -101,6 +102,11 @@ def through(
 def straight(record: Record, tail: float) -> _Array:
     """The record's straight lines, and those of no acceleration behind it."""
     values, step = record.acceleration, record.step
+    if tail / step > MOST_SAMPLES:
+        raise InputError(
+            f"tail: {tail:g} s is {tail / step:.3g} steps of the record; at most {MOST_SAMPLES} "
+            "are accepted"
+        )
     whole = int(tail / step)
     rest = tail - whole * step
     lengths = [step] * whole + ([rest] if rest > 1e-9 * step else [])
