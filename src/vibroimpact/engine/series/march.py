@@ -176,7 +176,7 @@ class Shaken(NamedTuple):
 
 
 @inlined
-def excess_of(plan: Vector, by: Shaken, t: float, size: float) -> tuple[float, Clock]:
+def excess_of(plan: Vector, by: Shaken, t: float, size: float, fine: float) -> tuple[float, Clock]:
     """By how much a step is too long, if above 1; and the clock at its end, a time later.
 
     Its last terms must be small, and its end must obey the equation of motion: terms are blind to a
@@ -185,7 +185,8 @@ def excess_of(plan: Vector, by: Shaken, t: float, size: float) -> tuple[float, C
     s, c = stepped(plan, by.clock[0], by.clock[1], t * by.unit)
     pulled = by.sign * value(plan, s, c) * (by.unit * by.unit) - plan[_LOAD]
     off = abs(plan[FOUND + F_OWES] + pulled * plan[FOUND + F_WEIGHT])
-    whole = BALANCED * max(size, abs(plan[FOUND + F_X]))
+    # Of a size that is smaller than the displacement's own the velocity is asked to be right.
+    whole = BALANCED * (size if fine > 1.0 else max(size, abs(plan[FOUND + F_X])))
     excess: float = plan[FOUND + F_EXCESS]
     if not off <= whole:
         excess = max(excess, off / whole)
@@ -206,7 +207,7 @@ def shortened(
 ) -> tuple[float, Clock]:
     """Shorten the step in hand until it is right; return its length and the clock there.
 
-    A step shorter than `fine` may be off by the same share of `size` only.
+    `fine` is by how much smaller `size` is than the motion's, if above 1.
     """
     after = by.clock
     for _ in range(_CUT):
@@ -214,9 +215,8 @@ def shortened(
         if excess < math.inf:
             share = max(0.9 * excess ** (-1.0 / (DEGREE - 1)), share)
         h *= share
-        allowed = size * h / fine if h < fine else size
         run(plan, slot + AGAIN, 0.0, 0.0, 0.0, size, h, 0.0, 0.0)
-        excess, after = excess_of(plan, by, lasts(plan, slot, h), allowed)
+        excess, after = excess_of(plan, by, lasts(plan, slot, h), size, fine)
         if excess <= 1.0 or not size < _GONE:
             break
     return h, after
@@ -236,14 +236,15 @@ def taken(
 ) -> tuple[float, Clock]:
     """Write the series of a step and what is at its end; return its length and the clock there.
 
-    A step shorter than `fine` may be off by the same share of `size` only.
+    If `fine` is above 1, it may be off by that share of `size` only.
     """
+    if fine > 1.0:
+        size /= fine
     now, after = shaken(plan, by.sign, by.clock, by.unit)
     run(plan, slot, x, v, z, size, longest, now, after)
     plan[FOUND + A_T] = -math.inf
     h: float = plan[FOUND + F_H]
-    allowed = size * h / fine if h < fine else size
-    excess, there = excess_of(plan, by, lasts(plan, slot, h), allowed)
+    excess, there = excess_of(plan, by, lasts(plan, slot, h), size, fine)
     if not excess <= 1.0 and size < _GONE:
         h, there = shortened(plan, slot, excess, by, h, size, fine)
     return h, there

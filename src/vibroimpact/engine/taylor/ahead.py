@@ -22,8 +22,8 @@ class Ahead(NamedTuple):
 
     The frame's sign and offset; the way of the velocity; the kernel that has the forces that are
     not linear; the unit of time and the time in which the motion changes (s), both in the other as
-    well; for how long the forces are these at most (s); and how short a step may be off by its own
-    share of `natural` only (in units).
+    well; for how long the forces are these at most (s); and, if above 1, by how much less than the
+    motion's size a step may be off.
     """
 
     sign: float
