@@ -201,7 +201,7 @@ def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
     if rig[par.CURVED]:
-        same = same and library.laws_code(rig) == library.laws_code(other)
+        same = same and library.covers(library.laws_code(rig), library.laws_code(other))
     return bool(same and _flow(rig) in (AnyStops, *_CURVED.values(), _flow(other)))
 
 

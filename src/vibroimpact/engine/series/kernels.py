@@ -36,7 +36,10 @@ MOST = 16
 """Power of a root that a kernel is made for; its code grows with it."""
 
 CALM = 10
-"""From a slot to that where a drag is left out whose power is no whole number."""
+"""From a slot to that where a drag is left out whose power is not a whole number."""
+
+_SQUARE, _ANY_POWER, _BITS = 8, 16, 1023
+"""Of `laws_code`: a drag of the velocity's square, one of any power; all bits but the memory's."""
 
 
 class Slot(IntEnum):
@@ -77,7 +80,7 @@ def kernels(rig: Any) -> dict[int, Kernel]:
     every: dict[int, Kernel] = {
         int(slot): (step.begun, step.again, shape) for slot, shape in found.items()
     }
-    if laws[LAWS.index(drag)] in ((), (0,)) and rig[par.DRAG] not in (1.0, 2.0):
+    if laws[LAWS.index(drag)] == (0,):
         calm = (*laws[:-1], ())
         for slot, shape in found.items():
             every[slot + CALM] = step.begun, step.again, shape._replace(laws=calm)
@@ -108,7 +111,7 @@ def laws_code(rig: Any) -> int:
     code += 2 if rig[par.QUINTIC] != 0.0 else 0
     code += 4 if rig[par.SINH] != 0.0 else 0
     if rig[par.DRAG] != 1.0 and rig[par.DAMPING] != 0.0:
-        code += 8 if rig[par.DRAG] == 2.0 else 16
+        code += _SQUARE if rig[par.DRAG] == 2.0 else _ANY_POWER
     for side in range(2):
         at_stop = par.BUMPER + par.WIDTH * side
         if rig[at_stop + par.KIND] == par.POWER_LAW:
@@ -123,17 +126,28 @@ def laws_code(rig: Any) -> int:
     return code
 
 
-_code = kernel(laws_code)
-_BITS = 1023
+def covers(made: int, needed: int) -> bool:
+    """Whether kernels made for some laws have all that are needed; both as `laws_code` gives."""
+    if made & _ANY_POWER:
+        needed &= ~_SQUARE
+    if (made & _BITS) & (needed & _BITS) != needed & _BITS:
+        return False
+    return needed <= _BITS or needed >> 10 == made >> 10
+
+
+_code, _covers = kernel(laws_code), kernel(covers)
 
 
 @kernel
 def lacks(plan: Vector) -> bool:
     """Whether a rig has laws that the kernels of its plan do not have: it was made for another."""
-    made, needed = int(plan[at.LAWS]), _code(plan)
-    if (made & _BITS) & (needed & _BITS) != needed & _BITS:
-        return True
-    return bool(needed > _BITS and needed >> 10 != made >> 10)
+    return not _covers(int(plan[at.LAWS]), _code(plan))
+
+
+@kernel
+def drags_any_power(plan: Vector) -> bool:
+    """Whether the kernels of a plan have a drag of any power of the velocity, 2 among them."""
+    return int(plan[at.LAWS]) & _ANY_POWER != 0
 
 
 def prepare(memory: Vector, rig: Vector) -> None:

@@ -33,7 +33,7 @@ from vibroimpact.engine.series.layout import (
     X,
     Z,
 )
-from vibroimpact.engine.series.kernels import AGAIN, CALM, Slot, lacks, run
+from vibroimpact.engine.series.kernels import AGAIN, CALM, Slot, drags_any_power, lacks, run
 from vibroimpact.engine.series.step import BALANCED
 from vibroimpact.engine.series.values import Frame, Laws
 
@@ -158,7 +158,7 @@ def slot_of(plan: Vector, laws: Laws, left: bool) -> int:
         slot = _BOTH if laws.other.stiffness != 0.0 else alone
     elif laws.other.stiffness != 0.0:
         slot = _OTHER
-    if laws.drag == 0.0 and plan[par.DRAG] != 1.0 and plan[par.DRAG] != 2.0:
+    if laws.drag == 0.0 and drags_any_power(plan):
         slot += CALM
     return slot
 

@@ -11,6 +11,7 @@ from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion
 from vibroimpact.engine.series.layout import UNIT
+from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.march import Shaken, number, slot_of, taken
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
 from vibroimpact.engine.taylor.frame import branch_of, curved_stop, stiffness_at
@@ -65,7 +66,7 @@ def branched(plan: Vector, motion: Motion) -> bool:
 @kernel
 def varies(plan: Vector, mode: int) -> bool:
     """Whether which forces act may change within a stretch: powers begin where they matter."""
-    if plan[par.DRAG] != 1.0 and plan[par.DRAG] != 2.0:
+    if drags_any_power(plan):
         return True
     return bool(mode & RIGHT and curved_stop(plan, RIGHT)) or bool(
         mode & LEFT and curved_stop(plan, LEFT)
@@ -109,7 +110,7 @@ def ahead_of(
     # A motion that nothing but a record's line moves changes while that lasts.
     natural = min(natural, 8.0 * plan[par.INTERVAL])
     fine = 0.0
-    if laws.drag != 0.0 and plan[par.DRAG] > 1.0 and plan[par.DRAG] != 2.0:
+    if laws.drag != 0.0 and plan[par.DRAG] > 1.0 and drags_any_power(plan):
         # Where the mass turns a step is much shorter than the motion's time: the velocity must be
         # right there, too.
         fine = natural / unit

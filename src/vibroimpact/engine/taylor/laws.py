@@ -12,6 +12,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST, STEEPEST
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion
+from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.march import ROUNDING
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws, Push
 from vibroimpact.engine.taylor.frame import (
@@ -154,7 +155,7 @@ def laws_of(
     exponent = plan[par.DRAG]
     if exponent != 1.0:
         drag = plan[par.DAMPING]
-        if exponent != 2.0:
+        if drags_any_power(plan):
             little, most, turning = slow(plan, motion, exponent)
             longest = min(longest, most)
             if abs(motion.v) <= little:
