@@ -40,8 +40,11 @@ from vibroimpact.engine.series.values import Frame, Laws
 ROUNDING = 2.0**-53
 """Of a number, as a share of it."""
 
-_CUT = 24
-"""How often a step is shortened at most: each time to a quarter at least."""
+_CUT = 100
+"""How often a step is shortened at most. Far sooner it is so short that any is right."""
+
+_LEAST_SHARE = 2.0**-10
+"""To which a step is shortened at once at most."""
 
 _GONE = 1e50
 """A motion of this size (m) was pushed away for ever and is about to leave the range of numbers."""
@@ -211,14 +214,15 @@ def shortened(
     """
     after = by.clock
     for _ in range(_CUT):
-        share = 0.25
+        share = _LEAST_SHARE
         if excess < math.inf:
             share = max(0.9 * excess ** (-1.0 / (DEGREE - 1)), share)
         h *= share
         run(plan, slot + AGAIN, 0.0, 0.0, 0.0, size, h, 0.0, 0.0)
         excess, after = excess_of(plan, by, lasts(plan, slot, h), size, fine)
         if excess <= 1.0 or not size < _GONE:
-            break
+            return h, after
+    plan[LACKING] = 1.0  # no series holds here: the motion is given up
     return h, after
 
 

@@ -110,7 +110,7 @@ def ahead_of(
     # A motion that nothing but a record's line moves changes while that lasts.
     natural = min(natural, 8.0 * plan[par.INTERVAL])
     fine = 0.0
-    if laws.drag != 0.0 and plan[par.DRAG] > 1.0 and drags_any_power(plan):
+    if laws.drag != 0.0 and drags_any_power(plan):
         # Where the mass turns a step is much shorter than the motion's time: the velocity must be
         # right there, too.
         fine = natural / unit
