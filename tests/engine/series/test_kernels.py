@@ -41,7 +41,14 @@ SHAPES += [
     for which, power, viscous in ((2, 3, False), (4, 6, True))
     for single in (True, False)
 ]
-NUMBERS = {"drag": 0.2, "drag_exponent": 0.6, "way": 1.0, "apart": 1.7, "offset": 0.1}
+NUMBERS = {
+    "drag": 0.2,
+    "drag_exponent": 0.6,
+    "way": 1.0,
+    "per_unit": 1.0,
+    "apart": 1.7,
+    "offset": 0.1,
+}
 
 
 def memory() -> np.ndarray:

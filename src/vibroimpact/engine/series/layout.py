@@ -60,6 +60,7 @@ NAMES = (
     "rate",
     "way",
     "closing",
+    "per_unit",
 )
 FOUND = NUMBERS + len(NAMES)
 # What a kernel finds: length, state and its rates at the end, bounds on second and third rates, by

@@ -55,7 +55,7 @@ _ROOT = int(Slot.ROOT_RIGHT)
 (
     _K, _C, _OFFSET, _CUBIC, _QUINTIC, _SINH, _STEEP, _HYSTERETIC, _SLOPE, _BEND, _DRAG, _POWER,
     _PUSH, _PUSH_N, _PUSH_CHI, _PUSH_C, _OTHER_K, _OTHER_N, _OTHER_CHI, _OTHER_C, _APART, _LOAD,
-    _RATE, _WAY, _CLOSING,
+    _RATE, _WAY, _CLOSING, _PER_UNIT,
 ) = range(NUMBERS, NUMBERS + len(NAMES))  # fmt: skip
 
 
@@ -127,6 +127,7 @@ def number_isolator(plan: Vector, unit: float) -> None:
     plan[_SINH], plan[_STEEP] = plan[par.SINH] * squared, plan[par.SINH_RATE]
     plan[_HYSTERETIC] = plan[par.HYSTERETIC] * squared
     plan[_POWER] = plan[par.DRAG]
+    plan[_PER_UNIT] = 1.0 / unit
 
 
 @inlined
@@ -144,7 +145,9 @@ def number(plan: Vector, frame: Frame, laws: Laws, unit: float) -> None:
     plan[_LOAD] = (frame.load - branch.way * plan[par.FRICTION]) * squared
     plan[_DRAG] = 0.0
     if drag != 0.0:
-        plan[_DRAG] = drag * branch.way * squared / unit ** plan[par.DRAG]
+        # A square is one of the velocity in units of time; any power is one of that in m/s, for a
+        # high power of a unit may leave the range of numbers.
+        plan[_DRAG] = drag * branch.way * (squared if drags_any_power(plan) else 1.0)
     if push.stiffness != 0.0 or other.stiffness != 0.0:
         plan[_APART] = apart
         for at, one in ((_PUSH, push), (_OTHER_K, other)):

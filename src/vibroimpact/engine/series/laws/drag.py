@@ -18,4 +18,4 @@ def force(law: Any, power: tuple[Any, ...], u: Any, v: Any, z: Any) -> Any:
     """Return what pulls back; `drag` has the sign of the way."""
     if power[0] == 2:
         return law.drag * (v * v)
-    return law.drag * law.power(law.way * v, law.drag_exponent)
+    return law.drag * law.power(law.way * law.per_unit * v, law.drag_exponent)
