@@ -71,8 +71,25 @@ def test_the_flow_follows_from_the_isolator(
     one = rig_vector(1.0, 1.0, 0.1, right, left, law=law)
     assert type(flow_of(one)) is flow
     curved = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0))
-    assert carries(curved, one)
-    assert carries(one, curved) == (flow is Curved)
+    assert carries(one, one.copy())
+    assert carries(curved, one) == carries(one, curved) == (law == Law(cubic=1.0))
+
+
+@pytest.mark.parametrize(
+    ("made_for", "asked", "carried"),
+    [
+        (Law(cubic=1.0, quintic=2.0), Law(cubic=1.0), True),
+        (Law(cubic=1.0), Law(cubic=1.0, quintic=2.0), False),
+        (Law(drag=1.5), Law(drag=2.0), True),
+        (Law(drag=2.0), Law(drag=1.5), False),
+        (Law(hysteretic=1.0, knee=1.0, sharpness=2.0), Law(hysteretic=1.0, knee=1.0), False),
+    ],
+)
+def test_a_curved_flow_carries_rigs_that_have_no_more_laws(
+    made_for: Law, asked: Law, carried: bool
+) -> None:
+    made, other = (rig_vector(1.0, 1.0, 0.1, None, None, law=law) for law in (made_for, asked))
+    assert carries(made, other) == carried
 
 
 def _gap(given, vector):

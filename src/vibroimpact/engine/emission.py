@@ -30,6 +30,14 @@ _METHODS: tuple[tuple[Any, str], ...] = (
 )
 
 
+def keep_apart(module: Any) -> None:
+    """Forbid to merge the kernels that are marked so (`jit.apart`) into their callers."""
+    marks = [f"{len(name)}{name}B" for name in jit.APART]
+    for function in module.functions:
+        if not function.is_declaration and any(mark in function.name for mark in marks):
+            function.add_function_attribute("noinline")
+
+
 @contextmanager
 def only(name: str) -> Iterator[None]:
     """While this lasts, this thread optimises and emits only the function of this name.
@@ -51,6 +59,7 @@ def only(name: str) -> Iterator[None]:
 
     def optimise_module(self: Any) -> None:
         if not linked(self.name):
+            keep_apart(self._final_module)
             optimise(self)
             optimise(self)  # again, what has been merged: once leaves curved laws a fifth slower
 

@@ -31,6 +31,7 @@ from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
 from vibroimpact.engine.motion import Motion
+from vibroimpact.engine.series import library
 from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
 from vibroimpact.engine.taylor import frame
@@ -186,16 +187,21 @@ def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
     flow = _flow(rig)
     if rig[par.FORCING] != par.SEVERAL:
-        return flow(_room(PLAN if flow not in _YIELDING.values() else YIELDING_PLAN))
-    weights = rig[par.WEIGHTS :]
-    memory = _room(several.room(len(weights) // 2))
-    memory[several.WEIGHTS : several.WEIGHTS + len(weights)] = weights
+        memory = _room(PLAN if flow not in _YIELDING.values() else YIELDING_PLAN)
+    else:
+        weights = rig[par.WEIGHTS :]
+        memory = _room(several.room(len(weights) // 2))
+        memory[several.WEIGHTS : several.WEIGHTS + len(weights)] = weights
+    if flow in _LAWS:
+        library.prepare(memory, rig)
     return flow(memory)
 
 
 def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
+    if rig[par.CURVED]:
+        same = same and library.covers(library.laws_code(rig), library.laws_code(other))
     return bool(same and _flow(rig) in (AnyStops, *_CURVED.values(), _flow(other)))
 
 

@@ -65,6 +65,20 @@ def inlined(function: F) -> F:
     return _within(numba.njit(**WITHIN, forceinline=True)(function))  # type: ignore[no-any-return]
 
 
+APART: set[str] = set()
+"""Names of kernels that are not merged into those that call them (see `apart`)."""
+
+
+def apart(function: F) -> F:
+    """As `kernel`, but never merged into its callers: for what a hot loop seldom does.
+
+    Merged, it takes the loop's registers, and parts of it are computed in advance for nothing.
+    """
+    APART.add(function.__name__)
+    # What an inlined function calls would be inlined, too, unless it says otherwise.
+    return _within(numba.njit(**WITHIN, forceinline=False)(function))  # type: ignore[no-any-return]
+
+
 def _within(dispatcher: Any) -> Any:
     """Refuse calls from Python, which without a wrapper would crash it."""
     if WITHIN["no_cpython_wrapper"]:

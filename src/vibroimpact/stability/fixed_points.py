@@ -209,7 +209,7 @@ def corrected(
     normal
         Normal of the plane, scaled; of its components only those in `SEEN` count.
     """
-    rig = section.family.system(float(point[section_map.PARAMETER]))
+    rig = section.family.flow_rig(float(point[section_map.PARAMETER]))
     for _ in range(_LINES):
         fam = section.family.near(float(point[section_map.PARAMETER]))
         found = _blank(section, point, mode)
@@ -231,7 +231,7 @@ def corrected(
         settled = Status(outcome) is Status.DONE
         if (not settled and not fam.straight) or (settled and fam.one_flow):
             break
-        there = fam.system(found.value)
+        there = fam.flow_rig(found.value)
         # From bumpers that are apart to such that overlap, it begins again from where it was.
         carried = carries(rig, there)
         moved = abs(found.value - float(point[section_map.PARAMETER]))
@@ -253,7 +253,7 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
     image = found.point.copy()
     fam = section.family.near(found.value)
     outcome = orbit.evaluate(
-        fam.system(found.value),
+        fam.flow_rig(found.value),
         fam.base,
         fam.direction,
         fam.phase,

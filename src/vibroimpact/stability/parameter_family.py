@@ -25,6 +25,9 @@ _BUMPERS = (par.BUMPER, par.BUMPER + par.WIDTH)
 RATES = [at + par.RATE for at in _BUMPERS]
 """Where the bumpers' rates of relaxation stand in the engine's vector."""
 
+_CURVED = (par.CUBIC, par.QUINTIC, par.SINH, par.HYSTERETIC, par.KNEE, par.TURNING, par.DAMPING)
+"""Numbers of curved laws that are absent where they are 0."""
+
 _TOUCH = 0.01
 """Of the step to a neighbouring value, by which a touching line is made."""
 
@@ -105,6 +108,20 @@ class Family(NamedTuple):
             if vector[at + par.KIND] == par.KELVIN_VOIGT and vector[at + par.BUMPER_DAMPING] > 0.0:
                 rate = vector[at + par.BUMPER_STIFFNESS] / vector[at + par.BUMPER_DAMPING]
                 vector[at + par.RATE] = rate
+        return vector
+
+    def flow_rig(self, value: float) -> _Array:
+        """Return the engine's vector whose flow carries the rigs beside a value of the parameter.
+
+        It differs from `system` only at a value at which a curved law vanishes or becomes simpler:
+        the flow of that rig would lack what the rigs beside it need.
+        """
+        vector = self.system(value)
+        if vector[par.CURVED]:
+            vanishing = [at for at in _CURVED if self.direction[at] and vector[at] == 0.0]
+            vector[vanishing] = np.finfo(float).tiny
+            if self.direction[par.DRAG] and vector[par.DRAG] in (1.0, 2.0):
+                vector[par.DRAG] = np.nextafter(vector[par.DRAG], np.inf)
         return vector
 
 

@@ -12,7 +12,8 @@ from engine.taylor.rigs import ISOLATORS, SHAKEN, STOPS, between
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flows import flow_of, planned
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
-from vibroimpact.engine.taylor.frame import Push, isolator_force, pushing, stuck
+from vibroimpact.engine.series.values import Push
+from vibroimpact.engine.taylor.frame import isolator_force, pushing, stuck
 from vibroimpact.engine.taylor.plan import build
 from vibroimpact.response.engine_input import engine_rig
 

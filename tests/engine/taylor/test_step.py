@@ -13,7 +13,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flows import flow_of, planned
 from vibroimpact.engine.motion import BOTH, FLIGHT, Motion
 from vibroimpact.engine.parameters import Law, PowerLaw, rig_vector
-from vibroimpact.engine.taylor.layout import DEGREE, X
+from vibroimpact.engine.series.layout import DEGREE, X
 from vibroimpact.engine.taylor.pieces import begun, motion_at
 from vibroimpact.engine.taylor.plan import build
 

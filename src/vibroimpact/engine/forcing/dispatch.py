@@ -9,6 +9,7 @@ acceleration that it stands for, which is linear in them. It is a module with th
     plane(plan, n)                         how far behind the tables those of part n lie
     value(plan, s, c)                      A_t
     turned(plan, s, c, t)                  the clock after the time t
+    stepped(plan, s, c, t)                 the same, fast for a time of a step
     let_go(plan, sign, level, s, c, limit) when sign A_t first exceeds a level
 
 and, from a mode's table,
@@ -62,6 +63,7 @@ plane = _by_forcing("plane")
 wave = _by_forcing("wave")
 value = _by_forcing("value")
 turned = _by_forcing("turned")
+stepped = _by_forcing("stepped")
 let_go = _by_forcing("let_go")
 product = _by_forcing("product")
 expand = _by_forcing("expand")

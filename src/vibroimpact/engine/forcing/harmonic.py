@@ -24,6 +24,9 @@ from vibroimpact.engine.linear.layout import (
 )
 from vibroimpact.engine.motion import Row
 
+_FAR = 1.45
+"""Angle (rad) up to which the polynomials of `stepped` are right to rounding."""
+
 
 @kernel
 def begin(plan: Vector, amplitude: float, omega: float) -> None:
@@ -72,6 +75,41 @@ def turned(plan: Vector, s: float, c: float, t: float) -> tuple[float, float]:
     """The phasor after any time."""
     sine, cosine = math.sin(plan[OMEGA] * t), math.cos(plan[OMEGA] * t)
     return s * cosine + c * sine, c * cosine - s * sine
+
+
+@kernel
+def stepped(plan: Vector, s: float, c: float, t: float) -> tuple[float, float]:
+    """The phasor after a time of a step, which seldom turns it farther than 1.45 rad."""
+    angle = plan[OMEGA] * t
+    if not abs(angle) < _FAR:
+        return turned(plan, s, c, t)
+    q = angle * angle
+    r = q * q
+    sine = angle * (
+        (1.0 + r * (1 / 120 + r * (1 / 362880 + r * (1 / 6227020800 + r * 2.811457254345521e-15))))
+        - q
+        * (
+            1 / 6
+            + r
+            * (
+                1 / 5040
+                + r * (1 / 39916800 + r * (7.647163731819816e-13 + r * 8.22063524662433e-18))
+            )
+        )
+    )
+    less = r * (
+        1 / 24
+        + r
+        * (
+            1 / 40320
+            + r * (1 / 479001600 + r * (4.779477332387385e-14 + r * 4.110317623312165e-19))
+        )
+    ) - q * (
+        0.5
+        + r
+        * (1 / 720 + r * (1 / 3628800 + r * (1.1470745597729725e-11 + r * 1.5619206968586225e-16)))
+    )
+    return s + (s * less + c * sine), c + (c * less - s * sine)
 
 
 @kernel

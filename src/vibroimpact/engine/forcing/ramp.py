@@ -60,6 +60,9 @@ def turned(plan: Vector, s: float, c: float, t: float) -> tuple[float, float]:
     return s + c * t, c
 
 
+stepped = turned
+
+
 @kernel
 def let_go(
     plan: Vector, sign: float, level: float, s: float, c: float, limit: float

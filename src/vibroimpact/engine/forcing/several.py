@@ -41,6 +41,7 @@ spun = harmonic.spun
 turn = harmonic.turn
 nudged = harmonic.nudged
 turned = harmonic.turned
+stepped = harmonic.stepped
 
 WEIGHTS = PLAN
 """Where the weights of sin nθ and cos nθ begin in a plan, two for each n from 1 on."""

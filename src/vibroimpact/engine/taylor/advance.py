@@ -1,29 +1,20 @@
-"""From one event to the next under curved laws, a leap or a Taylor step at a time.
+"""From one event to the next under curved laws, a Taylor step at a time.
 
-Where a leap does not know the forces or is not sure, a step is taken (`leaps`). On each step every
-event that may come is asked for. What the sizes of a series' coefficients exclude costs a sum; the
-rest is searched (`linear.roots`) about the beginning, middle and end, without what just was.
+On each step every event that may come is looked for (`series.events`), without what just was.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import change_rate, let_go, turned, value
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.forcing.dispatch import change_rate, let_go, stepped, turned, value
+from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers
 from vibroimpact.engine.linear.evaluate import relaxed
-from vibroimpact.engine.linear.flight import leave
-from vibroimpact.engine.linear.layout import RATE
-from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.stops import impact, rest, rigid, settle
-from vibroimpact.engine.linear.tables import overlapping, resting
-from vibroimpact.engine.linear.walk import ABOVE, BELOW
-from vibroimpact.engine.memory import workspace
+from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import (
-    BOTH,
     DETACHED,
     GIVEN_UP,
     LEFT,
@@ -36,216 +27,44 @@ from vibroimpact.engine.motion import (
     TURNED,
     Motion,
 )
+from vibroimpact.engine.series.events import state_near
+from vibroimpact.engine.series.layout import LACKING
+from vibroimpact.engine.series.march import headed
+from vibroimpact.engine.taylor.ahead import NOT_YET, ahead_of, branched, stepped_on, varies
 from vibroimpact.engine.taylor.frame import (
-    Frame,
-    balanced,
     creeps,
     curved_stop,
+    frame_of,
     grip,
     idle,
-    push_of,
     rounding,
-    steep,
     stuck,
-    way_of,
     without_friction,
 )
-from vibroimpact.engine.taylor.laws import EVEN
-from vibroimpact.engine.taylor.layout import ASKED, DEGREE, HEADER, X, Z
-from vibroimpact.engine.taylor.leaps import (
+from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, placed
+from vibroimpact.engine.taylor.press import MOST, pressed_for, root_of
+from vibroimpact.engine.taylor.watch import (
     DETACHED_LEFT,
     EASED,
-    NO_LEAP,
-    UNBENT,
+    NEITHER,
     YIELDS,
-    leap_on,
-    leaps,
+    ends_of,
+    search,
 )
-from vibroimpact.engine.taylor.pieces import (
-    PIECES,
-    begun,
-    facing_of,
-    motion_at,
-    push_series,
-    shifted,
-    velocity_series,
-)
-from vibroimpact.engine.taylor.press import press_on, presses
-from vibroimpact.engine.taylor.step import headed, spread
-
-_MOST = 50_000
-"""Steps to one event, far more than any needs whose rates are those of the rig. A stop that is
-met all but without speed may have a dissipation beyond all bounds, and is given up."""
 
 _AT_ONCE = 1e-6
 """Of a phase whose length is known: what ends it sooner is rounding."""
 
 
-class Found(NamedTuple):
-    """The earliest event so far: what, and where in the step (its length is 1)."""
-
-    event: int
-    y: float
-
-
-@kernel
-def first_in_step(
-    plan: Vector, series: int, clearance: Clearance, launched: bool, released: bool, first: float
-) -> float:
-    """The first root on the step, a share of it, or NONE.
-
-    `launched` says that the clearance vanishes at the step's beginning by construction, `first`
-    behind which share no root is asked for.
-    """
-    offset, sign, memory, rate, _ = clearance
-    room = workspace()
-    pace = rate / PIECES  # per piece
-    for part in range(3):
-        low = 0.0 if part == 0 else -0.5
-        high = 0.0 if part == 2 else 0.5
-        if part and first < 0.5 * part - 0.25:
-            return NONE
-        shifted(plan, series, 2 * part, room)
-        left = memory
-        if memory > 0.0 and part:
-            left = relaxed(memory, rate, 0.5 * part - 0.25)
-        if part == 0 and launched:
-            way = ABOVE if sign < 0.0 else BELOW
-            y = leave(room, way, released, left, pace, high)
-        else:
-            y = first_root(room, Clearance(offset, sign, left, pace, False), low, high)
-        if y != NONE:
-            return (part + y) / PIECES
-    return NONE
-
-
-@kernel
-def watch(
-    plan: Vector,
-    found: Found,
-    event: int,
-    series: int,
-    reach: float,
-    clearance: Clearance,
-    launched: bool,
-    released: bool,
-) -> Found:
-    """Take one event into account, whose series goes no farther than `reach`."""
-    if not launched:
-        start = clearance.offset + clearance.sign * plan[series]
-        if start - reach > 0.0:
-            return found
-    y = first_in_step(plan, series, clearance, launched, released, found.y)
-    return Found(event, y) if y < found.y else found
-
-
-@kernel
-def search(plan: Vector, motion: Motion, frame: Frame, length: float) -> Found:
-    """The earliest event of the step in hand."""
-    mode, fresh, _, _, right, left, _, _, _ = motion
-    found = Found(LIMIT, NONE)
-    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
-    reach = spread(plan, X)
-    for side in range(1, 3):
-        kind = plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
-        if kind == par.ABSENT:
-            continue
-        memory = right if side == RIGHT else left
-        rate = (rate_r if side == RIGHT else rate_l) * length
-        just = fresh & BOTH == side
-        if mode & side:
-            if kind == par.KELVIN_VOIGT:
-                push_series(plan, mode, side)
-                found = lets_go(plan, found, side, just)
-            elif kind != par.RIGID:
-                found = eases(plan, found, mode, side, memory)
-                depth_series(plan, mode, side)
-                found = lets_go(plan, found, side, just)
-            continue
-        if mode and not overlapping(plan):
-            continue
-        level, sign = gap_r if side == RIGHT else gap_l, -1.0 if side == RIGHT else 1.0
-        if mode:
-            # Seen from the pressed side, the other stop lies below.
-            level, sign = gap_r + gap_l, 1.0
-        if curved_stop(plan, side):
-            memory = 0.0
-        clearance = Clearance(level, sign, memory, rate, False)
-        found = watch(plan, found, side, X, reach, clearance, just, fresh & RELEASED != 0)
-    return turns(plan, found, motion, frame)
-
-
-@kernel
-def lets_go(plan: Vector, found: Found, side: int, fresh: bool) -> Found:
-    """Take the detachment into account: where what is asked, a force or a depth, falls to 0."""
-    if fresh:
-        plan[ASKED] = max(plan[ASKED], 0.0)
-    clearance = Clearance(0.0, 1.0, 0.0, 0.0, False)
-    event = DETACHED if side == RIGHT else DETACHED_LEFT
-    return watch(plan, found, event, ASKED, spread(plan, ASKED), clearance, False, False)
-
-
-@kernel
-def depth_series(plan: Vector, mode: int, side: int) -> None:
-    """Write the deformation of a pressed stop over the step to ASKED."""
-    facing = facing_of(mode, side)
-    for n in range(DEGREE + 1):
-        plan[ASKED + n] = facing * plan[X + n]
-    if facing < 0.0:
-        left = par.BUMPER + par.WIDTH
-        plan[ASKED] -= plan[par.BUMPER + par.GAP] + plan[left + par.GAP]
-
-
-@kernel
-def eases(plan: Vector, found: Found, mode: int, side: int, speed: float) -> Found:
-    """Take the moment into account at which 1 + χ δ′ changes sign: a stop does not pull."""
-    facing = facing_of(mode, side)
-    chi = push_of(plan, side, 0.0, speed).dissipation
-    if chi == 0.0:
-        return found
-    velocity_series(plan, chi * facing * (plan[HEADER + RATE] / PIECES))
-    plan[ASKED] += 1.0
-    bend = 1.0 if plan[ASKED] > EVEN or (plan[ASKED] > -EVEN and plan[ASKED + 1] > 0.0) else -1.0
-    if abs(plan[ASKED]) <= EVEN:
-        plan[ASKED] = 0.0
-    clearance = Clearance(0.0, bend, 0.0, 0.0, False)
-    return watch(plan, found, EASED, ASKED, spread(plan, ASKED), clearance, False, False)
-
-
-@kernel
-def turns(plan: Vector, found: Found, motion: Motion, frame: Frame) -> Found:
-    """Take the end of a branch into account: u̇ or z changes sign, or z reaches its limit."""
-    hysteretic = plan[par.HYSTERETIC] != 0.0
-    if not (
-        hysteretic
-        or plan[par.DRAG] != 1.0
-        or plan[par.FRICTION] != 0.0
-        or (motion.mode & RIGHT and plan[par.BUMPER + par.KIND] == par.JANKOWSKI)
-        or (motion.mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.JANKOWSKI)
-    ):
-        return found
-    way = way_of(plan, motion)
-    ways = frame.sign * way
-    velocity_series(plan, 1.0)
-    if motion.v == 0.0:
-        plan[ASKED] = 0.0
-        slips = motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED)
-        if (slips and not steep(plan)) or balanced(plan, motion):
-            plan[ASKED + 1] = 0.0
-    clearance = Clearance(0.0, ways, 0.0, 0.0, False)
-    found = watch(plan, found, TURNED, ASKED, spread(plan, ASKED), clearance, False, False)
-    if not hysteretic:
-        return found
-    z, limit = motion.z, plan[par.YIELD]
-    if limit < math.inf:
-        if abs(z) < limit or way * z < 0.0:
-            clearance = Clearance(limit, -ways, 0.0, 0.0, False)
-            found = watch(plan, found, YIELDS, Z, spread(plan, Z), clearance, False, False)
-    elif plan[par.KNEE] != 0.0 or int(plan[par.SHARPNESS]) % 2 == 0:
-        side = math.copysign(1.0, z) if z != 0.0 else way
-        clearance = Clearance(0.0, frame.sign * side, 0.0, 0.0, False)
-        found = watch(plan, found, UNBENT, Z, spread(plan, Z), clearance, False, False)
-    return found
+@apart
+def freed(plan: Vector, motion: Motion, t: float) -> Motion:
+    """The same motion with the stops that it does not touch relaxed for t seconds."""
+    mode, fresh, u, v, right, left, z, age, clock = motion
+    if not mode & RIGHT and right != 0.0:
+        right = relaxed(right, plan[par.BUMPER + par.RATE], t)
+    if not mode & LEFT and left != 0.0:
+        left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
+    return Motion(mode, fresh, u, v, right, left, z, age + t, clock)
 
 
 @kernel
@@ -343,43 +162,64 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         return settle(plan, motion, limit)
     if resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion):
         return still(plan, motion, limit)
-    t = 0.0
+    if plan[LACKING] != 0.0:
+        return GIVEN_UP, 0.0, motion.v, motion
+    mode, _, _, _, right, left, _, age, _ = motion
+    frame = frame_of(plan, mode)
+    sign = frame.sign
+    hysteretic = plan[par.HYSTERETIC] != 0.0
+    matters, anew = branched(plan, motion), varies(plan, mode)
     here = motion
-    hint = math.inf
-    for _ in range(_MOST):
-        if creeps(plan, here):
-            return happened(plan, TURNED, here, t)
-        pressing = presses(plan, here)
-        if pressing or leaps(plan, here):
-            if pressing:
-                leap = press_on(plan, here, limit - t, hint)
-            else:
-                leap = leap_on(plan, here, limit - t, hint)
-            if leap.event != NO_LEAP:
-                here, hint = leap.motion, leap.next
-                if leap.event != LIMIT:
-                    event, t, arrival, after = happened(plan, leap.event, here, t + leap.t)
-                    if event in (RIGHT, LEFT) and rigid(plan, event):
-                        return impact(plan, event, t, arrival, after, limit)
-                    return event, t, arrival, after
-                if not t + leap.t < limit:
-                    return LIMIT, limit, here.v, here
-                t += leap.t
-                continue
-        frame, length = begun(plan, here, limit - t)
-        found = search(plan, here, frame, length)
-        if found.event != LIMIT:
-            here = motion_at(plan, here, frame, found.y)
-            t += found.y * length
-            event, t, arrival, after = happened(plan, found.event, here, t)
-            if event in (RIGHT, LEFT) and rigid(plan, event):
-                return impact(plan, event, t, arrival, after, limit)
-            return event, t, arrival, after
-        here = motion_at(plan, here, frame, 1.0)
-        if not t + length < limit:
-            return LIMIT, limit, here.v, here
-        t += length
-    return GIVEN_UP, t, here.v, here
+    t = 0.0
+    x, z, clock = coordinate(plan, motion), sign * motion.z, motion.clock
+    v, ahead = 0.0, NOT_YET
+    root = root_of(plan, motion) if anew else 0
+    for _ in range(MOST):
+        if anew or t == 0.0:
+            if root:
+                event, step, here = pressed_for(plan, here, frame, root, limit - t, t == 0.0)
+                t += step
+                if event != NEITHER:
+                    return ended(plan, event, freed(plan, here, t), t, limit)
+            x, z, clock = coordinate(plan, here), sign * here.z, here.clock
+            if anew and creeps(plan, here):
+                return happened(plan, TURNED, freed(plan, here, t), t)
+            ahead = ahead_of(plan, here, frame, x, limit - t, matters, anew)
+            v = sign * here.v * ahead.unit
+        h, after = stepped_on(plan, clock, x, v, z, ahead, (limit - t) * ahead.per_unit)
+        ends = ends_of(plan, h, x, v, z, hysteretic)
+        ways = ahead.way if matters else 0.0
+        found = search(plan, here, frame, ways, ends, ahead.unit, t * ahead.per_unit)
+        step = h * ahead.unit
+        event = found.event
+        if event != LIMIT:
+            x, v, z1 = state_near(plan, found.t, h, hysteretic)
+            z = z1 if hysteretic else z
+            step = found.t * ahead.unit
+            after = stepped(plan, clock[0], clock[1], step)
+        else:
+            x, v = ends.x1, ends.v1
+            z = ends.z1 if hysteretic else z
+        clock = after
+        speed = sign * v * ahead.per_unit
+        here = Motion(mode, 0, 0.0, speed, right, left, sign * z, age, clock)
+        t += step
+        if event != LIMIT or not t < limit:
+            return ended(plan, event, freed(plan, placed(plan, here, x), t), t, limit)
+        if anew:
+            here = placed(plan, here, x)
+    return GIVEN_UP, t, here.v, freed(plan, placed(plan, here, x), t)
+
+
+@apart
+def ended(plan: Vector, event: int, here: Motion, t: float, limit: float) -> Ended:
+    """What a stretch ends with, where the motion is there."""
+    if event == LIMIT:
+        return LIMIT, limit, here.v, here
+    event, t, arrival, there = happened(plan, event, here, t)
+    if event in (RIGHT, LEFT) and rigid(plan, event):
+        return impact(plan, event, t, arrival, there, limit)
+    return event, t, arrival, there
 
 
 @kernel

@@ -15,19 +15,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import DETACHED, LEFT, RIGHT, SETTLING, TURNED, Motion, Stretch
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY, contraction, rebound, tie
-from vibroimpact.engine.taylor.frame import (
-    Frame,
-    Push,
-    acceleration_of,
-    branch_of,
-    curved_stop,
-    push_of,
-    pushing,
-    stuck,
-    without_friction,
-)
-from vibroimpact.engine.taylor.laws import laws_of
-from vibroimpact.engine.taylor.layout import (
+from vibroimpact.engine.series.layout import (
     BY_SPEED,
     BY_V,
     BY_X,
@@ -51,8 +39,19 @@ from vibroimpact.engine.taylor.layout import (
     X,
     Z,
 )
+from vibroimpact.engine.series.values import Frame, Laws, Push
+from vibroimpact.engine.taylor.frame import (
+    acceleration_of,
+    branch_of,
+    curved_stop,
+    push_of,
+    pushing,
+    stuck,
+    without_friction,
+)
+from vibroimpact.engine.taylor.laws import laws_of
 from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at
-from vibroimpact.engine.taylor.step import Laws, convolved, pushed, raised_to
+from vibroimpact.engine.taylor.powers import convolved, pushed, raised_to
 
 _YIELDED = 2.0**-40
 """Share of the largest memory by which rounding may leave a spring short of where it yields."""

@@ -8,11 +8,10 @@ isolator included, since every law is odd.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import change_rate, value
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import (
     BOTH,
@@ -23,6 +22,7 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     Motion,
 )
+from vibroimpact.engine.series.values import Branch, Frame, Push
 from vibroimpact.engine.taylor.plan import stiff_rate
 
 _CREEP = 2.0**-36
@@ -34,36 +34,6 @@ _ROUNDING = 1e-15
 _UNMET = 1e-12
 """Share of the rig's typical speed. A stop that is met no faster, or is pressed from the start, has
 not been met: there is no impact from which it could take energy."""
-
-
-class Frame(NamedTuple):
-    """u = sign (x + offset); x″ = load − stiffness x − damping x′ − laws − sign A_t."""
-
-    sign: float
-    offset: float
-    stiffness: float
-    damping: float
-    load: float
-
-
-class Branch(NamedTuple):
-    """Which piece of the isolator's law holds: z′ = x′ (slope − bend zⁿ), and sgn x′."""
-
-    slope: float
-    bend: float
-    way: float
-
-
-class Push(NamedTuple):
-    """What a pressed stop pushes with: stiffness δⁿ (1 + dissipation δ′) + viscous δ^¼ δ′."""
-
-    stiffness: float
-    exponent: float
-    dissipation: float
-    viscous: float
-
-
-NO_PUSH = Push(0.0, 1.5, 0.0, 0.0)
 
 
 @kernel
@@ -109,12 +79,18 @@ def isolator_force(plan: Vector, u: float, v: float, z: float) -> float:
 @kernel
 def springs(plan: Vector, motion: Motion) -> float:
     """A bound on its tangent stiffness here, per unit mass."""
-    squared = motion.u * motion.u
+    return stiffness_at(plan, motion.u)
+
+
+@inlined
+def stiffness_at(plan: Vector, u: float) -> float:
+    """A bound on its tangent stiffness at a displacement, per unit mass."""
+    squared = u * u
     k: float = plan[par.STIFFNESS] + plan[par.HYSTERETIC]
     k += 3.0 * abs(plan[par.CUBIC]) * squared + 5.0 * abs(plan[par.QUINTIC]) * squared * squared
     if plan[par.SINH] != 0.0:
         rate = plan[par.SINH_RATE]
-        k += 2.0 * abs(plan[par.SINH] * rate) * math.cosh(rate * motion.u)
+        k += 2.0 * abs(plan[par.SINH] * rate) * math.cosh(rate * u)
     return max(k, 0.0)
 
 
@@ -262,7 +238,7 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
     return a - plan[par.FRICTION] * way_of(plan, motion)  # type: ignore[no-any-return]
 
 
-@kernel
+@apart
 def way_of(plan: Vector, motion: Motion) -> float:
     """The sign of u̇, now or at once: where it is zero, that of ü, and then that of −A_t′."""
     if motion.v != 0.0:
@@ -314,7 +290,7 @@ def stop_rounding(plan: Vector, motion: Motion, side: int) -> float:
     return slope * size
 
 
-@kernel
+@apart
 def branch_of(plan: Vector, motion: Motion, sign: float) -> Branch:
     """The branch of the law, in the frame with this sign."""
     way = way_of(plan, motion)

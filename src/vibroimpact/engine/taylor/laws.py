@@ -9,23 +9,20 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import pace
-from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST, STEEPEST
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion
+from vibroimpact.engine.series.kernels import drags_any_power
+from vibroimpact.engine.series.march import ROUNDING
+from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws, Push
 from vibroimpact.engine.taylor.frame import (
-    NO_PUSH,
-    Frame,
-    Push,
     acceleration_of,
     branch_of,
     curved_stop,
     face,
     motion_rate,
     push_of,
-    springs,
 )
-from vibroimpact.engine.taylor.step import ROUNDING, Laws
 
 _NOTHING = 2.0**-60
 """A share of the motion's energy or force that leaves no trace in it."""
@@ -38,16 +35,6 @@ _STABLE = 8.0
 
 EVEN = 1e-14
 """1 + χ δ′ where a stop begins or ceases to push: its own rounding."""
-
-
-@kernel
-def unit_of(plan: Vector, motion: Motion, frame: Frame, laws: Laws, x: float) -> float:
-    """A time in which a motion changes (s)."""
-    k = springs(plan, motion) + (frame.stiffness - plan[par.STIFFNESS])
-    for push, deformation in ((laws.push, x), (laws.other, laws.apart - x)):
-        if push.stiffness != 0.0:
-            k += push.stiffness * push.exponent * deformation ** (push.exponent - 1.0)
-    return 1.0 / (math.sqrt(k) + frame.damping + pace(plan) + 1e-300)  # type: ignore[no-any-return]
 
 
 @inlined
@@ -137,7 +124,7 @@ def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float, f
     return little, longest, min(turning, stable)
 
 
-@kernel
+@apart
 def laws_of(
     plan: Vector, motion: Motion, frame: Frame, x: float, longest: float
 ) -> tuple[Laws, float, float]:
@@ -168,7 +155,7 @@ def laws_of(
     exponent = plan[par.DRAG]
     if exponent != 1.0:
         drag = plan[par.DAMPING]
-        if exponent != 2.0:
+        if drags_any_power(plan):
             little, most, turning = slow(plan, motion, exponent)
             longest = min(longest, most)
             if abs(motion.v) <= little:

@@ -6,31 +6,19 @@ They look as those from tables (`linear.pieces`): 12 terms in y = (t − t_middl
 
 from __future__ import annotations
 
-from math import comb
 from typing import NamedTuple
-
-import numpy as np
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.chords import ANYWHERE, Enclosed
 from vibroimpact.engine.linear.evaluate import relaxed
-from vibroimpact.engine.linear.layout import ORDER, RATE, RESTING, SCALED_W, H
+from vibroimpact.engine.linear.layout import RATE, RESTING, SCALED_W, H
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
 from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, MEMORY, VELOCITY
-from vibroimpact.engine.taylor.frame import (
-    Frame,
-    acceleration_of,
-    curved_stop,
-    frame_of,
-    idle,
-    stuck,
-    way_of,
-)
-from vibroimpact.engine.taylor.laws import laws_of, unit_of
-from vibroimpact.engine.taylor.layout import (
+from vibroimpact.engine.series.events import PIECES, shifted
+from vibroimpact.engine.series.layout import (
     ASKED,
     DEGREE,
     HEADER,
@@ -40,38 +28,21 @@ from vibroimpact.engine.taylor.layout import (
     X,
     Z,
 )
-from vibroimpact.engine.taylor.step import at, headed, pressed, stay, step
-
-PIECES = 2
-"""In a step."""
+from vibroimpact.engine.series.march import at, headed, scale, shake, stay
+from vibroimpact.engine.series.values import Frame
+from vibroimpact.engine.taylor.ahead import ahead_of, branched, stepped_on, varies
+from vibroimpact.engine.taylor.frame import (
+    acceleration_of,
+    curved_stop,
+    frame_of,
+    idle,
+    stuck,
+    way_of,
+)
+from vibroimpact.engine.taylor.laws import laws_of
+from vibroimpact.engine.taylor.powers import pressed
 
 _SMALL = 0.4  # rad, over which `turn` is right to rounding
-
-
-def _shift(centre: float) -> np.ndarray:
-    """Take a step's series to one about another point, in pieces: row m gives coefficient m."""
-    table = np.zeros((ORDER, DEGREE + 1))
-    for m in range(ORDER):
-        for n in range(m, DEGREE + 1):
-            table[m, n] = comb(n, m) * centre ** (n - m) / PIECES**m
-    return table
-
-
-_QUARTERS = np.array([_shift(0.25 * j) for j in range(5)])
-
-
-@kernel
-def shifted(plan: Vector, source: int, quarter: int, series: Vector) -> None:
-    """Write a series of the step about so many quarters of it, in pieces."""
-    for m in range(ORDER):
-        even = 0.0
-        odd = 0.0
-        for n in range(m, DEGREE, 2):
-            even += _QUARTERS[quarter, m, n] * plan[source + n]
-            odd += _QUARTERS[quarter, m, n + 1] * plan[source + n + 1]
-        if (DEGREE - m) % 2 == 0:
-            even += _QUARTERS[quarter, m, DEGREE] * plan[source + DEGREE]
-        series[m] = even + odd
 
 
 class Cursor(NamedTuple):
@@ -120,13 +91,16 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
         length = min(longest, 1.0 / max(pace(plan), 1e-300))
         stay(plan, frame, x, z, motion.clock, length)
     else:
-        laws, most, turning = laws_of(plan, motion, frame, x, longest)
-        # A motion that nothing but a record's line moves changes while that lasts.
-        natural = min(unit_of(plan, motion, frame, laws, x), 8.0 * plan[par.INTERVAL])
-        # Beside a singularity the coefficients would overflow in a longer unit.
-        unit = min(natural, 8.0 * turning)
-        v = frame.sign * motion.v
-        length = step(plan, frame, laws, x, v, z, motion.clock, unit, natural, most)
+        matters, anew = branched(plan, motion), varies(plan, motion.mode)
+        ahead = ahead_of(plan, motion, frame, x, longest, matters, anew)
+        unit = ahead.unit
+        v = frame.sign * motion.v * unit
+        h, _ = stepped_on(plan, motion.clock, x, v, z, ahead, longest / unit)
+        length = h * unit
+        scale(plan, h, plan[par.HYSTERETIC] != 0.0)
+        shake(plan, frame.sign, motion.clock, length, SHAKEN)
+        load = frame.load - ahead.way * plan[par.FRICTION]
+        plan[SHAKEN] += load * length * length
     headed(plan, length / PIECES, motion.mode == LEFT)
     plan[HEADER + RESTING] = 1.0 if held else 0.0
     return frame, length

@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import begin, pace
+from vibroimpact.engine.forcing.dispatch import begin, change_rate, pace
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import WORK_LIMIT
 from vibroimpact.engine.linear.layout import OMEGA
 from vibroimpact.engine.motion import Clock, Motion
+from vibroimpact.engine.series.march import prepare
 
 
 @kernel
 def build(plan: Vector, amplitude: float, omega: float) -> None:
     """Take a forcing, as `parameters.rig_vector` was told: its size (m/s², m or N), and ω."""
     begin(plan, amplitude, omega)
+    prepare(plan, stiff_rate(plan) + plan[par.DAMPING] + change_rate(plan))
 
 
 @kernel

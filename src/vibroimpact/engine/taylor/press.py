@@ -1,388 +1,194 @@
-"""Leaps while a power-law stop is pressed, in the root of its deformation.
-
-δ^1.5 has no series where contact begins, and steps there can only grow with δ. With δ = w² and a
-variable τ in which dt = 2w dτ (Hénon's), w′ = δ̇ and all else has a series in τ, at both ends of the
-contact: a few leaps carry the mass from δ = 0 to δ = 0. So it is for every exponent that is a whole
-number of halves. The time at the nodes is one more unknown, and the shaking follows it.
-"""
+"""Steps while a stop is pressed by a power of its deformation, in a root of it (`series.root`)."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import count, pace, turned, value, wave
-from vibroimpact.engine.forcing.several import raised
-from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.evaluate import relaxed
-from vibroimpact.engine.linear.roots import NONE
+from vibroimpact.engine.forcing.dispatch import stepped
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.tables import overlapping
-from vibroimpact.engine.motion import (
-    BOTH,
-    DETACHED,
-    FLIGHT,
-    LEFT,
-    LIMIT,
-    RIGHT,
-    Clock,
-    Motion,
-)
-from vibroimpact.engine.taylor.crossing import (
-    UNSURE,
-    Bends,
-    Watch,
-    bends,
-    expand_nodes,
-    first_zero,
-    state_at,
-)
-from vibroimpact.engine.taylor.frame import Frame, Push, branch_of, frame_of, push_of
+from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion
+from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
+from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
+from vibroimpact.engine.series.kernels import Slot
+from vibroimpact.engine.series.march import Shaken, number, taken
+from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
+from vibroimpact.engine.taylor.ahead import branched
+from vibroimpact.engine.taylor.frame import branch_of, curved_stop, push_of
 from vibroimpact.engine.taylor.laws import EVEN
-from vibroimpact.engine.taylor.layout import (
-    NODES,
-    NODES_A,
-    NODES_P,
-    NODES_R,
-    NODES_SHAKEN,
-    NODES_T,
-    NODES_V,
-    NODES_Z,
-    SPECTRA,
-)
-from vibroimpact.engine.taylor.leap import (
-    AGREED,
-    FADES,
-    ROUNDS,
-    Forces,
-    bent_by,
-    changed,
-    excess_of,
-    flowing,
-    forces_of,
-    landed,
-    own,
-    pull,
-    pulled,
-    saturated,
-    seen,
-    steadied,
-    waves,
-)
-from vibroimpact.engine.taylor.leaps import (
+from vibroimpact.engine.taylor.pieces import coordinate, placed
+from vibroimpact.engine.taylor.watch import (
     DETACHED_LEFT,
     EASED,
-    NO_LEAP,
-    Leap,
-    branches,
-    shorter,
-    smooth,
+    NEITHER,
+    Found,
+    earlier,
+    ends_of,
+    turns,
 )
-from vibroimpact.engine.taylor.nodes import (
-    COUNT,
-    END_OF_ONE,
-    PLACES,
-    integral,
-    nodewise,
-    spectrum,
-    twice,
-)
-from vibroimpact.engine.taylor.pieces import coordinate, placed
 
-_REACH = 1.5
-"""Of a leap, in units of τ."""
+_RIGHT, _LEFT = int(Slot.ROOT_RIGHT), int(Slot.ROOT_LEFT)
 
-_FARTHEST = 1.0
-"""rad, that the shaking may turn on a leap: `waves` is right to there."""
-
-SPECTRUM_T = SPECTRA + 5 * COUNT
+MOST = 50_000
+"""Steps to one event, far more than any needs whose rates are those of the rig. A stop that is
+met all but without speed may have a dissipation beyond all bounds, and is given up."""
 
 
-_line = nodewise(
-    lambda shaken, t, now, after: shaken + (now + after * t), (NODES_SHAKEN, NODES_T), NODES_SHAKEN
-)
-_angle = nodewise(lambda t, rate: rate * t, (NODES_T,), NODES_P)
-_first_push = nodewise(lambda w, v, k, chi: k * w * (1.0 + chi * v), (NODES, NODES_V), NODES_P)
-_next_push = nodewise(lambda push, w: push * w, (NODES_P, NODES), NODES_P)
+class Pressed(NamedTuple):
+    """What the steps of a stretch are made with: way, kernel, unit (s), and χ per unit.
 
-
-def _accelerated(shaken: Any, push: Any, w: Any, v: Any, z: Any, *numbers: Any) -> Any:
-    return (w + w) * (shaken - push - pull(w * w, v, z, *numbers))
-
-
-_accelerate = nodewise(_accelerated, (NODES_SHAKEN, NODES_P, NODES, NODES_V, NODES_Z), NODES_A)
-_saturate = nodewise(lambda w, *numbers: saturated(w * w, *numbers), (NODES,), NODES_Z)
-_by_depth = nodewise(lambda rate, w: rate * (w + w), (NODES_R, NODES), NODES_R)
-
-
-def _ahead(place: Any, h: Any, w: Any, v: Any, a: Any) -> Any:
-    t = place * h
-    return w + t * (v + (t * a) * (w + t * (v * (1 / 3))))
-
-
-def _ahead_v(place: Any, h: Any, w: Any, v: Any, a: Any) -> Any:
-    t = place * h
-    return v + (t * a) * (w + w + t * v)
-
-
-def _ahead_t(place: Any, h: Any, w: Any, v: Any, a: Any) -> Any:
-    t = place * h
-    return t * (w + w + t * (v + (t * a) * (w * (2 / 3))))
-
-
-_guess = nodewise(_ahead, (PLACES,), NODES)
-_guess_v = nodewise(_ahead_v, (PLACES,), NODES_V)
-_guess_t = nodewise(_ahead_t, (PLACES,), NODES_T)
-_guess_z = nodewise(lambda w, z, rate, start: z + rate * (w * w - start), (NODES,), NODES_Z)
-
-
-@kernel
-def presses(plan: Vector, motion: Motion) -> bool:
-    """Whether a leap in the root of the deformation is worth trying."""
-    mode = motion.mode
-    if mode in (FLIGHT, BOTH) or overlapping(plan) or not smooth(plan, motion):
-        return False
-    at = par.BUMPER + par.WIDTH * (mode - 1)
-    halves = 2.0 * plan[at + par.EXPONENT]
-    return bool(
-        plan[at + par.KIND] == par.POWER_LAW and halves == math.floor(halves) and halves <= 8.0
-    )
-
-
-@kernel
-def shake_at(plan: Vector, frame: Frame, steady: float, clock: Clock) -> bool:
-    """Write `steady` − sign A_t at the nodes' times; return whether they are near enough."""
-    steadied(plan, (steady,))
-    sn, cn = clock
-    near = True
-    for part in range(1, count(plan) + 1):
-        amplitude, rate, closes, sine, cosine = wave(plan, part, False)
-        amplitude *= -frame.sign
-        now = amplitude * (sine * sn + cosine * cn)
-        after = amplitude * (sine * cn - closes * cosine * sn)
-        if closes == 0.0:
-            _line(plan, (now, after * rate))
-        else:
-            near = near and abs(rate * plan[NODES_T + COUNT - 1]) < _FARTHEST
-            _angle(plan, (rate,))
-            waves(plan, (now, after))
-        sn, cn = raised(clock[0], clock[1], sn, cn)
-    return near
-
-
-@kernel
-def rates(plan: Vector, forces: Forces, push: Push) -> None:
-    """Write the rates of v and of z, by τ, at the nodes."""
-    _first_push(plan, (push.stiffness, push.dissipation))
-    for _ in range(int(2.0 * push.exponent) - 1):
-        _next_push(plan, ())
-    _accelerate(plan, own(forces))
-    if forces.hysteretic != 0.0:
-        flowing(plan, forces)
-        _by_depth(plan, ())
-
-
-@kernel
-def pressed_on(
-    plan: Vector,
-    frame: Frame,
-    forces: Forces,
-    push: Push,
-    steady: float,
-    clock: Clock,
-    begin: tuple[float, float, float],
-    a: float,
-    h: float,
-    unit: float,
-) -> float:
-    """Find the motion at the nodes of the next h of τ, from w, v and z; see `leap.leapt`."""
-    w, v, z = begin
-    hysteretic = forces.hysteretic != 0.0
-    size = max(abs(w), abs(v) * unit, 1e-300)
-    bent = bent_by(forces, z)
-    _guess(plan, (h, w, v, a))
-    _guess_v(plan, (h, w, v, a))
-    _guess_t(plan, (h, w, v, a))
-    _guess_z(plan, (z, bent, w * w))
-    middle = COUNT // 2
-    before = 1e-300
-    for turn in range(ROUNDS):
-        near = shake_at(plan, frame, steady, clock)
-        rates(plan, forces, push)
-        last, half = plan[NODES + COUNT - 1], plan[NODES + middle]
-        integral(plan, NODES_A, NODES_V, h, v, 0.0)
-        twice(plan, NODES_A, NODES, h * h, w, v * h)
-        integral(plan, NODES, NODES_T, 2.0 * h, 0.0, 0.0)
-        change = abs(plan[NODES + COUNT - 1] - last) + abs(plan[NODES + middle] - half)
-        if hysteretic:
-            memory = seen(plan)
-            _saturate(plan, (z, bent, 0.5 * forces.bend, w * w))
-            change += size * changed(plan, memory, z)
-        if turn > 2 and not near:
-            return 4.0
-        if not change * min(change / before, 0.25) > 0.25 * AGREED * size:
-            break
-        before = change
-    else:
-        return 4.0
-    shake_at(plan, frame, steady, clock)
-    rates(plan, forces, push)
-    integral(plan, NODES_A, NODES_V, h, v, 0.0)
-    if hysteretic and not abs(forces.bend * (plan[NODES + COUNT - 1] ** 2 - w * w)) < FADES:
-        return 4.0
-    return excess_of(plan, h * unit / size, hysteretic, z, h)
-
-
-@kernel
-def unit_of(plan: Vector, frame: Frame, forces: Forces, push: Push, x: float, v: float) -> float:
-    """A piece of τ in which the motion changes."""
-    n = push.exponent
-    base = math.sqrt(max(forces.stiffness + forces.hysteretic, 0.0))
-    slow = base + forces.damping + abs(forces.drag * v) + pace(plan)
-    work = (n + 1.0) / push.stiffness * 0.5 * v * v
-    deep = max(x, work ** (1.0 / (n + 1.0)))
-    w = math.sqrt(deep)
-    # w″ = −2 k w^(2n+1): its own rate, and that of everything else over dt/dτ = 2 w.
-    own = math.sqrt(2.0 * (2.0 * n + 1.0) * push.stiffness * deep**n)
-    own += push.dissipation * push.stiffness * deep**n * 2.0 * w
-    return 1.0 / (own + 2.0 * w * slow + 1e-300)  # type: ignore[no-any-return]
-
-
-@kernel
-def time_at(plan: Vector, y: float) -> float:
-    """The time at a share of the leap."""
-    t = 2.0 * y - 1.0
-    one, two = 0.0, 0.0
-    for n in range(COUNT - 1, -1, -1):
-        one, two = (
-            plan[SPECTRUM_T + n]
-            + (2.0 * n + 1.0) / (n + 1.0) * t * one
-            - (n + 1.0) / (n + 2.0) * two,
-            one,
-        )
-    return one
-
-
-@kernel
-def share_of(plan: Vector, time: float, last: float, late: float, h: float) -> float:
-    """At which share of the leap it is so late, if it is later at the share `last`.
-
-    Up to a detachment time grows with the share, if ever so slowly; behind one, where w < 0, it
-    goes back.
+    `size` is about the largest root on the way.
     """
+
+    way: float
+    slot: int
+    unit: float
+    chi: float
+    size: float
+
+
+@kernel
+def root_of(plan: Vector, motion: Motion) -> int:
+    """In which root of a stop's deformation a motion is followed; 0 if in none."""
+    mode = motion.mode
+    if mode not in (RIGHT, LEFT) or motion.fresh & ~BOTH or overlapping(plan):
+        return 0
+    if not curved_stop(plan, mode):
+        return 0
+    at = par.BUMPER + par.WIDTH * (mode - 1)
+    if plan[at + par.EXPONENT] != plan[ROOTS + 2 * (mode - 1)]:
+        return 0
+    return int(plan[ROOTS + 2 * (mode - 1) + 1])
+
+
+@kernel
+def pressed_by(plan: Vector, motion: Motion, frame: Frame, x: float, root: int) -> Pressed:
+    """What the steps of a stretch are made with that begins with this motion; write its numbers."""
+    mode = motion.mode
+    unit: float = plan[UNIT]
+    branch = branch_of(plan, motion, frame.sign)
+    v = frame.sign * motion.v
+    memory = motion.right if mode == RIGHT else motion.left
+    push = push_of(plan, mode, branch.way if v == 0.0 else v, memory)
+    drag = plan[par.DAMPING] if plan[par.DRAG] != 1.0 else 0.0
+    number(plan, frame, Laws(branch, push, NO_PUSH, 0.0, drag), unit)
+    n = push.exponent
+    work = (n + 1.0) / push.stiffness * 0.5 * v * v
+    if x > 0.0:
+        work += x ** (n + 1.0)
+    deep = max(work ** (1.0 / (n + 1.0)), 1e-300)
+    slot = _RIGHT if mode == RIGHT else _LEFT
+    return Pressed(branch.way, slot, unit, push.dissipation / unit, rooted(deep, root))
+
+
+@inlined
+def rooted(x: float, root: int) -> float:
+    """A root of a deformation."""
+    if root == 2:
+        return math.sqrt(x)
+    if root == 4:
+        return math.sqrt(math.sqrt(x))
+    return x ** (1.0 / root)  # type: ignore[no-any-return]
+
+
+@inlined
+def raised(w: float, root: int) -> float:
+    """A deformation from its root; below 0 where that is."""
+    x = w
+    for _ in range(1, root):
+        x *= w
+    return x if root % 2 or w > 0.0 else -x
+
+
+@inlined
+def follows(chi: float, x: float, v: float, fresh: bool) -> bool:
+    """Whether a stop pushes, in a root of whose deformation the motion has a series."""
+    return bool(1.0 + chi * v > EVEN and (x > 0.0 or (fresh and v > 0.0)))
+
+
+@kernel
+def share_of(plan: Vector, time: float, last: float, late: float) -> float:
+    """At which value of the variable it is so late, if it is later, `late`, at the value `last`."""
     low, high = 0.0, last
     y = last * (time / late)
     for _ in range(80):
-        over = time_at(plan, y) - time
+        t, rate, _ = summed(plan, T, y)
+        over = t - time
         if over > 0.0:
             high = y
         else:
             low = y
-        w, _, _, _, _ = state_at(plan, y, False)
-        new = y - over / (2.0 * h * w) if w > 0.0 else low
+        new = y - over / rate if rate > 0.0 else low
         if not low < new < high:
             new = 0.5 * (low + high)
-        if abs(new - y) <= 1e-15 or not low < new < high:
+        if abs(new - y) <= 1e-15 * last or not low < new < high:
             return new
         y = new
     return y
 
 
-@kernel
-def press_on(plan: Vector, motion: Motion, limit: float, hint: float) -> Leap:
-    """Leap on from a motion pressed by a power-law stop; see `leaps.leap_on`. `hint` is of τ."""
+@apart
+def pressed_for(
+    plan: Vector, motion: Motion, frame: Frame, root: int, limit: float, begins: bool
+) -> tuple[int, float, Motion]:
+    """Go on in a root of a stop's deformation, to the first event or as long as that can be.
+
+    `begins` says that the motion is that of a stretch's beginning.
+
+    Returns
+    -------
+    event, t, motion
+        NEITHER if it cannot be followed so any more; free stops are as they were.
+    """
     mode, fresh, _, _, right, left, _, age, clock = motion
-    frame = frame_of(plan, mode)
-    sign = frame.sign
-    x, v, z = coordinate(plan, motion), sign * motion.v, sign * motion.z
-    nothing = Leap(NO_LEAP, 0.0, motion, math.inf)
-    if not x > 0.0:
-        if fresh != mode or not v > 0.0:
-            return nothing
-        x = 0.0
-    push = push_of(plan, mode, v, right if mode == RIGHT else left)
-    if not 1.0 + push.dissipation * v > EVEN:
-        return nothing
-    branch = branch_of(plan, motion, sign)
-    forces = forces_of(plan, frame, branch)
-    unit = unit_of(plan, frame, forces, push, x, v)
-    h = min(_REACH * unit if hint == math.inf else hint, 3.0 * unit)
-    w = math.sqrt(x)
-    steady = frame.load - branch.way * plan[par.FRICTION]
-    begin = (w, v, z)
-    a = steady - sign * value(plan, clock[0], clock[1]) - pulled(forces, x, v, z)
-    a -= push.stiffness * x**push.exponent * (1.0 + push.dissipation * v)
-    excess = 2.0
-    for _ in range(5):
-        excess = pressed_on(plan, frame, forces, push, steady, clock, begin, a, h, unit)
-        if excess <= 1.0:
+    x, z = coordinate(plan, motion), frame.sign * motion.z
+    by = pressed_by(plan, motion, frame, x, root)
+    v = frame.sign * motion.v * by.unit
+    if not follows(by.chi, x, v, begins and fresh == mode):
+        return NEITHER, 0.0, motion
+    hysteretic = plan[par.HYSTERETIC] != 0.0
+    matters = branched(plan, motion)
+    ways = by.way if matters else 0.0
+    per_unit = 1.0 / by.unit
+    most = limit * per_unit
+    w = rooted(max(x, 0.0), root)
+    here = motion
+    t = 0.0
+    event = NEITHER
+    for _ in range(MOST):
+        shaken = Shaken(frame.sign, clock, by.unit, per_unit)
+        h, after = taken(plan, by.slot, w, v, z, shaken, max(w, by.size), 0.0, math.inf)
+        ends = ends_of(plan, h, w, v, z, hysteretic)
+        found = Found(LIMIT, NEVER)
+        which = DETACHED if mode == RIGHT else DETACHED_LEFT
+        found = earlier(found, which, first_zero(plan, Line(0.0, 1.0, 0.0, 0.0), ends, w))
+        if by.chi != 0.0:
+            line = Line(1.0, 0.0, by.chi, 0.0)
+            found = earlier(found, EASED, first_zero(plan, line, ends, 1.0 + by.chi * v))
+        if matters:
+            found = turns(plan, here, ways, frame.sign, ends, t, found)
+        step, last = plan[FOUND + F_T], h
+        if found.event != LIMIT:
+            last = found.t
+            step, _, _ = summed(plan, T, last)
+        event = found.event
+        if t + step > most:
+            last, step = share_of(plan, most - t, last, step), most - t
+            event = LIMIT
+        elif event == LIMIT:
+            event = NEITHER
+        if last < h or event != NEITHER:
+            w, v, z1 = state_near(plan, last, h, hysteretic)
+            after = stepped(plan, clock[0], clock[1], step * by.unit)
+        else:
+            w, v, z1 = ends.x1, ends.v1, ends.z1
+        clock = after
+        z = z1 if hysteretic else z
+        t += step
+        speed = frame.sign * v * per_unit
+        here = Motion(mode, 0, 0.0, speed, right, left, frame.sign * z, age, clock)
+        if event != NEITHER or not (w > 0.0 and follows(by.chi, w, v, False)):
             break
-        h *= shorter(excess)
-    if not excess <= 1.0:
-        return nothing
-    w1, v1, z1 = landed(plan, forces, w, v, z, h)
-    hysteretic = forces.hysteretic != 0.0
-    bent = bends(plan, h, hysteretic)
-    event, y = let_out(
-        plan, motion, push, branch.way, 2.0 * w * a, h, bent, (w, v, z), (w1, v1, z1), forces
-    )
-    if event == NO_LEAP:
-        return nothing
-    whole = 0.0
-    for i in range(COUNT):
-        whole += END_OF_ONE[i] * plan[NODES + i]
-    whole *= 2.0 * h
-    t = whole
-    if event != LIMIT or whole > limit:
-        spectrum(plan, NODES_T, SPECTRUM_T, 1.0, 0.0, 0.0)
-        expand_nodes(plan, hysteretic)
-        last = 1.0
-        if event != LIMIT:
-            t, last = time_at(plan, y), y
-        if t > limit:
-            y = share_of(plan, limit, last, t, h)
-            event, t = LIMIT, limit
-        w1, v1, _, z1, _ = state_at(plan, y, hysteretic)
-    if forces.slope == 0.0 or not hysteretic:
-        z1 = z  # exactly, where a spring yields
-    if not mode & RIGHT:
-        right = relaxed(right, plan[par.BUMPER + par.RATE], t)
-    if not mode & LEFT:
-        left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
-    clock = turned(plan, clock[0], clock[1], t)
-    there = Motion(mode, 0, 0.0, sign * v1, right, left, sign * z1, age + t, clock)
-    return Leap(event, t, placed(plan, there, w1 * w1), h * shorter(excess))
-
-
-@kernel
-def let_out(
-    plan: Vector,
-    motion: Motion,
-    push: Push,
-    way: float,
-    rate: float,
-    h: float,
-    bent: Bends,
-    begin: tuple[float, float, float],
-    end: tuple[float, float, float],
-    forces: Forces,
-) -> tuple[int, float]:
-    """The first event on the leap: w or 1 + χ v falls to zero, or a branch of the isolator ends."""
-    w, v, _ = begin
-    w1, v1, _ = end
-    event, first = LIMIT, NONE
-    y = first_zero(plan, Watch(0.0, 1.0, 0.0, 0.0, w, h * v, w1), bent, h, first)
-    if y == UNSURE:
-        return NO_LEAP, 0.0
-    if y < first:
-        event, first = DETACHED if motion.mode == RIGHT else DETACHED_LEFT, y
-    chi = push.dissipation
-    if chi != 0.0:
-        watch = Watch(1.0, 0.0, chi, 0.0, 1.0 + chi * v, h * chi * rate, 1.0 + chi * v1)
-        y = first_zero(plan, watch, bent, h, first)
-        if y == UNSURE:
-            return NO_LEAP, 0.0
-        if y < first:
-            event, first = EASED, y
-    found = event, first
-    return branches(plan, motion, forces, way, rate, 2.0 * w, h, bent, begin, end, found)
+    return event, t * by.unit, placed(plan, here, raised(w, root))

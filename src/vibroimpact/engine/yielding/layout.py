@@ -7,7 +7,7 @@ disturbances asks the Taylor flow, in the same plan.
 from __future__ import annotations
 
 from vibroimpact.engine.linear.layout import BAND_X, SIZE
-from vibroimpact.engine.taylor.layout import END
+from vibroimpact.engine.series.layout import END
 
 MOVES_RIGHT, MOVES_LEFT, ELASTIC = range(3)
 """Branches of a law. In the first two a constant force stands against the motion: that of friction,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import begin, count, plane, wave
+from vibroimpact.engine.forcing.dispatch import count, plane, wave
 from vibroimpact.engine.forcing.wave import Wave
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import (
@@ -41,6 +41,7 @@ from vibroimpact.engine.linear.rows import (
 )
 from vibroimpact.engine.linear.tables import spacing
 from vibroimpact.engine.motion import LEFT
+from vibroimpact.engine.taylor import plan as taylor
 from vibroimpact.engine.yielding.layout import (
     BEND_0,
     BRANCHES,
@@ -65,7 +66,7 @@ def table_of(branch: int, mode: int) -> int:
 @kernel
 def build(plan: Vector, amplitude: float, omega: float) -> None:
     """Make the tables for one forcing: its size (m/s², m or N) and ω (rad/s)."""
-    begin(plan, amplitude, omega)
+    taylor.build(plan, amplitude, omega)
     held = plan[par.FRICTION]
     elastic = plan[par.HYSTERETIC]
     if elastic != 0.0:

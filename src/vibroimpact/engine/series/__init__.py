@@ -1,0 +1,1 @@
+"""The general flow: Taylor series of any law, emitted as straight code."""

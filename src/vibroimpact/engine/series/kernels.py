@@ -1,0 +1,268 @@
+"""Kernels of steps, made for the laws that a rig has, and called by their address in its plan.
+
+The flow itself is compiled once for all laws. What depends on a law is a small function of straight
+code for each shape of a rig; it is made when a rig first asks for it, in a fraction of a second.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+from llvmlite import binding, ir
+from numba.core import config, types
+from numba.extending import intrinsic, overload
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.series import layout as at
+from vibroimpact.engine.series import root, step
+from vibroimpact.engine.series.emit import REAL, WHOLE, Code, Plain
+from vibroimpact.engine.series.laws import drag
+from vibroimpact.engine.series.root import Rooted
+from vibroimpact.engine.series.step import LAWS, Shape
+
+NUMBERS = 7
+"""Arguments of a kernel besides the plan."""
+
+AGAIN = 1
+"""From a slot that begins a step to that which finds its end at another time."""
+
+
+MOST = 16
+"""Power of a root that a kernel is made for; its code grows with it."""
+
+CALM = 10
+"""From a slot to that where a drag is left out whose power is not a whole number."""
+
+_SQUARE, _ANY_POWER, _BITS = 8, 16, 1023
+"""Of `laws_code`: a drag of the velocity's square, one of any power; all bits but the memory's."""
+
+
+class Slot(IntEnum):
+    """Where the addresses of a plan's kernels stand: by the stops that push by a power."""
+
+    FREE = 0
+    RIGHT = 2
+    LEFT = 4
+    BOTH = 6
+    OTHER = 8
+    ROOT_RIGHT = 20
+    ROOT_LEFT = 22
+
+
+def pushed(rig: Any, side: int) -> int:
+    """What a `Shape` says of the stop on a side (1 right, 2 left)."""
+    kind = rig[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
+    return {par.POWER_LAW: 1, par.JANKOWSKI: 2}.get(kind, 0)
+
+
+Kernel = tuple[Callable[..., None], Callable[..., None], Any]
+"""Formulae of a step and of its end at another time, and the shape that they are made for."""
+
+
+def kernels(rig: Any) -> dict[int, Kernel]:
+    """Each kernel that a rig may call, by slot."""
+    laws = tuple(module.shape(rig) for module in LAWS)
+    right, left = pushed(rig, 1), pushed(rig, 2)
+    found = {Slot.FREE: Shape(laws)}
+    if right:
+        found[Slot.RIGHT] = Shape(laws, right)
+    if left:
+        found[Slot.LEFT] = Shape(laws, left)
+    if rig[par.BUMPER + par.GAP] + rig[par.BUMPER + par.WIDTH + par.GAP] < 0.0 and left:
+        found[Slot.OTHER] = Shape(laws, 0, left)
+        if right:
+            found[Slot.BOTH] = Shape(laws, right, left)
+    every: dict[int, Kernel] = {
+        int(slot): (step.begun, step.again, shape) for slot, shape in found.items()
+    }
+    if laws[LAWS.index(drag)] == (0,):
+        calm = (*laws[:-1], ())
+        for slot, shape in found.items():
+            every[slot + CALM] = step.begun, step.again, shape._replace(laws=calm)
+    for side, slot in ((1, Slot.ROOT_RIGHT), (2, Slot.ROOT_LEFT)):
+        deep = rooted(rig, side, laws)
+        if deep is not None:
+            every[int(slot)] = root.rooted, root.again, deep
+    return every
+
+
+def rooted(rig: Any, side: int, laws: tuple[Any, ...]) -> Rooted | None:
+    """The shape of the kernel in a root of a stop's deformation, if there is one."""
+    kind = pushed(rig, side)
+    if not kind or rig[par.DRAG] not in (1.0, 2.0):
+        return None
+    exponent = float(rig[par.BUMPER + par.WIDTH * (side - 1) + par.EXPONENT])
+    for which in (2, 3, 4):
+        power = round(which * exponent)
+        if power == which * exponent and power <= MOST and (kind == 1 or which == 4):
+            return Rooted(laws, which, power, kind == 2, rig[par.FORCING] != par.SEVERAL)
+    return None
+
+
+def laws_code(rig: Any) -> int:
+    """Tell which kernels a rig needs: a bit each for what they may have, and the memory's power."""
+    code = 0
+    code += 1 if rig[par.CUBIC] != 0.0 else 0
+    code += 2 if rig[par.QUINTIC] != 0.0 else 0
+    code += 4 if rig[par.SINH] != 0.0 else 0
+    if rig[par.DRAG] != 1.0 and rig[par.DAMPING] != 0.0:
+        code += _SQUARE if rig[par.DRAG] == 2.0 else _ANY_POWER
+    for side in range(2):
+        at_stop = par.BUMPER + par.WIDTH * side
+        if rig[at_stop + par.KIND] == par.POWER_LAW:
+            code += 32 << 2 * side
+        elif rig[at_stop + par.KIND] == par.JANKOWSKI:
+            code += 64 << 2 * side
+    if rig[par.BUMPER + par.GAP] + rig[par.BUMPER + par.WIDTH + par.GAP] < 0.0:
+        code += 512
+    if rig[par.HYSTERETIC] != 0.0:
+        bends = rig[par.KNEE] != 0.0 or rig[par.TURNING] != 0.0
+        code += 1024 * (1 + (int(rig[par.SHARPNESS]) if bends else 0))
+    return code
+
+
+def covers(made: int, needed: int) -> bool:
+    """Whether kernels made for some laws have all that are needed; both as `laws_code` gives."""
+    if made & _ANY_POWER:
+        needed &= ~_SQUARE
+    if (made & _BITS) & (needed & _BITS) != needed & _BITS:
+        return False
+    return needed <= _BITS or needed >> 10 == made >> 10
+
+
+_code, _covers = kernel(laws_code), kernel(covers)
+
+
+@kernel
+def lacks(plan: Vector) -> bool:
+    """Whether a rig has laws that the kernels of its plan do not have: it was made for another."""
+    return not _covers(int(plan[at.LAWS]), _code(plan))
+
+
+@kernel
+def drags_any_power(plan: Vector) -> bool:
+    """Whether the kernels of a plan have a drag of any power of the velocity, 2 among them."""
+    return int(plan[at.LAWS]) & _ANY_POWER != 0
+
+
+def prepare(memory: Vector, rig: Vector) -> None:
+    """Write the addresses of a rig's kernels into the memory of its plan."""
+    memory[at.LAWS] = float(laws_code(rig))
+    memory[at.ROOTS : at.ROOTS + 4] = np.nan
+    addresses = memory.view(np.int64)
+    for slot, (begin, again, shape) in kernels(rig).items():
+        if slot >= Slot.ROOT_RIGHT:
+            side = slot - Slot.ROOT_RIGHT  # 0 or 2
+            exponent = rig[par.BUMPER + par.WIDTH * side // 2 + par.EXPONENT]
+            memory[at.ROOTS + side : at.ROOTS + side + 2] = exponent, shape.root
+        if not config.DISABLE_JIT:  # type: ignore[attr-defined]
+            addresses[at.KERNELS + slot] = address(begin, shape)
+            addresses[at.KERNELS + slot + AGAIN] = address(again, shape)
+
+
+_lock = threading.Lock()
+_made: dict[tuple[Callable[..., None], Any], tuple[Any, int]] = {}
+
+
+def address(formula: Callable[..., None], shape: Any) -> int:
+    """Where the machine code of a formula for a shape stands."""
+    key = (formula, shape)
+    found = _made.get(key)
+    if found is None:
+        with _lock:
+            found = _made.get(key) or _compiled(formula, shape)
+            _made[key] = found
+    return found[1]
+
+
+def _emitted(formula: Callable[..., None], shape: Any) -> ir.Module:
+    module = ir.Module(name=formula.__name__)
+    kind = ir.FunctionType(ir.VoidType(), [REAL.as_pointer()] + [REAL] * NUMBERS)
+    function = ir.Function(module, kind, name="kernel")
+    function.args[0].add_attribute("noalias")
+    builder = ir.IRBuilder(function.append_basic_block())
+    formula(Code(builder, function.args[0], function.args[1:]), shape)
+    builder.ret_void()
+    return module
+
+
+def _compiled(formula: Callable[..., None], shape: Any) -> tuple[Any, int]:
+    """Compile for this processor; the engine that holds the code, and the address."""
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    target = binding.Target.from_default_triple()
+    machine = target.create_target_machine(
+        cpu=binding.get_host_cpu_name(),
+        features=binding.get_host_cpu_features().flatten(),
+        opt=3,
+        codemodel="small",
+    )
+    module = binding.parse_assembly(str(_emitted(formula, shape)))
+    module.verify()
+    options = binding.create_pipeline_tuning_options(speed_level=3)
+    options.slp_vectorization = False  # it takes apart what is side by side already
+    builder = binding.create_pass_builder(machine, options)
+    builder.getModulePassManager().run(module, builder)
+    engine = binding.create_mcjit_compiler(module, machine)
+    engine.finalize_object()
+    return engine, engine.get_function_address("kernel")
+
+
+def run(
+    plan: Vector,
+    slot: int,
+    x: float,
+    v: float,
+    z: float,
+    size: float,
+    h: float,
+    now: float,
+    after: float,
+) -> None:
+    """Call the kernel of a slot: FOUND of the plan is what it finds."""
+    begin, again, shape = kernels(plan)[slot - slot % 2]
+    formula = again if slot % 2 else begin
+    formula(Plain(plan, (x, v, z, size, h, now, after)), shape)
+
+
+@intrinsic
+def _call(
+    typing: Any,
+    plan: Any,
+    slot: Any,
+    x: Any,
+    v: Any,
+    z: Any,
+    size: Any,
+    h: Any,
+    now: Any,
+    after: Any,
+) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        plan, slot, *numbers = args
+        if isinstance(signature.args[0], types.Array):  # in tests
+            plan = context.make_array(signature.args[0])(context, builder, plan).data
+        place = builder.add(slot, WHOLE(at.KERNELS))
+        cell = builder.gep(plan, [place], inbounds=True, source_etype=REAL)
+        cell = builder.bitcast(cell, WHOLE.as_pointer())
+        where = builder.load(cell, typ=WHOLE)
+        kind = ir.FunctionType(ir.VoidType(), [REAL.as_pointer()] + [REAL] * NUMBERS)
+        builder.call(builder.inttoptr(where, kind.as_pointer()), [plan, *numbers])
+        return context.get_dummy_value()
+
+    real = types.float64
+    return types.void(plan, types.int64, *[real] * NUMBERS), build
+
+
+@overload(run, strict=False)
+def _run(
+    plan: Any, slot: Any, x: Any, v: Any, z: Any, size: Any, h: Any, now: Any, after: Any
+) -> Any:
+    return lambda plan, slot, x, v, z, size, h, now, after: _call(  # type: ignore[call-arg]
+        plan, slot, x, v, z, size, h, now, after
+    )

@@ -1,0 +1,93 @@
+"""Where a plan keeps what a Taylor step needs.
+
+It begins as every plan (`linear.layout`): the rig, the forcing, and the header of a table, which
+here is that of the piece in hand. Times are in units of the plan's own, a power of two.
+"""
+
+from __future__ import annotations
+
+from vibroimpact.engine.linear.layout import SIZE, TABLES
+
+DEGREE = 20
+"""Highest power of a step's series."""
+
+ROOM = 24
+"""Numbers kept for one series."""
+
+HEADER = TABLES
+"""The header of the piece in hand."""
+
+# Addresses of kernels, one for each case of `library.Slot`; then the laws that they have.
+KERNELS = TABLES + SIZE
+LAWS = KERNELS + 24
+ROOTS = LAWS + 1  # of each side: the exponent for which a stop has a kernel in a root, and the root
+UNIT = ROOTS + 4  # s
+SHAKES_UNIT = UNIT + 1  # s, of what follows
+NUMBERS_UNIT = UNIT + 2  # s, of NUMBERS
+LACKING = UNIT + 3  # 1 if the kernels were made for other laws
+SHAKES = UNIT + 4  # coefficients of what shakes the mass, but for two factors, in units of time
+X = SHAKES + ROOM  # the mode's own coordinate
+Z = X + ROOM  # the isolator's memory
+SHAKEN = Z + ROOM  # −A_t and the constant force
+V = SHAKEN + ROOM  # of a step in a stop's root: velocity and time
+T = V + ROOM
+
+# Numbers of the forces in a mode, in units of time.
+NUMBERS = T + ROOM
+NAMES = (
+    "stiffness",
+    "damping",
+    "offset",
+    "cubic",
+    "quintic",
+    "sinh",
+    "sinh_rate",
+    "hysteretic",
+    "slope",
+    "bend",
+    "drag",
+    "drag_exponent",
+    "push",
+    "push_exponent",
+    "push_dissipation",
+    "push_viscous",
+    "other",
+    "other_exponent",
+    "other_dissipation",
+    "other_viscous",
+    "apart",
+    "load",
+    "rate",
+    "way",
+    "closing",
+    "per_unit",
+)
+FOUND = NUMBERS + len(NAMES)
+# What a kernel finds: length, state and its rates at the end, bounds on second and third rates, by
+# how much its last terms are too large, and what the forcing must be there (times length²).
+(F_H, F_X, F_V, F_A, F_BEND, F_JERK, F_Z, F_R, F_BEND_Z, F_EXCESS, F_OWES, F_WEIGHT, F_T) = range(
+    13
+)
+# Where a zero was last looked for: the time, and the state and its rates there.
+(A_T, A_X, A_V, A_A) = range(13, 17)
+
+ASKED = FOUND + 20  # what is asked of the motion: its acceleration, a force, a velocity
+U = ASKED + ROOM  # displacement, as the isolator has it
+SQUARE = U + ROOM
+FIFTH = SQUARE + ROOM
+RISING = FIFTH + ROOM
+FALLING = RISING + ROOM
+SPEED = FALLING + ROOM
+DRAG = SPEED + ROOM
+PRESSED = DRAG + ROOM
+PUSH = PRESSED + ROOM
+BY_X = PUSH + 8 * ROOM  # slopes of the forces: by displacement, by velocity, by the closing speeds
+BY_V = BY_X + ROOM
+BY_SPEED = BY_V + ROOM
+BY_Z = BY_SPEED + 2 * ROOM  # of z′, by velocity and, with the sign turned, by z
+BY_Z_OF_Z = BY_Z + ROOM
+D_X = BY_Z_OF_Z + ROOM  # a disturbance
+D_V = D_X + ROOM
+D_Z = D_V + ROOM
+POWERS = D_Z + ROOM  # z², z³, … for which a plan has room to the end
+END = POWERS + ROOM  # of all but these powers

@@ -1,0 +1,199 @@
+"""A step while a stop is pressed by a power of its deformation, as a formula in a root of that.
+
+δ^1.5 has no series where contact begins. With δ = wᵐ and a variable τ in which dt = m wᵐ⁻¹ dτ,
+w′ = δ̇, and all else has a series in τ, at both ends of the contact, too, if m times the exponent is
+a whole number; Jankowski's c δ^¼ δ̇ wants m = 4. The time is one more unknown.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from vibroimpact.engine.series import layout as at
+from vibroimpact.engine.series.algebra import Series, State
+from vibroimpact.engine.series.emit import LANES, tree
+from vibroimpact.engine.series.laws import hysteresis
+from vibroimpact.engine.series.step import (
+    BALANCED,
+    LAST,
+    LAWS,
+    ROUNDING,
+    TOLERANCE,
+    Law,
+    isolator,
+    memory,
+    powers,
+    reach,
+    sums,
+)
+
+EARLY = 4
+
+
+class Rooted(NamedTuple):
+    """What a kernel in the root is made for.
+
+    Of each of `step.LAWS` what it has; m; m times the exponent; whether there is a viscous part;
+    and whether what shakes the mass is one sine or line, else a polynomial of the time.
+    """
+
+    laws: tuple[tuple[Any, ...], ...]
+    root: int
+    power: int
+    viscous: bool
+    single: bool
+
+
+class Moved(Series):
+    """The rate of a series of w, of which w′ = v: coefficient n needs w up to n + 1 only."""
+
+    def __init__(self, series: Series, w: State, v: State) -> None:
+        super().__init__(series.machine)
+        self.series, self.w, self.v = series, w, v
+
+    def first(self) -> Any:
+        """Return coefficient 0."""
+        return self.series.slopes[self.w] * self.v[0]
+
+    def slope(self) -> dict[Series, Any]:
+        """Return the slopes."""
+        return {self.v: self.series.slopes[self.w]}
+
+    def rest(self, n: int) -> Any:
+        """Return what is older of coefficient n."""
+        return self.series.older(n + 1) * float(n + 1)
+
+
+def pull(law: Law, shape: Rooted, w: Any, v: Any, z: Any, x: Any, moved: Any, pace: Any) -> Any:
+    """What all forces pull back with but for the shaking, times dt/dτ; `moved` is dδ/dτ."""
+    grip = law.push + law.push * law.push_dissipation * v
+    inner = law.stiffness * w ** (shape.root - 1) + w ** (shape.power - 1) * grip
+    terms = [x * (inner * float(shape.root)), law.damping * moved]
+    if shape.viscous:
+        terms.append(law.push_viscous * (w * moved))
+    terms += [force * pace for force in isolator(law, shape, x + law.offset, v, z)]
+    return tree(terms)
+
+
+def grown(series: Series, n: int) -> Any:
+    """Coefficient n + 1 of a state from the coefficients of its rate."""
+    if n == 0:
+        return series[0]
+    total = series.add_older(n, 0.0, 1.0)
+    for newest, slope in series.slopes.items():
+        total = series.machine.fma(slope, newest[n], total)
+    return total * (1.0 / (n + 1))
+
+
+def rooted(machine: Any, shape: Rooted) -> None:
+    """Write the series of a step from (w, δ̇, z), and what is found at its end."""
+    first, speed, kept, size, longest, now, after = machine.arguments
+    law, degree = Law(machine), at.DEGREE
+    w, v, z, t = (State(machine, [one]) for one in (first, speed, kept, 0.0))
+    x = w**shape.root
+    pace, moved = w ** (shape.root - 1) * float(shape.root), Moved(x, w, v)
+    turns = []
+    if shape.single:
+        squared = machine.load(at.SHAKES)  # of the unit of time
+        even, odd = State(machine, [now * squared]), State(machine, [after * squared])
+        shaken = even * pace
+        turns = [(even, odd * pace * law.rate), (odd, shaken * law.closing)]
+    else:
+        series = t * machine.load(at.SHAKES + degree - 2)
+        for n in range(degree - 3, 0, -1):
+            series = (series + machine.load(at.SHAKES + n)) * t
+        shaken = (series + machine.load(at.SHAKES)) * pace
+    gain = shaken + law.load * pace - pull(law, shape, w, v, z, x, moved, pace)
+    flow = memory(law, shape, None, moved, z)
+    h, last = None, degree - EARLY
+    for n in range(degree):
+        w.found.append(v[n] * (1.0 / (n + 1)))
+        if n + 1 == last:
+            h = machine.least(reach(machine, w, None, size, last), longest)
+        new = [(t, grown(pace, n)), *((one, grown(rate, n)) for one, rate in turns)]
+        if flow is not None:
+            new.append((z, grown(flow, n)))
+        if n + 1 < degree:
+            new.append((v, grown(gain, n)))
+        for one, coefficient in new:
+            one.found.append(coefficient)
+    written = [(at.X, w), (at.T, t), *([(at.Z, z)] if flow is not None else [])]
+    for place, one in written:
+        for n in range(degree + 1):
+            machine.store(place + n, one[n])
+    ended(machine, shape, law, w, t, z if flow is not None else None, h, size)
+
+
+def total(machine: Any, series: Series, reached: list[Any]) -> tuple[Any, Any]:
+    """Sum a series from its first coefficient on, and the sizes of its terms."""
+    value: Any = None
+    sizes: Any = None
+    for i, one in enumerate(reached):
+        term = machine.lanes([series[LANES * i + j + 1] for j in range(LANES)]) * one
+        size = term.absolute()
+        value, sizes = (term, size) if value is None else (value + term, sizes + size)
+    return value.total(), sizes.total()
+
+
+def again(machine: Any, shape: Rooted) -> None:
+    """Find the end of the series in hand at another value of τ."""
+    size, h = machine.arguments[3:5]
+
+    def loaded(place: int) -> State:
+        return State(machine, [machine.load(place + n) for n in range(at.DEGREE + 1)])
+
+    z = loaded(at.Z) if shape.laws[LAWS.index(hysteresis)] else None
+    ended(machine, shape, Law(machine), loaded(at.X), loaded(at.T), z, h, size)
+
+
+def ended(
+    machine: Any, shape: Rooted, law: Law, w: Series, t: Series, z: Any, h: Any, size: Any
+) -> None:
+    """Write what is found at the end of a step."""
+    degree = at.DEGREE
+    reached = powers(machine, h, degree)
+    found, times = sums(machine, w, reached), total(machine, t, reached)
+    inverse = 1.0 / h
+    squared = inverse * inverse
+    end, v = found.value + w[0], found.rate * inverse
+    for place, number in (
+        (at.F_H, h),
+        (at.F_X, end),
+        (at.F_V, v),
+        (at.F_A, found.gain * squared),
+        (at.F_BEND, found.bend * squared),
+        (at.F_JERK, found.jerk * (squared * inverse)),
+        (at.F_T, times[0]),
+    ):
+        machine.store(at.FOUND + place, number)
+    highest = h
+    for _ in range(4):
+        highest = highest * highest
+    highest = highest * (h * h) * (h * h)  # h²⁰
+    whole = machine.most(size, machine.absolute(end))
+    last = machine.absolute(w[degree]) * highest / whole
+    last = machine.most(last, machine.absolute(t[degree]) * highest / (times[1] + 1e-300))
+    excess = last * (1.0 / (LAST * TOLERANCE))
+    pace = end ** (shape.root - 1) * float(shape.root)
+    kept = 0.0
+    if z is not None:
+        more = sums(machine, z, reached)
+        kept = more.value + z[0]
+        machine.store(at.FOUND + at.F_Z, kept)
+        machine.store(at.FOUND + at.F_R, more.rate * inverse)
+        machine.store(at.FOUND + at.F_BEND_Z, more.bend * squared)
+        off = machine.absolute(more.rate - memory(law, shape, None, v * pace, kept) * h)
+        exponent = shape.laws[LAWS.index(hysteresis)][0]
+        rounding = machine.absolute(v * (pace * h)) * (4.0 * ROUNDING * max(exponent, 1))
+        extent = machine.most(machine.absolute(z[0]), machine.absolute(kept))
+        missing = off / (machine.fma(extent, BALANCED, rounding) + 1e-300)
+        extreme = machine.absolute(z[degree]) * highest
+        last = extreme / (extent + 1e-300) * (1.0 / (LAST * TOLERANCE))
+        excess = machine.most(machine.most(missing, last), excess)
+    machine.store(at.FOUND + at.F_EXCESS, excess)
+    weight = pace * (h * h)
+    x = end**shape.root
+    pulled = pull(law, shape, end, v, kept, x, v * pace, pace)
+    owes = machine.fma(pulled, h * h, found.gain)
+    machine.store(at.FOUND + at.F_OWES, owes)
+    machine.store(at.FOUND + at.F_WEIGHT, weight)

@@ -1,0 +1,303 @@
+"""One Taylor step, as a formula: the series of the motion about a state, and where it ends.
+
+The equation of motion, x″ = shaken − stiffness x − damping x′ − laws(x + offset, x′, z), gives each
+coefficient from those before it. The step's length is known from coefficients some orders before
+the last; that it holds is certified at its end by the last ones and by the equation itself.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from vibroimpact.engine.series import layout as at
+from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State, exponential, power
+from vibroimpact.engine.series.emit import LANES, tree
+from vibroimpact.engine.series.laws import contact, drag, hysteresis, polynomial
+from vibroimpact.engine.series.laws import exponential as hardening
+
+EARLY = 6
+"""How many coefficients before the last the length of a step is known: the rest of the step's code
+need not wait for the last."""
+
+TOLERANCE = 2.0**-55
+"""What the last terms may be, as a share of the motion's size."""
+
+LAST = 8.0
+"""How many times that they may be where the length had to be guessed."""
+
+BALANCED = 2.0**-46
+"""What may be missing from the equation of motion at the step's end, as a share of the motion's
+size. It grows with the 19th power of the time or faster, so that the step's end is off by less than
+a 400th of it."""
+
+ROUNDING = 2.0**-53
+
+LAWS = (polynomial, hardening, hysteresis, drag)
+"""Of isolators."""
+
+
+class Shape(NamedTuple):
+    """What a kernel is made for: of each of `LAWS` what it has, and the stops that push by a power.
+
+    `push` and `other` are 0 for none, 1 for k δⁿ (1 + χ δ′), 2 with a viscous part.
+    """
+
+    laws: tuple[tuple[Any, ...], ...]
+    push: int = 0
+    other: int = 0
+
+
+class Law:
+    """The numbers of a mode's forces by name, and functions for formulae."""
+
+    def __init__(self, machine: Any) -> None:
+        self._machine = machine
+        self._loaded: dict[str, Any] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in self._loaded:
+            self._loaded[name] = self._machine.load(at.NUMBERS + at.NAMES.index(name))
+        return self._loaded[name]
+
+    def exp(self, one: Any) -> Any:
+        """Return e to the power of a number or a series."""
+        return exponential(self._machine, one)
+
+    def power(self, one: Any, exponent: Any) -> Any:
+        """Return a to the power of b."""
+        return power(self._machine, one, exponent)
+
+
+def isolator(law: Law, shape: Any, u: Any, v: Any, z: Any) -> list[Any]:
+    """What the laws of an isolator pull back with, each."""
+    found = zip(LAWS, shape.laws, strict=True)
+    return [module.force(law, part, u, v, z) for module, part in found if part]
+
+
+def memory(law: Law, shape: Any, u: Any, v: Any, z: Any) -> Any:
+    """z′, or None where an isolator has no memory."""
+    part = shape.laws[LAWS.index(hysteresis)]
+    return hysteresis.flow(law, part, u, v, z) if part else None
+
+
+def pushes(law: Law, shape: Shape, x: Any, v: Any) -> list[Any]:
+    """What stops push with that follow a power of their deformation."""
+    found = []
+    if shape.push:
+        found.append(contact.force(law, "push", shape.push == 2, x, v))
+    if shape.other:
+        found.append(-contact.force(law, "other", shape.other == 2, law.apart - x, -v))
+    return found
+
+
+def begun(machine: Any, shape: Shape) -> None:
+    """Write the series of a step from (x, x′, z), and what is found at its end.
+
+    The arguments are the state, the motion's size, how long the step may be, and what the shaking
+    is now: that of its table's even terms, and that of the odd ones.
+    """
+    x, v, z, size, longest, now, after = machine.arguments
+    law = Law(machine)
+    degree = at.DEGREE
+    last = degree - EARLY
+    along, memo = State(machine, [x, v]), State(machine, [z])
+    rate = Rate(along)
+    u = Shifted(along, x + law.offset)
+    forces = isolator(law, shape, u, rate, memo) + pushes(law, shape, along, rate)
+    flow = memory(law, shape, u, rate, memo)
+    stiffness, damping, hold = law.stiffness, law.damping, None
+    for force in forces:
+        stiffness = added(stiffness, force.slopes.get(along))
+        damping = added(damping, force.slopes.get(rate))
+        hold = added(hold, force.slopes.get(memo))
+    machine.store(at.X, x)
+    machine.store(at.X + 1, v)
+    if flow is not None:
+        machine.store(at.Z, z)
+        machine.store(at.Z + degree, 0.0)  # which a step in a root has written
+    stiffness, damping, hold = -stiffness, -damping, hold if hold is None else -hold
+    h = None
+    for n in range(degree - 1):
+        share = 1.0 / ((n + 1) * (n + 2))
+        total = machine.load(at.SHAKES + n) * (after if n % 2 else now)
+        if n == 0:
+            total = total + law.load
+            # All at once: what is linear in the state is not taken apart.
+            for force in forces:
+                total = machine.fma(force[0], -1.0, total)
+            total = machine.fma(-law.stiffness, x, total)
+            new = machine.fma(-law.damping * (1.0 / (n + 2)), v, total * share)
+        else:
+            total = machine.fma(stiffness, along[n], total)
+            for force in forces:
+                total = force.add_older(n, total, -1.0)
+            if hold is not None:
+                total = machine.fma(hold, memo[n], total)
+            new = machine.fma(damping * (1.0 / (n + 2)), along[n + 1], total * share)
+        if flow is not None:
+            if n == 0:
+                made = flow[0]
+            else:
+                by = 1.0 / (n + 1)
+                made = flow.add_older(n, 0.0, by)
+                for newest, slope in flow.slopes.items():
+                    if newest is rate:
+                        made = machine.fma(slope, along[n + 1], made)
+                for newest, slope in flow.slopes.items():
+                    if newest is not rate:
+                        made = machine.fma(slope * by, newest[n], made)
+            memo.found.append(made)
+            machine.store(at.Z + n + 1, made)
+        along.found.append(new)
+        machine.store(at.X + n + 2, new)
+        if n + 2 == last:
+            h = reach(machine, along, memo if flow is not None else None, size, last)
+            h = machine.least(h, longest)
+    memo.found.append(0.0)
+    ended(machine, shape, law, along, memo if flow is not None else None, h, size)
+
+
+def added(one: Any, other: Any) -> Any:
+    """Add two numbers, either of which may be missing."""
+    return other if one is None else one if other is None else one + other
+
+
+def reach(machine: Any, along: Series, memo: Any, size: Any, last: int) -> Any:
+    """How far the series reach, by two coefficients: (size/|a_m|)^(1/m) TOLERANCE^(1/degree)."""
+    whole = machine.bits(size)
+
+    def radius(m: int) -> Any:
+        one = machine.absolute(along[m])
+        if memo is not None:
+            one = one + machine.absolute(memo[m - 1])
+        share = math.log2(TOLERANCE) / at.DEGREE + 1023.0
+        return machine.fma(
+            machine.bits(one), -1.0 / m, machine.fma(whole, 1.0 / m, share * 2.0**52)
+        )
+
+    return machine.of_bits(machine.least(radius(last), radius(last - 1)))
+
+
+def again(machine: Any, shape: Shape) -> None:
+    """Find the end of the series in hand at another time."""
+    size, h = machine.arguments[3:5]
+    along = State(machine, [machine.load(at.X + n) for n in range(at.DEGREE + 1)])
+    memo = None
+    if shape.laws[LAWS.index(hysteresis)]:
+        memo = State(machine, [machine.load(at.Z + n) for n in range(at.DEGREE)])
+        memo.found.append(0.0)
+    ended(machine, shape, Law(machine), along, memo, h, size)
+
+
+class Sums(NamedTuple):
+    """Of a series but for its first coefficient, at a time h: value, h x′, h² x″ and the like."""
+
+    value: Any
+    rate: Any
+    gain: Any
+    bend: Any
+    """Of the sizes of what `gain` is made of, and of the third rate's."""
+    jerk: Any
+
+
+def sums(machine: Any, series: Any, reached: list[Any]) -> Sums:
+    """Sum a series from its first coefficient on, four side by side."""
+    count = len(reached)
+    terms = [
+        machine.lanes([series[LANES * i + j + 1] for j in range(LANES)]) * reached[i]
+        for i in range(count)
+    ]
+    orders = [[LANES * i + j + 1 for j in range(LANES)] for i in range(count)]
+    value: Any = None
+    rate: Any = None
+    gain: Any = None
+    bend: Any = None
+    jerk: Any = None
+    for term, order in zip(terms, orders, strict=True):
+        second = term * [n * (n - 1) for n in order]
+        sizes = second.absolute()
+        value = term if value is None else value + term
+        rate = term.times(order, rate)
+        gain = second if gain is None else gain + second
+        bend = sizes if bend is None else bend + sizes
+        jerk = sizes.times([max(n - 2, 0) for n in order], jerk)
+    return Sums(*(one.total() for one in (value, rate, gain, bend, jerk)))
+
+
+def powers(machine: Any, h: Any, degree: int) -> list[Any]:
+    """H to h^degree, four side by side."""
+    square = h * h
+    fourth = square * square
+    found = [machine.lanes([h, square, square * h, fourth])]
+    step = fourth
+    for _ in range(1, degree // LANES):
+        found.append(found[0] * step)
+        step = step * fourth
+    return found
+
+
+def ended(
+    machine: Any, shape: Shape, law: Law, along: Series, memo: Any, h: Any, size: Any
+) -> None:
+    """Write what is found at the end of a step."""
+    degree = at.DEGREE
+    reached = powers(machine, h, degree)
+    found = sums(machine, along, reached)
+    inverse = 1.0 / h
+    squared = inverse * inverse
+    x, v = found.value + along[0], found.rate * inverse
+    for place, number in (
+        (at.F_H, h),
+        (at.F_X, x),
+        (at.F_V, v),
+        (at.F_A, found.gain * squared),
+        (at.F_BEND, found.bend * squared),
+        (at.F_JERK, found.jerk * (squared * inverse)),
+    ):
+        machine.store(at.FOUND + place, number)
+    highest = h
+    for _ in range(4):  # h¹⁶
+        highest = highest * highest
+    almost = highest * (h * h) * h
+    last = machine.absolute(along[degree] * h)
+    last = machine.most(last, machine.absolute(along[degree - 1]) * 0.5)
+    z, missing = 0.0, None
+    u = x + law.offset
+    if memo is not None:
+        kept = sums(machine, memo, reached)
+        z = kept.value + memo[0]
+        machine.store(at.FOUND + at.F_Z, z)
+        machine.store(at.FOUND + at.F_R, kept.rate * inverse)
+        machine.store(at.FOUND + at.F_BEND_Z, kept.bend * squared)
+        last = machine.most(last, machine.absolute(memo[degree - 1]) * 0.5)
+        off = machine.absolute(kept.rate - memory(law, shape, u, v, z) * h)
+        exponent = shape.laws[LAWS.index(hysteresis)][0]
+        rounding = machine.absolute(v * h) * (4.0 * ROUNDING * max(exponent, 1))
+        extent = machine.most(machine.absolute(memo[0]), machine.absolute(z))
+        missing = off / (machine.fma(extent, BALANCED, rounding) + 1e-300)
+    pull = machine.fma(law.stiffness, x, law.damping * v)
+    depth = x
+    if shape.push or shape.other:
+        depth = machine.most(machine.least(x, law.apart) if shape.other else x, 0.0)
+    pull = tree(
+        [
+            pull,
+            *isolator(law, shape, u, past(machine, shape, law, v), z),
+            *pushes(law, shape, depth, v),
+        ]
+    )
+    whole = machine.most(size, machine.absolute(x))
+    excess = (last * almost) * ((1.0 / (LAST * TOLERANCE)) / whole)
+    if missing is not None:
+        excess = machine.most(missing, excess)
+    machine.store(at.FOUND + at.F_EXCESS, excess)
+    machine.store(at.FOUND + at.F_OWES, machine.fma(pull, h * h, found.gain))
+    machine.store(at.FOUND + at.F_WEIGHT, h * h)
+
+
+def past(machine: Any, shape: Shape, law: Law, v: Any) -> Any:
+    """The velocity at the end, none behind a turn: powers that are not whole end there."""
+    if shape.laws[LAWS.index(drag)] == (0,):
+        return law.way * machine.most(law.way * v, 0.0)
+    return v

@@ -1,0 +1,205 @@
+"""What may end a step under curved laws, and when it first does (`series.events`)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.linear.advance import bumpers
+from vibroimpact.engine.linear.tables import overlapping
+from vibroimpact.engine.motion import (
+    BOTH,
+    DETACHED,
+    LEFT,
+    LIMIT,
+    RELEASED,
+    RIGHT,
+    SLIPS_LEFT,
+    SLIPS_RIGHT,
+    TURNED,
+    Motion,
+)
+from vibroimpact.engine.series.events import (
+    FIXED,
+    NEVER,
+    Ends,
+    Free,
+    Line,
+    first_zero,
+    met,
+    searched,
+)
+from vibroimpact.engine.series.layout import (
+    F_A,
+    F_BEND,
+    F_BEND_Z,
+    F_JERK,
+    F_R,
+    F_V,
+    F_X,
+    F_Z,
+    FOUND,
+    X,
+    Z,
+)
+from vibroimpact.engine.series.values import Frame
+from vibroimpact.engine.taylor.frame import balanced, curved_stop, push_of, steep
+from vibroimpact.engine.taylor.laws import EVEN
+from vibroimpact.engine.taylor.pieces import facing_of
+
+_FADED = 1e-18
+"""A bumper's memory, as a share of the displacement, that does not move where it is met."""
+
+DETACHED_LEFT, YIELDS, UNBENT, EASED = 16, 17, 18, 19
+"""Events of a step besides those of a stretch."""
+
+NEITHER = -1
+"""Neither an event nor the time limit."""
+
+
+class Found(NamedTuple):
+    """The earliest event so far: what, and when (in units of time)."""
+
+    event: int
+    t: float
+
+
+@inlined
+def earlier(found: Found, event: int, t: float) -> Found:
+    """The earlier of two events."""
+    return Found(event, t) if t < found.t else found
+
+
+@inlined
+def ends_of(plan: Vector, h: float, x: float, v: float, z: float, hysteretic: bool) -> Ends:
+    """What is known of both ends of the step in hand."""
+    z1, r, r1, bend_z = 0.0, 0.0, 0.0, 0.0
+    if hysteretic:
+        z1, r, r1 = plan[FOUND + F_Z], plan[Z + 1], plan[FOUND + F_R]
+        bend_z = plan[FOUND + F_BEND_Z]
+    return Ends(
+        h,
+        x,
+        v,
+        2.0 * plan[X + 2],
+        z,
+        r,
+        plan[FOUND + F_X],
+        plan[FOUND + F_V],
+        plan[FOUND + F_A],
+        z1,
+        r1,
+        plan[FOUND + F_BEND],
+        plan[FOUND + F_JERK],
+        bend_z,
+    )
+
+
+@inlined
+def parts(plan: Vector, motion: Motion, side: int, ends: Ends, unit: float) -> float:
+    """When the force of a pressed Kelvin-Voigt bumper falls to zero."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    k, c = plan[at + par.BUMPER_STIFFNESS], plan[at + par.BUMPER_DAMPING] / unit
+    level = 0.0
+    if facing_of(motion.mode, side) < 0.0:
+        k, c = -k, -c
+        level = k * (plan[par.BUMPER + par.GAP] + plan[at + par.GAP])
+    g = level + k * ends.x + c * ends.v
+    if motion.fresh & BOTH == side:
+        g = max(g, 0.0)
+    return first_zero(plan, Line(level, k, c, 0.0), ends, g)
+
+
+@kernel
+def lets_go(
+    plan: Vector, motion: Motion, side: int, ends: Ends, unit: float, found: Found
+) -> Found:
+    """Take the end of a push into account: a depth falls to 0, or 1 + χ δ′ changes sign."""
+    facing = facing_of(motion.mode, side)
+    level = 0.0
+    if facing < 0.0:
+        level = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
+    memory = motion.right if side == RIGHT else motion.left
+    chi = push_of(plan, side, 0.0, memory).dissipation * facing / unit
+    if chi != 0.0:
+        g = 1.0 + chi * ends.v
+        bend = 1.0 if g > EVEN or (g > -EVEN and chi * ends.a > 0.0) else -1.0
+        if abs(g) <= EVEN:
+            g = 0.0
+        line = Line(bend, 0.0, bend * chi, 0.0)
+        found = earlier(found, EASED, first_zero(plan, line, ends, bend * g))
+    g = level + facing * ends.x
+    if motion.fresh & BOTH == side:
+        g = max(g, 0.0)
+    event = DETACHED if side == RIGHT else DETACHED_LEFT
+    return earlier(found, event, first_zero(plan, Line(level, facing, 0.0, 0.0), ends, g))
+
+
+@kernel
+def turns(
+    plan: Vector, motion: Motion, ways: float, sign: float, ends: Ends, since: float, found: Found
+) -> Found:
+    """Take the end of a branch into account: u̇ or z changes sign, or z reaches its limit."""
+    line = Line(0.0, 0.0, ways, 0.0)
+    if motion.v == 0.0 and since == 0.0:
+        slips = motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED)
+        still = (slips and not steep(plan)) or balanced(plan, motion)
+        if still:
+            t = searched(plan, line, FIXED, 0.0, True, ends.h)
+        else:
+            t = first_zero(plan, line, ends, 0.0)
+        found = earlier(found, TURNED, t)
+    else:
+        found = earlier(found, TURNED, first_zero(plan, line, ends, ways * ends.v))
+    if plan[par.HYSTERETIC] == 0.0:
+        return found
+    z, limit = motion.z, plan[par.YIELD]
+    way = ways * sign
+    if limit < math.inf:
+        if abs(z) < limit or way * z < 0.0:
+            line = Line(limit, 0.0, 0.0, -ways)
+            found = earlier(found, YIELDS, first_zero(plan, line, ends, limit - way * z))
+    elif plan[par.KNEE] != 0.0 or int(plan[par.SHARPNESS]) % 2 == 0:
+        side = math.copysign(1.0, z) if z != 0.0 else way
+        line = Line(0.0, 0.0, 0.0, sign * side)
+        found = earlier(found, UNBENT, first_zero(plan, line, ends, abs(z)))
+    return found
+
+
+@inlined
+def search(
+    plan: Vector, motion: Motion, frame: Frame, ways: float, ends: Ends, unit: float, since: float
+) -> Found:
+    """The earliest event of the step in hand; free stops are as they were a time before."""
+    mode, fresh = motion.mode, motion.fresh
+    found = Found(LIMIT, NEVER)
+    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
+    for side in range(1, 3):
+        kind = plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
+        if kind == par.ABSENT:
+            continue
+        if mode & side:
+            event = DETACHED if side == RIGHT else DETACHED_LEFT
+            if kind == par.KELVIN_VOIGT:
+                found = earlier(found, event, parts(plan, motion, side, ends, unit))
+            elif kind != par.RIGID:
+                found = lets_go(plan, motion, side, ends, unit, found)
+            continue
+        if mode and not overlapping(plan):
+            continue
+        # Seen from a pressed side, the other stop lies below.
+        level = gap_r + gap_l if mode else (gap_r if side == RIGHT else gap_l)
+        sign = 1.0 if mode or side == LEFT else -1.0
+        memory = motion.right if side == RIGHT else motion.left
+        if curved_stop(plan, side):
+            memory = 0.0
+        rate = (rate_r if side == RIGHT else rate_l) * unit
+        just = fresh & BOTH == side
+        free = Free(memory, rate, since, just, just and fresh & RELEASED != 0)
+        size = abs(level) + abs(ends.x)
+        found = earlier(found, side, met(plan, level, sign, free, ends, _FADED * size))
+    if ways != 0.0:
+        found = turns(plan, motion, ways, frame.sign, ends, since, found)
+    return found

@@ -1,0 +1,107 @@
+"""Kernels as machine code and as floats, and what becomes of a rig whose laws they do not have."""
+
+from __future__ import annotations
+
+import ctypes
+
+import numpy as np
+import pytest
+
+from vibroimpact.engine.flows import flow_of, planned
+from vibroimpact.engine.motion import FLIGHT, GIVEN_UP, LIMIT, Motion
+from vibroimpact.engine.parameters import Law, PowerLaw, rig_vector
+from vibroimpact.engine.series import layout as at
+from vibroimpact.engine.series import library, root, step
+from vibroimpact.engine.series.emit import Plain
+from vibroimpact.engine.series.root import Rooted
+from vibroimpact.engine.series.step import Shape
+from vibroimpact.engine.taylor.advance import advance_taylor
+from vibroimpact.engine.taylor.plan import build
+
+LAWS = {
+    "linear": ((), (), (), ()),
+    "cubic": ((3,), (), (), ()),
+    "quintic": ((3, 5), (), (), ()),
+    "exponential": ((), (True,), (1,), ()),
+    "bilinear": ((), (), (0,), ()),
+    "Bouc-Wen 5": ((), (), (5,), ()),
+    "square": ((), (), (), (2,)),
+    "fluid": ((), (), (), (0,)),
+}
+SHAPES = [
+    (step.begun, Shape(laws, push, other))
+    for laws in LAWS.values()
+    for push in (0, 1, 2)
+    for other in (0, 1)
+]
+SHAPES += [
+    (root.rooted, Rooted(laws, which, power, viscous, single))
+    for name, laws in LAWS.items()
+    if name != "fluid"
+    for which, power, viscous in ((2, 3, False), (4, 6, True))
+    for single in (True, False)
+]
+NUMBERS = {
+    "drag": 0.2,
+    "drag_exponent": 0.6,
+    "way": 1.0,
+    "per_unit": 1.0,
+    "apart": 1.7,
+    "offset": 0.1,
+}
+
+
+def memory() -> np.ndarray:
+    plan = np.zeros(at.END + 500)
+    rng = np.random.default_rng(3)
+    for i, name in enumerate(at.NAMES):
+        plan[at.NUMBERS + i] = NUMBERS.get(name, float(rng.uniform(0.2, 1.0)))
+    plan[at.SHAKES : at.SHAKES + at.DEGREE] = 0.3 * 0.5 ** np.arange(at.DEGREE)
+    return plan
+
+
+@pytest.mark.parametrize(("formula", "shape"), SHAPES, ids=str)
+def test_machine_code_computes_what_floats_do(formula, shape) -> None:
+    arguments = (0.4, 0.5, 0.1, 0.5, 0.3, 0.2, -0.1)
+    kernel = ctypes.CFUNCTYPE(None, ctypes.c_void_p, *[ctypes.c_double] * library.NUMBERS)(
+        library.address(formula, shape)
+    )
+    fast, slow = memory(), memory()
+    kernel(fast.ctypes.data, *arguments)
+    formula(Plain(slow, arguments), shape)
+    assert np.isfinite(slow).all()
+    size = np.maximum(np.abs(slow), 1e-3)
+    errors = np.abs(fast - slow) / size
+    errors[at.FOUND + at.F_EXCESS] = 0.0  # what is below rounding
+    errors[at.FOUND + at.F_OWES] *= 1e-3  # a difference of what all but cancels
+    assert errors.max() < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("made", "asked"),
+    [
+        (Law(cubic=1.0), Law(cubic=1.0, quintic=1.0)),
+        (Law(cubic=1.0), Law(sinh=1.0, sinh_rate=1.0)),
+        (Law(cubic=1.0), Law(hysteretic=1.0, knee=1.0)),
+        (Law(hysteretic=1.0, knee=1.0), Law(hysteretic=1.0, knee=1.0, sharpness=3.0)),
+        (Law(cubic=1.0), Law(cubic=1.0, drag=2.0)),
+    ],
+)
+def test_a_plan_of_other_laws_is_given_up(made: Law, asked: Law) -> None:
+    """Never followed by kernels that lack one of its laws."""
+    one, other = (rig_vector(1.0, 1.0, 0.1, None, None, law=law) for law in (made, asked))
+    motion = Motion(FLIGHT, 0, 0.3, 0.4, 0.0, 0.0, 0.1, 0.0, (0.6, 0.8))
+    for rig, outcome in ((other, GIVEN_UP), (one, LIMIT)):
+        plan = planned(flow_of(one), rig)
+        build(plan, 0.6, 1.3)
+        event, _, _, _ = advance_taylor(plan, motion, 0.1)
+        assert event == outcome
+
+
+def test_a_plan_of_another_stop_is_given_up() -> None:
+    free = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0))
+    stopped = rig_vector(1.0, 1.0, 0.1, PowerLaw(9.0, 1.5, 0.0, 0.0, 1.0), None, law=Law(cubic=1.0))
+    plan = planned(flow_of(free), stopped)
+    build(plan, 0.6, 1.3)
+    motion = Motion(FLIGHT, 0, 0.3, 0.4, 0.0, 0.0, 0.0, 0.0, (0.6, 0.8))
+    assert advance_taylor(plan, motion, 0.1)[0] == GIVEN_UP
