@@ -1,6 +1,6 @@
 """The demand of records on a rig: its peaks at many scales of one record, without its history.
 
-Each record is followed line by line, as `recorded.follow` does, and the base stands still behind
+Each record is followed line by line, as `recorded.follow` does, and the base stands still after
 it. Nothing is allocated: a call is as good for one scale as for many.
 """
 
@@ -156,7 +156,7 @@ def respond(
     scales : ndarray
         Numbers that the record is multiplied by.
     tail : float
-        How long the motion is followed behind it (s).
+        How long the motion is followed after it (s).
     state : ndarray, shape (motion.STATE,)
         Where the motion starts.
     max_events : int

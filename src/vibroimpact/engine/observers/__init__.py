@@ -1,1 +1,1 @@
-"""What is looked at while a motion goes by; one file each. None has an influence on it."""
+"""Observers: what is measured along a motion, one file each. None of them influences it."""
