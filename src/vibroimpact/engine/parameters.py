@@ -203,7 +203,7 @@ LINEAR, BENT, YIELDING = range(3)
 
 
 def laws(rig: NDArray[np.float64]) -> int:
-    """Tell the laws of a rig by its vector; where stops overlap, a law that yields counts as bent."""
+    """Return the laws of a rig by its vector; where stops overlap, yielding laws count as bent."""
     if not rig[CURVED]:
         return LINEAR
     sides = (BUMPER, BUMPER + WIDTH)

@@ -68,7 +68,7 @@ def glance(
 ) -> tuple[bool, Enclosed]:
     """Check the nodes of a window, at whose first piece the cursor is.
 
-    Where a stop holds the mass, the base stands still or both stops are pressed, nothing is concluded.
+    Where a stop holds the mass, the base stands still or both stops are pressed, nothing follows.
 
     Parameters
     ----------

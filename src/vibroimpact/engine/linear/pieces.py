@@ -1,7 +1,7 @@
 """A stretch of motion as a sequence of polynomials.
 
-Whatever is computed of a motion between two events — extremes, integrals, samples, turning points —
-is computed from these: on each interval of a table the displacement is a series of TERMS coefficients
+What a motion does between two events — extremes, integrals, samples, turning points — is
+computed from these: on each interval of a table the displacement is a series of TERMS coefficients
 about the interval's middle, in y = (t − t_middle) / step, right to rounding.
 
     cursor = begin(plan, motion, length)
