@@ -30,7 +30,7 @@ _FAR = 1.45
 
 @kernel
 def begin(plan: Vector, amplitude: float, omega: float) -> None:
-    """A = amplitude · SCALE · ω^POWER; the amplitude may be that of a displacement or of a force."""
+    """A = amplitude · SCALE · ω^POWER; the amplitude may be of a displacement or of a force."""
     base = amplitude * plan[par.SCALE]
     if plan[par.POWER] == 2.0:
         base *= omega * omega
