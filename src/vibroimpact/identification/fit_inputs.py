@@ -122,7 +122,11 @@ def _of_sweep(data: xr.Dataset) -> Harmonic | None:
         return None
     (rig,) = json.loads(data.attrs["parameters"])["rigs"]
     size = rig.get("amplitude")
-    return Harmonic(size, ANY_FREQUENCY, of=rig["of"]) if isinstance(size, float) else None
+    return (
+        Harmonic(size, ANY_FREQUENCY, of=rig.get("of", "acceleration"))
+        if isinstance(size, float)
+        else None
+    )
 
 
 def _unused(rig: Rig, test: Test, source: str) -> list[str]:
