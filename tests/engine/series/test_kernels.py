@@ -60,7 +60,12 @@ def memory() -> np.ndarray:
     return plan
 
 
-@pytest.mark.parametrize(("formula", "shape"), SHAPES, ids=lambda one: getattr(one, "__name__", str(one)))
+def _name(one: object) -> str:
+    """The same in every process, as the text of a function is not."""
+    return getattr(one, "__name__", str(one))
+
+
+@pytest.mark.parametrize(("formula", "shape"), SHAPES, ids=_name)
 def test_machine_code_computes_what_floats_do(formula, shape) -> None:
     arguments = (0.4, 0.5, 0.1, 0.5, 0.3, 0.2, -0.1)
     kernel = ctypes.CFUNCTYPE(None, ctypes.c_void_p, *[ctypes.c_double] * library.NUMBERS)(
