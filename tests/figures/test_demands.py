@@ -43,7 +43,7 @@ def test_fragility_curves() -> None:
     assert len(ax.collections) == 1
     _, band, share = (text.get_text() for text in ax.get_legend().get_texts())
     assert (band, share) == ("its 90 % band", "share of the records")
-    with pytest.raises(vi.InputError, match=r"^fragility: this is no fragility"):
+    with pytest.raises(vi.InputError, match=r"^fragility: this is not a fragility result"):
         fragility_curves(data)
 
 

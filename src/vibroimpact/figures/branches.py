@@ -95,7 +95,7 @@ def branch_diagram(
             f"sweep: the branches are along {name!r}; those along 'frequency' are accepted"
         )
     if sweep is not None and "direction" not in sweep.coords:
-        raise InputError("sweep: this is no sweep; a dataset of sweep is accepted")
+        raise InputError("sweep: this is not a sweep; a dataset of sweep is accepted")
     factor, label = axis_label(data[quantity], quantity)
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])

@@ -117,7 +117,9 @@ def fragility_curves(
         If it is no such dataset, or has more curves than can be told apart.
     """
     if not isinstance(fragility, xr.Dataset) or "fitted_probability" not in fragility:
-        raise InputError("fragility: this is no fragility; a dataset of fragility is accepted")
+        raise InputError(
+            "fragility: this is not a fragility result; a dataset of fragility is accepted"
+        )
     from scipy.special import ndtr, ndtri
 
     others = [str(dim) for dim in fragility["median_capacity"].dims]

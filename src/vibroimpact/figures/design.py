@@ -224,7 +224,7 @@ def _best(data: xr.Dataset) -> str:
 
 def _dims(data: Any) -> list[str]:
     if not isinstance(data, xr.Dataset) or "pareto" not in data:
-        raise InputError("data: this is no design; a dataset of design is accepted")
+        raise InputError("data: this is not a design; a dataset of design is accepted")
     return [str(dim) for dim in data["pareto"].dims]
 
 

@@ -51,11 +51,12 @@ def resonance_bands(
     Raises
     ------
     InputError
-        If the dataset is no ensemble of sweeps, or has no such quantity.
+        If the dataset is not an ensemble of sweeps, or has no such quantity.
     """
     if not {"sample", "direction", "frequency"} <= set(data.dims):
         raise InputError(
-            f"data: a dataset with the dims {dict(data.sizes)} is no ensemble of sweeps; one of "
+            f"data: a dataset with the dims {dict(data.sizes)} is not an ensemble of sweeps; one "
+            "of "
             "ensemble is accepted, whose response are sweeps"
         )
     low, high = shares

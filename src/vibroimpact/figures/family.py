@@ -118,7 +118,7 @@ def resonance_family(
         label, a colour or a marker is for no rig.
     """
     if not isinstance(data, xr.Dataset) or not {"rig", "direction", "frequency"} <= set(data.dims):
-        raise InputError("data: these are no sweeps of rigs; a dataset of sweeps is accepted")
+        raise InputError("data: these are not sweeps of rigs; a dataset of sweeps is accepted")
     if quantity not in get_args(Quantity):
         accepted = ", ".join(get_args(Quantity))
         raise InputError(f"quantity: {quantity!r}; one of {accepted} is accepted")
@@ -126,7 +126,7 @@ def resonance_family(
     for field, given in (("labels", labels), ("colours", colours), ("markers", markers)):
         for name in given or {}:
             if name not in names:
-                raise InputError(f"{field}: {name!r} is no rig; {', '.join(names)} are accepted")
+                raise InputError(f"{field}: {name!r} is not a rig; {', '.join(names)} are accepted")
     ax = axes_or_new(ax, (8.4, 5.0), title)
     factor, label, flight, normalised = _QUANTITIES[quantity]
     frequency = data["frequency"].values

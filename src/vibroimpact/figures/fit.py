@@ -155,7 +155,7 @@ def fit_history(
                                         strict=True) if k == "history"]  # fmt: skip
     name = test if test is not None else next(iter(histories), None)
     if name not in histories:
-        raise InputError(f"test: {test!r} is no history of this fit; {histories} are accepted")
+        raise InputError(f"test: {test!r} is not a history of this fit; {histories} are accepted")
     mine = result.isel(point=np.flatnonzero(result["point_test"].values == name))
     variables = list(dict.fromkeys(str(v) for v in mine["point_variable"].values))
     given = panels(axes, len(variables), "a panel a channel", (7.2, 0.4 + 2.4 * len(variables)),
@@ -176,4 +176,4 @@ def fit_history(
 
 def _check(result: xr.Dataset) -> None:
     if "fit_residual" not in result:
-        raise InputError("result: this is no fit; a dataset of identify is accepted")
+        raise InputError("result: this is not a fit; a dataset of identify is accepted")

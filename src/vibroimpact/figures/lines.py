@@ -62,7 +62,7 @@ def spectrum_lines(
         raise InputError("spectra: there is none; at least one spectrum is accepted")
     for data in given.values():
         if not isinstance(data, xr.Dataset) or "order" not in data.coords:
-            raise InputError("spectra: this is no spectrum; a dataset of spectrum is accepted")
+            raise InputError("spectra: this is not a spectrum; a dataset of spectrum is accepted")
     factor, label = _LABELS[quantity]
     ax = axes_or_new(ax, (5.6, 3.6), title)
     frequency = None

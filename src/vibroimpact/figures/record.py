@@ -96,7 +96,8 @@ def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:
     parameters = json.loads(getattr(motion, "attrs", {}).get("parameters", "{}"))
     if "record" not in parameters or "displacement" not in motion:
         raise InputError(
-            "motion: this is no motion through a record; a dataset of simulate with a Record and "
+            "motion: this is not a motion through a record; a dataset of simulate with a Record "
+            "and "
             "samples is accepted, and time_history draws other motions"
         )
     oscillator = parameters["oscillator"]

@@ -60,7 +60,8 @@ def response_spectra(
     dims = getattr(spectrum, "sizes", {})
     if not isinstance(spectrum, xr.Dataset) or dims.get("natural_period", 0) < 2:
         raise InputError(
-            "spectrum: this is no response spectrum over periods; a dataset of response_spectrum "
+            "spectrum: this is not a response spectrum over periods; a dataset of "
+            "response_spectrum "
             "with several is accepted"
         )
     factor, label = _LABELS[quantity]

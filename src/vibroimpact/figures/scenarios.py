@@ -65,7 +65,7 @@ def scenario_map(
         If the dataset is no map, or the border is that of another one.
     """
     if "scenario" not in data or data["scenario"].ndim != 2:
-        raise InputError("data: this is no map; a dataset of scenario_map is accepted")
+        raise InputError("data: this is not a map; a dataset of scenario_map is accepted")
     second, first = (str(name) for name in data["scenario"].dims)
     if border is not None and not {first, second} <= set(border.variables):
         raise InputError(

@@ -84,9 +84,9 @@ def _unit(
     if taken is None:
         if found.unclear:
             raise InputError(
-                f"unit: missing, and {path!r} has {found.unclear}; the unit of an "
-                'acceleration is accepted, such as "m/s^2", after which Record.scaled, or '
-                "--scale, makes it so"
+                f"unit: missing, and {path!r} has {found.unclear}; give the unit of an "
+                'acceleration, such as "m/s^2", then scale the values with Record.scaled or '
+                "--scale"
             )
         taken = "m/s^2"
         notes.append(NO_UNIT)

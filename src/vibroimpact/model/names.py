@@ -28,7 +28,7 @@ def check_name(name: Any, field: str) -> str:
     if not isinstance(name, str):
         raise InputError(f"{field}: {shown(name)}; a text is accepted")
     if len(name) > _LONGEST:
-        raise InputError(f"{field}: {len(name)} letters; at most {_LONGEST} are accepted")
+        raise InputError(f"{field}: {len(name)} characters; at most {_LONGEST} are accepted")
     if found := UNPRINTABLE.search(name):
         raise InputError(
             f"{field}: {shown(name)} has the control character {found[0]!a}; printable text in one "

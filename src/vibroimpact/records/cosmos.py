@@ -82,7 +82,7 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
     if at < len(file.lines):
         file.behind(at, count, width)
         if not re.match(r"\s*(End-of-data|/&)", file.lines[at], re.IGNORECASE):
-            told = f"{file.lines[at].strip()[:40]!r} is no end of the channel's data"
+            told = f"{file.lines[at].strip()[:40]!r} does not end the data of the channel"
             raise file.refused(at, told)
     step = 1e-3 * float(numbers[_STEP]) if len(numbers) > _STEP else 0.0
     head = file.lines[first : first + int(begins[1])]

@@ -57,7 +57,7 @@ def read(file: File) -> list[Channel]:
     values, behind = file.numbers(at + 1, count)
     again = _announced(file, behind, len(file.lines))
     if again is not None:
-        raise file.refused(again, "a second header; one record a file is accepted")
+        raise file.refused(again, "a second header; one record per file is accepted")
     file.behind(behind, count)
     above = file.lines[: at + 1]
     unit = next((unit for line in above if (unit := stated_unit(line))), None)

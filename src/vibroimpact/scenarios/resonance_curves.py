@@ -78,8 +78,8 @@ def each_curves(data: xr.Dataset) -> Iterator[Curves]:
     """
     if data.sizes["direction"] != 2:
         raise InputError(
-            f"data: the sweep went {data['direction'].values.tolist()}; one forward and backward "
-            "is accepted, for hysteresis is what tells the scenarios apart"
+            f"data: the sweep went {data['direction'].values.tolist()}; both forward and "
+            "backward are required because hysteresis distinguishes the scenarios"
         )
     most = data["displacement_max"].max(["direction", "frequency"]).values
     least = data["displacement_min"].min(["direction", "frequency"]).values
