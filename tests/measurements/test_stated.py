@@ -350,8 +350,9 @@ def test_names_of_files_steer_no_terminal(tmp_path):
     told = data.attrs["notes"] + data.attrs["left_out"]
     assert "spare" in told
     assert not any(letter < " " and letter != "\n" for letter in told)
-    assert all(line.startswith(("the time", "columns that were not understood", "spare")) for line in
-               (data.attrs["notes"] + "\n" + data.attrs["left_out"]).splitlines())  # fmt: skip
+    lines = (data.attrs["notes"] + "\n" + data.attrs["left_out"]).splitlines()
+    begins = ("the time", "columns that were not understood", "spare")
+    assert all(line.startswith(begins) for line in lines)
     again = vi.read_measurement(path, columns={"acceleration": spare[0]}, units={spare[0]: "g"})
     np.testing.assert_allclose(again["acceleration"], 9.80665 * U, rtol=1e-12)
 
