@@ -15,7 +15,7 @@ from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import LEGEND
 
 _ROUNDING = 1e-9
-"""Of a sum of shares, in per cent."""
+"""Rounding error of a sum of shares (per cent)."""
 
 
 def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:

@@ -86,7 +86,7 @@ def basin_portrait(
     if more > 0:
         handles.append(Patch(facecolor="none", label=f"and {more} more"))
     labels = data["basin"].values
-    for code, colour, text in ((-1, _GIVEN_UP, "given up"), (-2, _BEHIND, "behind a stop")):
+    for code, colour, text in ((-1, _GIVEN_UP, "given up"), (-2, _BEHIND, "beyond a stop")):
         if (labels == code).any():
             handles.append(Patch(facecolor=colour, edgecolor="0.4", linewidth=0.5, label=text))
     for number, one in enumerate(_motions(data)):
@@ -202,7 +202,7 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
         if (data["curve_kind"] == kind).any():
             handles.append(line)
     for name, marker, size, label in (
-        ("crossing", ".", 3.0, "where they cross"),
+        ("crossing", ".", 3.0, "crossings"),
         ("saddle", "X", 8.0, "saddles"),
     ):
         if data.sizes[name]:

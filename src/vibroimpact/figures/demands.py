@@ -125,8 +125,8 @@ def fragility_curves(
     others = [str(dim) for dim in fragility["median_capacity"].dims]
     if len(others) > 1 or fragility["median_capacity"].size > len(_LOOKS):
         raise InputError(
-            f"fragility: {fragility['median_capacity'].size} curves; at most {len(_LOOKS)}, over "
-            "one dim, are accepted"
+            f"fragility: {fragility['median_capacity'].size} curves; at most {len(_LOOKS)} "
+            "curves over one dim are accepted"
         )
     ax = axes_or_new(ax, (5.6, 4.0), title)
     unit, symbol = _level_unit(fragility)
@@ -159,7 +159,7 @@ def fragility_curves(
             words = f"{whole}: {words}"
         bounded = not np.isinf(one["median_capacity_bound"].values).any()
         if not bounded:
-            words += " (no band: too few records begin within the levels)"
+            words += " (no band: too few records reach the limit within the levels)"
         ax.plot(
             fine,
             ndtr((np.log(fine) - np.log(median)) / spread),
@@ -203,7 +203,7 @@ def _one_rig(values: xr.DataArray, what: str) -> None:
     others = [str(dim) for dim in values.dims if dim not in ("record", "scale")]
     if others:
         raise InputError(
-            f"{what}: over {', '.join(others)}, too; those of one rig are accepted, as "
+            f"{what}: over {', '.join(others)}as well; curves of one rig are accepted, such as "
             f"demands.isel({others[0]}=0)"
         )
     if values.sizes["scale"] < 2:

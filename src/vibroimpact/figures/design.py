@@ -118,7 +118,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     best = data["pareto"].values.ravel().astype(bool)
     finite = np.isfinite(u) & np.isfinite(a)
     if not finite.any():
-        raise InputError("data: no design was done; a dataset with one or more is accepted")
+        raise InputError("data: no design was completed; at least one is required")
     ax = axes_or_new(ax, (6.4, 4.8), title)
     hits = data["hitting"].values.ravel() > 0.0
     beyond = _beyond(data).ravel()

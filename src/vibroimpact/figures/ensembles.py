@@ -57,7 +57,7 @@ def resonance_bands(
         raise InputError(
             f"data: a dataset with the dims {dict(data.sizes)} is not an ensemble of sweeps; one "
             "of "
-            "ensemble is accepted, whose response are sweeps"
+            "ensemble is acceptedof sweeps"
         )
     low, high = shares
     if not 0.0 <= low < 0.5 < high <= 1.0:
@@ -137,7 +137,9 @@ def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | N
         If the dataset is none of `sensitivity`, or holds more than a curve.
     """
     if "total_order" not in data:
-        raise InputError("data: this holds no indices; a dataset of sensitivity is accepted")
+        raise InputError(
+            "data: it has no sensitivity indices; a dataset of sensitivity is accepted"
+        )
     others = [dim for dim in data["total_order"].dims if dim != "uncertain_parameter"]
     if len(others) > 1:
         raise InputError(
@@ -160,7 +162,7 @@ def _bars(ax: Axes, data: xr.Dataset) -> None:
     at = np.arange(len(names))
     for shift, name, label, colour, hatch in (
         (-0.18, "first_order", "by itself", "#1f4fbf", ""),
-        (0.18, "total_order", "with all that it does together with others", "white", "////"),
+        (0.18, "total_order", "with interactions", "white", "////"),
     ):
         values = data[name].values
         errors = None

@@ -123,7 +123,7 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
         ax.set_xlabel(f"{key.replace('_', ' ')} ({unit.symbol if unit and unit.symbol else '–'})")
         ax.set_ylim(-0.1, 2.2 * limit)
     for row in made:
-        row[0].set_ylabel("how much worse the fit is\n(deviance, –)")
+        row[0].set_ylabel("increase of the deviance\n(deviance, –)")
     if title:
         made[0, 0].figure.suptitle(title)
     return Panels(made.ravel()[: len(keys)])

@@ -1,4 +1,4 @@
-"""Frequencies that are looked at more closely, marked in resonance curves."""
+"""Mark selected frequencies in resonance curves."""
 
 from __future__ import annotations
 

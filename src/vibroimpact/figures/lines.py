@@ -59,7 +59,7 @@ def spectrum_lines(
     else:
         given = {"motion": spectra}
     if not given:
-        raise InputError("spectra: there is none; at least one spectrum is accepted")
+        raise InputError("spectra: empty; at least one spectrum is accepted")
     for data in given.values():
         if not isinstance(data, xr.Dataset) or "order" not in data.coords:
             raise InputError("spectra: this is not a spectrum; a dataset of spectrum is accepted")

@@ -62,7 +62,7 @@ def named(
     else:
         given = {"motion": motions}
     if not given:
-        raise InputError("motions: there is none; at least one motion is accepted")
+        raise InputError("motions: empty; at least one motion is accepted")
     for motion in given.values():
         if not _seen(motion):
             (any_recorded if records else recorded)(motion)

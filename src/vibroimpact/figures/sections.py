@@ -30,7 +30,7 @@ _WAYS = {
     "up": SWEEPS["forward"]._replace(label="up"),
     "down": SWEEPS["backward"]._replace(label="down"),
 }
-_ELSE = Look("from other starts", "0.35", "-.", 0.8, "x", 4.0, True)
+_ELSE = Look("from other initial states", "0.35", "-.", 0.8, "x", 4.0, True)
 
 _HEIGHTS = (3.2, 1.0, 1.4)
 _NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")

@@ -210,7 +210,7 @@ def save_figure(drawn: Any, path: Path | str) -> Path:
         )
     first = drawn if isinstance(drawn, Figure) else next(iter(np.ravel(drawn)), None)
     if not isinstance(first, Artist) or (figure := first.get_figure(root=True)) is None:
-        raise InputError(f"figure: {drawn!r} is none; axes or a figure are accepted")
+        raise InputError(f"figure: {drawn!r} is not a figure; axes or a figure are accepted")
     # SVG marks its parts with random names unless it is given a seed.
     with matplotlib.rc_context({"svg.hashsalt": "vibroimpact", "svg.fonttype": "none"}):
         picture = io.BytesIO()
