@@ -53,7 +53,7 @@ def describe(
 
 
 def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:
-    """What a dataset says of where it comes from."""
+    """Attributes that describe the origin of a dataset."""
     return {
         "created_by": created_by,
         "vibroimpact_version": __version__,

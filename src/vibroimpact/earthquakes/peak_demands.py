@@ -75,7 +75,7 @@ def peaks(
     shaken
         The rigs with their records; all have the same number of factors.
     tail
-        How long each is followed behind its record (s); None for what `free_tail` says.
+        Duration of free vibration after each record (s); None for what `free_tail` says.
     energies
         Whether `ENERGIES` are found, too, which takes several times as long.
     residuals

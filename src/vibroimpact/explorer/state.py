@@ -64,7 +64,7 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     Raises
     ------
     InputError
-        If it is no rig, is not shaken by one sine, or its mass has no spring.
+        If it is not a rig, is not shaken by one sine, or its mass has no spring.
     """
     given = one_sine(as_rig(rig), "amplitude")
     oscillator, shaken = given.oscillator, given.sine

@@ -44,7 +44,7 @@ def basin_portrait(
     shade: bool = True,
     title: str | None = None,
 ) -> Axes:
-    """Draw which states lead to which motion: an area a motion, its section as numbered points.
+    """Draw basins of attraction as one area per motion, with its section as numbered points.
 
     Parameters
     ----------
@@ -56,14 +56,15 @@ def basin_portrait(
         Dataset of `vibroimpact.manifolds` for the same rig: stable curves are drawn solid,
         unstable ones dashed, saddles as crosses, and where the curves cross as dots.
     shade
-        Whether colours are darker where it takes more cycles until it is sure where a state leads.
+        Whether colours are darker where more cycles are needed until the motion of a state is
+        certain.
     title
         Title of a new figure.
 
     Raises
     ------
     InputError
-        If the dataset has no basins, or the other no curves.
+        If ``data`` has no basins, or ``manifolds`` no curves.
     """
     if "basin" not in data or data["basin"].ndim != 2:
         raise InputError("data: it has no basins; a dataset of basins is accepted")
@@ -115,7 +116,7 @@ def basin_portrait(
 
 
 def colour_of(number: int) -> str:
-    """The colour of a motion."""
+    """Return the colour of a motion."""
     return COLOURS[number % len(COLOURS)]
 
 

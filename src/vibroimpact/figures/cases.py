@@ -17,7 +17,7 @@ _PER_GRAVITY = 1e2 / 9.80665
 
 
 def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Panels:
-    """Draw the scenarios of laboratory tests: a panel an acceleration, gaps against bumpers.
+    """Draw the scenarios of laboratory tests over gap and bumper, one panel per acceleration.
 
     Parameters
     ----------
@@ -30,12 +30,12 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
     Returns
     -------
     tuple of Axes
-        One an acceleration, rising; ``axes[0].figure`` is the figure.
+        One per acceleration, rising; ``axes[0].figure`` is the figure.
 
     Raises
     ------
     InputError
-        If a code is none of the laboratory's tests, or a scenario is another one.
+        If a code is not a laboratory test, or a scenario is unknown.
     """
     known = {case.code for case in laboratory.campaign()}
     for code, scenario in found.items():

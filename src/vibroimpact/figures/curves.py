@@ -28,13 +28,13 @@ def bifurcation_curves(
     *,
     title: str | None = None,
 ) -> Axes:
-    """Draw curves of bifurcations, cusps marked, the second parameter upwards.
+    """Draw curves of bifurcations over two parameters, with their cusps.
 
     Parameters
     ----------
     curves
-        Dataset of `bifurcation_curve`, or several by name, in the same two parameters. Names
-        stand on the curves, unless they are those of the kinds.
+        Dataset of `bifurcation_curve`, or several by name, in the same two parameters. Names are
+        written on the curves, unless they are those of the kinds.
     ax
         Axes to draw on. None makes a new figure.
     title

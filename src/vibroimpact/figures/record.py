@@ -1,4 +1,4 @@
-"""A motion through a record: what shakes the base above what the mass does."""
+"""A motion through a record over time, with the record above."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ _SIDES = {"right": 1, "left": -1}
 
 
 def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
-    """Draw a motion through a record against time, with the record above it.
+    """Draw a motion through a record over time, with the record above it.
 
-    Contacts are bands between their exact times (the left stop's hatched), impacts on rigid stops
-    are dots; the gaps are dashed lines.
+    Contacts are bands between their exact times (hatched for the left stop), impacts on rigid stops
+    are dots, and the gaps are dashed lines.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ def scenario_map(
     ax
         Axes to draw on. None makes a new figure.
     border
-        Dataset of ``jump_border`` for the same map: a line of points that are exact.
+        Dataset of ``jump_border`` for the same map, drawn as a line of exact points.
     marks
         Rigs to mark.
     lines
@@ -62,7 +62,7 @@ def scenario_map(
     Raises
     ------
     InputError
-        If the dataset is no map, or the border is that of another one.
+        If the dataset is not a map, or the border belongs to another map.
     """
     if "scenario" not in data or data["scenario"].ndim != 2:
         raise InputError("data: this is not a map; a dataset of scenario_map is accepted")

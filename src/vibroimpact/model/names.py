@@ -23,7 +23,8 @@ def check_name(name: Any, field: str) -> str:
     Raises
     ------
     InputError
-        If it is no text, is longer than 200 letters, or has control characters or line breaks.
+        If it is not a text, is longer than 200 characters, or has control characters or line
+        breaks.
     """
     if not isinstance(name, str):
         raise InputError(f"{field}: {shown(name)}; a text is accepted")

@@ -116,7 +116,7 @@ def to_si(
     Raises
     ------
     InputError
-        If the value is a bool, is no number, is not finite, is empty, has an unknown unit
+        If the value is a bool, is not a number, is not finite, is empty, has an unknown unit
         or a unit of another dimension, or lies outside the bounds.
     """
     try:

@@ -48,7 +48,7 @@ def segments(file: File) -> list[list[Signal]]:
     Raises
     ------
     InputError
-        If a header does not end, or a line is no row of numbers.
+        If a header does not end, or a line is not a row of numbers.
     """
     about: dict[str, list[str]] = {}
     mark, decimal = "\t", "."

@@ -88,7 +88,7 @@ def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
     Raises
     ------
     InputError
-        If it is no such pair, or a value cannot be used.
+        If it is not such a pair, or a value is invalid.
     """
     pair = isinstance(given, tuple | list) and len(given) in (2, 3) and isinstance(given[0], str)
     if not pair or given[2:] not in ((), [], ("log",), ["log"], ("linear",), ["linear"]):

@@ -70,7 +70,7 @@ def jump_border(
     Raises
     ------
     InputError
-        If it is no map, or there is no such place for the work.
+        If it is not a map, or ``where`` is invalid.
     """
     if data.attrs.get("created_by") != CREATED_BY:
         raise InputError("data: this is not a map; a dataset of scenario_map is accepted")
