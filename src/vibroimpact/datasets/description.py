@@ -1,4 +1,4 @@
-"""What each dataset says of itself, and how a rig and its shaking are read back from it."""
+"""Attributes of each dataset, and how a rig and its shaking are read back from it."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class Runs(NamedTuple):
 
     @property
     def dims(self) -> tuple[str, ...]:
-        """Those of the rigs, behind record and scale."""
+        """Those of the rigs, after record and scale."""
         return (*(("rig",) if self.several else ()), *(one.name for one in self.varied))
 
     @property

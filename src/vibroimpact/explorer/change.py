@@ -129,7 +129,7 @@ def chosen(state: State, direction: str, frequency: float | str) -> State:
 
 
 def looked(state: State, how: Mapping[str, bool]) -> State:
-    """Return the state with pictures asked for or put away, and curves in η or physical.
+    """Return the state with pictures shown or hidden, and curves in η or physical.
 
     Raises
     ------

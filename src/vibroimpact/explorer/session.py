@@ -83,7 +83,7 @@ class Session:
         }
 
     def take(self, message: object) -> Message:
-        """Do what a page asks for, and say what it has become.
+        """Handle a message of a page, and return the answer.
 
         Returns
         -------

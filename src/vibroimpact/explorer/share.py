@@ -25,7 +25,7 @@ _LONGEST_NAME = 80
 
 
 def address(state: State) -> str:
-    """Return what stands behind the ``#`` of a page that shows this state."""
+    """Return the part after ``#`` of the address of a page that shows this state."""
     table = {
         "name": state.name,
         "oscillator": state.oscillator.model_dump(),

@@ -82,7 +82,7 @@ def normalised(data: xr.Dataset) -> list[Drawn]:
 
 
 def divides(data: xr.Dataset) -> bool:
-    """Whether η tells anything: it has values, and the free flight that it is taken over a bound.
+    """Whether η is meaningful: it has values, and the free flight that it is taken over a bound.
 
     Curves over what an undamped isolator does beside its resonance are as good as flat.
     """

@@ -1,7 +1,7 @@
 """Measured time histories as residuals: exact motions, window by window.
 
 Each window of the record is simulated from an initial state of its own, which is found with the
-parameters: where a motion is chaotic, or long, one state at the beginning says nothing of the end.
+parameters: where a motion is chaotic, or long, one initial state does not determine the end.
 The end of a window and the beginning of the next agree as well as the measurement tells.
 """
 

@@ -44,7 +44,7 @@ def curves(
     Raises
     ------
     InputError
-        If the direction of a row cannot be told, or nothing is left.
+        If the direction of a row is unknown, or no values are left.
     """
     at = next(values for found, values in known.values() if found.variable == "frequency")
     ways = _directions(table, known, at, direction, notes)

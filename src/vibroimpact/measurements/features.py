@@ -71,7 +71,7 @@ def strays(data: xr.Dataset) -> dict[str, NDArray[np.bool_]]:
 def noise_of(data: xr.Dataset | Swept) -> float:
     """Standard deviation of a measured value as a share of it, estimated robustly; 0 if unknown.
 
-    Where frequencies were held more than once, that of the repeated values tells it best.
+    Where frequencies were held more than once, that of the repeated values is the best estimate.
     """
     if isinstance(data, xr.Dataset) and (repeated := _of_repeats(data)):
         return repeated

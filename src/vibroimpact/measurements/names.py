@@ -1,4 +1,4 @@
-"""What a column holds, by its name and its unit; what is guessed is told."""
+"""What a column holds, by its name and its unit; guesses are reported."""
 
 from __future__ import annotations
 

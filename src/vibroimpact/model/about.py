@@ -1,4 +1,4 @@
-"""Where a record comes from, and what a caller says of its file instead of the file itself."""
+"""Where a record comes from, and what a caller states instead of the file."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def read_values(
 
 
 def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
-    """The time between samples (s): what is given, or what the file says."""
+    """The time between samples (s): the argument, or the value in the file."""
     if step is None:
         if found.uneven:
             raise InputError(f"record: {path!r}, {found.uneven}")

@@ -44,7 +44,7 @@ def as_rig(
     where
         The argument, which the error names.
     oscillator_alone
-        Whether an `Oscillator` is accepted, where something else says what shakes it.
+        Whether an `Oscillator` is accepted, if another argument gives the shaking.
 
     Raises
     ------

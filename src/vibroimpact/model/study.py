@@ -34,7 +34,7 @@ class ExcitationTable(Model):
 
     An amplitude is one of acceleration, displacement or force, by its unit. A record stands beside
     the study file; its `component` where the file has several, its `step` (s), its `unit` and its
-    `decimal` mark where the file does not say them; a unit may be one of length.
+    `decimal` mark if the file does not state them; a unit may be one of length.
     """
 
     amplitude: float | str | None = None

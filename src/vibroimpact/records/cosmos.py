@@ -1,8 +1,8 @@
 """COSMOS files, V1 and V2, of version 1.20: channels one after the other.
 
 A channel has lines of text whose number stands in the first, integers and reals in columns whose
-width stands above them, comments, and a line that says how many values follow, their unit and their
-width. The step is real 62, in ms.
+width stands above them, comments, and a line that states how many values follow, their unit and
+their width. The step is real 62, in ms.
 """
 
 from __future__ import annotations

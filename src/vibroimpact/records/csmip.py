@@ -88,7 +88,7 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
 
 
 def _end(file: File, at: int, first: int) -> int:
-    """The line behind a channel, whose velocities and displacements are passed over."""
+    """The line after a channel, whose velocities and displacements are passed over."""
     while at < len(file.lines):
         line = file.lines[at]
         if _ENDS.match(line):

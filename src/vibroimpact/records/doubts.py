@@ -73,7 +73,7 @@ def of_end(values: NDArray[np.float64]) -> list[str]:
 
 
 def of_last_line(file: File) -> list[str]:
-    """Doubts about a last number that has no line break behind it, and another form."""
+    """Doubts about a last number that has no line break after it, and another form."""
     if file.ends_whole or not file.lines:
         return []
     cells = _cells(file.lines[-1])

@@ -93,7 +93,7 @@ class File:
         Returns
         -------
         values, next
-            And the line behind them.
+            And the line after them.
 
         Raises
         ------

@@ -1,6 +1,6 @@
 """PEER's AT2 files: four lines of header, then values in lines of any length.
 
-The fourth line says how many values there are and the step, in one of three ways::
+The fourth line states the number of values and the step, in one of three ways::
 
     NPTS=   7999, DT=   .0050 SEC,
     NPTS=  15306, DT=    0.05 SEC

@@ -113,7 +113,7 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     Raises
     ------
     InputError
-        If the mass lies inside a bumper, or is said to touch one that it does not touch.
+        If the mass lies inside a bumper, or the state claims a contact that does not exist.
     """
     u, v = state.displacement, state.velocity
     deformations = [0.0, 0.0]

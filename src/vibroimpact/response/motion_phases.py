@@ -28,7 +28,7 @@ MEMORY = 4
 
 
 class Recorded(NamedTuple, Generic[_Shaking]):
-    """What a dataset of a motion says of its origin."""
+    """Origin of the motion of a dataset."""
 
     oscillator: Oscillator
     excitation: _Shaking

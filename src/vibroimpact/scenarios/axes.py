@@ -83,7 +83,7 @@ def logarithmic(values: _Array) -> bool:
 def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
     """Read an axis: the name of a parameter, its values, and "linear" or "log" if it is not clear.
 
-    `of` says what amplitudes are measured in.
+    `of` is the quantity of amplitudes.
 
     Raises
     ------

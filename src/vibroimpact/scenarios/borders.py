@@ -1,8 +1,8 @@
 """Where jumps begin: the border of the scenarios without them, exact.
 
 On one side of it the branch of orbits turns back at two folds, on the other it does not turn:
-the folds meet in a cusp. The sweeps of a map tell on which side a node lies; from one with jumps
-the fold is followed in the frequency and one of the map's parameters until it turns.
+the folds meet in a cusp. The sweeps of a map determine on which side a node lies; from one with
+jumps the fold is followed in the frequency and one of the map's parameters until it turns.
 """
 
 from __future__ import annotations
