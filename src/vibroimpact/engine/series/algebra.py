@@ -383,6 +383,49 @@ class Power(Series):
         return self.one.add_older(n, total, self.by)
 
 
+class Turned(Series):
+    """The sine of a series, or its cosine; each is made with the other."""
+
+    def __init__(self, one: Series, is_sine: bool) -> None:
+        super().__init__(one.machine)
+        self.one, self.is_sine = one, is_sine
+        self.other: Turned = self
+
+    def first(self) -> Any:
+        """Return coefficient 0."""
+        value = self.machine.sine if self.is_sine else self.machine.cosine
+        return value(self.one[0])
+
+    def slope(self) -> dict[Series, Any]:
+        """Return the slopes."""
+        return scaled(self.one.slopes, self.other[0] if self.is_sine else -self.other[0])
+
+    def rest(self, n: int) -> Any:
+        """Return what is older of coefficient n."""
+        order = sorted(range(1, n), key=lambda j: max(j, n - j))
+        way = 1.0 if self.is_sine else -1.0
+        pairs = [(self.other[n - j], self.one[j] * (way * j / n)) for j in order]
+        first = self.other[0] if self.is_sine else -self.other[0]
+        return self.one.add_older(n, summed(self.machine, pairs), first)
+
+
+def turned(one: Series) -> tuple[Series, Series]:
+    """Return the sine and the cosine of a series."""
+    both = Turned(one, True), Turned(one, False)
+    both[0].other, both[1].other = both[1], both[0]
+    return both
+
+
+def sine(machine: Any, one: Any) -> Any:
+    """Return the sine of a number or a series."""
+    return turned(one)[0] if isinstance(one, Series) else machine.sine(one)
+
+
+def cosine(machine: Any, one: Any) -> Any:
+    """Return the cosine of a number or a series."""
+    return turned(one)[1] if isinstance(one, Series) else machine.cosine(one)
+
+
 def exponential(machine: Any, one: Any) -> Any:
     """Raise e to a number or a series."""
     return Exponential(one) if isinstance(one, Series) else machine.exponential(one)
