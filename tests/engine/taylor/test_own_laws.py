@@ -74,10 +74,10 @@ FORMULAS = {
     "root": ("k*u*sqrt(1 + (u/a)**2)", lambda u, v: u * np.sqrt(1.0 + 4.0 * u * u)),
     "broken power": ("k*u*(1 + (u/a)**2)**-0.3", lambda u, v: u * (1.0 + 4.0 * u * u) ** -0.3),
     "drag": ("k*u + c*v/(1 + (v/k)**2)", lambda u, v: u + v / 16.0 / (1.0 + v * v)),
-    "exponential": ("k*u*exp(-(u/a)**2) + c*v*cosh(u)", lambda u, v: u * np.exp(-4.0 * u * u)
+    "exponential": ("k*u*exp(-(u/a)**2) + c*v*cosh(u/k)", lambda u, v: u * np.exp(-4.0 * u * u)
                     + v / 16.0 * np.cosh(u)),
 }  # fmt: skip
-NUMBERS = {"k": 1.0, "a": 0.5, "b": 0.25, "f": 2.0, "c": 0.0625}
+NUMBERS = {"q": 1.0, "k": 1.0, "a": 0.5, "b": 0.25, "f": 2.0, "c": 0.0625}
 
 
 @pytest.mark.parametrize("name", FORMULAS)

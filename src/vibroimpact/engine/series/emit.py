@@ -264,6 +264,10 @@ class Code:
         """Return the cosine."""
         return self._call("llvm.cos.f64", a)
 
+    def signed(self, a: Any, b: Any) -> Any:
+        """Return the size of a with the sign of b."""
+        return self._call("llvm.copysign.f64", a, b)
+
     def power(self, a: Any, b: Any) -> Any:
         """Return a to the power of b."""
         return self._call("llvm.pow.f64", a, b)
@@ -326,6 +330,10 @@ class Plain:
     def sine(self, a: float) -> float:
         """Return the sine."""
         return math.sin(a) if abs(a) < math.inf else math.nan
+
+    def signed(self, a: float, b: float) -> float:
+        """Return the size of a with the sign of b."""
+        return math.copysign(a, b)
 
     def cosine(self, a: float) -> float:
         """Return the cosine."""

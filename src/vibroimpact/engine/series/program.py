@@ -157,6 +157,11 @@ class Traced:
         self.arguments.append(one)
         return self.law.cosine(one)
 
+    def tanh(self, one: Any) -> Any:
+        """Return the hyperbolic tangent."""
+        self.arguments.append(one * 2.0)
+        return self.law.tanh(one)
+
     def inverse(self, one: Any) -> Any:
         """Return 1 over a number."""
         self.factors.append((one, 1.0))
@@ -206,16 +211,12 @@ def bends(machine: Any, law: Any, symbols: tuple[int, ...], which: int, points: 
     return None if most is None else most * (1.0 / FARTHEST)
 
 
-def _tanh(law: Any, one: Any) -> Any:
-    return 1.0 - 2.0 * law.inverse(law.exp(one * 2.0) + 1.0)
-
-
 _FUNCTIONS = {
     "exp": lambda law, one: law.exp(one),
     "sqrt": lambda law, one: law.power(one, 0.5),
     "sinh": lambda law, one: (law.exp(one) - law.exp(-one)) * 0.5,
     "cosh": lambda law, one: (law.exp(one) + law.exp(-one)) * 0.5,
-    "tanh": _tanh,
+    "tanh": lambda law, one: law.tanh(one),
     "sin": lambda law, one: law.sine(one),
     "cos": lambda law, one: law.cosine(one),
 }

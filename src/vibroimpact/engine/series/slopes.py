@@ -12,6 +12,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program
 from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State
+from vibroimpact.engine.series.functions import tanh
 from vibroimpact.engine.series.laws import drag, hysteresis
 from vibroimpact.engine.series.step import LAWS, Law, Shape, isolator, memory, pushes
 
@@ -88,6 +89,10 @@ class Varying(Law):
             return super().power(one, exponent)
         lower = super().power(one.value, exponent - 1.0)
         return one.scaled(lower * one.value, lower * exponent)
+
+    def tanh(self, one: Any) -> Any:
+        """Return the hyperbolic tangent of a number or a series."""
+        return one.scaled(*tanh(self._machine, one.value))
 
     def inverse(self, one: Any) -> Any:
         """Return 1 over a number or a series."""

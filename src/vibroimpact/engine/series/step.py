@@ -13,17 +13,9 @@ from typing import Any, NamedTuple
 
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program
-from vibroimpact.engine.series.algebra import (
-    Rate,
-    Series,
-    Shifted,
-    State,
-    cosine,
-    exponential,
-    power,
-    sine,
-)
+from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State
 from vibroimpact.engine.series.emit import LANES, tree
+from vibroimpact.engine.series.functions import cosine, exponential, power, sine, tanh
 from vibroimpact.engine.series.laws import contact, drag, hysteresis, own, polynomial
 from vibroimpact.engine.series.laws import exponential as hardening
 
@@ -91,6 +83,10 @@ class Law:
     def cosine(self, one: Any) -> Any:
         """Return the cosine of a number or a series."""
         return cosine(self._machine, one)
+
+    def tanh(self, one: Any) -> Any:
+        """Return the hyperbolic tangent of a number or a series."""
+        return tanh(self._machine, one)[0]
 
     def size_of(self, one: Any, sign: Any) -> Any:
         """Return the absolute value of a number or a series of a sign."""
