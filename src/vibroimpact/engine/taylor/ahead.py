@@ -10,7 +10,7 @@ from vibroimpact.engine.forcing.dispatch import pace
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion
-from vibroimpact.engine.series.layout import UNIT
+from vibroimpact.engine.series.layout import SLOT, UNIT
 from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.march import Shaken, number, slot_of, taken
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
@@ -127,11 +127,13 @@ def ahead_of(
         # Where the mass turns a step is much shorter than the motion's time: the velocity must be
         # right there, too.
         fine = natural / unit
+    slot = slot_of(plan, laws, motion.mode == LEFT)
+    plan[SLOT] = slot
     return Ahead(
         frame.sign,
         frame.offset,
         laws.branch.way,
-        slot_of(plan, laws, motion.mode == LEFT),
+        slot,
         unit,
         1.0 / unit,
         natural / unit,

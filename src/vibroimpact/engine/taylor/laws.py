@@ -149,7 +149,7 @@ def laws_of(
             push = push_of(plan, side, branch.way if v == 0.0 else v, memory)
             gains = frame.sign * acceleration_of(plan, motion)
             if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
-                push = own_pressing(plan, side, x, v, gains)
+                push = own_pressing(plan, side, x, v, gains, grain)
             else:
                 push = pressing(push, v, gains)
                 push, longest = shallow(push, x, v, gains, plan[STEEPEST], grain, longest)
@@ -158,7 +158,7 @@ def laws_of(
             other = push_of(plan, LEFT, -(branch.way if v == 0.0 else v), motion.left)
             gains = -frame.sign * acceleration_of(plan, motion)
             if plan[par.BUMPER + par.WIDTH + par.KIND] == par.FORMULA:
-                other = own_pressing(plan, LEFT, apart - x, -v, gains)
+                other = own_pressing(plan, LEFT, apart - x, -v, gains, grain)
             else:
                 other = pressing(other, -v, gains)
                 other, longest = shallow(
@@ -177,10 +177,15 @@ def laws_of(
 
 
 @kernel
-def own_pressing(plan: Vector, side: int, depth: float, closing: float, gains: float) -> Push:
-    """As `pressing`, of a stop that follows a formula: it pushes where that is above 0."""
+def own_pressing(
+    plan: Vector, side: int, depth: float, closing: float, gains: float, grain: float
+) -> Push:
+    """As `pressing`, of a stop that follows a formula: it pushes where that is above 0.
+
+    `grain` is some rounding of a displacement.
+    """
     force, by_depth, by_rate = own_push(plan, side, max(depth, 0.0), closing)
-    even = EVEN * (abs(by_depth * depth) + abs(by_rate * closing))
+    even = EVEN * (abs(by_depth * depth) + abs(by_rate * closing)) + abs(by_depth) * grain
     rises = by_depth * closing + by_rate * gains
     if force > even or (force >= -even and rises > 0.0):
         return Push(1.0, 1.0, 0.0, 0.0)
@@ -199,7 +204,9 @@ def unkept(plan: Vector, before: Motion, after: Motion, side: int) -> float:
     gains = sign * acceleration_of(plan, before)
     begun, ended = face(plan, before, side), face(plan, after, side)
     if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
-        if own_pressing(plan, side, begun, closing, gains).stiffness != 0.0:
+        gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
+        grain = 16.0 * ROUNDING * (abs(begun) + abs(gap))
+        if own_pressing(plan, side, begun, closing, gains, grain).stiffness != 0.0:
             return 0.0
         middle, half, kept = 0.5 * (begun + ended), 0.5 * (begun - ended), 0.0
         for i in range(len(_PLACES)):

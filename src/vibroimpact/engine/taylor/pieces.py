@@ -90,7 +90,6 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
     held = resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion)
     matters, anew = branched(plan, motion), varies(plan, motion.mode)
     ahead = ahead_of(plan, motion, frame, x, longest, matters, anew)
-    plan[SLOT] = ahead.slot
     if held:
         length = min(longest, 1.0 / max(pace(plan), 1e-300))
         stay(plan, frame, x, z, motion.clock, length)

@@ -47,10 +47,11 @@ from vibroimpact.engine.series.layout import (
     FOUND,
     NAMES,
     NUMBERS,
+    SLOT,
     X,
     Z,
 )
-from vibroimpact.engine.series.kernels import ASKS, STRIDE, Slot, run
+from vibroimpact.engine.series.kernels import ASKS, CALM, STRIDE, Slot, run
 from vibroimpact.engine.series.program import ABSOLUTE_X
 from vibroimpact.engine.series.values import Frame
 from vibroimpact.engine.taylor.frame import balanced, curved_stop, push_of, steep
@@ -58,7 +59,8 @@ from vibroimpact.engine.taylor.laws import EVEN
 from vibroimpact.engine.taylor.pieces import facing_of
 
 SIDE, WAY = NUMBERS + NAMES.index("side"), NUMBERS + NAMES.index("way")
-_OWN = int(Slot.OWN)
+_OWN, _RIGHT, _LEFT = int(Slot.OWN), int(Slot.RIGHT), int(Slot.LEFT)
+_BOTH, _OTHER = int(Slot.BOTH), int(Slot.OTHER)
 
 _FADED = 1e-18
 """A bumper's memory, as a share of the displacement, that does not move where it is met."""
@@ -157,17 +159,18 @@ def own_eases(
     """Take the moment into account at which a stop's own formula changes its sign."""
     way = facing * plan[WAY]
     run(plan, _OWN + STRIDE * side + ASKS, level, facing, 0.0, 0.0, ends.h, way, 0.0)
+    slot = int(plan[SLOT]) % CALM
+    pushes = slot == _BOTH or slot == (_RIGHT if side == RIGHT else _LEFT)
+    if side == LEFT and slot == _OTHER:
+        pushes = True
     spread = 0.0
-    for n in range(1, DEGREE + 1):
-        spread += abs(plan[ASKED + n])
-    even = EVEN * spread
-    if abs(plan[ASKED]) <= even:
-        plan[ASKED] = 0.0
-    pushes = plan[ASKED] > 0.0 or (plan[ASKED] == 0.0 and plan[ASKED + 1] > 0.0)
-    if not pushes:
-        for n in range(DEGREE + 1):
+    for n in range(DEGREE + 1):
+        if not pushes:
             plan[ASKED + n] = -plan[ASKED + n]
-    if plan[ASKED] > spread:
+        spread += abs(plan[ASKED + n])
+    # It is on this side of 0 by construction: what is not is rounding.
+    plan[ASKED] = max(plan[ASKED], 0.0)
+    if 2.0 * plan[ASKED] > spread:
         return found
     y = first_in_step(plan, Clearance(0.0, 1.0, 0.0, 0.0, False), False, False)
     return earlier(found, EASED, y * ends.h) if y != NONE else found
