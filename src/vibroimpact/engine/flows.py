@@ -202,6 +202,7 @@ def carries(rig: Vector, other: Vector) -> bool:
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
     if rig[par.CURVED]:
         same = same and library.covers(library.laws_code(rig), library.laws_code(other))
+        same = same and bool((library.operations(rig) == library.operations(other)).all())
     return bool(same and _flow(rig) in (AnyStops, *_CURVED.values(), _flow(other)))
 
 
