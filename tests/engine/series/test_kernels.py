@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.flows import flow_of, planned
+from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.motion import FLIGHT, GIVEN_UP, LIMIT, Motion
 from vibroimpact.engine.parameters import Law, PowerLaw, rig_vector
 from vibroimpact.engine.series import layout as at

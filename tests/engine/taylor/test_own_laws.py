@@ -12,7 +12,7 @@ import vibroimpact as vi
 from engine.taylor.rigs import followed
 from engine.taylor.test_carry import carried
 from vibroimpact.engine.batch import trajectory
-from vibroimpact.engine.flows import carries
+from vibroimpact.engine.flow_dispatch import carries
 from vibroimpact.engine.motion import MODE, STATE, U, V
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import OWN, Law, OwnStop, PowerLaw, rig_vector

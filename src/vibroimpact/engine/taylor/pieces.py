@@ -11,7 +11,7 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.chords import ANYWHERE, Enclosed
+from vibroimpact.engine.linear.chord_bounds import ANYWHERE, Enclosed
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.layout import RATE, RESTING, SCALED_W, H
 from vibroimpact.engine.linear.tables import resting
