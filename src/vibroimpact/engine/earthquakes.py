@@ -156,7 +156,7 @@ def respond(
     scales : ndarray
         Numbers that the record is multiplied by.
     tail : float
-        How long the motion is followed behind it (s).
+        Duration of free vibration after it (s).
     state : ndarray, shape (motion.STATE,)
         Where the motion starts.
     max_events : int

@@ -255,7 +255,7 @@ def advance(plan: Vector, motion: Motion, limit: float) -> Ended:
     -------
     event, t, arrival, motion
         What ended the stretch (see `motion`), its length (s), the velocity just before the event,
-        and the motion just behind it.
+        and the motion just after it.
     """
     chosen: Any = (advance_any, advance_taylor, advance_yielding)[par.laws(plan)]
     return chosen(plan, motion, limit)  # type: ignore[no-any-return]

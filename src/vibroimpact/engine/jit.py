@@ -79,7 +79,7 @@ def _refused(*args: Any, **kwargs: Any) -> Any:
 def cache_directory() -> Path:
     """Folder of the compiled code of exactly these sources, compilers and processor.
 
-    numba looks at the file of an entry only, not at the kernels that it calls, and would run
+    numba checks the file of an entry only, not the kernels that it calls, and would run
     stale code after an edit elsewhere; a folder named after everything cannot be stale.
     """
     here = Path(__file__).parent

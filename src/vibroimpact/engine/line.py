@@ -14,7 +14,7 @@ from vibroimpact.engine.jit import kernel
 _TERMS = 24
 """Of the series below x = 1, where closed forms lose digits."""
 _AT_EITHER_END = 4
-"""Half cycles that are looked at, at the beginning and at the end of a line."""
+"""Half cycles that are checked at the start and at the end of a line."""
 _NEAR = 1e-9
 """Where an extreme is, as a share of a half cycle: its square is what the extreme is off by."""
 

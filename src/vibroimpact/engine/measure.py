@@ -61,7 +61,7 @@ MEASURES = 11
 _HALT = 1e-5
 """Of what is left of a phase: a step that comes no farther."""
 _HALTS = 16
-"""Such steps in a row, behind which a phase as short as rounding is taken as one piece."""
+"""Such steps in a row, after which a phase as short as rounding is taken as one piece."""
 _SHORT = 1e-9  # rad of the forcing
 _TURNS = 1000
 """As `_HALTS`, for a longer one."""

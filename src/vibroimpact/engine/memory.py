@@ -27,7 +27,7 @@ _DOUBLES = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
 def pointer(array: Vector) -> Vector:
     """The memory of a contiguous array of floats, indexed like it.
 
-    The array must outlive the pointer: whoever makes one uses the array again behind it.
+    The array must outlive the pointer: whoever makes one uses the array again after it.
     Without the compiler this is the array itself, in one row.
     """
     return array.reshape(-1)

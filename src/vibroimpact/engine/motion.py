@@ -24,7 +24,7 @@ RELEASED = 4
 """Added to the side that has just been left if the mass was at rest there."""
 
 SETTLING = 8
-"""Added to the side of an impact behind which all others of a chatter follow at once."""
+"""Added to the side of an impact after which all others of a chatter follow at once."""
 
 SLIPS_RIGHT, SLIPS_LEFT = 16, 32
 """Said of a mass that friction has just let go: which way it goes, still without velocity."""

@@ -327,7 +327,7 @@ def grazing_margin(
     phase : float
         Of the section, rad.
     cycles : int
-        Forcing cycles to look at.
+        Number of forcing cycles to check.
     max_events : int
         Contacts and detachments in a cycle at which it gives up.
     point, facts : ndarray

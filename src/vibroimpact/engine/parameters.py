@@ -87,7 +87,7 @@ class Drive(NamedTuple):
     base
         1 if the base moves, 0 if a force acts on the mass.
     scale, power
-        A_t has the amplitude: what is given · scale · ω^power. The base acceleration itself has
+        A_t has the amplitude: input · scale · ω^power. The base acceleration itself has
         1 and 0; a displacement of the base has −1 and 2, a force −1/M and 0.
     weights
         Of sin nθ and cos nθ, n from 1 on, if there are several harmonics.
@@ -203,7 +203,7 @@ LINEAR, BENT, YIELDING = range(3)
 
 
 def laws(rig: NDArray[np.float64]) -> int:
-    """Tell the laws of a rig by its vector; where stops overlap, what yields is said to be bent."""
+    """Return the laws of a rig; with overlapping stops, a yielding isolator counts as curved."""
     if not rig[CURVED]:
         return LINEAR
     sides = (BUMPER, BUMPER + WIDTH)

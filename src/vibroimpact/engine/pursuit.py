@@ -6,9 +6,9 @@ over the last three states, the next guess is P(x) − ΔP θ, θ = argmin ‖f 
 acceleration with two secants). While the motion is only followed this is the limit of the two
 geometric series in which it approaches.
 
-It goes ahead only where the motion contracts, touches the stops as often in each cycle, where two
+It proceeds only where the motion contracts, touches the stops as often in each cycle, where two
 successive guesses agree, and where the way is short; it is taken back where following does not bear
-it out, and what is found must attract (docs/decisions/0014-settling.md).
+it out, and the result must attract (docs/decisions/0014-settling.md).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Response spectra: the largest response of many oscillators to a record of straight lines.
 
-Exact for the record, between its samples and in the free vibration behind it.
+Exact for the record, between its samples and in the free vibration after it.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def _searched(
 
 @kernel
 def _freely(u: float, v: float, zeta: float, most: Three) -> Three:
-    """The largest until now and behind the record, where after a cycle it only dies out."""
+    """Return the largest value so far and after the record, where it decays after a cycle."""
     size = math.sqrt(u * u + v * v)
     bounds = size, size, (1.0 + 2.0 * zeta) * size
     if bounds[0] <= most[0] and bounds[1] <= most[1] and bounds[2] <= most[2]:
@@ -140,7 +140,7 @@ def respond(
     Parameters
     ----------
     record : ndarray
-        Base acceleration (m/s²), linear between its samples and 0 behind them.
+        Base acceleration (m/s²), linear between its samples and 0 after them.
     step : float
         Between samples (s).
     omega, zeta : ndarray

@@ -27,7 +27,7 @@ from vibroimpact.engine.motion import Row
 
 @kernel
 def begin(plan: Vector, amplitude: float, omega: float) -> None:
-    """A = amplitude · SCALE · ω^POWER: what is given may be a displacement or a force."""
+    """A = amplitude · SCALE · ω^POWER: the input may be a displacement or a force."""
     base = amplitude * plan[par.SCALE]
     if plan[par.POWER] == 2.0:
         base *= omega * omega

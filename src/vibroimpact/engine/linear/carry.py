@@ -15,7 +15,7 @@ from vibroimpact.engine.observers.tangent import DISTURBANCE, contraction, rebou
 def transition(c: float, k: float, t: float) -> tuple[float, float, float, float]:
     """The solution of x″ + c x′ + k x = 0 after the time t, as the matrix of (x, x′), row by row.
 
-    Critical damping is no special case: the sine over the frequency is taken in its limit.
+    Critical damping needs no special treatment: the sine over the frequency is taken in its limit.
     """
     beta = 0.5 * c
     square = beta * beta - k

@@ -38,7 +38,7 @@ from vibroimpact.engine.motion import BOTH, LEFT, Motion
 _ROW = 6
 """A node's numbers: coordinate, acceleration in space and force, and their slopes, per step."""
 _OFF = _ROW * (NODES + 1)
-"""Behind them: how far each of them may be off its chord."""
+"""Then: how far each of them may be off its chord."""
 
 chords = stack(_OFF + _ROW)
 """Room for a window's nodes."""
@@ -66,9 +66,10 @@ NOWHERE = Enclosed(math.inf, -math.inf, math.inf, -math.inf, -math.inf)
 def glance(
     plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, room: Vector
 ) -> tuple[bool, Enclosed]:
-    """Look at the nodes of a window, at whose first piece the cursor is.
+    """Check the nodes of a window, at whose first piece the cursor is.
 
-    Where a stop holds the mass, the base stands still or both stops are pressed, nothing is said.
+    Where a stop holds the mass, the base stands still or both stops are pressed, the result is
+    undecided.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """A stretch of motion as a sequence of polynomials.
 
-Whatever is asked of a motion between two events — extremes, integrals, samples, turning points —
-is asked of these: on each interval of a table the displacement is a series of TERMS coefficients
-about the interval's middle, in y = (t − t_middle) / step, right to rounding.
+All results for a motion between two events — extremes, integrals, samples, turning points — are
+computed from these pieces: on each interval of a table the displacement is a series of TERMS
+coefficients about the interval's middle, in y = (t − t_middle) / step, right to rounding.
 
     cursor = begin(plan, motion, length)
     while more(plan, cursor):

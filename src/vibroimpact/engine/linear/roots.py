@@ -14,7 +14,7 @@ From a point p with f > 0 the search tries a width w and does one of three thing
 3. Neither: halve w.
 
 A width at rounding level means that f touches zero to within rounding: no crossing is
-reported there, always, and the search goes on behind it.
+reported there, always, and the search continues after it.
 """
 
 from __future__ import annotations

@@ -89,7 +89,7 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
     plan : ndarray, shape (PLAN,)
         Starts with the rig's numbers; the tables are written.
     amplitude, omega : float
-        Of the forcing, as `parameters.rig_vector` was told: its size (m/s², m or N), and ω
+        Of the forcing, as passed to `parameters.rig_vector`: its size (m/s², m or N), and ω
         (rad/s).
     """
     begin(plan, amplitude, omega)

@@ -1,1 +1,1 @@
-"""What is looked at while a motion goes by; one file each. None has an influence on it."""
+"""Observers of a motion while it is computed; one file each. None has an influence on it."""

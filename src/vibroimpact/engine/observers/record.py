@@ -25,7 +25,7 @@ RIGHT_CLEARANCE, LEFT_CLEARANCE, CONTACT, MEMORY = range(5, 9)
 SAMPLE = 9
 
 BLOCK = 64
-"""Samples that are looked at together."""
+"""Samples that are processed together."""
 U = SAMPLE
 """Behind the rows of a block: the displacement, where the mode's own coordinate is still needed."""
 samples = stack((SAMPLE + 1) * BLOCK)

@@ -6,8 +6,8 @@ I + (f⁺ − f⁻) nᵀ / (nᵀ f⁻) of the clearance reduces to
 
     δu̇⁺ = δu̇ − (C_j/M) (δu − δu_j),    δu_j⁺ = δu:
 
-the closing speed cancels, so that grazing is no special case. At a detachment the contact force
-is zero and the bumper's own rate is that of the mass: both vector fields agree and nothing
+the closing speed cancels, so that grazing needs no special treatment. At a detachment the contact
+force is zero and the bumper's own rate is that of the mass: both vector fields agree and nothing
 happens. A free bumper's δu_j fades as the bumper relaxes, at once without a dashpot. In contact
 δu_j = δu, so that every contact loses the bumper's own direction (docs/theory.md, section 6).
 """
