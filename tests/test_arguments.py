@@ -248,5 +248,5 @@ def test_what_is_no_mapping_is_one_line(field, call, wrong):
 def test_what_is_no_list_of_saddles_and_no_fit_is_one_line(tmp_path):
     with pytest.raises(vi.InputError, match=r"^saddles: 5 is not a list"):
         vi.manifolds(vi.Rig(OSCILLATOR, SHAKING), saddles=5, displacement=(-1, 1), velocity=(-1, 1))
-    with pytest.raises(vi.InputError, match=r"^result: this is no fit"):
+    with pytest.raises(vi.InputError, match=r"^result: this is not a fit"):
         vi.fit_report(5, tmp_path)

@@ -35,7 +35,7 @@ def check_path(value: object, field: str) -> Path:
         raise InputError(f"{field}: {shown(value)} is not a path; the path of a file is accepted")
     if "\0" in path or len(path) > LONGEST_PATH or not _is_encodable(path):
         raise InputError(
-            f"{field}: {shown(path)} cannot be a path; at most {LONGEST_PATH} letters without "
+            f"{field}: {shown(path)} cannot be a path; at most {LONGEST_PATH} characters without "
             "control characters are accepted"
         )
     return Path(path)
@@ -113,8 +113,8 @@ def check_progress(value: Any) -> None:
     """
     if value is not None and (isinstance(value, type) or not callable(value)):
         raise InputError(
-            f"progress: {shown(value)}; None or a function of the number done and the number in "
-            "all, such as progress_bar(), is accepted"
+            f"progress: {shown(value)}; None or a function of the number done and the total, "
+            "such as progress_bar(), is accepted"
         )
 
 

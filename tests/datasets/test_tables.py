@@ -76,7 +76,7 @@ def test_other_datasets():
 def test_rows_that_are_not_there(motion):
     with pytest.raises(vi.InputError, match=r"^rows: 'point' .*; time, event are accepted$"):
         vi.to_table(motion, rows="point")
-    with pytest.raises(vi.InputError, match=r"^dataset: 3 is no dataset"):
+    with pytest.raises(vi.InputError, match=r"^dataset: 3 is not a dataset"):
         vi.to_table(3)
 
 

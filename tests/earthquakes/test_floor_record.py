@@ -71,5 +71,5 @@ def test_wrong_input() -> None:
         vi.floor_record(vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 1.0)), 3))
     with pytest.raises(vi.InputError, match=r"^motion: 3 samples; at least 4"):
         vi.floor_record(vi.simulate(vi.Rig(rig, RECORD.cut(0.0, 0.04))))
-    with pytest.raises(vi.InputError, match=r"^motion: this is no recorded motion"):
+    with pytest.raises(vi.InputError, match=r"^motion: this is not a recorded motion"):
         vi.floor_record(vi.simulate(vi.Rig(rig, RECORD), samples=0))

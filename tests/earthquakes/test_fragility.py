@@ -142,7 +142,7 @@ def test_without_overlap_there_is_no_curve() -> None:
     below, above = np.array([0.5, 0.6, 2.0]), np.array([0.5, 3.0, 2.0])
     scales = np.array([1.0, 2.0, 3.0])
     none = suite(np.array([below, below, below]), scales)
-    finer = r"^limit: 1.0; there are no two levels .*; finer levels between 2 and 3 are accepted"
+    finer = r"^limit: 1.0; fewer than two levels have .*; finer levels between 2 and 3 are needed"
     with pytest.raises(vi.InputError, match=finer):
         vi.fragility(none, "peak_displacement", 1.0)
     one = suite(np.array([below, above, below]), scales)
@@ -213,12 +213,12 @@ def test_which_of_several_have_no_curve_is_told() -> None:
     with pytest.warns(RuntimeWarning, match=r"^fragility: no curve for gap 200 mm: ") as told:
         found = vi.fragility(data, "peak_displacement", 1.0)
     assert len(told) == 1
-    none = "there are no two levels at which some records are above the limit and others are not; "
+    none = "fewer than two levels have some records above the limit and others not; "
     reasons = {
-        0.2: none + "finer levels between 1 and 3 are accepted",
-        0.4: "at no level is a record above the limit; higher levels are accepted",
-        0.5: "at every level all records are above the limit; lower levels are accepted",
-        0.6: none + "finer levels between 2 and 3 are accepted",
+        0.2: none + "finer levels between 1 and 3 are needed",
+        0.4: "no record is above the limit at any level; higher levels are needed",
+        0.5: "all records are above the limit at every level; lower levels are needed",
+        0.6: none + "finer levels between 2 and 3 are needed",
     }
     assert found.attrs["undetermined"] == "; ".join(
         f"no curve for gap {1e3 * gap:g} mm: {why}" for gap, why in reasons.items()

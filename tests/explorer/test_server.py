@@ -75,7 +75,7 @@ def test_another_host_is_refused(served):
 )
 def test_nothing_but_the_page_is_served(served, path):
     status, _, body = asked(served.address + path)
-    assert (status, body) == (404, b"vibroimpact: there is no such page\n") or (
+    assert (status, body) == (404, b"vibroimpact: this page does not exist\n") or (
         path.startswith("?") and b"<!doctype html>" in body
     )
 
@@ -145,7 +145,7 @@ def test_a_knob_does_not_wait_for_a_file(served, monkeypatch):
         while until(socket, "state")["n"] != 39:
             pass
         socket.send('{"do": "file", "kind": "csv"}')
-        assert "another one is being made" in until(socket, "refused")["refused"]
+        assert "another file is being written" in until(socket, "refused")["refused"]
         ready.set()
         assert until(socket, "file")["file"] == "550 kg"  # the rig at the time of the request
 

@@ -56,7 +56,7 @@ def test_what_is_refused():
     with pytest.raises(vi.InputError, match=r"^axes: 1 given; 2 are accepted"):
         accelerogram(RECORD, spectrum, [response_spectra(spectrum)])
     for other in (vi.response_spectrum(RECORD, 1.0), spectrum["pseudo_velocity"], None):
-        with pytest.raises(vi.InputError, match=r"^spectrum: this is no response spectrum"):
+        with pytest.raises(vi.InputError, match=r"^spectrum: this is not a response spectrum"):
             response_spectra(other)
     with pytest.raises(vi.InputError, match=r"^quantity: 'x'; one of spectral_displacement, "):
         response_spectra(spectrum, quantity="x")

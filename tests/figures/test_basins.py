@@ -68,7 +68,7 @@ def test_what_is_no_basin_is_told():
     data["basin"][:5] = -1
     data["basin"][5:10] = -2
     legend = basin_portrait(data).get_legend()
-    assert [text.get_text() for text in legend.get_texts()][2:] == ["given up", "behind a stop"]
+    assert [text.get_text() for text in legend.get_texts()][2:] == ["given up", "beyond a stop"]
     with pytest.raises(vi.InputError, match="no basins"):
         basin_portrait(data.drop_vars("basin"))
 

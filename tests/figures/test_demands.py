@@ -43,7 +43,7 @@ def test_fragility_curves() -> None:
     assert len(ax.collections) == 1
     _, band, share = (text.get_text() for text in ax.get_legend().get_texts())
     assert (band, share) == ("its 90 % band", "share of the records")
-    with pytest.raises(vi.InputError, match=r"^fragility: this is no fragility"):
+    with pytest.raises(vi.InputError, match=r"^fragility: this is not a fragility result"):
         fragility_curves(data)
 
 
@@ -86,7 +86,7 @@ def test_a_curve_of_too_few_records_within_the_levels_has_no_band() -> None:
     ax = fragility_curves(found)
     assert len(ax.collections) == 0
     words = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert words[0].endswith("(no band: too few records begin within the levels)")
+    assert words[0].endswith("(no band: too few records reach the limit within the levels)")
     assert words[1:] == ["share of the records"]
     many = lognormal(np.random.default_rng(1), 20, scales, 0.9)
     sound = vi.fragility(many, "peak_displacement", 2.0)

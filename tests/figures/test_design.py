@@ -277,7 +277,7 @@ def test_a_fractile_over_the_records_is_named() -> None:
 
 
 def test_refused(data) -> None:
-    with pytest.raises(vi.InputError, match=r"^data: this is no design"):
+    with pytest.raises(vi.InputError, match=r"^data: this is not a design"):
         pareto_front(data.drop_vars("pareto"))
     with pytest.raises(vi.InputError, match=r"^quantities: 'speed'"):
         design_chart(data, quantities=("speed",))

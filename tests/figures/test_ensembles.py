@@ -86,10 +86,10 @@ def test_lines_of_a_curve():
 @pytest.mark.parametrize(
     ("draw", "told"),
     [
-        (lambda: resonance_bands(vi.sweep(CASE, GRID)), "data: .* no ensemble of sweeps"),
+        (lambda: resonance_bands(vi.sweep(CASE, GRID)), "data: .* not an ensemble of sweeps"),
         (lambda: resonance_bands(drawn(), quantities=["colour"]), "quantity: 'colour'"),
         (lambda: resonance_bands(drawn(), shares=(0.6, 0.9)), "shares: "),
-        (lambda: sensitivity_bars(drawn()), "data: this holds no indices"),
+        (lambda: sensitivity_bars(drawn()), "data: it has no sensitivity indices"),
         (lambda: sensitivity_bars(indices().expand_dims("rig")), "data: it is over "),
     ],
 )

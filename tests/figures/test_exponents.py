@@ -34,7 +34,7 @@ def test_of_a_bifurcation_diagram_and_over_the_frequency():
 @pytest.mark.parametrize(
     ("data", "told"),
     [
-        (lambda: vi.sweep("B2-G1-A3", [1.0]), "data: there are no exponents"),
+        (lambda: vi.sweep("B2-G1-A3", [1.0]), "data: it has no exponents"),
         (lambda: vi.lyapunov_exponents("B2-G1-A3", [1.0], 32), "over a single value"),
         (
             lambda: vi.lyapunov_exponents("B2-G1-A3", [1.0, 2.0], 32, vary={"gap": [1e-3, 2e-3]}),

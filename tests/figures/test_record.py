@@ -37,7 +37,9 @@ def test_other_motions_are_refused() -> None:
         vi.simulate(vi.Rig(RIG, vi.Harmonic(1.0, 0.5)), 2),
         vi.simulate(vi.Rig(RIG, RECORD), samples=0),
     ):
-        with pytest.raises(vi.InputError, match=r"^motion: this is no motion through a record; "):
+        with pytest.raises(
+            vi.InputError, match=r"^motion: this is not a motion through a record; "
+        ):
             record_history(data)
 
 

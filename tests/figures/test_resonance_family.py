@@ -72,7 +72,7 @@ class TestFamily:
         other = resonance_family(part, markers={CODES[0]: 1, CODES[1]: 0})
         first, second = (of(one, code, "forward").get_marker() for code in CODES[:2])
         assert [of(other, code, "forward").get_marker() for code in CODES[:2]] == [second, first]
-        with pytest.raises(vi.InputError, match=r"^markers: 'B9' is no rig"):
+        with pytest.raises(vi.InputError, match=r"^markers: 'B9' is not a rig"):
             resonance_family(part, markers={"B9": 0})
 
     def test_parted_at_jumps_with_arrows(self):
@@ -107,8 +107,8 @@ class TestFamily:
         ("options", "told"),
         [
             ({"quantity": "eta"}, "quantity: 'eta'; one of eta_a, eta_d"),
-            ({"labels": {"B1": "x"}}, "labels: 'B1' is no rig; B2-G1-A3, B2-G3-A3"),
-            ({"colours": {"B1": "red"}}, "colours: 'B1' is no rig"),
+            ({"labels": {"B1": "x"}}, "labels: 'B1' is not a rig; B2-G1-A3, B2-G3-A3"),
+            ({"colours": {"B1": "red"}}, "colours: 'B1' is not a rig"),
         ],
     )
     def test_refusals(self, options, told):
@@ -117,7 +117,7 @@ class TestFamily:
         assert told in str(caught.value)
 
     def test_refuses_one_rig(self):
-        with pytest.raises(vi.InputError, match="data: these are no sweeps of rigs"):
+        with pytest.raises(vi.InputError, match="data: these are not sweeps of rigs"):
             resonance_family(swept().isel(rig=0))
 
 

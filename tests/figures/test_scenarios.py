@@ -118,13 +118,13 @@ def test_features():
 
 
 def test_what_cannot_be_drawn_is_refused():
-    with pytest.raises(vi.InputError, match="data: this is no map"):
+    with pytest.raises(vi.InputError, match="data: this is not a map"):
         scenario_map(xr.Dataset())
     with pytest.raises(vi.InputError, match="border: it is not in stiffness_ratio and gap_ratio"):
         scenario_map(made(), border=xr.Dataset())
     with pytest.raises(vi.InputError, match="name: 'nothing'; one of chaotic_count is accepted"):
         feature_map(made(), "nothing")
-    with pytest.raises(vi.InputError, match="found: 'B5-G1-A1' is no laboratory test"):
+    with pytest.raises(vi.InputError, match="found: 'B5-G1-A1' is not a laboratory test"):
         scenario_cases({"B5-G1-A1": "S2"})
     with pytest.raises(vi.InputError, match=r"found\[B1-G1-A1\]: 'S9'; one of S0"):
         scenario_cases({"B1-G1-A1": "S9"})

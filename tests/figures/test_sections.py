@@ -59,7 +59,7 @@ def test_points_are_those_of_the_data(section, quantity, factor):
     )
     assert "(mm)" in bottom.get_xlabel()
     labels = [text.get_text() for text in top.get_legend().get_texts()]
-    assert labels == ["up", "down", "from other starts"]
+    assert labels == ["up", "down", "from other initial states"]
 
 
 def test_what_has_no_period_is_told_apart():

@@ -209,9 +209,9 @@ def test_axes_that_are_given():
 
 
 def test_what_is_no_time_history_is_refused():
-    with pytest.raises(vi.InputError, match="no recorded motion"):
+    with pytest.raises(vi.InputError, match="not a recorded motion"):
         time_history(motion(samples=0))
-    with pytest.raises(vi.InputError, match="no recorded motion"):
+    with pytest.raises(vi.InputError, match="not a recorded motion"):
         time_history(xr.Dataset())
     with pytest.raises(vi.InputError, match=r"cycles: -1"):
         time_history(motion(), cycles=-1)

@@ -57,7 +57,7 @@ def test_without_noise():
 
 def test_displacement_alone_without_the_base():
     data = record(motion(1.5, 16, skip=8), 0.005, ("displacement",))
-    with pytest.raises(vi.InputError, match="rig: an Oscillator alone"):
+    with pytest.raises(vi.InputError, match="rig: this is an Oscillator alone"):
         vi.identify(START, data, FREE)
     found = vi.identify(vi.Rig(START, "0.05 g"), data, FREE, profiles=False, tried=0, starts=1)
     assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.05

@@ -192,7 +192,7 @@ def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
         ({"ties": {"left_gap": "nothing"}}, "ties: 'nothing'"),
         ({"noise": -1}, "noise"),
         ({"data": {}}, "there is none"),
-        ({"data": 3}, "int is no measurement"),
+        ({"data": 3}, "int is not a measurement"),
     ],
 )
 def test_what_cannot_be_fitted_is_refused(change, told):
@@ -219,7 +219,7 @@ def test_too_few_points_and_no_amplitude():
     found = vi.identify(case.oscillator, data, "gap", tried=0, starts=1, profiles=False)
     assert found.fitted_value.values[0] == pytest.approx(0.01, rel=1e-5)
     del data.attrs["amplitude"]
-    with pytest.raises(vi.InputError, match="rig: an Oscillator alone"):
+    with pytest.raises(vi.InputError, match="rig: this is an Oscillator alone"):
         vi.identify(case.oscillator, data, "gap")
 
 
@@ -252,6 +252,8 @@ def test_a_column_that_was_not_understood_is_named(tmp_path):
     ]
     path = tmp_path / "own.csv"
     path.write_text("\n".join(["f (Hz),Ed (mm),Kanal 7", *rows]), encoding="utf-8")
-    with pytest.warns(vi.InputWarning, match="not understood, and left out: Kanal 7"):
+    with pytest.warns(
+        vi.InputWarning, match="columns that were not understood and were left out: Kanal 7"
+    ):
         fit = vi.identify(rig, path, "stiffness", tried=0, starts=1, profiles=False)
     assert "own: 'Kanal 7' of the file not understood, and not used" in fit.attrs["findings"]

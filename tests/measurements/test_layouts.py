@@ -164,7 +164,7 @@ def test_binary_universal_files_are_read_whole_and_refused_cut(tmp_path, count):
     whole, cut = path.read_bytes(), tmp_path / "cut.uff"
     for share in (0.4, 0.9, 0.99):
         cut.write_bytes(whole[: int(share * len(whole))])
-        with pytest.raises(vi.InputError, match="it was cut"):
+        with pytest.raises(vi.InputError, match="it is incomplete"):
             vi.read_measurement(cut)
 
 

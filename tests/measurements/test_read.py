@@ -160,8 +160,8 @@ def test_an_amplitude_with_a_decimal_comma(tmp_path, said, mark, amplitude):
         ("# Amplitude [g]: 0,04", 0.392266, ""),
         ("# amplitude;0.04 g", 0.392266, ""),
         ("# amplitude_g = 0.04 g", 0.392266, ""),
-        ("# A_g = 0.04", None, "not understood, and left out: A_g = 0.04"),
-        ("# peak; 4 mm", None, "not understood, and left out: peak = 4 mm"),
+        ("# A_g = 0.04", None, "columns that were not understood and were left out: A_g = 0.04"),
+        ("# peak; 4 mm", None, "columns that were not understood and were left out: peak = 4 mm"),
         ("# Date: 2024-05-01\n# at 12:30\n# table peak 0.04 g\n# by: us", None, ""),
     ],
 )
@@ -193,7 +193,7 @@ def test_numbers_beside_the_vectors_of_matlab(tmp_path, group, beside, amplitude
     data = vi.read_measurement(tmp_path / "test.mat")
     assert data.attrs.get("amplitude") == (amplitude and pytest.approx(amplitude))
     assert told in data.attrs["notes"]
-    assert ("beside" in data.attrs["notes"]) == (amplitude is None)
+    assert ("next to the columns" in data.attrs["notes"]) == (amplitude is None)
 
 
 def test_numbers_and_letters_beside_the_vectors_of_hdf5(tmp_path):
@@ -209,7 +209,9 @@ def test_numbers_and_letters_beside_the_vectors_of_hdf5(tmp_path):
             file.attrs.update({"A_g": 0.04, "creator": "logger", "MATLAB_int_decode": 2})
         data = vi.read_measurement(tmp_path / name)
         assert data.attrs["amplitude"] == pytest.approx(0.392266)
-        assert data.attrs["notes"].endswith("not understood, and left out: A_g = 0.04")
+        assert data.attrs["notes"].endswith(
+            "columns that were not understood and were left out: A_g = 0.04"
+        )
 
 
 def test_a_folder_is_no_file(tmp_path):
@@ -225,10 +227,10 @@ def test_a_comma_that_may_part_thousands_is_refused(tmp_path):
 @pytest.mark.parametrize(
     ("rows", "directions", "told"),
     [
-        ("1,10\n2,20\n3,5\n", ["forward"], "taken as forward"),
-        ("3,5\n2,20\n1,10\n", ["backward"], "taken as backward"),
-        ("1,10\n2,20\n3,5\n2,3\n1,2\n", ["forward", "backward"], "from line 5 on"),
-        ("1,10\n", ["forward"], "one frequency alone"),
+        ("1,10\n2,20\n3,5\n", ["forward"], "forward was assumed"),
+        ("3,5\n2,20\n1,10\n", ["backward"], "backward was assumed"),
+        ("1,10\n2,20\n3,5\n2,3\n1,2\n", ["forward", "backward"], "backward from line 5"),
+        ("1,10\n", ["forward"], "only one frequency"),
     ],
 )
 def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
@@ -242,7 +244,7 @@ def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
     ("text", "told"),
     [
         ("f,Ed\n1,2\n3,4\n2,3\n5,6\n", "direction='forward'"),
-        ("f,Ed\n1,2\n2,x\n3,4\n4,5\n", "line 3, column 'Ed': 'x' is no number"),
+        ("f,Ed\n1,2\n2,x\n3,4\n4,5\n", "line 3, column 'Ed': 'x' is not a number"),
         ("b,c\n1,2\n", "'b' is not understood, 'c' is not understood; a frequency with"),
         ("b,c\n1,2\n", "columns={'frequency': 'b', 'displacement_excursion': 'c'}"),
         ("f,ch 3\n1,2\n", "'f' is read as frequency, 'ch 3' is not understood; what was measured"),
@@ -263,7 +265,7 @@ def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
         ("f,Ed,dir\n1,2,sideways\n", "the direction 'sideways'"),
         ("f,Ed\n1,2\n2,3,4\n", "line 3: 3 values"),
         ("f,Ed\n1,nan\n", "no value at any frequency"),
-        ("time,u\n1,2\n1,3\n", "stands there twice"),
+        ("time,u\n1,2\n1,3\n", "occurs twice"),
     ],
 )
 def test_what_cannot_be_read_is_refused_with_its_place(tmp_path, text, told):
@@ -285,7 +287,7 @@ def test_columns_and_units_that_are_said(tmp_path):
     assert data.attrs["amplitude"] == pytest.approx(0.03 * 9.80665)
     with pytest.raises(vi.InputError, match="columns: 'frequenzy'; did you mean frequency"):
         vi.read_measurement(path, columns={"frequenzy": "one"})
-    with pytest.raises(vi.InputError, match="is no column"):
+    with pytest.raises(vi.InputError, match="is not a column"):
         vi.read_measurement(path, columns={"frequency": "four"})
 
 

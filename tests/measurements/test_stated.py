@@ -51,12 +51,12 @@ def test_scales_and_absent_values_of_hdf5(tmp_path):
 @pytest.mark.parametrize(
     ("about", "told"),
     [
-        ({"units": 3}, "states units = 3, which is no unit"),
+        ({"units": 3}, "states units = 3, which is not a unit"),
         ({"units": "furlong-ish"}, "a unit that"),
-        ({"units": "mm", "scale": "twice"}, "states scale = 'twice', which is no scale"),
+        ({"units": "mm", "scale": "twice"}, "states scale = 'twice', which is not a scale"),
         ({"units": "mm", "scale_factor": [1.0, 2.0]}, r"scale_factor = \[1.0, 2.0\], which is no"),
         ({"units": "mm", "scale": 2.0, "scale_factor": 3.0}, "scale_factor = 3.0 beside the scale"),
-        ({"units": ["mm", "s"]}, r"states units = \['mm', 's'\], which is no unit"),
+        ({"units": ["mm", "s"]}, r"states units = \['mm', 's'\], which is not a unit"),
         ({"units": "mm", "unit": "m"}, "beside the unit 'm'"),
         *(
             ({"units": "mm", name: 0.5}, f"states {name} = 0.5, which may have been applied")
@@ -339,7 +339,7 @@ def test_an_empty_channel_hides_no_other(tmp_path, name, about):
     data = vi.read_measurement(path)
     np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
     np.testing.assert_allclose(data["time"], TIME, rtol=1e-12)
-    assert f"without values, and left out: {name}" in data.attrs["notes"]
+    assert f"columns without values, which were left out: {name}" in data.attrs["notes"]
 
 
 def test_names_of_files_steer_no_terminal(tmp_path):
@@ -350,8 +350,9 @@ def test_names_of_files_steer_no_terminal(tmp_path):
     told = data.attrs["notes"] + data.attrs["left_out"]
     assert "spare" in told
     assert not any(letter < " " and letter != "\n" for letter in told)
-    assert all(line.startswith(("the time", "not understood", "spare")) for line in
-               (data.attrs["notes"] + "\n" + data.attrs["left_out"]).splitlines())  # fmt: skip
+    lines = (data.attrs["notes"] + "\n" + data.attrs["left_out"]).splitlines()
+    begins = ("the time", "columns that were not understood", "spare")
+    assert all(line.startswith(begins) for line in lines)
     again = vi.read_measurement(path, columns={"acceleration": spare[0]}, units={spare[0]: "g"})
     np.testing.assert_allclose(again["acceleration"], 9.80665 * U, rtol=1e-12)
 
@@ -450,14 +451,14 @@ def test_damage_on_which_scipy_ends_the_process_is_refused(tmp_path):
         damaged = bytearray(whole)
         damaged[at] ^= bits
         path.write_bytes(damaged)
-        with pytest.raises(vi.InputError, match="is damaged or no MAT file"):
+        with pytest.raises(vi.InputError, match="is damaged or not a MAT file"):
             vi.read_measurement(path)
     scipy.io.savemat(path, {"s": scipy.sparse.csc_array(U[:, np.newaxis])})
     damaged = bytearray(path.read_bytes())
     at = damaged.index(np.arange(20, 30, dtype="<i4").tobytes())
     damaged[at + 3] = 0x40
     path.write_bytes(damaged)
-    with pytest.raises(vi.InputError, match="is damaged or no MAT file"):
+    with pytest.raises(vi.InputError, match="is damaged or not a MAT file"):
         vi.read_measurement(path)
 
 
@@ -479,7 +480,7 @@ def test_scales_that_nptdms_cannot_apply_are_refused(tmp_path, capfd):
     for other, told in (
         ({}, "Unsupported scale type"),
         ({"NI_Number_Of_Scales": 2**30}, "NI_Number_Of_Scales = 1073741824"),
-        (own, "is damaged or no TDMS file"),
+        (own, "is damaged or not a TDMS file"),
     ):
         with pytest.raises(vi.InputError, match=told):
             vi.read_measurement(tdms(tmp_path / "a.tdms", ("u_mm", U, about | other)))

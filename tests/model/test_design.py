@@ -165,7 +165,7 @@ def test_a_weight_is_a_mass_under_gravity():
     rig = vi.Oscillator.model_validate(table)
     assert rig.mass == pytest.approx(5e6, rel=1e-15)
     assert 1.0 / rig.natural_frequency == pytest.approx(2.0, rel=1e-14)
-    with pytest.raises(vi.InputError, match=r"^weight: given beside mass; one of the two"):
+    with pytest.raises(vi.InputError, match=r"^weight: given together with mass; one of the two"):
         vi.Oscillator.model_validate({**table, "mass": 5})
     with pytest.raises(vi.InputError, match=r"^weight: '5 t' is a mass; a force greater than 0"):
         vi.Oscillator.model_validate({**table, "weight": "5 t"})

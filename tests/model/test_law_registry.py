@@ -76,7 +76,7 @@ def test_only_an_unusual_kind_is_written():
         ),
         (
             {"right": {"restitution": 0.8, **BUMPER}},
-            "rig.right.restitution: given beside damping; one of the two is accepted",
+            "rig.right.restitution: given together with damping; one of the two is accepted",
         ),
         (
             {"right": {**BUMPER, "gap": "3 kg"}},

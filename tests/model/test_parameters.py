@@ -197,7 +197,9 @@ def test_a_stiffness_at_restitution_is_that_of_bumpers_made_by_it():
     rig = one.vary(vi.Rig(begun, SHAKEN), 8e4).oscillator
     assert rig.right.stiffness == 8e4
     assert rig.right.damping == pytest.approx(wall(8e4).damping, rel=1e-14)
-    with pytest.raises(vi.InputError, match=r"keeps its restitution at any stiffness; 'bumper_st"):
+    with pytest.raises(
+        vi.InputError, match=r"has the same restitution at any stiffness; use 'bumper_st"
+    ):
         one.read(vi.Rig(RIG.replace(right=HERTZ, left=HERTZ), SHAKEN))
     # A damping that is named is had, whichever is named first.
     pairs = [(parameter("bumper_damping"), 700.0), (one, 8e4)]

@@ -98,7 +98,10 @@ def test_a_table_may_have_it_in_place_of_the_damping():
 @pytest.mark.parametrize(
     ("changes", "line"),
     [
-        ({"damping": 3}, "right.restitution: given beside damping; one of the two is accepted"),
+        (
+            {"damping": 3},
+            "right.restitution: given together with damping; one of the two is accepted",
+        ),
         ({"restitution": 1.6}, "right.restitution: 1.6 is greater than 1"),
         ({"stiffness": "2 MN"}, "right.stiffness: '2 MN' is a force"),
         ({"stiffness": None}, "right.stiffness: missing"),

@@ -57,7 +57,7 @@ def test_units(tmp_path):
         ("words only\n", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("1\n2\n", None, "m/s^2", r"step: missing, and .* has no times"),
         ("1\n2\n", 0.0, "m/s^2", r"step: .*greater than 0"),
-        ("1\n2\nend\n", 0.1, "m/s^2", r"record: .*, line 3: 'end' is no row of numbers"),
+        ("1\n2\nend\n", 0.1, "m/s^2", r"record: .*, line 3: 'end' is not a row of numbers"),
         ("1,2,3\n4,5,6\n7,8,9\n", None, "m/s^2", r"component: missing, and .* has 2; '1', '2', or"),
         ("1,2\n3\n", None, "m/s^2", r"record: .*, line 2: a row of 1 numbers, where"),
         ("1,2\n3,4\n5\n", None, "m/s^2", r"record: .*, line 3: a row of 1 numbers, where those"),
@@ -140,7 +140,7 @@ def test_the_end_of_the_data_is_no_row(tmp_path):
     text = "1\n2\n-3\n*** End Data ***\n"
     record = vi.Record.read(written(tmp_path, text), step=0.1)
     np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0])
-    with pytest.raises(vi.InputError, match="line 5: numbers behind the end of the data"):
+    with pytest.raises(vi.InputError, match="line 5: numbers after the end of the data"):
         vi.Record.read(written(tmp_path, text + "4\n"), step=0.1)
 
 

@@ -46,7 +46,9 @@ def test_segments_are_tests(tmp_path):
     with pytest.raises(vi.InputError, match="holds 2 tests, and none is chosen; '1', '2' are"):
         vi.read_measurement(path)
     assert len(vi.read_measurement(path, group="2")["time"]) == 10
-    with pytest.raises(vi.InputError, match="line 1: 2 segments; a file of one is accepted"):
+    with pytest.raises(
+        vi.InputError, match="line 1: 2 segments; a file with one segment is accepted"
+    ):
         vi.Record.read(path, 1)
 
 

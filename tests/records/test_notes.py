@@ -132,7 +132,9 @@ def test_a_file_that_was_cut_within_its_last_number(tmp_path):
     cut = "\n".join([*whole[:-1], last])
     record, told = noted(written(tmp_path, cut))
     assert record.peak == pytest.approx(3.11 * GRAVITY)
-    assert "the file ends with '-3.11' and without a line break: was it cut within a num" in told
+    assert (
+        "the file ends with '-3.11' and without a line break: is it incomplete within a num" in told
+    )
     assert "the last value, -3.11, is far from the one before it" in told
     _, told = noted(written(tmp_path, cut + "\n"))  # mended by an editor
     assert "line break" not in told

@@ -67,9 +67,9 @@ def test_figures_of_a_fit(fit):
         "bumper stiffness",
         "bumper damping",
     ]
-    with pytest.raises(vi.InputError, match="no history"):
+    with pytest.raises(vi.InputError, match="not a history"):
         fit_history(fit)
-    with pytest.raises(vi.InputError, match="no fit"):
+    with pytest.raises(vi.InputError, match="not a fit"):
         fit_residuals(fit[["fitted_value"]])
 
 

@@ -34,7 +34,7 @@ def test_whose_motion_it_is(motion):
     assert (origin.oscillator, origin.excitation.phase) == (CASE.oscillator, 0.3)
     assert (origin.cycles, origin.periodic) == (6.0, False)
     assert beginning(motion).phase == 0.3
-    with pytest.raises(vi.InputError, match="this is no recorded motion"):
+    with pytest.raises(vi.InputError, match="this is not a recorded motion"):
         phases(motion["displacement"])
 
 

@@ -99,11 +99,11 @@ def test_logarithmic_axes_are_refined_geometrically():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ("gap", "is no axis"),
-        (("gap",), "is no axis"),
+        ("gap", "is not an axis"),
+        (("gap",), "is not an axis"),
         (("gip", [1, 2]), "'gip'; one of gap, amplitude"),
         (("gap", "1:2"), "is not a list"),
-        (("gap", [0.01, 0.02], "cubic"), "is no axis"),
+        (("gap", [0.01, 0.02], "cubic"), "is not an axis"),
         (("gap_ratio", [0.0, 1.0], "log"), r"x\[0\]: 0 on a logarithmic axis"),
         (("gap", [0.01]), "1 values given; at least two are accepted"),
         (("gap", [0.01, 0.01]), r"x\[1\]: 0.01 follows 0.01; rising values are accepted"),

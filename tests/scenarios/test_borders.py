@@ -38,7 +38,7 @@ def test_the_border_of_jumps_is_the_cusp_of_the_folds():
         first = int(np.argmax(jumping))
         low, high = data["stiffness_ratio"].values[[first - 1, first]]
         assert low < float(border["stiffness_ratio"][k]) < high
-    with pytest.raises(vi.InputError, match="data: this is no map"):
+    with pytest.raises(vi.InputError, match="data: this is not a map"):
         jump_border(xr.Dataset())
 
 

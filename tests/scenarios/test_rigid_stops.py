@@ -59,14 +59,14 @@ def test_nodes_change_what_each_stop_has() -> None:
 @pytest.mark.parametrize("name", ["bumper_stiffness", "proportional_stiffness", "relaxation_time"])
 def test_a_rigid_stop_has_no_stiffness_to_map_over(name: str) -> None:
     axes = (name, [1.0, 2.0]), ("gap_ratio", [0.5, 1.0])
-    with pytest.raises(vi.InputError, match=f"^rig: '{name}' is that of bumpers, but every stop"):
+    with pytest.raises(vi.InputError, match=f"^rig: '{name}' applies to bumpers, but every stop"):
         vi.scenario_map(vi.Rig(between(0.5), 1.0), *axes)
 
 
 def test_a_bumper_has_no_restitution_to_map_over() -> None:
     rig = FREE.replace(right=vi.Bumper(20.0, 0.4, 0.5))
     axes = ("restitution", [0.1, 0.2]), ("gap_ratio", [0.5, 1.0])
-    with pytest.raises(vi.InputError, match=r"^rig: .restitution. is that of rigid stops, but"):
+    with pytest.raises(vi.InputError, match=r"^rig: .restitution. applies to rigid stops, but"):
         vi.scenario_map(vi.Rig(rig, 1.0), *axes)
     with pytest.raises(vi.InputError, match=r"^x\[1\]: 1\.2"):
         vi.scenario_map(vi.Rig(rig, 1.0), ("restitution", [0.1, 1.2]), axes[1])

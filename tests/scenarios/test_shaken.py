@@ -124,12 +124,12 @@ def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
     ("oscillator", "amplitude", "message"),
     [
         (CASE.oscillator, vi.Periodic(1.0, [0.3, 0.1]), "shaking: a Periodic, whose harmonics"),
-        (CASE.oscillator, [0.3, 0.4], "shaking: 2 amplitudes; a scenario is that of one"),
+        (CASE.oscillator, [0.3, 0.4], "shaking: 2 amplitudes; a scenario is defined for one"),
         (CASE.oscillator, 0.0, "shaking: 0"),
         (
             CASE.oscillator.replace(isolator=vi.Isolator(0.0, 1.0)),
             0.3,
-            "isolator.stiffness: 0 leaves no natural frequency",
+            "isolator.stiffness: 0, so there is no natural frequency",
         ),
     ],
 )

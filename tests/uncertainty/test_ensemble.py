@@ -168,7 +168,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
     [
         ({"distributions": {}}, "distributions: "),
         ({"distributions": {"colour": "normal:5%"}}, "distributions: 'colour'"),
-        ({"distributions": {"gap": 3.0}}, r"distributions\['gap'\]: 3.0 is no distribution"),
+        ({"distributions": {"gap": 3.0}}, r"distributions\['gap'\]: 3.0 is not a distribution"),
         ({"distributions": {"cubic": "normal:5%"}}, "parameter: "),
         ({"distributions": {"damping": "normal:1kN*s/m:1kN*s/m"}}, "a draw is -"),
         (
@@ -184,7 +184,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ({"method": "halton"}, "method: 'halton'"),
         ({"seed": -1}, "seed"),
         ({"block": 0}, "block"),
-        ({"response": 3}, "response: 3 is no function"),
+        ({"response": 3}, "response: 3 is not a function"),
         ({"response": lambda rigs: vi.sweep(rigs[0], [2.0])}, "response: it gives "),
         ({"rig": CASE.oscillator, "distributions": {"amplitude": "normal:5%"}}, "needs a sine"),
         ({"rig": vi.Rig(FREE, [0.1, 0.2])}, "shaking: a list"),

@@ -1,4 +1,4 @@
-"""Points along a curve of the plane, no farther apart than asked for."""
+"""Points along a curve of the plane, no farther apart than required."""
 
 from __future__ import annotations
 

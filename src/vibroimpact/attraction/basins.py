@@ -151,7 +151,7 @@ def basins(
 def _nodes(given: int | tuple[int, int]) -> tuple[int, int]:
     pair = given if isinstance(given, tuple | list) else (given, given)
     if len(pair) != 2:
-        raise InputError(f"nodes: {shown(given)}; one number, or one for each axis, is accepted")
+        raise InputError(f"nodes: {shown(given)}; one number, or one per axis, is accepted")
     return whole(pair[0], "nodes", 2), whole(pair[1], "nodes", 2)
 
 

@@ -138,9 +138,9 @@ class Search:
             return number, int(Status.DONE)
         if len(self.known) == MOST:
             raise InputError(
-                f"oscillator: more than {MOST} motions were found, each of which may be a motion "
-                "of its own state; more damping, a smaller range of states or a larger "
-                f"{MORE_CYCLES} is accepted"
+                f"oscillator: more than {MOST} motions were found, so perhaps every state has "
+                "its own motion; use more damping, a smaller range of states or a larger "
+                f"{MORE_CYCLES}"
             )
         self.known.append(met)
         self._set_traps()

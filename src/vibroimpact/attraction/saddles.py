@@ -76,8 +76,8 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
         saddle = abs(values[0]) > 1.0 > abs(values[1]) and not np.iscomplex(values).any()
         if status or not saddle:
             raise InputError(
-                f"{where}: its multipliers are {values[0]:.4g} and {values[1]:.4g}; an orbit with "
-                "one beyond 1 in size and one below is accepted"
+                f"{where}: its multipliers are {values[0]:.4g} and {values[1]:.4g}; an orbit "
+                "with one multiplier above 1 in absolute value and one below is accepted"
             )
         real, ways = values.real, vectors.real
         found.append(Saddle(here, point[:2].copy(), real[0], ways[:, 0], real[1], ways[:, 1]))
@@ -99,8 +99,8 @@ def check_flies(stage: Stage, orbit: Orbit) -> None:
         if met(stage, point).any():
             raise InputError(
                 f"excitation.phase: {stage.excitation.phase:.6g} rad, at which the saddle at "
-                f"{point[0]:.6g} m presses a stop whose force depends on the speed at which it was "
-                "met, so that no plane holds its curves; a phase at which it flies is accepted"
+                f"{point[0]:.6g} m presses a stop whose force depends on the impact speed, so "
+                "its curves do not lie in a plane; a phase without contact is accepted"
             )
         _, _, point = evaluated(one, point, orbit.facts[0])
 
@@ -118,7 +118,9 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
     start = orbit
     if isinstance(orbit, xr.Dataset):
         if "monodromy" not in orbit or "final_state" not in orbit:
-            raise InputError(f"{where}: it is no orbit; a dataset of orbit, or a State is accepted")
+            raise InputError(
+                f"{where}: it is not an orbit; a dataset of orbit, or a State is accepted"
+            )
         period = int(orbit["period"])
         phase = float(orbit["final_state"].sel(component="phase"))
         if abs(np.sin(0.5 * (phase - stage.excitation.phase))) > 1e-9:

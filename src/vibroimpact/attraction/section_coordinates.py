@@ -1,4 +1,4 @@
-"""Which parts of the stroboscopic state outlive a cycle: what a plane of u and u̇ leaves out."""
+"""Parts of the stroboscopic state that outlast a cycle, which a plane of u and u̇ does not show."""
 
 from __future__ import annotations
 
@@ -41,5 +41,5 @@ def met(stage: Stage, point: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def forgets(stage: Stage) -> bool:
-    """Whether u and u̇ at the section tell all of a motion."""
+    """Whether u and u̇ at the section determine a motion."""
     return not remembered(stage)[2:].any()

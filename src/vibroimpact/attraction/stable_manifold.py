@@ -50,7 +50,7 @@ def stable_curve(saddle: Saddle, side: int, measure: Measure) -> Curve:
         total += measure.length(points)
         if ended:
             return Curve(np.vstack(parts), ended)
-    return Curve(np.vstack(parts), "as many images were made as were asked for")
+    return Curve(np.vstack(parts), "the requested number of images was computed")
 
 
 class _Chains:
@@ -93,7 +93,7 @@ class _Chains:
             total += gap
             if not self.measure.within(found[None], _ROOM)[0]:
                 self._cut(i + 1)
-                return "it leaves the surroundings of the window"
+                return "the curve leaves the surroundings of the window"
             if total > longest:
                 self._cut(i + 1)
                 return "it reaches the largest length"

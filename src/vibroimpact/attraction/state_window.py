@@ -49,7 +49,10 @@ def window(search: Search) -> Window:
         size = max(size, reach(rest, rest.state))
     size = _FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops), 0.0)
     if not size > 0.0:
-        raise InputError("displacement: missing, and nothing moves; a range is accepted")
+        raise InputError(
+            "displacement: missing, and the motion from rest is zero, so there is no default; a "
+            "range is accepted"
+        )
     low, high = walls(stage)
     fast = size * excitation.angular_frequency
     search.label(lattice((max(-size, low), min(size, high)), (-fast, fast), (_LATTICE, _LATTICE)))

@@ -66,7 +66,7 @@ class Path(Protocol[P]):
         """Predict and correct: the point, if it is usable; and whether a corner lies before it."""
 
     def corner(self, here: P, length: float) -> list[P]:
-        """The points at, and just behind, a corner within a step; none if there is none."""
+        """The points at, and just after, a corner within a step; none if there is none."""
 
     def elsewhere(self, here: P) -> P | None:
         """The same solution in other coordinates, in which the curve may be smooth."""

@@ -1,4 +1,4 @@
-"""What each dataset says of itself, and how a rig and its shaking are read back from it."""
+"""Attributes of each dataset, and how a rig and its shaking are read back from it."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def describe(
 
 
 def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:
-    """What a dataset says of where it comes from."""
+    """Attributes that describe the origin of a dataset."""
     return {
         "created_by": created_by,
         "vibroimpact_version": __version__,

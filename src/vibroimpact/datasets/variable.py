@@ -1,4 +1,4 @@
-"""What is said of an output variable."""
+"""Attributes of an output variable."""
 
 from __future__ import annotations
 

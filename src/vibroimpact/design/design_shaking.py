@@ -202,7 +202,7 @@ def design_rig(
         records = found.shaking
     if records is not None:
         if frequency_span is not None:
-            raise InputError("frequency_span: given with records; it is accepted with a sine")
+            raise InputError("frequency_span: not accepted with records, only with a sine")
         return found.oscillator, ByRecords(
             suite(records),
             to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),

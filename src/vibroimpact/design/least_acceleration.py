@@ -252,12 +252,12 @@ def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
     """Return the default ranges of a bumper for this isolator."""
     if not rig.stops or not all(isinstance(stop, Bumper) for stop in rig.stops):
         raise InputError(
-            "ranges: missing; without them the stiffness and damping of bumpers are searched, and "
+            "ranges: missing; the default is to search the stiffness and damping of bumpers, but "
             "this rig has " + ("no stop" if not rig.stops else "another stop")
         )
     spring = rig.isolator.initial_stiffness
     if spring == 0.0:
-        raise InputError("ranges: missing; they are needed for an isolator without a spring")
+        raise InputError("ranges: missing; they are required for an isolator without a spring")
     critical = 2.0 * math.sqrt(spring * rig.mass)
     return {
         "bumper_stiffness": (_STIFFNESSES[0] * spring, _STIFFNESSES[1] * spring),

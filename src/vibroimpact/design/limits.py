@@ -41,7 +41,7 @@ def limits_of(limits: Any) -> dict[str, float]:
 def excesses(data: xr.Dataset) -> list[xr.DataArray]:
     """By how much designs exceed each limit, as a share of it; above 0 where they do.
 
-    Of a limit of 0 it is the value itself. The list is empty where a dataset does not say what its
+    Of a limit of 0 it is the value itself. The list is empty if a dataset does not state what its
     limits are.
     """
     limits = json.loads(data.attrs.get("parameters", "{}")).get("limits", {})

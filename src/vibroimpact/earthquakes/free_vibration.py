@@ -1,4 +1,4 @@
-"""How long a rig is followed behind a record, while its base stands still."""
+"""Duration of free vibration after a record, while the base stands still."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SMALL = 1e-9
 
 
 def free_tail(rig: Rig) -> float:
-    """How long a motion is followed behind a record if nobody says it (s).
+    """Return the default duration of free vibration after a record (s).
 
     Two natural periods with the softest of the isolator's springs, or as long as the record if it
     has none; a minute at most, or as long as the record. The free motion has lost energy by then:

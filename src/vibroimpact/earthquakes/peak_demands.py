@@ -75,7 +75,7 @@ def peaks(
     shaken
         The rigs with their records; all have the same number of factors.
     tail
-        How long each is followed behind its record (s); None for what `free_tail` says.
+        Duration of free vibration after each record (s); None for that of `free_tail`.
     energies
         Whether `ENERGIES` are found, too, which takes several times as long.
     residuals
@@ -92,7 +92,7 @@ def peaks(
     Returns
     -------
     dict of ndarray, shape (shaken, factor)
-        `PEAKS`, what else was asked for, and ``status``: a `Status` each, 0 where the run was
+        `PEAKS`, further requested quantities, and ``status``: a `Status` each, 0 where the run was
         done. All values of another run are NaN but for its status.
     """
     count = len(shaken[0].factors) if shaken else 0

@@ -34,7 +34,7 @@ class Runs(NamedTuple):
 
     @property
     def dims(self) -> tuple[str, ...]:
-        """Those of the rigs, behind record and scale."""
+        """Those of the rigs, after record and scale."""
         return (*(("rig",) if self.several else ()), *(one.name for one in self.varied))
 
     @property
@@ -101,7 +101,7 @@ def suite(records: Any) -> dict[str, Record]:
     Raises
     ------
     InputError
-        If one is no record, or there is none.
+        If one is not a record, or there is none.
     """
     if isinstance(records, Record):
         records = [records]
@@ -124,7 +124,7 @@ def suite(records: Any) -> dict[str, Record]:
 
 
 def digest(record: Record) -> str:
-    """What tells a record from another."""
+    """Content that distinguishes a record from others."""
     return hashlib.sha256(record.acceleration.tobytes() + repr(record.step).encode()).hexdigest()
 
 

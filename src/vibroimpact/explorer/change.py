@@ -57,7 +57,7 @@ def moved(state: State, path: str, value: float | str) -> State:
     sides = SIDES if part == "stops" else (part,)
     present = [side for side in sides if side in SIDES and getattr(rig, side) is not None]
     if not present:
-        raise InputError(f"knob: {shown(path)} is unknown; one of the page is accepted")
+        raise InputError(f"knob: {shown(path)} is unknown; a name that the page offers is accepted")
     for side in present:
         rig = _stop_moved(state, rig, side, name, value)
     return state._replace(oscillator=rig)
@@ -73,7 +73,7 @@ def _stop_moved(
         alone = PARAMETERS[name].vary(Rig(one_sided(rig, side), state.shaking), number)
         return rig.replace(**{side: getattr(alone.oscillator, side)})
     if name not in type(stop).model_fields:
-        raise InputError(f"knob: {shown(name)} is unknown; one of the page is accepted")
+        raise InputError(f"knob: {shown(name)} is unknown; a name that the page offers is accepted")
     return rig.replace(**{side: stop.replace(**{name: value})})
 
 
@@ -111,7 +111,7 @@ def joined(state: State, together: bool) -> State:
 
 
 def chosen(state: State, direction: str, frequency: float | str) -> State:
-    """Return the state with another motion looked at.
+    """Return the state with another selected motion.
 
     Raises
     ------
@@ -129,7 +129,7 @@ def chosen(state: State, direction: str, frequency: float | str) -> State:
 
 
 def looked(state: State, how: Mapping[str, bool]) -> State:
-    """Return the state with pictures asked for or put away, and curves in η or physical.
+    """Return the state with pictures shown or hidden, and curves in η or physical.
 
     Raises
     ------
@@ -143,7 +143,9 @@ def looked(state: State, how: Mapping[str, bool]) -> State:
         elif name in ON_DEMAND:
             (shown_now.add if wanted else shown_now.discard)(name)
         else:
-            raise InputError(f"picture: {shown(name)} is unknown; one of the page is accepted")
+            raise InputError(
+                f"picture: {shown(name)} is unknown; a name that the page offers is accepted"
+            )
     return state._replace(shown=frozenset(shown_now))
 
 

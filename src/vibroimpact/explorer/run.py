@@ -59,7 +59,7 @@ async def serving(
     except OSError as error:
         raise InputError(
             f"host, port: {host} {port} cannot be used ({error.strerror or error}); a free port "
-            "of this machine is accepted, and 0 takes one"
+            "of this machine is accepted, and 0 chooses one"
         ) from None
     async with server:
         told(where)

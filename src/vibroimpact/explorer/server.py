@@ -45,7 +45,7 @@ _MOMENT = 0.1
 """Seconds that a picture which is overtaken is waited for."""
 _SELDOM = 0.3
 """Seconds between two tellings of progress."""
-_ONE_FILE = "file: another one is being made; it will be offered in a moment"
+_ONE_FILE = "file: another file is being written; wait until it is offered"
 _ANY = ("0.0.0.0", "::")
 _LIVE = "/live"
 _PAGES = {"/": "index.html"}
@@ -92,17 +92,17 @@ class Explorer:
         self._files_in = ThreadPoolExecutor(1, "explorer-file")
 
     def answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Answer what is asked for over HTTP; None lets a websocket begin."""
+        """Answer an HTTP request; None starts a websocket."""
         try:
             return self._answered(request)
         except (ValueError, MultipleValuesError):
-            return _refused(HTTPStatus.BAD_REQUEST, "the address or a header is not understood")
+            return _refused(HTTPStatus.BAD_REQUEST, "the address or a header is invalid")
 
     def _answered(self, request: Request) -> Response | None:
         asked, limits = urlsplit(request.path), self._limits()
         host = request.headers.get("Host", "").lower()
         if not limits.token and host not in limits.hosts:
-            return _refused(HTTPStatus.MISDIRECTED_REQUEST, "another host was asked for")
+            return _refused(HTTPStatus.MISDIRECTED_REQUEST, "the request is for another host")
         if asked.path in self._files and asked.path not in _PAGES:
             return _whole(*self._files[asked.path])  # the program itself is no secret
         given = parse_qs(asked.query).get("token", [""])[0]
@@ -111,11 +111,13 @@ class Explorer:
         if asked.path == _LIVE:
             origin = request.headers.get("Origin", "")
             if urlsplit(origin).netloc.lower() != host:
-                return _refused(HTTPStatus.FORBIDDEN, "a page of another origin asks")
+                return _refused(
+                    HTTPStatus.FORBIDDEN, "the request comes from a page of another origin"
+                )
             return None
         if asked.path in _PAGES:
             return _whole(*self._files[asked.path])
-        return _refused(HTTPStatus.NOT_FOUND, "there is no such page")
+        return _refused(HTTPStatus.NOT_FOUND, "this page does not exist")
 
     async def live(self, connection: ServerConnection) -> None:
         """Serve one page as long as it is open."""
@@ -155,7 +157,7 @@ class Explorer:
     async def _pictures(
         self, session: Session, awake: asyncio.Event, send: Callable[[str], Awaitable[None]]
     ) -> None:
-        """Make what the newest state asks for, whenever it has changed.
+        """Make the pictures of the newest state whenever it changes.
 
         What is overtaken is not waited for, so that a knob answers at once; but no second long
         picture is begun while one that was left goes on.
@@ -192,7 +194,7 @@ class Explorer:
     async def _made(
         self, session: Session, stage: Stage, asked: int, send: Callable[[str], Awaitable[None]]
     ) -> str:
-        """One picture as it is sent, or why there is none."""
+        """Return one picture as it is sent, or the reason why it is missing."""
         loop, told = asyncio.get_running_loop(), time.monotonic()
 
         def progress(done: int, total: int | None) -> None:
@@ -247,7 +249,7 @@ class Explorer:
 
 
 async def _ready(task: asyncio.Task[str], awake: asyncio.Event | None) -> bool:
-    """Wait for a picture; no longer than a moment once another is asked for."""
+    """Wait for a picture; only briefly once another is requested."""
     if awake is None:
         await asyncio.wait({task})
         return True

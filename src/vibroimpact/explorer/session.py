@@ -28,7 +28,7 @@ from vibroimpact.tasks.threads import Progress, Stopped
 Message = dict[str, Any]
 MOST_SECONDS = 60.0
 """For one picture; the work that a page can ask for is bounded."""
-_NO_NUMBER = "value: it makes a rig whose numbers have no bound; a moderate one is accepted"
+_NO_NUMBER = "value: it leads to a rig with unbounded numbers; a moderate value is accepted"
 _PATIENCE = 0.25
 """Seconds that a coarse picture is waited for though another is asked for."""
 
@@ -83,7 +83,7 @@ class Session:
         }
 
     def take(self, message: object) -> Message:
-        """Do what a page asks for, and say what it has become.
+        """Handle a message of a page, and return the answer.
 
         Returns
         -------
@@ -91,7 +91,7 @@ class Session:
             ``state`` with the knobs; or ``refused`` with the reason, and nothing has changed.
         """
         if not isinstance(message, dict) or not isinstance(message.get("do"), str):
-            return {"refused": "message: not understood; what the page sends is accepted"}
+            return {"refused": "message: not understood; a message of the page is accepted"}
         number = message.get("n") if isinstance(message.get("n"), int) else None
         try:
             history = self._next(message)
@@ -146,7 +146,7 @@ class Session:
             point = (_number(message, "x"), _number(message, "y"))
             gesture = str(message.get("gesture") or "")[:40]
             return history.to(change.placed(now, *point), gesture)
-        raise InputError(f"message: {shown(do)} is unknown; what the page sends is accepted")
+        raise InputError(f"message: {shown(do)} is unknown; an action of the page is accepted")
 
     def stages(self) -> Iterator[Stage]:
         """Return what is to be made of the state now, quick pictures first."""
@@ -222,8 +222,8 @@ class Session:
                 raise Stopped
             if taken > MOST_SECONDS:
                 raise InputError(
-                    f"{stage.kind}: given up after {MOST_SECONDS:g} s; a rig with more damping, or "
-                    "less of what is shown, takes less"
+                    f"{stage.kind}: given up after {MOST_SECONDS:g} s; more damping, or fewer "
+                    "pictures, reduce the time"
                 )
             if progress:
                 progress(done, total)

@@ -25,7 +25,7 @@ _LONGEST_NAME = 80
 
 
 def address(state: State) -> str:
-    """Return what stands behind the ``#`` of a page that shows this state."""
+    """Return the part after ``#`` of the address of a page that shows this state."""
     table = {
         "name": state.name,
         "oscillator": state.oscillator.model_dump(),
@@ -55,13 +55,13 @@ def from_address(text: object) -> State:
         If it is none, or a value in it cannot be used.
     """
     if not isinstance(text, str) or not 0 < len(text) <= MOST:
-        raise InputError(f"address: {shown(text)}; one that this page has written is accepted")
+        raise InputError(f"address: {shown(text)}; an address written by this page is accepted")
     try:
         padded = text + "=" * (-len(text) % 4)
         table = json.loads(base64.b64decode(padded, altchars=b"-_", validate=True))
     except (binascii.Error, UnicodeDecodeError, ValueError, RecursionError):
         raise InputError(
-            "address: not readable; one that this page has written is accepted"
+            "address: not readable; an address written by this page is accepted"
         ) from None
     return _from_table(table)
 
@@ -72,14 +72,16 @@ def _from_table(table: Any) -> State:
         "together", "physical", "shown",
     }  # fmt: skip
     if not isinstance(table, dict) or set(table) != fields:
-        raise InputError("address: not complete; one that this page has written is accepted")
+        raise InputError("address: not complete; an address written by this page is accepted")
     name, of, direction, span = (table[key] for key in ("name", "of", "direction", "span"))
     if not isinstance(name, str) or len(name) > _LONGEST_NAME or not name.isprintable():
         raise InputError(
             f"address: name: {shown(name)}; up to {_LONGEST_NAME} letters are accepted"
         )
     if direction not in get_args(Direction) or of not in list(QUANTITIES):
-        raise InputError("address: a choice in it is unknown; one of the page is accepted")
+        raise InputError(
+            "address: it contains an unknown choice; the choices of the page are accepted"
+        )
     if not (isinstance(span, list) and len(span) == 2):
         raise InputError(f"address: span: {shown(span)}; two frequencies are accepted")
     oscillator = Oscillator.model_validate(table["oscillator"], where="oscillator")

@@ -17,9 +17,10 @@ MOST_STEPS = 100
 LOWEST, HIGHEST = 0.45, 4.5
 """Range of the sweeps over the natural frequency, as wide as that of the published tests."""
 _CHOSEN = 1.8
-"""The frequency looked at first, over the natural one: hysteresis of the published rig."""
+"""Initial frequency divided by the natural frequency: within the hysteresis of the published
+rig."""
 ON_DEMAND = ("branch", "map", "basins")
-"""Pictures that are made only where they are asked for."""
+"""Pictures that are made on request only."""
 
 
 class State(NamedTuple):
@@ -29,7 +30,7 @@ class State(NamedTuple):
     """Of the rig it began with."""
     oscillator: Oscillator
     shaking: Harmonic
-    """Its frequency is the one whose motion is looked at."""
+    """Its frequency is that of the selected motion."""
     span: tuple[float, float]
     """Lowest and highest frequency of the sweeps, Hz."""
     direction: Direction = "forward"
@@ -39,7 +40,7 @@ class State(NamedTuple):
     physical: bool = False
     """Whether the curves are in mm and g rather than η."""
     shown: frozenset[str] = frozenset()
-    """Which pictures of `ON_DEMAND` are asked for."""
+    """Pictures of `ON_DEMAND` that are shown."""
 
     @property
     def rig(self) -> Rig:
@@ -63,7 +64,7 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     Raises
     ------
     InputError
-        If it is no rig, is not shaken by one sine, or its mass has no spring.
+        If it is not a rig, is not shaken by one sine, or its mass has no spring.
     """
     given = one_sine(as_rig(rig), "amplitude")
     oscillator, shaken = given.oscillator, given.sine

@@ -58,7 +58,7 @@ def text(
 ) -> Iterator[RenderableType]:
     """Return sentences, and a table of the designs that no other design dominates.
 
-    ``chosen`` says whether an option states the gap of the rig.
+    ``chosen`` states whether an option sets the gap of the rig.
     """
     share = fractile_of(gap)
     yield Text()

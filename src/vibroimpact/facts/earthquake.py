@@ -104,7 +104,7 @@ def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
 
 
 def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> str:
-    """Return a sentence that says whether the mass hits its stops, and how hard."""
+    """Return a sentence that states whether the mass hits its stops, and how hard."""
     if not rig.stops:
         return "The rig has no stops."
     counts = {side: int(response[f"impact_count_{side}"]) for side in _SIDES}

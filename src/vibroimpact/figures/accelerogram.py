@@ -1,4 +1,4 @@
-"""A record against time, with its peak, and its response spectrum below it."""
+"""A record over time, with its peak, and its response spectrum."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ def accelerogram(
     *,
     title: str | None = None,
 ) -> Panels:
-    """Draw a record with its peak, and below it its response spectrum.
+    """Draw a record over time with its peak, and its response spectrum below.
 
     Parameters
     ----------
     record
         The record.
     spectrum
-        Dataset of `response_spectrum` of it. None leaves that panel out.
+        Dataset of `response_spectrum` of the record. Default: no such panel.
     axes
-        As many Axes as there are panels. None makes a new figure.
+        Axes to draw on, one per panel. None makes a new figure.
     title
         Title of a new figure.
 
@@ -42,7 +42,7 @@ def accelerogram(
     Raises
     ------
     InputError
-        If it is no record, or there is another number of axes.
+        If it is not a record, or the number of axes is wrong.
     """
     if not isinstance(record, Record):
         raise InputError(f"record: {type(record).__name__}; a Record is accepted")

@@ -1,4 +1,4 @@
-"""Shares of states by the motion that they lead to, along a parameter."""
+"""Basin stability over a parameter: shares of the states that lead to each motion."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import LEGEND
 
 _ROUNDING = 1e-9
-"""Of a sum of shares, in per cent."""
+"""Rounding error of a sum of shares (per cent)."""
 
 
 def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
-    """Draw shares along a parameter, one on top of the other, with their intervals.
+    """Draw stacked basin shares over a parameter, with their intervals.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ def basin_portrait(
     shade: bool = True,
     title: str | None = None,
 ) -> Axes:
-    """Draw which states lead to which motion: an area a motion, its section as numbered points.
+    """Draw basins of attraction as one area per motion, with its section as numbered points.
 
     Parameters
     ----------
@@ -56,14 +56,15 @@ def basin_portrait(
         Dataset of `vibroimpact.manifolds` for the same rig: stable curves are drawn solid,
         unstable ones dashed, saddles as crosses, and where the curves cross as dots.
     shade
-        Whether colours are darker where it takes more cycles until it is sure where a state leads.
+        Whether colours are darker where more cycles are needed until the motion of a state is
+        certain.
     title
         Title of a new figure.
 
     Raises
     ------
     InputError
-        If the dataset has no basins, or the other no curves.
+        If ``data`` has no basins, or ``manifolds`` no curves.
     """
     if "basin" not in data or data["basin"].ndim != 2:
         raise InputError("data: it has no basins; a dataset of basins is accepted")
@@ -86,7 +87,7 @@ def basin_portrait(
     if more > 0:
         handles.append(Patch(facecolor="none", label=f"and {more} more"))
     labels = data["basin"].values
-    for code, colour, text in ((-1, _GIVEN_UP, "given up"), (-2, _BEHIND, "behind a stop")):
+    for code, colour, text in ((-1, _GIVEN_UP, "given up"), (-2, _BEHIND, "beyond a stop")):
         if (labels == code).any():
             handles.append(Patch(facecolor=colour, edgecolor="0.4", linewidth=0.5, label=text))
     for number, one in enumerate(_motions(data)):
@@ -115,7 +116,7 @@ def basin_portrait(
 
 
 def colour_of(number: int) -> str:
-    """The colour of a motion."""
+    """Return the colour of a motion."""
     return COLOURS[number % len(COLOURS)]
 
 
@@ -202,7 +203,7 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
         if (data["curve_kind"] == kind).any():
             handles.append(line)
     for name, marker, size, label in (
-        ("crossing", ".", 3.0, "where they cross"),
+        ("crossing", ".", 3.0, "crossings"),
         ("saddle", "X", 8.0, "saddles"),
     ):
         if data.sizes[name]:

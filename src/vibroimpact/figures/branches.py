@@ -1,4 +1,4 @@
-"""Branches of orbits: stable solid, unstable dashed, bifurcations marked."""
+"""Branches of orbits: stable parts solid, unstable parts dashed, bifurcations marked."""
 
 from __future__ import annotations
 
@@ -54,10 +54,10 @@ def branch_diagram(
     sweep: xr.Dataset | None = None,
     title: str | None = None,
 ) -> Axes:
-    """Draw branches of periodic orbits against their parameter.
+    """Draw branches of periodic orbits over their parameter.
 
-    Each longer part is named by its impacts in a period: 2R 1L are two on the right bumper and
-    one on the left.
+    Stable parts are solid, unstable parts dashed. Longer parts are labelled by their impacts per
+    period: 2R 1L means two on the right bumper and one on the left.
 
     Parameters
     ----------
@@ -70,15 +70,15 @@ def branch_diagram(
         ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force_right"`` or
         ``"peak_force_left"``.
     sweep
-        Dataset of `sweep` over the same frequencies, whose holds are drawn as marks.
+        Dataset of `sweep` over the same frequencies, drawn as marks.
     title
         Title of a new figure.
 
     Raises
     ------
     InputError
-        If the dataset holds no branch, the quantity is another one, or a sweep is given for
-        another parameter than the frequency.
+        If the dataset holds no branch, the quantity is unknown, or a sweep is given although the
+        parameter is not the frequency.
     """
     if "parameter" not in data.attrs or "branch" not in data:
         another = (
@@ -95,7 +95,7 @@ def branch_diagram(
             f"sweep: the branches are along {name!r}; those along 'frequency' are accepted"
         )
     if sweep is not None and "direction" not in sweep.coords:
-        raise InputError("sweep: this is no sweep; a dataset of sweep is accepted")
+        raise InputError("sweep: this is not a sweep; a dataset of sweep is accepted")
     factor, label = axis_label(data[quantity], quantity)
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])
@@ -162,7 +162,7 @@ def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
 
 
 def axis_unit(values: xr.DataArray) -> tuple[float, str]:
-    """Factor and unit in which a parameter is drawn: lengths in mm, others as they are large."""
+    """Return factor and unit of a parameter's axis: lengths in mm, others by their size."""
     units = str(values.attrs["units"])
     if units == "m":
         return 1e3, "mm"

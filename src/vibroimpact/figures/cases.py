@@ -17,7 +17,7 @@ _PER_GRAVITY = 1e2 / 9.80665
 
 
 def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Panels:
-    """Draw the scenarios of laboratory tests: a panel an acceleration, gaps against bumpers.
+    """Draw the scenarios of laboratory tests over gap and bumper, one panel per acceleration.
 
     Parameters
     ----------
@@ -30,17 +30,17 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
     Returns
     -------
     tuple of Axes
-        One an acceleration, rising; ``axes[0].figure`` is the figure.
+        One per acceleration, rising; ``axes[0].figure`` is the figure.
 
     Raises
     ------
     InputError
-        If a code is none of the laboratory's tests, or a scenario is another one.
+        If a code is not a laboratory test, or a scenario is unknown.
     """
     known = {case.code for case in laboratory.campaign()}
     for code, scenario in found.items():
         if code not in known:
-            raise InputError(f"found: {code!r} is no laboratory test; B1-G1-A1 to B4-G4-A3 are")
+            raise InputError(f"found: {code!r} is not a laboratory test; B1-G1-A1 to B4-G4-A3 are")
         if scenario not in SCENARIOS:
             raise InputError(
                 f"found[{code}]: {scenario!r}; one of {', '.join(SCENARIOS)} is accepted"

@@ -29,7 +29,7 @@ def clearances(
     zoom: float | None = None,
     title: str | None = None,
 ) -> Panels:
-    """Draw the clearances of equation 4, G_R and G_L, against t/T, and magnified near zero.
+    """Draw the clearances of equation 4, G_R and G_L, over t/T, with a magnified part near zero.
 
     Parameters
     ----------
@@ -38,10 +38,10 @@ def clearances(
     axes
         Two Axes: the whole, and the magnified part. None makes a new figure.
     cycles
-        How many forcing cycles are shown. None for two, or as many more as make whole periods.
+        Number of forcing cycles. Default: two, or more to complete whole periods.
     zoom
-        Length of the magnified part in forcing cycles, about the shortest flight. None for five
-        times as long as that.
+        Length of the magnified part in forcing cycles, around the shortest flight. Default: five
+        times as long as that flight.
     title
         Title of a new figure.
 
@@ -53,7 +53,7 @@ def clearances(
     given_motions = named(motions)
     curves = shown(given_motions, cycles_shown(given_motions, cycles, 2))
     if not any(curve.gaps for curve in curves):
-        raise InputError("motions: there is no bumper; a motion of a rig with one is accepted")
+        raise InputError("motions: they have no bumper; a motion of a rig with one is accepted")
     if zoom is not None and not 0.0 < zoom < math.inf:
         raise InputError(f"zoom: {zoom!r}; a number of cycles greater than 0 is accepted")
     what = "the whole and the magnified part"

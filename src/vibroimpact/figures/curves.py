@@ -28,13 +28,13 @@ def bifurcation_curves(
     *,
     title: str | None = None,
 ) -> Axes:
-    """Draw curves of bifurcations, cusps marked, the second parameter upwards.
+    """Draw curves of bifurcations over two parameters, with their cusps.
 
     Parameters
     ----------
     curves
-        Dataset of `bifurcation_curve`, or several by name, in the same two parameters. Names
-        stand on the curves, unless they are those of the kinds.
+        Dataset of `bifurcation_curve`, or several by name, in the same two parameters. Names are
+        written on the curves, unless they are those of the kinds.
     ax
         Axes to draw on. None makes a new figure.
     title
@@ -51,7 +51,7 @@ def bifurcation_curves(
     else:
         names, given = [""], [curves]
     if not given or any("other_parameter" not in data.attrs for data in given):
-        raise InputError("curves: there is none; a dataset of bifurcation_curve is accepted")
+        raise InputError("curves: empty; at least one dataset of bifurcation_curve is accepted")
     pairs = {(data.attrs["parameter"], data.attrs["other_parameter"]) for data in given}
     if len(pairs) > 1:
         raise InputError(f"curves: they are in {sorted(pairs)}; one pair of parameters is accepted")

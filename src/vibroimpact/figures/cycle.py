@@ -1,4 +1,4 @@
-"""Absolute acceleration against relative displacement, as in the paper's Fig. 4a."""
+"""Absolute acceleration over relative displacement, as in the paper's Fig. 4a."""
 
 from __future__ import annotations
 
@@ -16,16 +16,17 @@ def hysteresis_cycle(
     *,
     title: str | None = None,
 ) -> Axes:
-    """Draw absolute acceleration against relative displacement.
+    """Draw absolute acceleration over relative displacement.
 
-    Times minus the mass, this is the force of isolator and bumpers on the mass; the area inside
-    is the energy that they take in a period. Where contact begins it jumps.
+    Multiplied by minus the mass, the acceleration is the force of isolator and bumpers on the mass.
+    The enclosed area is proportional to the energy that they dissipate per period. The acceleration
+    jumps where contact begins.
 
     Parameters
     ----------
     motions
-        Dataset of `steady`, or of `simulate` with samples, through a `Record`, too; or several
-        of them by name. One whose name holds "forward" is red, "backward" blue.
+        Dataset of `steady`, or of `simulate` with samples, including motions through a `Record`; or
+        several of them by name. A name that contains "forward" is drawn red, "backward" blue.
     ax
         Axes to draw on. None makes a new figure.
     title

@@ -39,25 +39,25 @@ def incremental_curves(
     limit: float | None = None,
     title: str | None = None,
 ) -> Axes:
-    """Draw a peak over the level of shaking: a grey curve a record, and the fractiles.
+    """Draw incremental dynamic analysis curves: one grey curve per record, and the fractiles.
 
     Parameters
     ----------
     demands
-        Dataset of `demands` of one rig: choose one by ``isel`` or ``sel`` where there are several.
+        Dataset of `demands` of one rig; choose one of several by ``isel`` or ``sel``.
     ax
         Axes to draw on. None makes a new figure.
     quantity
-        One of its peaks.
+        Name of one of its peaks.
     limit
-        A value of the peak (SI units) that is drawn as a line, such as the gap.
+        Value of the peak (SI units) that is drawn as a line, such as the gap.
     title
         Title of a new figure.
 
     Raises
     ------
     InputError
-        If it is no such dataset, has fewer than two scales, or holds several rigs.
+        If it is not such a dataset, has fewer than two scales, or holds several rigs.
     """
     if isinstance(ax, str):
         raise InputError(f"ax: {ax!r}; axes are accepted, and a peak as quantity={ax!r}")
@@ -97,10 +97,10 @@ def fragility_curves(
 ) -> Axes:
     """Draw a fragility curve, its confidence band, and the shares of the records as marks.
 
-    The legend has its median θ and its dispersion β. A curve whose interval is unbounded, because
-    too few records begin to exceed within the levels, has no band; the legend says so. Where the
-    records determine no curve there are marks alone, and the legend says which levels would give
-    one.
+    The legend contains the median θ and the dispersion β. A curve whose interval is unbounded,
+    because too few records begin to exceed within the levels, has no band; the legend notes this.
+    If the records do not determine a curve, only the marks are drawn, and the legend states which
+    levels are needed.
 
     Parameters
     ----------
@@ -114,17 +114,19 @@ def fragility_curves(
     Raises
     ------
     InputError
-        If it is no such dataset, or has more curves than can be told apart.
+        If it is not such a dataset, or has more curves than can be distinguished.
     """
     if not isinstance(fragility, xr.Dataset) or "fitted_probability" not in fragility:
-        raise InputError("fragility: this is no fragility; a dataset of fragility is accepted")
+        raise InputError(
+            "fragility: this is not a fragility result; a dataset of fragility is accepted"
+        )
     from scipy.special import ndtr, ndtri
 
     others = [str(dim) for dim in fragility["median_capacity"].dims]
     if len(others) > 1 or fragility["median_capacity"].size > len(_LOOKS):
         raise InputError(
-            f"fragility: {fragility['median_capacity'].size} curves; at most {len(_LOOKS)}, over "
-            "one dim, are accepted"
+            f"fragility: {fragility['median_capacity'].size} curves; at most {len(_LOOKS)} "
+            "curves over one dim are accepted"
         )
     ax = axes_or_new(ax, (5.6, 4.0), title)
     unit, symbol = _level_unit(fragility)
@@ -157,7 +159,7 @@ def fragility_curves(
             words = f"{whole}: {words}"
         bounded = not np.isinf(one["median_capacity_bound"].values).any()
         if not bounded:
-            words += " (no band: too few records begin within the levels)"
+            words += " (no band: too few records reach the limit within the levels)"
         ax.plot(
             fine,
             ndtr((np.log(fine) - np.log(median)) / spread),
@@ -201,7 +203,7 @@ def _one_rig(values: xr.DataArray, what: str) -> None:
     others = [str(dim) for dim in values.dims if dim not in ("record", "scale")]
     if others:
         raise InputError(
-            f"{what}: over {', '.join(others)}, too; those of one rig are accepted, as "
+            f"{what}: over {', '.join(others)}as well; curves of one rig are accepted, such as "
             f"demands.isel({others[0]}=0)"
         )
     if values.sizes["scale"] < 2:

@@ -1,4 +1,4 @@
-"""Design charts: displacement and acceleration over parameters, and what no design beats."""
+"""Design charts: displacement and acceleration over parameters, and Pareto fronts."""
 
 from __future__ import annotations
 
@@ -47,30 +47,30 @@ def design_chart(
     quantities: tuple[str, ...] = ("peak_displacement", "peak_acceleration"),
     title: str | None = None,
 ) -> Panels:
-    """Draw the demands on designs over one parameter, or as contours over two.
+    """Draw the demands of designs over one parameter, or as contours over two.
 
-    A contour line has its value on it, where there is room. Dots mark designs that no other one
-    beats. The thick dashed line goes through the first of the designs that hit nothing: the gap
-    that is needed lies before it, and is that of `required_gap`. What is hatched exceeds a limit.
-    Its edge is interpolated between the designs, on the axes' scales, as the contour lines are; but
-    it lies half-way to a design that was given up or has no bound, and half-way between all designs
-    if the dataset does not say what the limits are.
+    Contour lines carry their values where there is room. Dots mark Pareto-optimal designs. The
+    thick dashed line connects the first designs that hit nothing; the required gap is slightly
+    smaller, see `required_gap`. Hatched areas exceed a limit. Their edges are interpolated between
+    the designs, on the scales of the axes, as the contour lines are. An edge is half-way to a
+    design that was given up or is unbounded, and half-way between all designs if the dataset does
+    not contain the limits.
 
     Parameters
     ----------
     data
         Dataset of `design_chart` over one or two parameters, with two values or more of each.
     axes
-        Axes to draw on, one a quantity. None makes a new figure.
+        Axes to draw on, one per quantity. None makes a new figure.
     quantities
-        What is drawn: ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force"``.
+        Quantities to draw: ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force"``.
     title
         Title of a new figure.
 
     Raises
     ------
     InputError
-        If it is no such dataset.
+        If it is not such a dataset.
     """
     dims = _dims(data)
     for name in quantities:
@@ -91,10 +91,10 @@ def design_chart(
 
 
 def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
-    """Draw acceleration over displacement of all designs, with the front that none beats.
+    """Draw acceleration over displacement of all designs, with the Pareto front.
 
-    A few designs of the front, evenly along it, have numbers, and their parameters beside the axes.
-    Crosses exceed a limit.
+    Some designs, evenly along the front, are numbered, and their parameters are listed next to the
+    axes. Crosses mark designs that exceed a limit.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     Raises
     ------
     InputError
-        If it is no such dataset, or no design is known.
+        If it is not such a dataset, or no design was computed.
     """
     dims = _dims(data)
     u, a = (
@@ -118,7 +118,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     best = data["pareto"].values.ravel().astype(bool)
     finite = np.isfinite(u) & np.isfinite(a)
     if not finite.any():
-        raise InputError("data: no design was done; a dataset with one or more is accepted")
+        raise InputError("data: no design was completed; at least one is required")
     ax = axes_or_new(ax, (6.4, 4.8), title)
     hits = data["hitting"].values.ravel() > 0.0
     beyond = _beyond(data).ravel()
@@ -224,7 +224,7 @@ def _best(data: xr.Dataset) -> str:
 
 def _dims(data: Any) -> list[str]:
     if not isinstance(data, xr.Dataset) or "pareto" not in data:
-        raise InputError("data: this is no design; a dataset of design is accepted")
+        raise InputError("data: this is not a design; a dataset of design is accepted")
     return [str(dim) for dim in data["pareto"].dims]
 
 

@@ -1,4 +1,4 @@
-"""A record and what it does to a rig, on one page."""
+"""A record and the response of a rig on one page."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ def earthquake_page(
 ) -> Panels:
     """Draw a motion through a record on one page.
 
-    The record; the displacement between the stops; the absolute acceleration, in which triangles
-    mark the beginning of each contact; the force of isolator and stops over the displacement; and
-    response spectra.
+    The page shows the record; the displacement between the stops; the absolute acceleration, with
+    triangles at the start of each contact; the force of isolator and stops over the displacement;
+    and response spectra.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def earthquake_page(
         Dataset of `simulate` through a `Record`, with samples.
     spectra
         Datasets of `response_spectrum` of one damping ratio by name, such as those of the ground
-        and of the mass (`floor_record`). None leaves that panel out.
+        and of the mass (`floor_record`). Default: no such panel.
     title
         Title of the page.
 
@@ -57,7 +57,7 @@ def earthquake_page(
     Raises
     ------
     InputError
-        If the dataset is not that of a motion through a record, or a spectrum is none.
+        If the dataset is not that of a motion through a record, or a spectrum is invalid.
     """
     stops = stops_of(motion)
     figure = Drawing(figsize=(7.2, 9.4), layout="constrained")
@@ -150,7 +150,8 @@ def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
     for i, (name, spectrum) in enumerate(spectra.items()):
         if "spectral_acceleration" not in spectrum or spectrum["spectral_acceleration"].ndim != 1:
             raise InputError(
-                f"spectra[{name!r}]: this is no response spectrum of one damping ratio; a dataset "
+                f"spectra[{name!r}]: this is not a response spectrum of one damping ratio; a "
+                "dataset "
                 "of response_spectrum with several periods is accepted"
             )
         ax.plot(

@@ -1,4 +1,4 @@
-"""Resonance curves of uncertain rigs as bands, and which parameter makes their width."""
+"""Resonance curves of uncertain rigs as bands, and sensitivity indices."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ def resonance_bands(
     nominal: xr.Dataset | None = None,
     title: str | None = None,
 ) -> Panels:
-    """Draw fractiles of the resonance curves of an ensemble: the median, and a band about it.
+    """Draw fractiles of the resonance curves of an ensemble: the median, and a band around it.
 
     Parameters
     ----------
     data
         Dataset of `ensemble` of sweeps.
     axes
-        As many axes as quantities. None makes a new figure.
+        Axes to draw on, one per quantity. None makes a new figure.
     quantities
-        Variables of the sweeps, a panel each.
+        Variables of the sweeps, one panel each.
     shares
         Shares of the rigs below the lower and the upper end of the band.
     nominal
@@ -51,12 +51,13 @@ def resonance_bands(
     Raises
     ------
     InputError
-        If the dataset is no ensemble of sweeps, or has no such quantity.
+        If the dataset is not an ensemble of sweeps, or has no such quantity.
     """
     if not {"sample", "direction", "frequency"} <= set(data.dims):
         raise InputError(
-            f"data: a dataset with the dims {dict(data.sizes)} is no ensemble of sweeps; one of "
-            "ensemble is accepted, whose response are sweeps"
+            f"data: a dataset with the dims {dict(data.sizes)} is not an ensemble of sweeps; one "
+            "of "
+            "ensemble is acceptedof sweeps"
         )
     low, high = shares
     if not 0.0 <= low < 0.5 < high <= 1.0:
@@ -116,10 +117,10 @@ def resonance_bands(
 
 
 def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
-    """Draw Sobol's indices: what each parameter makes alone, and together with others.
+    """Draw Sobol's indices of each parameter: its variance share alone, and with interactions.
 
-    Of one number as bars, with their intervals if the dataset has them; of a curve, such as that
-    over the frequency, as lines of the total order.
+    The indices of one number are drawn as bars, with their intervals if the dataset has them; those
+    of a curve, such as one over frequency, as lines of the total order.
 
     Parameters
     ----------
@@ -133,10 +134,12 @@ def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | N
     Raises
     ------
     InputError
-        If the dataset is none of `sensitivity`, or holds more than a curve.
+        If it is not a dataset of `sensitivity`, or holds more than one curve.
     """
     if "total_order" not in data:
-        raise InputError("data: this holds no indices; a dataset of sensitivity is accepted")
+        raise InputError(
+            "data: it has no sensitivity indices; a dataset of sensitivity is accepted"
+        )
     others = [dim for dim in data["total_order"].dims if dim != "uncertain_parameter"]
     if len(others) > 1:
         raise InputError(
@@ -159,7 +162,7 @@ def _bars(ax: Axes, data: xr.Dataset) -> None:
     at = np.arange(len(names))
     for shift, name, label, colour, hatch in (
         (-0.18, "first_order", "by itself", "#1f4fbf", ""),
-        (0.18, "total_order", "with all that it does together with others", "white", "////"),
+        (0.18, "total_order", "with interactions", "white", "////"),
     ):
         values = data[name].values
         errors = None

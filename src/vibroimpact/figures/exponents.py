@@ -34,12 +34,10 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
     Raises
     ------
     InputError
-        If the dataset has no exponents, or has them over several parameters or over none.
+        If the dataset has no exponents, or does not have them over exactly one parameter.
     """
     if "exponents" not in data or "exponent" not in data["exponents"].dims:
-        raise InputError(
-            "data: there are no exponents; a dataset of lyapunov_exponents is accepted"
-        )
+        raise InputError("data: it has no exponents; a dataset of lyapunov_exponents is accepted")
     found = data[["exponents", "exponents_uncertainty"]]
     if "rig" not in found.dims:
         found = found.expand_dims("rig")

@@ -79,9 +79,9 @@ def resonance_family(
     legend: bool = True,
     title: str | None = None,
 ) -> Axes:
-    """Draw one quantity of several rigs against the excitation frequency.
+    """Draw one quantity of several rigs over the excitation frequency.
 
-    Each rig has its colour and its marker. The forward sweep is solid and carries the markers,
+    Each rig has its own colour and marker. The forward sweep is solid and carries the markers,
     the backward sweep is dashed; arrows show where a sweep jumps.
 
     Parameters
@@ -93,14 +93,14 @@ def resonance_family(
     quantity
         ``"eta_a"``, ``"eta_d"``, ``"acceleration_excursion"`` or ``"displacement_excursion"``.
     labels
-        Text of the legend by name of a rig; otherwise its name.
+        Text of the legend by name of a rig. Default: its name.
     colours
-        Colour by name of a rig; otherwise in turn.
+        Colour by name of a rig. Default: in turn.
     markers
-        Number of the marker by name of a rig, so that a rig looks the same in panels that do not
-        show all of them; otherwise in turn.
+        Number of the marker by name of a rig, so that a rig looks the same in panels that show
+        different rigs. Default: in turn.
     free
-        Whether free flight is drawn, if it is the same for all rigs.
+        Whether the motion without stops is drawn, if it is the same for all rigs.
     legend
         Whether there is a legend, to the right of the axes. `family_legend` gives its entries.
     title
@@ -114,11 +114,11 @@ def resonance_family(
     Raises
     ------
     InputError
-        If the dataset is not that of sweeps of several rigs, the quantity is another one, or a
-        label, a colour or a marker is for no rig.
+        If the dataset is not that of sweeps of several rigs, the quantity is unknown, or a label, a
+        colour or a marker names an unknown rig.
     """
     if not isinstance(data, xr.Dataset) or not {"rig", "direction", "frequency"} <= set(data.dims):
-        raise InputError("data: these are no sweeps of rigs; a dataset of sweeps is accepted")
+        raise InputError("data: these are not sweeps of rigs; a dataset of sweeps is accepted")
     if quantity not in get_args(Quantity):
         accepted = ", ".join(get_args(Quantity))
         raise InputError(f"quantity: {quantity!r}; one of {accepted} is accepted")
@@ -126,7 +126,7 @@ def resonance_family(
     for field, given in (("labels", labels), ("colours", colours), ("markers", markers)):
         for name in given or {}:
             if name not in names:
-                raise InputError(f"{field}: {name!r} is no rig; {', '.join(names)} are accepted")
+                raise InputError(f"{field}: {name!r} is not a rig; {', '.join(names)} are accepted")
     ax = axes_or_new(ax, (8.4, 5.0), title)
     factor, label, flight, normalised = _QUANTITIES[quantity]
     frequency = data["frequency"].values
@@ -166,7 +166,7 @@ def resonance_family(
 
 
 def family_legend(ax: Axes) -> list[Artist]:
-    """Entries for the curves of a `resonance_family`: the rigs in order, then the directions."""
+    """Return legend entries for a `resonance_family`: the rigs in order, then the directions."""
     rigs = [line for line in ax.lines if not str(line.get_label()).startswith("_")]
     dashes = [
         Line2D([], [], color="0.3", linestyle=look.dashes, linewidth=1.2, label=look.label)

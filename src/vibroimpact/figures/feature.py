@@ -23,7 +23,7 @@ _LETTER = 0.62
 def feature_map(
     data: xr.Dataset, name: str, ax: Axes | None = None, *, title: str | None = None
 ) -> Axes:
-    """Draw one feature of a map of scenarios: light where it is small, dark where it is large.
+    """Draw one feature of a map of scenarios: light for small values, dark for large ones.
 
     Parameters
     ----------
@@ -39,10 +39,10 @@ def feature_map(
     Raises
     ------
     InputError
-        If the dataset is no map, or has no such feature.
+        If the dataset is not a map, or has no such feature.
     """
     if "scenario" not in data or data["scenario"].ndim != 2:
-        raise InputError("data: this is no map; a dataset of scenario_map is accepted")
+        raise InputError("data: this is not a map; a dataset of scenario_map is accepted")
     known = [str(n) for n in data.data_vars if n not in ("scenario", "level")]
     if name not in known:
         raise InputError(f"name: {name!r}; one of {', '.join(known)} is accepted")

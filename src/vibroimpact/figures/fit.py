@@ -1,4 +1,4 @@
-"""Figures of a fit: what it leaves, how well each parameter is known, histories beside it."""
+"""Figures of a fit: residuals, profiles of the parameters, and histories."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ _UNITS = {"m": (1e3, "mm"), "m s-1": (1.0, "m/s"), "m s-2": (1.0, "m/s²"), "1":
 
 
 def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
-    """Draw what a fit leaves of each test, against frequency or time, in standard deviations.
+    """Draw the residuals of a fit per test, over frequency or time, in standard deviations.
 
-    Displacements are open, accelerations full marks; the band is two standard deviations.
+    Displacements are open marks, accelerations filled marks; the band is two standard deviations.
 
     Parameters
     ----------
     result
         Dataset of `vibroimpact.identify`.
     axes
-        As many Axes as there are tests. None makes a new figure.
+        Axes to draw on, one per test. None makes a new figure.
     title
         Title of a new figure.
 
     Raises
     ------
     InputError
-        If the dataset is no fit, or there are not as many axes.
+        If the dataset is not a fit, or the number of axes is wrong.
     """
     _check(result)
     tests = [str(t) for t in result["test"].values]
@@ -76,9 +76,9 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
 
 
 def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
-    """Draw how the fit worsens as each parameter is held away from its best value.
+    """Draw the increase of the deviance as each parameter is fixed away from its best value.
 
-    The dotted line is the limit of the confidence interval, the grey range the interval itself.
+    The dotted line is the limit of the confidence interval; the grey range is the interval.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
     Raises
     ------
     InputError
-        If the dataset is no fit, or has no profiles.
+        If the dataset is not a fit, or has no profiles.
     """
     _check(result)
     if "profile_rise" not in result:
@@ -123,7 +123,7 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
         ax.set_xlabel(f"{key.replace('_', ' ')} ({unit.symbol if unit and unit.symbol else '–'})")
         ax.set_ylim(-0.1, 2.2 * limit)
     for row in made:
-        row[0].set_ylabel("how much worse the fit is\n(deviance, –)")
+        row[0].set_ylabel("increase of the deviance\n(deviance, –)")
     if title:
         made[0, 0].figure.suptitle(title)
     return Panels(made.ravel()[: len(keys)])
@@ -132,30 +132,30 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
 def fit_history(
     result: xr.Dataset, test: str | None = None, axes: Any = None, *, title: str | None = None
 ) -> Panels:
-    """Draw a measured history, dots, and the fitted motion, a line.
+    """Draw a measured history as dots, and the fitted motion as a line.
 
     Parameters
     ----------
     result
         Dataset of `vibroimpact.identify`.
     test
-        Which; None for the first history.
+        Name of the test. Default: the first history.
     axes
-        As many Axes as there are channels. None makes a new figure.
+        Axes to draw on, one per channel. None makes a new figure.
     title
         Title of a new figure.
 
     Raises
     ------
     InputError
-        If the dataset is no fit, or has no such history.
+        If the dataset is not a fit, or has no such history.
     """
     _check(result)
     histories = [str(t) for t, k in zip(result["test"].values, result["test_kind"].values,
                                         strict=True) if k == "history"]  # fmt: skip
     name = test if test is not None else next(iter(histories), None)
     if name not in histories:
-        raise InputError(f"test: {test!r} is no history of this fit; {histories} are accepted")
+        raise InputError(f"test: {test!r} is not a history of this fit; {histories} are accepted")
     mine = result.isel(point=np.flatnonzero(result["point_test"].values == name))
     variables = list(dict.fromkeys(str(v) for v in mine["point_variable"].values))
     given = panels(axes, len(variables), "a panel a channel", (7.2, 0.4 + 2.4 * len(variables)),
@@ -176,4 +176,4 @@ def fit_history(
 
 def _check(result: xr.Dataset) -> None:
     if "fit_residual" not in result:
-        raise InputError("result: this is no fit; a dataset of identify is accepted")
+        raise InputError("result: this is not a fit; a dataset of identify is accepted")

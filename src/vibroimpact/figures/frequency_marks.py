@@ -1,4 +1,4 @@
-"""Frequencies that are looked at more closely, marked in resonance curves."""
+"""Mark selected frequencies in resonance curves."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ _ROOM = 0.08
 def frequency_marks(axes: Any, frequencies: Mapping[str, float | str]) -> None:
     """Mark frequencies by vertical dotted lines, with their names at the top of each panel.
 
-    The vertical axes are made a little longer, so that the names stand clear of the curves.
+    The vertical axes are extended slightly, so that the names do not overlap the curves.
 
     Parameters
     ----------
     axes
         Axes, or several, whose horizontal axis is the frequency in Hz.
     frequencies
-        In Hz, by name.
+        Frequencies in Hz, by name.
 
     Raises
     ------
     InputError
-        If a frequency cannot be used, or lies outside an axis.
+        If a frequency is invalid, or lies outside an axis.
     """
     panels = list(np.ravel(axes))
     values = {

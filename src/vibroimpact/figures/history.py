@@ -40,23 +40,23 @@ def time_history(
     cycles: float | None = None,
     title: str | None = None,
 ) -> Panels:
-    """Draw displacement, absolute acceleration and relative velocity against t/T.
+    """Draw displacement, absolute acceleration and relative velocity over t/T.
 
-    Contacts are bands between their exact times (the left bumper's hatched), with a dot at each
-    beginning (full) and end (open) and a star at the acceleration's peak; the gaps are dashed
+    Contacts are bands between their exact times (hatched for the left bumper), with a dot at each
+    start (filled) and end (open) and a star at the peak of the acceleration. The gaps are dashed
     lines. The curves pass through the exact values at each event, on both sides of it where the
-    acceleration jumps. Of several motions each has its bands on a strip of its own.
+    acceleration jumps. If there are several motions, each has its bands on a separate strip.
 
     Parameters
     ----------
     motions
-        Dataset of `steady`, or of `simulate` with samples; or several of them by name. One
-        whose name holds "forward" is red, "backward" blue.
+        Dataset of `steady`, or of `simulate` with samples; or several of them by name. A name that
+        contains "forward" is drawn red, "backward" blue.
     axes
         Three Axes. None makes a new figure.
     cycles
-        How many forcing cycles are shown: the last ones of a simulation; a periodic motion is
-        repeated. None for three, or as many more as make whole periods.
+        Number of forcing cycles: the last ones of a simulation; a periodic motion is repeated.
+        Default: three, or more to complete whole periods.
     title
         Title of a new figure.
 
@@ -81,7 +81,7 @@ def time_history(
 
 
 def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
-    """Draw one quantity of some motions against t/T."""
+    """Draw one quantity of some motions over t/T."""
     ax.set_xlim(min(c.at[0] for c in curves), max(c.at[-1] for c in curves))
     ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
     for i, curve in enumerate(curves):
@@ -135,7 +135,7 @@ def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
 
 
 def history_legend(curves: list[Shown]) -> list[Artist]:
-    """Handles for the curves, gaps, bands and marks."""
+    """Return legend handles for the curves, gaps, bands and marks."""
     entries: list[Artist] = [
         Line2D([], [], color=c.look.colour, linestyle=c.look.dashes, lw=1.1, label=c.look.label)
         for c in curves

@@ -29,7 +29,7 @@ def spectrum_lines(
     highest: float = 12.0,
     title: str | None = None,
 ) -> Axes:
-    """Draw the lines of a Fourier spectrum as stems, against order and frequency.
+    """Draw the lines of a Fourier spectrum as stems, over order and frequency.
 
     Parameters
     ----------
@@ -38,16 +38,16 @@ def spectrum_lines(
     ax
         Axes to draw on. None makes a new figure.
     quantity
-        Of relative displacement, relative velocity or absolute acceleration.
+        Amplitude of relative displacement, relative velocity or absolute acceleration.
     highest
-        Highest order shown.
+        Highest order that is drawn.
     title
         Title of a new figure.
 
     Raises
     ------
     InputError
-        If a dataset is not that of a spectrum, or the quantity is another one.
+        If a dataset is not that of a spectrum, or the quantity is unknown.
     """
     if quantity not in _LABELS:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
@@ -59,10 +59,10 @@ def spectrum_lines(
     else:
         given = {"motion": spectra}
     if not given:
-        raise InputError("spectra: there is none; at least one spectrum is accepted")
+        raise InputError("spectra: empty; at least one spectrum is accepted")
     for data in given.values():
         if not isinstance(data, xr.Dataset) or "order" not in data.coords:
-            raise InputError("spectra: this is no spectrum; a dataset of spectrum is accepted")
+            raise InputError("spectra: this is not a spectrum; a dataset of spectrum is accepted")
     factor, label = _LABELS[quantity]
     ax = axes_or_new(ax, (5.6, 3.6), title)
     frequency = None

@@ -1,6 +1,6 @@
-"""Force over displacement of one law under a motion that is prescribed.
+"""Force over displacement of one law under a prescribed motion.
 
-It follows the laws step by step in plain numpy, without the engine that solves rigs.
+It integrates the laws step by step in plain numpy, without the engine.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ def force_loop(
 ) -> Axes:
     """Draw the force of an isolator or a stop over its displacement.
 
-    An isolator goes from rest to the amplitude and then round once, as a sine. A stop is pressed
-    by half a sine, as deep as the amplitude, and let go.
+    An isolator moves from rest to the amplitude and then through one sine cycle. A stop is
+    compressed by half a sine up to the amplitude, and released.
 
     Parameters
     ----------
@@ -55,8 +55,8 @@ def force_loop(
     amplitude
         Largest displacement or deformation in m, greater than 0; or text with units.
     frequency
-        Of the sine in Hz; at 0 it is so slow that dashpots have no force. A stop with a
-        restitution meets it with the velocity that the sine has at its zero.
+        Frequency of the sine (Hz). At 0 the motion is so slow that dashpots have no force. The
+        impact speed of a stop with a restitution is the velocity of the sine at its zero.
     ax
         Axes to draw on. None makes a new figure.
     title
@@ -65,7 +65,7 @@ def force_loop(
     Raises
     ------
     InputError
-        If the amplitude or the frequency cannot be used.
+        If the amplitude or the frequency is invalid.
     """
     size = to_si(amplitude, LENGTH, "amplitude", above=0.0)
     omega = math.tau * to_si(frequency, FREQUENCY, "frequency", minimum=0.0)

@@ -52,7 +52,7 @@ def motion_page(
 ) -> Grid:
     """Draw motions on one page: portrait, spectrum, and histories of u, ü + A_t and u̇.
 
-    Below its heading each column says of what kind its motions are.
+    Below its heading, each column lists the types of its motions.
 
     Parameters
     ----------
@@ -60,10 +60,10 @@ def motion_page(
         By heading, such as a frequency: a dataset of `steady` or `simulate`, or several by
         name that share the column; forward is red, backward blue.
     axes
-        Axes, shape (5, column). None makes a new figure, which fits an A4 page: upright up to
-        two columns, across with more.
+        Axes to draw on, shape (5, column). None makes a new figure, which fits an A4 page: portrait
+        up to two columns, landscape with more.
     cycles
-        Forcing cycles of the time histories. None for two, or as many more as make whole
+        Number of forcing cycles of the time histories. Default: two, or more to complete whole
         periods of the column's motions.
     highest
         Highest order of the spectra, which are those of absolute acceleration.
@@ -78,8 +78,8 @@ def motion_page(
     Raises
     ------
     InputError
-        If there is no column, a dataset is not that of a motion with samples, or the axes are
-        not five a column.
+        If there is no column, a dataset is not that of a motion with samples, or there are not five
+        axes per column.
     """
     if isinstance(columns, xr.Dataset) or not columns:
         raise InputError("columns: at least one motion by its heading is accepted")

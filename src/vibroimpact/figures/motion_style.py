@@ -62,7 +62,7 @@ def named(
     else:
         given = {"motion": motions}
     if not given:
-        raise InputError("motions: there is none; at least one motion is accepted")
+        raise InputError("motions: empty; at least one motion is accepted")
     for motion in given.values():
         if not _seen(motion):
             (any_recorded if records else recorded)(motion)
@@ -70,7 +70,7 @@ def named(
 
 
 def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: int) -> float:
-    """Forcing cycles to show: those asked for, or whole periods of each periodic motion.
+    """Return the number of forcing cycles to show: as requested, or whole periods.
 
     These are at least `least`; where the common period is longer than `MOST_CYCLES`, they are
     whole periods of the longest one.
@@ -78,7 +78,7 @@ def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: in
     Raises
     ------
     InputError
-        If those asked for are no number greater than 0.
+        If the requested number is not greater than 0.
     """
     if cycles is not None:
         if not 0.0 < cycles < math.inf:

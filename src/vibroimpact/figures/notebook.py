@@ -41,8 +41,8 @@ class Drawing(Figure):
         if missing:
             signs = "".join(chr(int(code)) for code in dict.fromkeys(missing))
             warnings.warn(
-                f"figure: its font lacks {signs}, and boxes are drawn; a font that has these signs "
-                "is accepted as font.family of a matplotlibrc",
+                f"figure: its font lacks {signs}, so boxes are drawn; set font.family of a "
+                "matplotlibrc to a font with these characters",
                 InputWarning,
                 stacklevel=2,
             )

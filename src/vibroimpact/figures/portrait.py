@@ -20,16 +20,16 @@ def phase_portrait(
     *,
     title: str | None = None,
 ) -> Axes:
-    """Draw relative velocity against relative displacement.
+    """Draw phase portraits: relative velocity over relative displacement.
 
-    The gaps are dashed lines; the points of the stroboscopic section, at the record's first
-    phase, are diamonds (dots where there are many).
+    The gaps are dashed lines. The points of the stroboscopic section, at the first phase of the
+    motion, are diamonds (dots if there are many).
 
     Parameters
     ----------
     motions
-        Dataset of `steady`, or of `simulate` with samples, through a `Record`, too; or several
-        of them by name. One whose name holds "forward" is red, "backward" blue.
+        Dataset of `steady`, or of `simulate` with samples, including motions through a `Record`; or
+        several of them by name. A name that contains "forward" is drawn red, "backward" blue.
     ax
         Axes to draw on. None makes a new figure.
     title

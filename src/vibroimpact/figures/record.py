@@ -1,4 +1,4 @@
-"""A motion through a record: what shakes the base above what the mass does."""
+"""A motion through a record over time, with the record above."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ _SIDES = {"right": 1, "left": -1}
 
 
 def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
-    """Draw a motion through a record against time, with the record above it.
+    """Draw a motion through a record over time, with the record above it.
 
-    Contacts are bands between their exact times (the left stop's hatched), impacts on rigid stops
-    are dots; the gaps are dashed lines.
+    Contacts are bands between their exact times (hatched for the left stop), impacts on rigid stops
+    are dots, and the gaps are dashed lines.
 
     Parameters
     ----------
@@ -96,7 +96,8 @@ def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:
     parameters = json.loads(getattr(motion, "attrs", {}).get("parameters", "{}"))
     if "record" not in parameters or "displacement" not in motion:
         raise InputError(
-            "motion: this is no motion through a record; a dataset of simulate with a Record and "
+            "motion: this is not a motion through a record; a dataset of simulate with a Record "
+            "and "
             "samples is accepted, and time_history draws other motions"
         )
     oscillator = parameters["oscillator"]

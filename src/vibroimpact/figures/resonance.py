@@ -44,32 +44,32 @@ def resonance_curves(
     physical: bool | None = None,
     measured: xr.Dataset | None = None,
 ) -> Panels:
-    """Draw η_a and η_d against the excitation frequency, or what an engineer asks for.
+    """Draw resonance curves: η_a and η_d, or physical quantities, over the excitation frequency.
 
-    Forward sweep red and solid with dots, backward blue and dashed with squares, free flight
-    black; vertical arrows where a sweep jumps; hysteresis shaded, left hysteresis hatched as
-    well; crosses where motions did not settle, of neighbours some. In physical units, the gaps are
-    dotted lines.
+    The forward sweep is red and solid with dots, the backward sweep blue and dashed with squares,
+    the motion without stops black. Vertical arrows mark jumps of a sweep. Hysteresis is shaded, and
+    left hysteresis is hatched as well. Crosses mark motions that did not settle; some are omitted
+    if they are close together. In physical units, the gaps are dotted lines.
 
     Parameters
     ----------
     data
         Dataset of `vibroimpact.sweep`, or one rig of `vibroimpact.sweeps`; or measured curves.
     axes
-        Two Axes, for η_a and η_d, or as many as there are physical panels. None makes a new
-        figure.
+        Axes to draw on: two for η_a and η_d, or one per physical panel. None makes a new figure.
     found
-        Features to mark, if they are known already; otherwise found here.
+        Features to mark. Default: computed from the curves.
     title
         Title of a new figure.
     physical
-        Whether the largest absolute acceleration (g), the largest displacement (mm) and, where a
-        stop is touched, the largest contact force are drawn instead of η_a and η_d; of rigid
-        stops the largest impulse. None: where free flight has no bound that η could be taken over.
+        Whether the largest absolute acceleration (g), the largest displacement (mm) and, if a stop
+        is touched, the largest contact force (for rigid stops the largest impulse) are drawn
+        instead of η_a and η_d. Default: only if the motion without stops is unbounded, so that η is
+        not meaningful.
     measured
         Curves of `vibroimpact.read_measurement`, drawn as open points over the computed ones.
-        Excursions are taken over the free flight of the computed rig; in physical units, where
-        maxima and minima were not measured, half the excursion is drawn of both.
+        Excursions are divided by those of the computed rig without stops. In physical units, half
+        the excursion of both is drawn if maxima and minima were not measured.
 
     Returns
     -------
@@ -80,7 +80,7 @@ def resonance_curves(
     Raises
     ------
     InputError
-        If the dataset is not that of a sweep of one rig, or there are not as many axes.
+        If the dataset is not that of a sweep of one rig, or the number of axes is wrong.
     """
     if is_measured(data) and "motion" not in data:
         return measured_curves(data, axes, title=title)

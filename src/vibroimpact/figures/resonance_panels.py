@@ -82,7 +82,7 @@ def normalised(data: xr.Dataset) -> list[Drawn]:
 
 
 def divides(data: xr.Dataset) -> bool:
-    """Whether η tells anything: it has values, and the free flight that it is taken over a bound.
+    """Whether η is meaningful: it has values, and the free flight that it is taken over a bound.
 
     Curves over what an undamped isolator does beside its resonance are as good as flat.
     """
@@ -112,7 +112,9 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
         If a dataset of an older version does not hold them.
     """
     if "peak_acceleration" not in data:
-        raise InputError("physical: this sweep has no peak_acceleration; a new one is accepted")
+        raise InputError(
+            "physical: this sweep has no peak_acceleration; compute it again with this version"
+        )
     rig = _rig(data)
     spike = _spikes(data)
     rest = _rest(rig)

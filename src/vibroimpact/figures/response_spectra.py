@@ -1,4 +1,4 @@
-"""Response spectra against the natural period."""
+"""Response spectra over the natural period."""
 
 from __future__ import annotations
 
@@ -36,31 +36,32 @@ def response_spectra(
     ] = "pseudo_acceleration",
     title: str | None = None,
 ) -> Axes:
-    """Draw a response spectrum, a curve for each damping ratio and each orientation.
+    """Draw a response spectrum, with one curve per damping ratio and orientation.
 
     Parameters
     ----------
     spectrum
-        Dataset of `response_spectrum` with several periods; that of 0 is left out.
+        Dataset of `response_spectrum` with several periods; the period 0 is left out.
     ax
         Axes to draw on. None makes a new figure.
     quantity
-        The variable of the dataset.
+        Name of a variable of the dataset.
     title
         Title of a new figure.
 
     Raises
     ------
     InputError
-        If it is no response spectrum with several periods, the quantity is another one, or there
-        are more curves than can be told apart.
+        If it is not a response spectrum with several periods, the quantity is unknown, or there are
+        more curves than can be distinguished.
     """
     if quantity not in _LABELS:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
     dims = getattr(spectrum, "sizes", {})
     if not isinstance(spectrum, xr.Dataset) or dims.get("natural_period", 0) < 2:
         raise InputError(
-            "spectrum: this is no response spectrum over periods; a dataset of response_spectrum "
+            "spectrum: this is not a response spectrum over periods; a dataset of "
+            "response_spectrum "
             "with several is accepted"
         )
     factor, label = _LABELS[quantity]

@@ -51,7 +51,7 @@ def scenario_map(
     ax
         Axes to draw on. None makes a new figure.
     border
-        Dataset of ``jump_border`` for the same map: a line of points that are exact.
+        Dataset of ``jump_border`` for the same map, drawn as a line of exact points.
     marks
         Rigs to mark.
     lines
@@ -62,14 +62,14 @@ def scenario_map(
     Raises
     ------
     InputError
-        If the dataset is no map, or the border is that of another one.
+        If the dataset is not a map, or the border belongs to another map.
     """
     if "scenario" not in data or data["scenario"].ndim != 2:
-        raise InputError("data: this is no map; a dataset of scenario_map is accepted")
+        raise InputError("data: this is not a map; a dataset of scenario_map is accepted")
     second, first = (str(name) for name in data["scenario"].dims)
     if border is not None and not {first, second} <= set(border.variables):
         raise InputError(
-            f"border: it is not in {first} and {second}; that of the same map is accepted"
+            f"border: it is not in {first} and {second}; the border of the same map is accepted"
         )
     ax = axes_or_new(ax, (7.2, 6.4), title)
     fx, fy = axis_unit(data[first])[0], axis_unit(data[second])[0]

@@ -30,7 +30,7 @@ _WAYS = {
     "up": SWEEPS["forward"]._replace(label="up"),
     "down": SWEEPS["backward"]._replace(label="down"),
 }
-_ELSE = Look("from other starts", "0.35", "-.", 0.8, "x", 4.0, True)
+_ELSE = Look("from other initial states", "0.35", "-.", 0.8, "x", 4.0, True)
 
 _HEIGHTS = (3.2, 1.0, 1.4)
 _NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")
@@ -45,14 +45,14 @@ def section_diagram(
     branches: xr.Dataset | None = None,
     title: str | None = None,
 ) -> Panels:
-    """Draw where motions settle over a parameter: sections, periods, the largest exponent.
+    """Draw a bifurcation diagram: sections, periods and the largest exponent over a parameter.
 
     Parameters
     ----------
     data
         Dataset of `bifurcation_diagram`.
     axes
-        Three axes to draw on, one below the other. None makes a new figure.
+        Three axes to draw on, from top to bottom. None makes a new figure.
     quantity
         ``"section_displacement"`` (of a stroboscopic section) or ``"section_velocity"``;
         ``"contact_start_velocity"`` (at impacts) or ``"contact_start_phase"``.
@@ -65,7 +65,7 @@ def section_diagram(
     Raises
     ------
     InputError
-        If the dataset is no such diagram, or has no such quantity, or branches are over another
+        If the dataset is not such a diagram, has no such quantity, or the branches are over another
         parameter.
     """
     held = [name for name in _LABELS if name in data]

@@ -1,4 +1,4 @@
-"""What all figures share: colours, marks, panels, and how they are written."""
+"""Common parts of all figures: colours, marks, panels, and files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FORMATS = ("png", "pdf", "svg")
 
 
 class Look(NamedTuple):
-    """How one kind of curve is drawn; shape and dashes tell it without colour, too."""
+    """Style of one kind of curve: markers and dashes distinguish it without colour."""
 
     label: str
     colour: str
@@ -48,7 +48,7 @@ MOTIONS = (
 
 
 class Area(NamedTuple):
-    """How a scenario is drawn: colour as in the paper, pattern and label without it."""
+    """Style of a scenario: the colour of the paper, and a pattern and a label without colour."""
 
     colour: str
     hatch: str
@@ -180,21 +180,21 @@ def _from_g(multiple: ArrayLike) -> NDArray[np.float64]:
 def save_figure(drawn: Any, path: Path | str) -> Path:
     """Write a figure to a PNG, PDF or SVG file.
 
-    The same data make the same file, to the byte: it holds no date and no version. The text of
-    an SVG file is text, which can be searched and edited.
+    The same data give the same file, byte for byte: it contains no date and no version. The text of
+    an SVG file can be searched and edited.
 
     Parameters
     ----------
     drawn
-        What a function of this package returned: Axes, or several; or a Figure.
+        Axes that a function of this package returned, or a Figure.
     path
         The file.
 
     Raises
     ------
     InputError
-        If it is no figure, the file's ending is another one, or the file cannot be written; a
-        file that was there is then as it was.
+        If it is not a figure, the file name ends otherwise, or the file cannot be written. An
+        existing file is then unchanged.
     """
     import matplotlib
 
@@ -210,7 +210,7 @@ def save_figure(drawn: Any, path: Path | str) -> Path:
         )
     first = drawn if isinstance(drawn, Figure) else next(iter(np.ravel(drawn)), None)
     if not isinstance(first, Artist) or (figure := first.get_figure(root=True)) is None:
-        raise InputError(f"figure: {drawn!r} is none; axes or a figure are accepted")
+        raise InputError(f"figure: {drawn!r} is not a figure; axes or a figure are accepted")
     # SVG marks its parts with random names unless it is given a seed.
     with matplotlib.rc_context({"svg.hashsalt": "vibroimpact", "svg.fonttype": "none"}):
         picture = io.BytesIO()

@@ -6,7 +6,7 @@ passes one of them. So each measured jump is given the jump of the rig that it b
 
 - where the rig jumps too early, the branch is followed on in finer steps, for a step may throw the
   mass off a branch that goes on, and then held at its value at the fold;
-- where it jumps too late, the branch behind the jump is followed back, up to its own fold. For the
+- where it jumps too late, the branch after the jump is followed back, up to its own fold. For the
   same reason the fold may lie up to a step beyond the step in which the test jumps.
 
 Near a fit both jump in the same step, and a sweep alone is all that is needed.
@@ -88,7 +88,7 @@ class SteppedRig:
     ) -> tuple[Array, Array]:
         """Hold the frequencies; rows and states at their ends.
 
-        A `quick` hold is good enough to tell which of two branches it is on.
+        A `quick` hold is accurate enough to decide on which of two branches it is.
         """
         rows, states = sweep_holds(
             self.vector,

@@ -1,7 +1,7 @@
 """Other rigs that fit as well: ends of other starts, and the mirror image of the rig.
 
 A sine shakes a rig and its mirror image alike, half a period later, so that their excursions are
-the same: such tests do not tell right from left.
+the same: such tests do not distinguish right from left.
 """
 
 from __future__ import annotations

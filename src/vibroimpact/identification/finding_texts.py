@@ -1,4 +1,4 @@
-"""What a fit says, in words."""
+"""Findings of a fit, in words."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ def _named(data: Any) -> dict[str, Any]:
             name = in_one_line(name) or f"test {i}"
             named[name if name not in named else f"{name} {i}"] = one
     if not named:
-        raise InputError("data: there is none; at least one test is accepted")
+        raise InputError("data: missing; at least one test is accepted")
     return named
 
 
@@ -83,11 +83,13 @@ def _of(given: Any, name: str, names: list[str], field: str) -> Any:
     """What belongs to one test: the same for all, one by name, or one by position."""
     if isinstance(given, Mapping):
         if name not in given:
-            raise InputError(f"{field}: none for {name!r}; one for each of {names} is accepted")
+            raise InputError(f"{field}: none for {name!r}; one per test ({names}) is accepted")
         return given[name]
     if isinstance(given, list):
         if len(given) != len(names):
-            raise InputError(f"{field}: {len(given)} for {len(names)} tests; as many are accepted")
+            raise InputError(
+                f"{field}: {len(given)} for {len(names)} tests; the same number is accepted"
+            )
         return given[names.index(name)]
     return given
 
@@ -107,12 +109,15 @@ def _shaken_rig(rig: Rig, data: xr.Dataset, where: str) -> tuple[Rig, str]:
         return Rig(rig.oscillator, Harmonic(1.0, 1.0)), source
     if chosen is None:
         raise InputError(
-            f"rig: an Oscillator alone, and {where} does not say what shook it; the peak base "
+            f"rig: this is an Oscillator alone, and {where} does not state the excitation; the "
+            "peak base "
             'acceleration is accepted, such as Rig(oscillator, "0.05 g")'
         )
     shaken, sizes = as_periodic(chosen, "shaking")
     if sizes is not None or not isinstance(shaken, Harmonic | Periodic):
-        raise InputError("shaking: a list of amplitudes; a rig for each test is accepted, by name")
+        raise InputError(
+            "shaking: a list of amplitudes is not accepted; use one rig per test, by name"
+        )
     return Rig(rig.oscillator, shaken), source
 
 

@@ -96,7 +96,7 @@ def frees(
     if not isinstance(given, Mapping):
         given = dict.fromkeys(_names(given, "free"))
     if not given:
-        raise InputError("free: nothing is free; the name of at least one parameter is accepted")
+        raise InputError("free: empty; the name of at least one parameter is accepted")
     wanted = {_name(name): value for name, value in given.items()}
     own = {_name(name, "each") for name in _names(each, "each")}
     if not isinstance(priors, Mapping | None):
@@ -176,7 +176,9 @@ def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: 
         low, high = read.get("low", 0.0 if positive else low), read.get("high", high)
         high = high if positive or "high" in read else 0.0
     if not low < high:
-        raise InputError(f"{field}: low {low:g} is not below high {high:g}; it has to be")
+        raise InputError(
+            f"{field}: low {low:g} is not below high {high:g}; a rising pair is accepted"
+        )
     inside = low <= now <= high
     middle = math.sqrt(low * high) if low > 0.0 else 0.5 * (low + high)
     start = read.get("start", now if inside else middle)

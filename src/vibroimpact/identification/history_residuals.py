@@ -1,7 +1,7 @@
 """Measured time histories as residuals: exact motions, window by window.
 
 Each window of the record is simulated from an initial state of its own, which is found with the
-parameters: where a motion is chaotic, or long, one state at the beginning says nothing of the end.
+parameters: where a motion is chaotic, or long, one initial state does not determine the end.
 The end of a window and the beginning of the next agree as well as the measurement tells.
 """
 
@@ -94,7 +94,7 @@ class HistoryTest:
         if not self.names:
             raise InputError(
                 f"data: {name!r} has neither displacement nor velocity nor acceleration of the "
-                "mass at 8 times; one of them is accepted"
+                "mass at 8 times; at least one of them is required"
             )
         self.measured = {c: data[c].values for c in self.names}
         spread = {c: float(np.nanstd(v)) or 1.0 for c, v in self.measured.items()}
@@ -128,12 +128,14 @@ class HistoryTest:
         """The sine of the base, or its record; or a sine of the mass's own frequency."""
         shaken = rig.periodic
         if isinstance(shaken, Periodic):
-            raise InputError("amplitude: several harmonics; one sine, or a measured base, is")
+            raise InputError(
+                "amplitude: several harmonics are not accepted; use one sine, or a measured base"
+            )
         base = self.data["base_acceleration"].values if not self.free_phase else None
         moved = self.measured[self.names[0]]
         sine = forcing_sine(self.time, base, moved, self.data.attrs.get("frequency"))
         if sine is None:
-            raise InputError(f"data: nothing moves in {self.name!r}; a motion is accepted")
+            raise InputError(f"data: {self.name!r} contains no motion; a motion is accepted")
         if base is None:
             found = shaken.replace(frequency=sine.frequency)
             return Rig(rig.oscillator, found), found

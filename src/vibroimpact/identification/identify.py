@@ -233,6 +233,6 @@ def _enough(problem: Problem) -> None:
     if points + priors < unknowns:
         names = ", ".join(one.key for one in problem.free)
         raise InputError(
-            f"free: {unknowns} unknowns ({names}) and {points} measured values; as many values as "
-            "unknowns are accepted, or fewer that are free"
+            f"free: {unknowns} unknowns ({names}) and {points} measured values; add measured "
+            "values or fit fewer parameters"
         )

@@ -253,15 +253,18 @@ def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
         )
         if what and float(best) > _LITTLE:
             lines.append(
-                f"next test: no hold of a stepped sine would tell much more; {where}, would take "
-                f"the standard error of {what} to {100.0 * float(best):.1f} % of what it is"
+                f"next test: no hold of a stepped sine would be much more informative; {where}, "
+                f"would reduce the standard error of {what} to {100.0 * float(best):.1f} % of "
+                "its current value"
             )
             break
         if what:
             lines.append(
-                f"next test: {where}, would take the standard error of {what} to "
-                f"{100.0 * float(best):.0f} % of what it is"
+                f"next test: {where}, would reduce the standard error of {what} to "
+                f"{100.0 * float(best):.0f} % of its current value"
             )
         else:
-            lines.append(f"next test: {where}, would tell most of all parameters together")
+            lines.append(
+                f"next test: {where}, would be the most informative about all parameters together"
+            )
     return lines

@@ -37,8 +37,8 @@ def posterior(
     count = len(problem.free)
     if len(x) > count:
         raise InputError(
-            f"posterior: {len(x) - count} initial values of time histories are unknown, too, more "
-            "than emcee's walkers mix in; curves are accepted, or draws= for a bootstrap"
+            f"posterior: {len(x) - count} initial values of time histories are also unknown, too "
+            "many for emcee; use curves, or draws= for a bootstrap"
         )
     factor = moments(problem.tail).deviance
 

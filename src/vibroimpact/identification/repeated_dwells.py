@@ -27,7 +27,7 @@ def stray_values(name: str, data: xr.Dataset) -> list[str]:
             told += f"{stray} of {count} values {'lies' if stray == 1 else 'lie'} far from the "
             told += f"others, as on another motion; leave {'it' if stray == 1 else 'them'} out"
         else:
-            told += f"its {count} values lie far apart, as on two motions; keep those of one"
+            told += f"its {count} values lie far apart, as on two motions; keep those of one motion"
         lines.append(told)
     return lines
 

@@ -52,7 +52,10 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
             told += f" ({found[name] / GRAVITY:.3g} g)" if quantity is ACCELERATION else ""
             notes.append(f"{name} has no unit: taken as {told}")
     if left:
-        notes.append(f"beside the columns, not understood, and left out: {', '.join(left)}")
+        notes.append(
+            "entries next to the columns that were not understood and were left out: "
+            f"{', '.join(left)}"
+        )
     return found
 
 

@@ -44,7 +44,7 @@ def curves(
     Raises
     ------
     InputError
-        If the direction of a row cannot be told, or nothing is left.
+        If the direction of a row is unknown, or no values are left.
     """
     at = next(values for found, values in known.values() if found.variable == "frequency")
     ways = _directions(table, known, at, direction, notes)
@@ -87,7 +87,7 @@ def curves(
     file = Path(table.path).name
     facts += [f"{file}: no {way} sweep was measured" for way in DIRECTIONS if way not in present]
     if len(frequency) == 1:
-        notes.append("one frequency alone: there is no curve, and no jump can be told")
+        notes.append("only one frequency: this is not a curve, and jumps cannot be detected")
     return data
 
 
@@ -107,20 +107,22 @@ def _directions(
     change = np.diff(f)
     turns = np.flatnonzero(np.diff(np.sign(change[change != 0.0])))
     if len(f) > 1 and f[-1] < f[0] and not len(turns):
-        notes.append("no column tells the direction: the frequencies fall, taken as backward")
+        notes.append(
+            "no column states the sweep direction: the frequencies fall, so backward was assumed"
+        )
         return ["backward"] * len(at)
     top = int(np.nanargmax(at)) if len(f) else 0
     if len(turns) == 1 and 0 < top < len(at) - 1:
         notes.append(
-            "no column tells the direction: taken as forward while the frequencies rise, and as "
-            f"backward from {table.row(top + 1)} on"
+            "no column states the sweep direction: forward was assumed while the frequencies "
+            f"rise, and backward from {table.row(top + 1)}"
         )
         return ["forward" if i <= top else "backward" for i in range(len(at))]
     if len(turns):
         raise InputError(
-            f"measurement: {table.path!r}: no column tells the direction of the sweep, and its "
+            f"measurement: {table.path!r}: no column states the direction of the sweep, and its "
             "frequencies neither rise, nor fall, nor first rise and then fall; a column "
             "'direction' with forward and backward is accepted, or direction='forward'"
         )
-    notes.append("no column tells the direction: taken as forward")
+    notes.append("no column states the sweep direction: forward was assumed")
     return ["forward"] * len(at)

@@ -71,7 +71,7 @@ def strays(data: xr.Dataset) -> dict[str, NDArray[np.bool_]]:
 def noise_of(data: xr.Dataset | Swept) -> float:
     """Standard deviation of a measured value as a share of it, estimated robustly; 0 if unknown.
 
-    Where frequencies were held more than once, that of the repeated values tells it best.
+    Where frequencies were held more than once, that of the repeated values is the best estimate.
     """
     if isinstance(data, xr.Dataset) and (repeated := _of_repeats(data)):
         return repeated
@@ -154,8 +154,8 @@ def in_words(data: xr.Dataset) -> list[str]:
         )
         lines.append(
             f"{len(both.frequency)} frequencies, {both.frequency[0]:.4g} to "
-            f"{both.frequency[-1]:.4g} Hz, in steps of {told} Hz: what lies between two steps is "
-            "not seen"
+            f"{both.frequency[-1]:.4g} Hz, in steps of {told} Hz: features between two steps are "
+            "not detected"
         )
     lines.append(f"noise: {100.0 * noise_of(data):.2g} % of a value")
     names = {"eta_a": judged(data, "acceleration"), "eta_d": judged(data, "displacement")}
@@ -166,7 +166,7 @@ def in_words(data: xr.Dataset) -> list[str]:
         if peak.primary and (name := names[peak.curve]) is not None
     ]
     lines += [
-        f"{kind}: {side} alone were measured; what happens on the other side is not seen"
+        f"{kind}: {side} alone were measured; the motion on the other side is unknown"
         for kind in ("acceleration", "displacement")
         for end, side in (("max", "maxima"), ("min", "minima"))
         if f"{kind}_{end}" in names.values()

@@ -46,20 +46,21 @@ def history(table: Columns, known: Known, notes: list[str], facts: list[str]) ->
     }
     if not channels:
         raise InputError(
-            f"measurement: {table.path!r} has no channel over time that is known; displacement, "
-            "acceleration or base acceleration is accepted, or columns={'displacement': NAME} with "
+            f"measurement: {table.path!r} has no known channel over time; displacement, "
+            f"acceleration or base acceleration is accepted, or columns={'displacement': NAME} "
+            "with "
             f"one of {', '.join(repr(column.name) for column in table.columns)}"
         )
     if (lost := int((~usable).sum())) > 0:
         notes.append(f"{lost} rows without a time are left out")
     order = np.flatnonzero(usable)[np.argsort(time[usable], kind="stable")]
     if (np.diff(order) < 0).any():
-        notes.append("the times were not in order: sorted")
+        notes.append("the times were not in order, and were sorted")
     twice = np.flatnonzero(np.diff(time[order]) == 0.0)
     if len(twice):
         raise InputError(
             f"measurement: {table.path!r}, {table.row(int(order[twice[0] + 1]))}: the time "
-            f"{time[order[twice[0]]]:g} s stands there twice; each time once is accepted"
+            f"{time[order[twice[0]]]:g} s occurs twice; distinct times are accepted"
         )
     data = xr.Dataset(coords={"time": time[order]})
     for name, values in channels.items():

@@ -1,4 +1,4 @@
-"""What a column holds, by its name and its unit; what is guessed is told."""
+"""What a column holds, by its name and its unit; guesses are reported."""
 
 from __future__ import annotations
 
@@ -169,7 +169,10 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
     if quantity is not DIMENSIONLESS:
         largest = float(np.nanmax(np.abs(values), initial=0.0))
         if quantity is LENGTH and largest > 2.0:
-            notes.append(f"{column.name!r} has no unit: up to {largest:.4g}, taken as millimetres")
+            notes.append(
+                f"{column.name!r} has no unit: its values reach {largest:.4g}, so millimetres "
+                "were assumed"
+            )
             values = values * 1e-3
         else:
             notes.append(f"{column.name!r} has no unit: taken as {quantity.symbol}")

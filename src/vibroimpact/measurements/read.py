@@ -125,7 +125,7 @@ def read_measurement(
     else:
         raise InputError(f"measurement: {str(path)!r}{_untold(table, known, left)}")
     if left:
-        notes.append(f"not understood, and left out: {', '.join(left)}")
+        notes.append(f"columns that were not understood and were left out: {', '.join(left)}")
     data.attrs |= shaking(table, {"amplitude": amplitude, "frequency": frequency}, notes)
     if "amplitude" in data.attrs:
         data.attrs["amplitude_source"] = file.name if amplitude is None else CALL
@@ -175,7 +175,9 @@ def _filled(table: Columns, wanted: set[str]) -> Columns:
     kept = tuple(one for one in table.columns if not any(one is other for other in empty))
     if not empty or not any(map(is_channel, kept)):
         return table
-    told = f"without values, and left out: {', '.join(column.name for column in empty)}"
+    told = (
+        f"columns without values, which were left out: {', '.join(column.name for column in empty)}"
+    )
     return table._replace(columns=kept, notes=(*table.notes, told))
 
 
@@ -218,7 +220,8 @@ def as_measured(data: object, where: str = "data") -> xr.Dataset:
     if isinstance(data, xr.Dataset):
         return _checked(data)
     raise InputError(
-        f"{where}: {type(data).__name__} is no measurement; a dataset of read_measurement, or the "
+        f"{where}: {type(data).__name__} is not a measurement; a dataset of read_measurement, or "
+        "the "
         "path of a file, is accepted"
     )
 
@@ -245,14 +248,18 @@ def _chosen(
 ) -> Columns:
     """Return the requested test, or the only one that has a time or a frequency."""
     if not tables:
-        raise InputError(f"measurement: {path!r} holds no columns of numbers; some are accepted")
+        raise InputError(
+            f"measurement: {path!r} contains no columns of numbers; at least one is required"
+        )
     names = [table.said.get("group") or str(i + 1) for i, table in enumerate(tables)]
     if group is None and len(tables) == 1:
         return tables[0]
     usable = [i for i, table in enumerate(tables) if _has_axis(table, wanted)]
     if group is None and len(usable) == 1:
         others = [name for i, name in enumerate(names) if i != usable[0]]
-        notes.append(f"without a time or a frequency, and left out: {', '.join(others)}")
+        notes.append(
+            f"tables without a time or a frequency, which were left out: {', '.join(others)}"
+        )
         return tables[usable[0]]
     if isinstance(group, str) and group in names:
         return tables[names.index(group)]
@@ -286,7 +293,7 @@ def _known(
             raise InputError(f"columns: {unknown(variable, accepted)}")
         if name not in names:
             raise InputError(
-                f"columns[{variable!r}]: {shown(name)} is no column of {table.path!r}; one of "
+                f"columns[{variable!r}]: {shown(name)} is not a column of {table.path!r}; one of "
                 f"{', '.join(names)} is accepted"
             )
         chosen[names.index(name)] = Meaning(bare, way)  # type: ignore[arg-type]

@@ -96,7 +96,7 @@ def one_step(said: Mapping[str, str], unit: str | None = None) -> float:
     for name, other in others:
         if abs(other - step) > _SAME * step:
             raise InputError(
-                f"{name}: {said[name]!r:.40} beside {first} = {said[first]!r:.40}: they are two "
+                f"{name}: {said[name]!r:.40} beside {first} = {said[first]!r:.40}: these are two "
                 "different steps; one is accepted"
             )
     return step

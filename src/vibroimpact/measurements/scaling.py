@@ -151,7 +151,9 @@ def _applied(column: Column) -> Column:
     if scale == 1.0 and offset == 0.0:
         return column._replace(scale=None, offset=None)
     if column.values.dtype.kind not in _NUMBERS + "c":
-        return doubtful(column._replace(scale=None, offset=None), "a scale of what is no number")
+        return doubtful(
+            column._replace(scale=None, offset=None), "a scale of a column that is not numeric"
+        )
     values = column.values * scale + offset
     return column._replace(values=values, scale=None, offset=None)
 

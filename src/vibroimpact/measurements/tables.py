@@ -165,6 +165,6 @@ def damaged(path: Path, kind: str, error: Exception) -> InputError:
     """The error of a file that cannot be read, with what its library says, cut short."""
     reason = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
     return InputError(
-        f"measurement: {str(path)!r} is damaged or no {kind} file ({reason}); "
-        "a whole one is accepted"
+        f"measurement: {str(path)!r} is damaged or not a {kind} file ({reason}); a complete file "
+        "is accepted"
     )

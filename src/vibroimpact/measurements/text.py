@@ -82,8 +82,8 @@ def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
     for number, cells in body:
         if len(cells) != width:
             raise InputError(
-                f"measurement: {str(path)!r}, line {number}: {len(cells)} values where the first "
-                f"row has {width}; as many are accepted"
+                f"measurement: {str(path)!r}, line {number}: {len(cells)} values, but the first "
+                f"row has {width}; the same number is accepted"
             )
     columns = []
     for j, name in enumerate(named[-1]):
@@ -171,6 +171,6 @@ def _values(
         return np.array(cells)
     i = words[0]
     raise InputError(
-        f"measurement: {path!r}, line {lines[i]}, column {name!r}: {cells[i][:40]!r} is no number; "
-        "a number, or nothing where it is missing, is accepted"
+        f"measurement: {path!r}, line {lines[i]}, column {name!r}: {cells[i][:40]!r} is not a "
+        "number; a number, or nothing for a missing value, is accepted"
     )

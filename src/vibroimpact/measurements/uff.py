@@ -102,7 +102,8 @@ def _whole(path: Path) -> None:
 
 def _cut(path: Path) -> InputError:
     return InputError(
-        f"measurement: {str(path)!r} ends within a set: it was cut; a whole file is accepted"
+        f"measurement: {str(path)!r} ends within a set, so it is incomplete; a complete file is "
+        "accepted"
     )
 
 

@@ -1,4 +1,4 @@
-"""Where a record comes from, and what a caller says of its file instead of the file itself."""
+"""Where a record comes from, and what a caller states instead of the file."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def read_values(
 
 
 def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
-    """The time between samples (s): what is given, or what the file says."""
+    """The time between samples (s): the argument, or the value in the file."""
     if step is None:
         if found.uneven:
             raise InputError(f"record: {path!r}, {found.uneven}")
@@ -84,9 +84,9 @@ def _unit(
     if taken is None:
         if found.unclear:
             raise InputError(
-                f"unit: missing, and {path!r} has {found.unclear}; the unit of an "
-                'acceleration is accepted, such as "m/s^2", after which Record.scaled, or '
-                "--scale, makes it so"
+                f"unit: missing, and {path!r} has {found.unclear}; give the unit of an "
+                'acceleration, such as "m/s^2", then scale the values with Record.scaled or '
+                "--scale"
             )
         taken = "m/s^2"
         notes.append(NO_UNIT)

@@ -60,8 +60,8 @@ def bumpers(name: str) -> tuple[Read, Vary]:
                 else f"they are in {' and '.join(sorted(kind.symbol for kind in kinds))}"
             )
             raise InputError(
-                f"parameter: {name!r} is that of both bumpers, but {told}; "
-                f"'right_{name}' and 'left_{name}' are accepted, or a rig in which they agree"
+                f"parameter: {name!r} applies to both bumpers, but {told}; 'right_{name}' and "
+                f"'left_{name}' are accepted, or a rig with equal values"
             )
         return float(values.pop())
 
@@ -83,7 +83,10 @@ def one_bumper(side: str, name: str) -> tuple[Read, Vary]:
     def bumper(rig: Oscillator) -> Stop:
         found: Stop | None = getattr(rig, side)
         if found is None:
-            raise InputError(f"parameter: there is no {side} bumper; one that is there is accepted")
+            raise InputError(
+                f"parameter: this rig has no {side} bumper; a parameter of an existing bumper is "
+                "accepted"
+            )
         return found
 
     def read(rig: Rig) -> float:
@@ -163,8 +166,8 @@ def at_restitution() -> tuple[Read, Vary]:
         for stop in oscillator.stops:
             if "stiffness" in type(stop).model_fields and not isinstance(stop, Bumper):
                 raise InputError(
-                    f"parameter: {stop} keeps its restitution at any stiffness; "
-                    "'bumper_stiffness' is accepted"
+                    f"parameter: {stop} has the same restitution at any stiffness; use "
+                    "'bumper_stiffness'"
                 )
         return stiffness_of(rig)
 
@@ -196,8 +199,8 @@ def scale_of(rig: Rig) -> float:
     oscillator, shaken = rig.oscillator, rig.periodic
     if not isinstance(shaken, Harmonic):
         raise InputError(
-            "gap_ratio: gaps are scaled by the peak of free flight under one sine, and several "
-            "harmonics shake the mass; a Harmonic, or a gap in metres, is accepted"
+            "gap_ratio: gaps are scaled by the peak displacement without stops under one sine, "
+            "but several harmonics shake the mass; a Harmonic, or a gap in metres, is accepted"
         )
     return float(shaken.acceleration(oscillator.mass, oscillator.angular_frequency))
 
@@ -225,8 +228,8 @@ def relaxation_time() -> tuple[Read, Vary]:
         if not times or not math.isclose(min(times), max(times), rel_tol=1e-12):
             told = "there is no bumper" if not times else f"their C/K are {sorted(times)} s"
             raise InputError(
-                f"parameter: 'relaxation_time' is that of both bumpers, but {told}; "
-                "'right_damping' and 'left_damping' are accepted, or a rig in which they agree"
+                f"parameter: 'relaxation_time' applies to both bumpers, but {told}; "
+                "'right_damping' and 'left_damping' are accepted, or a rig with equal values"
             )
         return oscillator.angular_frequency * times[0]
 

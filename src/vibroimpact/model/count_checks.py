@@ -23,8 +23,8 @@ def check_samples(cycles: float, samples: int, field: str) -> None:
     """
     if cycles * samples > MOST_SAMPLES:
         raise InputError(
-            f"{field}: {cycles:g} cycles of {samples} samples are more than {MOST_SAMPLES} samples "
-            "in all; fewer cycles or fewer samples per cycle are accepted"
+            f"{field}: {cycles:g} cycles of {samples} samples are more than {MOST_SAMPLES} "
+            "samples in total; fewer cycles or fewer samples per cycle are accepted"
         )
 
 

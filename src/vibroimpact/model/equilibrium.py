@@ -123,9 +123,9 @@ def _by_root(oscillator: Oscillator) -> float:
         if way >= most:
             if most < abs(end - begin):
                 raise InputError(
-                    f"isolator: it softens, and {pretty(isolator.strongest, FORCE)} at "
-                    f"{pretty(isolator.reach, LENGTH)} is the most that it bears, which does not "
-                    f"hold the mass against {pretty(abs(push), FORCE)}; a smaller force or preload "
+                    f"isolator: it softens; {pretty(isolator.strongest, FORCE)} at "
+                    f"{pretty(isolator.reach, LENGTH)} is its largest force, which does not "
+                    f"balance {pretty(abs(push), FORCE)}; a smaller force or preload "
                     "is accepted"
                 )
             return end

@@ -202,8 +202,8 @@ class Periodic(_Repeated):
             turned = (0.0,) * len(values)
         if len(turned) != len(values):
             raise InputError(
-                f"phases: {len(turned)} of them, but {len(values)} amplitudes; as many as there "
-                "are amplitudes are accepted, or none"
+                f"phases: {len(turned)} of them, but {len(values)} amplitudes; one phase per "
+                "amplitude, or no phases, are accepted"
             )
         if not any(values):
             raise InputError(f"amplitudes: {values} are all 0; one greater than 0 is accepted")

@@ -89,13 +89,13 @@ def peak_of(mass: float, stiffness: float, damping_ratio: float, amplitude: floa
     """
     if not 0.0 < damping_ratio < math.sqrt(0.5):
         raise InputError(
-            f"damping_ratio: {damping_ratio:.6g} gives free flight no finite resonance peak, by "
-            "which a gap that is not 0 is scaled; between 0 and 0.707107 is accepted"
+            f"damping_ratio: {damping_ratio:.6g} leaves the motion without stops no finite "
+            "resonance peak to scale a nonzero gap by; a value between 0 and 0.707107 is accepted"
         )
     if amplitude == 0.0:
         raise InputError(
-            "amplitude: 0 moves nothing, so a gap that is not 0 has no scale; "
-            "an acceleration greater than 0 is accepted"
+            "amplitude: 0 causes no motion, so a nonzero gap has no scale; an acceleration "
+            "greater than 0 is accepted"
         )
     peak, _ = largest_free_flight(math.sqrt(stiffness / mass), damping_ratio, amplitude)
     if not 0.0 < peak < math.inf:

@@ -23,12 +23,13 @@ def check_name(name: Any, field: str) -> str:
     Raises
     ------
     InputError
-        If it is no text, is longer than 200 letters, or has control characters or line breaks.
+        If it is not a text, is longer than 200 characters, or has control characters or line
+        breaks.
     """
     if not isinstance(name, str):
         raise InputError(f"{field}: {shown(name)}; a text is accepted")
     if len(name) > _LONGEST:
-        raise InputError(f"{field}: {len(name)} letters; at most {_LONGEST} are accepted")
+        raise InputError(f"{field}: {len(name)} characters; at most {_LONGEST} are accepted")
     if found := UNPRINTABLE.search(name):
         raise InputError(
             f"{field}: {shown(name)} has the control character {found[0]!a}; printable text in one "

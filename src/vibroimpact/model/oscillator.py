@@ -87,7 +87,7 @@ class Oscillator(Model):
         if not isinstance(data, Mapping) or "weight" not in data:
             return data
         if "mass" in data:
-            raise InputError("weight: given beside mass; one of the two is accepted")
+            raise InputError("weight: given together with mass; one of the two is accepted")
         rest = {name: value for name, value in data.items() if name != "weight"}
         return {"mass": to_si(data["weight"], FORCE, "weight", above=0.0) / GRAVITY, **rest}
 
@@ -210,16 +210,16 @@ class Oscillator(Model):
         self._springs("damping ratio")
         if self.isolator.damping_exponent != 1.0:
             raise InputError(
-                f"isolator.damping_exponent: {self.isolator.damping_exponent:g}, so that there is "
-                "no damping ratio, for it depends on the velocity; 1 is accepted"
+                f"isolator.damping_exponent: {self.isolator.damping_exponent:g}, so the damping "
+                "ratio is undefined because it depends on the velocity; 1 is accepted"
             )
         return 2.0 * math.sqrt(self.isolator.initial_stiffness * self.mass)
 
     def _springs(self, what: str) -> None:
         if self.isolator.initial_stiffness == 0.0:
             raise InputError(
-                f"isolator.stiffness: 0, so that there is no {what}; a stiffness greater than 0 "
-                "is accepted, or values that need none, such as frequencies in Hz"
+                f"isolator.stiffness: 0, so there is no {what}; a stiffness greater than 0 "
+                "is accepted, or values that do not need it, such as frequencies in Hz"
             )
 
     @property

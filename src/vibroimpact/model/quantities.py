@@ -39,7 +39,7 @@ class Quantity:
         What it is called in messages, such as ``"length"``.
     base
         Exponents of the SI base units, with the radian counted as a base unit so that an
-        angle is told from a ratio and an angular frequency from a frequency.
+        angle is distinguished from a ratio and an angular frequency from a frequency.
     symbol
         The SI unit, such as ``"m"``; empty for a ratio.
     example

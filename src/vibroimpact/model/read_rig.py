@@ -44,7 +44,7 @@ def as_rig(
     where
         The argument, which the error names.
     oscillator_alone
-        Whether an `Oscillator` is accepted, where something else says what shakes it.
+        Whether an `Oscillator` is accepted, if another argument gives the shaking.
 
     Raises
     ------
@@ -112,12 +112,12 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
         if oscillator_alone:
             return Rig(value)
         raise InputError(
-            f"{where}: an Oscillator alone does not say what shakes it; Rig(oscillator, shaking) "
+            f"{where}: an Oscillator alone has no shaking; Rig(oscillator, shaking) "
             'is accepted, such as Rig(oscillator, "0.05 g")'
         )
     if isinstance(value, Harmonic | Periodic | Record):
         raise InputError(
-            f"{where}: a {type(value).__name__} alone does not say what vibrates; Rig(oscillator, "
+            f"{where}: a {type(value).__name__} alone has no oscillator; Rig(oscillator, "
             "shaking) is accepted"
         )
     raise InputError(f"{where}: {shown(value)} is not a rig; {_ACCEPTED}{why}")

@@ -158,8 +158,9 @@ class Record:
         if peaks[0] > _RESOLVED * peaks[1]:
             worst = int(np.abs(fine).argmax())
             raise InputError(
-                f"displacement[{worst}]: it jumps or is too rough there to be differentiated "
-                f"twice, for the peak acceleration is {peaks[0]:.3g} m/s² with all samples and "
+                f"displacement[{worst}]: it jumps or is too rough here to be "
+                f"differentiated twice: the peak acceleration is {peaks[0]:.3g} m/s² with all "
+                "samples and "
                 f"{peaks[1]:.3g} m/s² with every other one; a smooth displacement is accepted, or "
                 "the acceleration itself"
             )
@@ -346,7 +347,7 @@ def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDA
     if found.ndim != 1 or len(found) < least:
         raise InputError(
             f"{field}: {len(found) if found.ndim == 1 else f'shape {found.shape}'}; at least "
-            f"{least} samples in {quantity.symbol}, one after the other, are accepted"
+            f"{least} samples in {quantity.symbol}in one sequence are accepted"
         )
     for i in np.flatnonzero(~np.isfinite(found))[:1]:
         raise InputError(f"{field}[{i}]: {found[i]} is not finite; finite samples are accepted")

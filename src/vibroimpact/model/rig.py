@@ -87,7 +87,9 @@ class Rig:
         if not isinstance(oscillator, Oscillator):
             raise InputError(f"oscillator: {_misplaced(oscillator)}; {_EXAMPLE} is accepted")
         if isinstance(shaking, Oscillator | Rig):
-            raise InputError(f"shaking: {shown(shaking)} does not shake; {_EXAMPLE} is accepted")
+            raise InputError(
+                f"shaking: {shown(shaking)} is not an excitation; {_EXAMPLE} is accepted"
+            )
         amplitudes: tuple[float, ...] | None = None
         own: float | None = None
         if isinstance(shaking, Harmonic | Periodic):
@@ -277,8 +279,8 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
     """
     if isinstance(value, Record):
         raise InputError(
-            f"{where}: a Record has no period, and a motion that repeats itself is asked for; a "
-            "Harmonic or a Periodic is accepted, and simulate takes records"
+            f"{where}: a Record has no period, and a periodic excitation is required; a "
+            "Harmonic or a Periodic is accepted; use simulate for records"
         )
     if value is None:
         raise InputError(
@@ -295,7 +297,7 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
             size, of = sized(one, of, f"{where}[{i}]", positive=True)
             sizes.append(size)
         if not sizes:
-            raise InputError(f"{where}: the list is empty; an amplitude for each is accepted")
+            raise InputError(f"{where}: the list is empty; one amplitude per frequency is accepted")
         return Harmonic(max(sizes), ANY_FREQUENCY, of=of), tuple(sizes)
     size, of = sized(value, None, where, positive=True)
     return Harmonic(size, ANY_FREQUENCY, of=of), None

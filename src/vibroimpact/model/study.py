@@ -34,7 +34,7 @@ class ExcitationTable(Model):
 
     An amplitude is one of acceleration, displacement or force, by its unit. A record stands beside
     the study file; its `component` where the file has several, its `step` (s), its `unit` and its
-    `decimal` mark where the file does not say them; a unit may be one of length.
+    `decimal` mark if the file does not state them; a unit may be one of length.
     """
 
     amplitude: float | str | None = None
@@ -56,7 +56,7 @@ class ExcitationTable(Model):
         beside = dict.fromkeys(("component", "step", "unit", "decimal"), "record")
         for name, needs in (("phases", "amplitudes"), *beside.items()):
             if getattr(self, name) is not None and ways[needs] is None:
-                raise InputError(f"{name} is given without {needs}; it is accepted beside it")
+                raise InputError(f"{name} is given without {needs}; it is accepted only with it")
         return self
 
     def shaking(self, folder: Path) -> Repeated | Record | None:
@@ -107,7 +107,7 @@ class RigStudy(Model):
                 'such as case = "B2-G1-A3"'
             )
         if self.parameters is not None and self.case is None:
-            raise InputError("parameters are given without a case; they are accepted beside one")
+            raise InputError("parameters are given without a case; they are accepted only with one")
         return self
 
     def rig(self, path: Path, parameters: Parameters | None = None) -> Rig:

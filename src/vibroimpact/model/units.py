@@ -116,7 +116,7 @@ def to_si(
     Raises
     ------
     InputError
-        If the value is a bool, is no number, is not finite, is empty, has an unknown unit
+        If the value is a bool, is not a number, is not finite, is empty, has an unknown unit
         or a unit of another dimension, or lies outside the bounds.
     """
     try:
@@ -339,10 +339,12 @@ def _measured(number: Decimal, rest: str, quantity: Quantity) -> Decimal | float
     if rest not in FRACTIONS:
         for fraction in FRACTIONS:
             if any(fraction in name for name in names):
-                raise _RefusalError(f"has a {fraction} beside a unit; one of the two is accepted")
+                raise _RefusalError(
+                    f"has a {fraction} together with a unit; one of the two is accepted"
+                )
     for name in names:
         if meant := two_meanings(name):
-            raise _RefusalError(f"has a unit of two meanings, '{name}'; write {meant}")
+            raise _RefusalError(f"has the ambiguous unit '{name}'; write {meant}")
     registry = _registry()
     try:
         unit = registry.parse_units(rest)

@@ -40,7 +40,7 @@ class Accepts:
 
     ``Annotated[float, Accepts(LENGTH, minimum=0.0)]`` is a float in metres that may be
     given as a number or as text with units. With ``optional=True`` the field may also be
-    None, which says that the value is not known.
+    None, which means that the value is unknown.
 
     Where the unit depends on an exponent, `by` names the field that holds it, which the class must
     declare before, and `family` gives the quantity for an exponent; `quantity` is the usual one.

@@ -62,11 +62,11 @@ def varied(
         for i, value in enumerate(values)
     ]
     if not numbers:
-        raise InputError(f"{field}: no values; one or more are accepted")
+        raise InputError(f"{field}: empty; one or more values are accepted")
     if known.name == "damping_ratio":
         doubt_damping_ratio(max(numbers), field)
     if len(set(numbers)) < len(numbers):
-        raise InputError(f"{field}: a value is given twice; different ones are accepted")
+        raise InputError(f"{field}: a value is given twice; distinct values are accepted")
     return Varied(known.name, np.array(numbers), known.units, known.long_name)
 
 

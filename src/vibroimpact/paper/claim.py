@@ -1,4 +1,4 @@
-"""A statement of the paper, and what the computation says of it."""
+"""A statement of the paper, and the verdict of the computation."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Verdict(StrEnum):
 
 
 class Kind(StrEnum):
-    """What a verdict on a statement says."""
+    """Verdict on a statement."""
 
     COMPUTED = "computed"
     """Nothing in the program was chosen with it in view: it might have come out otherwise."""

@@ -1,4 +1,4 @@
-"""All that the report consists of, in the paper's order, and with a refined isolator behind it."""
+"""All that the report consists of, in the paper's order, followed by a refined isolator."""
 
 from __future__ import annotations
 

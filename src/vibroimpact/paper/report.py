@@ -45,7 +45,7 @@ class Judged(NamedTuple):
 
     @property
     def reason(self) -> str:
-        """Why it is not reproduced; empty if it is, or if nobody has said why."""
+        """Why it is not reproduced; empty if it is, or if no reason is given."""
         lost = self.finding.verdict is Verdict.NOT_REPRODUCED
         return REASONS.get(self.claim.key, "") if lost else ""
 
@@ -203,7 +203,7 @@ def _row(cells: Iterable[str]) -> str:
 
 
 def _facts() -> dict[str, Any]:
-    """What the introduction tells of the rig, from its parameters."""
+    """Describe the rig for the introduction, from its parameters."""
     return {
         "version": __version__,
         "Verdict": Verdict,

@@ -197,7 +197,7 @@ class PublishedStudy:
     ) -> tuple[float, float, float]:
         """Three frequencies of an S3 rig in Hz (the paper's Figs. 7, 8, 11 and 12).
 
-        The secondary resonance, the valley behind it, and the last one before the forward sweep
+        The secondary resonance, the valley after it, and the last one before the forward sweep
         jumps down: all read off η_a of the forward sweep.
         """
         data = self.curves(code, parameters)

@@ -114,12 +114,12 @@ def _numbers(file: File, decimal: Decimal) -> tuple[list[list[float]], list[int]
             row = [float(part) for part in parts]
         except ValueError:
             if rows:
-                told = f"{whole.strip()[:40]!r} is no row of numbers; numbers are accepted from "
+                told = f"{whole.strip()[:40]!r} is not a row of numbers; numbers are accepted from "
                 raise file.refused(at, f"{told}the first row of them on") from None
             words.append(line)
             continue
         if ended:
-            raise file.refused(at, "numbers behind the end of the data; one record is accepted")
+            raise file.refused(at, "numbers after the end of the data; one record is accepted")
         rows.append(row)
         lines.append(at)
     return rows, lines, words

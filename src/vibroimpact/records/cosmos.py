@@ -1,8 +1,8 @@
 """COSMOS files, V1 and V2, of version 1.20: channels one after the other.
 
 A channel has lines of text whose number stands in the first, integers and reals in columns whose
-width stands above them, comments, and a line that says how many values follow, their unit and their
-width. The step is real 62, in ms.
+width stands above them, comments, and a line that states how many values follow, their unit and
+their width. The step is real 62, in ms.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
     if at < len(file.lines):
         file.behind(at, count, width)
         if not re.match(r"\s*(End-of-data|/&)", file.lines[at], re.IGNORECASE):
-            told = f"{file.lines[at].strip()[:40]!r} is no end of the channel's data"
+            told = f"{file.lines[at].strip()[:40]!r} does not end the data of the channel"
             raise file.refused(at, told)
     step = 1e-3 * float(numbers[_STEP]) if len(numbers) > _STEP else 0.0
     head = file.lines[first : first + int(begins[1])]

@@ -45,7 +45,7 @@ def read(file: File) -> list[Channel]:
 
 def _channel(file: File, first: int) -> tuple[Channel, int]:
     if not _BEGINS.match(file.lines[first]):
-        told = f"{file.lines[first].strip()[:40]!r} is no beginning of a channel"
+        told = f"{file.lines[first].strip()[:40]!r} does not start a channel"
         raise file.refused(first, told)
     at = first
     number = towards = station = ""
@@ -88,7 +88,7 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
 
 
 def _end(file: File, at: int, first: int) -> int:
-    """The line behind a channel, whose velocities and displacements are passed over."""
+    """The line after a channel, whose velocities and displacements are passed over."""
     while at < len(file.lines):
         line = file.lines[at]
         if _ENDS.match(line):
@@ -99,7 +99,7 @@ def _end(file: File, at: int, first: int) -> int:
             _, at = file.numbers(at + 1, int(other[1]), width or None)
             continue
         if line.strip():
-            told = f"{line.strip()[:40]!r} is no end of the channel that begins in line {first + 1}"
+            told = f"{line.strip()[:40]!r} does not end the channel that starts in line {first + 1}"
             raise file.refused(at, told)
         at += 1
     return at

@@ -67,13 +67,13 @@ def of_end(values: NDArray[np.float64]) -> list[str]:
     if changes[-1] <= max(_FAR * changes[:-1].max(), _SMALL * float(np.abs(values).max())):
         return []
     return [
-        f"the last value, {values[-1]:.6g}, is far from the one before it, {values[-2]:.6g}: was "
-        "the file cut there?"
+        f"the last value, {values[-1]:.6g}, is far from the one before it, {values[-2]:.6g}: is "
+        "the file incomplete?"
     ]
 
 
 def of_last_line(file: File) -> list[str]:
-    """Doubts about a last number that has no line break behind it, and another form."""
+    """Doubts about a last number that has no line break after it, and another form."""
     if file.ends_whole or not file.lines:
         return []
     cells = _cells(file.lines[-1])
@@ -90,8 +90,8 @@ def of_last_line(file: File) -> list[str]:
     if others and set(others) == {forms[-1]} and forms[-1] != (0, 0):
         return []
     return [
-        f"the file ends with {cells[-1][:20]!r} and without a line break: was it cut within a "
-        "number?"
+        f"the file ends with {cells[-1][:20]!r} and without a line break: is it incomplete "
+        "within a number?"
     ]
 
 

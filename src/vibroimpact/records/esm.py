@@ -30,7 +30,7 @@ def read(file: File) -> list[Channel]:
         try:
             return float(entries.get(name) or "nan")
         except ValueError:
-            told = f"{name}: {entries[name]!r} is no number; a number is accepted"
+            told = f"{name}: {entries[name]!r} is not a number; a number is accepted"
             raise file.refused(where[name], told) from None
 
     found = number("NDATA")
@@ -41,7 +41,7 @@ def read(file: File) -> list[Channel]:
     values, behind = file.numbers(at, count)
     for further in range(behind, len(file.lines)):
         if _ENTRY.match(file.lines[further]):
-            raise file.refused(further, "a second header; one record a file is accepted")
+            raise file.refused(further, "a second header; one record per file is accepted")
     file.behind(behind, count)
     step = number("SAMPLING_INTERVAL_S")
     names = [entries.get("NETWORK", ""), entries.get("STATION_CODE", "")]

@@ -33,7 +33,8 @@ class File:
                 self.data = unpacked(self.data, path, "record", gzip=True)
         except (EOFError, zlib.error) as error:
             raise InputError(
-                f"record: {self.path!r} is a damaged gzip file ({error}); a whole one is accepted"
+                f"record: {self.path!r} is a damaged gzip file ({error}); a complete file is "
+                "accepted"
             ) from None
         except OSError as error:
             raise InputError(
@@ -92,7 +93,7 @@ class File:
         Returns
         -------
         values, next
-            And the line behind them.
+            And the line after them.
 
         Raises
         ------
@@ -105,7 +106,8 @@ class File:
         while len(parts) < count:
             if at >= len(self.lines):
                 told = (
-                    f"the file ends after {len(parts)} of {count} values; a whole one is accepted"
+                    f"the file ends after {len(parts)} of {count} values; a complete file is "
+                    "accepted"
                 )
                 raise self._damaged(first, at, width) or self.refused(len(self.lines) - 1, told)
             parts += self._cut(at, width)
@@ -135,7 +137,7 @@ class File:
                 try:
                     found = float(part)
                 except ValueError:
-                    why = "is no number; numbers are accepted"
+                    why = "is not a number; numbers are accepted"
                     if "," in part:
                         why = (
                             "has a comma; decimal points, and blanks between numbers, are accepted"
@@ -161,4 +163,4 @@ class File:
             float(self._cut(at, width)[0])
         except ValueError:
             return
-        raise self.refused(at, f"a further value behind the {count} that the header announces")
+        raise self.refused(at, f"a further value after the {count} that the header announces")

@@ -39,7 +39,7 @@ def _component(file: File, first: int) -> tuple[Channel, int]:
     if not _begins(file.line(first)):
         raise file.refused(
             first,
-            f"{file.lines[first].strip()[:40]!r} is no beginning of a component; "
+            f"{file.lines[first].strip()[:40]!r} does not start a component; "
             f"'Uncorrected accelerogram' or 'Corrected accelerogram' is accepted",
         )
     integers, at = file.numbers(first + _TEXT, 40, _WIDTH)

@@ -14,12 +14,12 @@ MOST_COLUMNS = 10_000
 
 
 def regular(path: Path | str, field: str) -> None:
-    """Refuse what is no regular file, such as a pipe, and what is too large.
+    """Raise an error for a file that is not regular, such as a pipe, or is too large.
 
     Raises
     ------
     InputError
-        If it is there, and cannot be used.
+        If it exists, and cannot be used.
     """
     file = check_path(path, field)
     if file.exists() and not file.is_file():

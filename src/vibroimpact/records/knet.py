@@ -34,7 +34,7 @@ def _find(file: File, name: str) -> tuple[int, str] | None:
 def _entry(file: File, name: str, pattern: str) -> tuple[int, re.Match[str]]:
     found = _find(file, name)
     if found is None:
-        told = f"the header has no {name!r}; one of K-NET is accepted"
+        told = f"the header has no {name!r}; a header of K-NET is accepted"
         raise file.refused(min(_HEADER, len(file.lines)) - 1, told)
     match = re.match(pattern, found[1])
     if match is None:

@@ -48,7 +48,7 @@ def segments(file: File) -> list[list[Signal]]:
     Raises
     ------
     InputError
-        If a header does not end, or a line is no row of numbers.
+        If a header does not end, or a line is not a row of numbers.
     """
     about: dict[str, list[str]] = {}
     mark, decimal = "\t", "."
@@ -95,14 +95,14 @@ def _header(file: File, at: int, mark: str, about: dict[str, list[str]]) -> int:
             return at
         if key:
             about[key.lower()] = values
-    raise file.refused(first, "a header without an end; '***End_of_Header***' is accepted")
+    raise file.refused(first, "a header without an end; '***End_of_Header***' is expected")
 
 
 def _segment(
     file: File, at: int, mark: str, decimal: str, about: dict[str, list[str]]
 ) -> tuple[list[Signal], int]:
     if at >= len(file.lines) or not _names(file.lines[at], mark):
-        raise file.refused(min(at, len(file.lines) - 1), "no names of columns; X_Value is accepted")
+        raise file.refused(min(at, len(file.lines) - 1), "no column names; X_Value is expected")
     names = _cells(file.lines[at], mark)
     above = at
     at += 1
@@ -161,18 +161,20 @@ def _number(file: File, at: int, cell: str, decimal: str) -> float:
     try:
         return float(cell.replace(decimal, "."))
     except ValueError:
-        raise file.refused(at, f"{cell[:40]!r} is no number; numbers are accepted") from None
+        raise file.refused(at, f"{cell[:40]!r} is not a number; numbers are accepted") from None
 
 
 def read(file: File) -> list[Channel]:
     """The channels of a file of one segment."""
     found = segments(file)
     if len(found) != 1:
-        raise file.refused(0, f"{len(found)} segments; a file of one is accepted")
+        raise file.refused(0, f"{len(found)} segments; a file with one segment is accepted")
     channels = []
     for signal in found[0]:
         if signal.axis != "time":
-            told = f"{signal.name!r} is over {signal.axis!r}; values over time are accepted"
+            told = (
+                f"{signal.name!r} is a function of {signal.axis!r}; values over time are accepted"
+            )
             raise file.refused(0, told)
         even = np.diff(signal.times)
         step = signal.step

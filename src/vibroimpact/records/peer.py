@@ -1,6 +1,6 @@
 """PEER's AT2 files: four lines of header, then values in lines of any length.
 
-The fourth line says how many values there are and the step, in one of three ways::
+The fourth line states the number of values and the step, in one of three ways::
 
     NPTS=   7999, DT=   .0050 SEC,
     NPTS=  15306, DT=    0.05 SEC
@@ -57,7 +57,7 @@ def read(file: File) -> list[Channel]:
     values, behind = file.numbers(at + 1, count)
     again = _announced(file, behind, len(file.lines))
     if again is not None:
-        raise file.refused(again, "a second header; one record a file is accepted")
+        raise file.refused(again, "a second header; one record per file is accepted")
     file.behind(behind, count)
     above = file.lines[: at + 1]
     unit = next((unit for line in above if (unit := stated_unit(line))), None)

@@ -87,8 +87,8 @@ def _whole(file: File) -> None:
         at += length
         if at > size or length < _HEAD:
             raise InputError(
-                f"record: {file.path!r} ends within a record of {length} bytes: it was cut; a "
-                "whole file is accepted"
+                f"record: {file.path!r} ends within a record of {length} bytes, so it is "
+                "incomplete; a complete file is accepted"
             )
 
 
@@ -119,7 +119,9 @@ def _merged(file: File, stream: Any) -> Any:
 
 
 def _apart(file: File, trace: Any, what: str) -> InputError:
-    return InputError(f"record: {file.path!r}: {trace.id} has {what}; a record without is accepted")
+    return InputError(
+        f"record: {file.path!r}: {trace.id} has {what}; a record without them is accepted"
+    )
 
 
 def _scale(file: File, trace: Any) -> tuple[float, tuple[str, ...]]:
@@ -137,7 +139,7 @@ def _scale(file: File, trace: Any) -> tuple[float, tuple[str, ...]]:
     if scale == 1.0:
         return 1.0, ()
     if (trace.data != np.round(trace.data)).any():
-        return 1.0, (f"the scale of the header, {scale:g}, is not used: the values are no counts",)
+        return 1.0, (f"the scale of the header, {scale:g}, is not used: the values are not counts",)
     if not 0.0 < abs(scale) < np.inf:
         raise InputError(
             f"record: {file.path!r}: its header states the scale {scale:g}; a number other than 0 "

@@ -171,8 +171,8 @@ def _check(rig: Rig, frequencies: Iterable[float], field: str) -> None:
             which = "" if n == 1 else f" over {n}"
             raise InputError(
                 f"{field.format(i)}: {float(frequency)!r} Hz is the natural frequency{which} "
-                f"of an undamped isolator{held} where free flight grows without bound; another "
-                "frequency or some isolator damping is accepted"
+                f"of an undamped isolator{held} where the motion without stops grows without "
+                "bound; another frequency or some isolator damping is accepted"
             )
 
 

@@ -113,7 +113,7 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     Raises
     ------
     InputError
-        If the mass lies inside a bumper, or is said to touch one that it does not touch.
+        If the mass lies inside a bumper, or the state claims a contact that does not exist.
     """
     u, v = state.displacement, state.velocity
     deformations = [0.0, 0.0]
@@ -199,7 +199,7 @@ def _on_wall(
     if reach > slack:
         raise InputError(
             f"start.displacement: {state.displacement:g} m lies {reach:g} m inside the rigid stop; "
-            f"{sign * stop.gap:g} m and less far is accepted"
+            f"{sign * stop.gap:g} m or closer to the middle is accepted"
         )
     rests = reach >= -slack and state.velocity == 0.0
     if said and not rests:
@@ -240,13 +240,13 @@ def _on_bumper(
     rounding = TOUCHING * (stop.stiffness * deformation + stop.damping * abs(closing))
     if said and force < -rounding:
         raise InputError(
-            f"start.contact: {state.contact}, but the bumper would pull with {-force:g} N; "
-            "0 is accepted, or a velocity at which it presses"
+            f"start.contact: {state.contact}, but the bumper would pull with {-force:g} N; 0 is "
+            "accepted, or a velocity at which it pushes"
         )
     if said is False and touches and stop.damping == 0.0 and deformation > slack:
         raise InputError(
             f"start.contact: {state.contact}, but the mass presses the {name} by "
-            f"{deformation:g} m, which has no dashpot to lag behind; {sign} is accepted"
+            f"{deformation:g} m, which has no dashpot and so cannot lag; {sign} is accepted"
         )
     presses = force > 0.0 or (deformation == 0.0 and stop.damping == 0.0 and closing > 0.0)
     return bool(said) or (said is None and touches and presses), deformation

@@ -28,7 +28,7 @@ MEMORY = 4
 
 
 class Recorded(NamedTuple, Generic[_Shaking]):
-    """What a dataset of a motion says of its origin."""
+    """Origin of the motion of a dataset."""
 
     oscillator: Oscillator
     excitation: _Shaking
@@ -108,8 +108,8 @@ def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
     held = isinstance(motion, xr.Dataset) and {"event_time", "velocity"} <= set(motion.variables)
     if not held or motion.sizes["time"] < ("cycle" not in motion) + 1:
         raise InputError(
-            "motion: this is no recorded motion; a dataset of steady, or of simulate with samples, "
-            "is accepted"
+            "motion: this is not a recorded motion; a dataset of steady, or of simulate with "
+            "samples, is accepted"
         )
     parameters = json.loads(motion.attrs["parameters"])
     oscillator = validate(Oscillator, parameters["oscillator"], "motion.oscillator")
@@ -142,7 +142,7 @@ def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
         raise InputError(
             "motion: it goes through a Record, which has no cycles; a motion under a Harmonic or a "
             "Periodic is accepted (contacts, totals, record_history, phase_portrait and "
-            "hysteresis_cycle take this one)"
+            "hysteresis_cycle accept this one)"
         )
     return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
 

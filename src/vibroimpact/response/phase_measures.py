@@ -34,7 +34,7 @@ def measured(origin: Recorded[Any], parts: Phases, side: NDArray[np.int64] | Non
 
 
 def asked(origin: Recorded[Any]) -> tuple[_Array, float, float]:
-    """The rig, size and frequency that the engine is told for phases of a motion."""
+    """The rig, size and frequency that the engine receives for phases of a motion."""
     shaken = origin.excitation
     size, frequency = 0.0, 0.0
     if isinstance(shaken, Record):

@@ -89,10 +89,9 @@ def note_unbounded(rig: Rig) -> list[str]:
     natural = undamped_frequency(oscillator)
     size = 0.5 * reference_excursions(rig)[0]
     return [
-        f"{UNBOUNDED}: it grows without end at {pretty(natural, FREQUENCY)}, for "
-        "nothing damps the isolator enough; η is taken over "
-        f"{pretty(float(f'{size:.4g}'), LENGTH)}, which a slowly changing excitation of this size "
-        "gives"
+        f"{UNBOUNDED}: it grows without bound at {pretty(natural, FREQUENCY)}because the "
+        "isolator has almost no damping; η is divided by "
+        f"{pretty(float(f'{size:.4g}'), LENGTH)}, the value for a slow excitation of this size"
     ]
 
 
@@ -133,8 +132,8 @@ def note_stiff_stops(rig: Rig, frequency: float) -> list[str]:
             notes.append(
                 f"{STIFF}: the {name} stop is pressed at rest and vibrates at "
                 f"{pretty(float(f'{own:.3g}'), FREQUENCY)}, {own / frequency:.3g} times the "
-                f"forcing frequency of {pretty(frequency, FREQUENCY)}, and each vibration takes "
-                "steps of its own; a smaller stiffness of this stop makes it faster"
+                f"forcing frequency of {pretty(frequency, FREQUENCY)}, and every vibration must "
+                "be computed; a smaller stiffness of this stop makes the computation faster"
             )
     return notes
 

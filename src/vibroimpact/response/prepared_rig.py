@@ -1,4 +1,4 @@
-"""The prepared rig: what the engine needs of a rig, made once, and what it can be asked for."""
+"""The prepared rig: what the engine needs of a rig, made once, with its computations."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ class PreparedRig(NamedTuple):
         Returns
         -------
         status, rows
-            Rows of `engine.lyapunov.growth`: fewer than asked for unless `Status.DONE`.
+            Rows of `engine.lyapunov.growth`: fewer than requested unless `Status.DONE`.
         """
         rows = np.empty((cycles, lyapunov.GROWTH))
         done = 0

@@ -1,4 +1,4 @@
-"""A motion through a record, and the free vibration behind it."""
+"""A motion through a record, and the free vibration after it."""
 
 from __future__ import annotations
 

@@ -3,7 +3,7 @@
 Every function takes the dataset of `vibroimpact.sweep` and judges the normalised excursions
 η_a and η_d at the frequencies that were held; nothing is interpolated between them.
 
-Hysteresis is told by comparing the two directions: where both have settled on the same motion
+Hysteresis is detected by comparing the two directions: where both have settled on the same motion
 their excursions agree to rounding, so a difference of one per cent is another motion.
 
 - Right hysteresis, as at the primary resonance: forward above backward. Its upper end is the

@@ -83,25 +83,25 @@ def logarithmic(values: _Array) -> bool:
 def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
     """Read an axis: the name of a parameter, its values, and "linear" or "log" if it is not clear.
 
-    `of` says what amplitudes are measured in.
+    `of` is the quantity of amplitudes.
 
     Raises
     ------
     InputError
-        If it is no such pair, or a value cannot be used.
+        If it is not such a pair, or a value is invalid.
     """
     pair = isinstance(given, tuple | list) and len(given) in (2, 3) and isinstance(given[0], str)
     if not pair or given[2:] not in ((), [], ("log",), ["log"], ("linear",), ["linear"]):
         raise InputError(
-            f"{field}: {given!r} is no axis; a pair of a name and values is accepted, such as "
-            '("gap_ratio", [0, 0.5, 1]), and "log" or "linear" behind it'
+            f"{field}: {given!r} is not an axis; a pair of a name and values is accepted, such as "
+            '("gap_ratio", [0, 0.5, 1]), optionally followed by "log" or "linear"'
         )
     name, values = given[:2]
     if name not in NAMES:
         raise InputError(f"{field}: {unknown(name, NAMES)}")
     varied = parameter(name, of=of)
     if isinstance(values, str) or not isinstance(values, Iterable):
-        raise InputError(f"{field}: {values!r} is no list of values; at least two are accepted")
+        raise InputError(f"{field}: {values!r} is not a list of values; at least two are accepted")
     limits: dict[str, Any] = {"minimum": 0.0} if varied.zero else {"above": 0.0}
     limits["maximum"] = varied.most
     numbers = np.array(
@@ -153,18 +153,18 @@ def one_sine(rig: Rig, where: str = "shaking") -> Rig:
     shaken, _ = as_periodic(rig.shaking, where)
     if rig.amplitudes is not None:
         raise InputError(
-            f"{where}: {len(rig.amplitudes)} amplitudes; a scenario is that of one amplitude at "
-            "all frequencies"
+            f"{where}: {len(rig.amplitudes)} amplitudes; a scenario is defined for one amplitude "
+            "at all frequencies"
         )
     if not isinstance(shaken, Harmonic):
         raise InputError(
-            f"{where}: a Periodic, whose harmonics resonate below the primary resonance in free "
-            "flight already, so that no scenario can be told; one sine is accepted"
+            f"{where}: a Periodic, whose harmonics cause resonances below the primary one even "
+            "without stops, so scenarios are not defined; one sine is accepted"
         )
     if oscillator.isolator.initial_stiffness == 0.0:
         raise InputError(
-            "isolator.stiffness: 0 leaves no natural frequency, by which scenarios are scaled; "
-            "one greater than 0 is accepted"
+            "isolator.stiffness: 0, so there is no natural frequency to scale scenarios by; a "
+            "stiffness greater than 0 is accepted"
         )
     open_sine = shaken.replace(frequency=ANY_FREQUENCY, phase=0.0)
     return Rig.of_open_frequency(oscillator, open_sine, rig.name)
@@ -219,11 +219,11 @@ class Base(NamedTuple):
         for name in values:
             if name in _OF_BUMPERS and not any(isinstance(stop, Bumper) for stop in stops):
                 raise InputError(
-                    f"rig: {name!r} is that of bumpers, but every stop is rigid; 'gap', "
+                    f"rig: {name!r} applies to bumpers, but every stop is rigid; 'gap', "
                     "'gap_ratio', 'restitution', 'amplitude' or 'damping_ratio' is accepted"
                 )
             if name == "restitution" and not any(isinstance(stop, RigidStop) for stop in stops):
                 raise InputError(
-                    "rig: 'restitution' is that of rigid stops, but there is none; a rig with "
+                    "rig: 'restitution' applies to rigid stops, but the rig has none; a rig with "
                     "one or two is accepted"
                 )

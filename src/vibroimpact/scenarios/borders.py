@@ -1,8 +1,8 @@
 """Where jumps begin: the border of the scenarios without them, exact.
 
 On one side of it the branch of orbits turns back at two folds, on the other it does not turn:
-the folds meet in a cusp. The sweeps of a map tell on which side a node lies; from one with jumps
-the fold is followed in the frequency and one of the map's parameters until it turns.
+the folds meet in a cusp. The sweeps of a map determine on which side a node lies; from one with
+jumps the fold is followed in the frequency and one of the map's parameters until it turns.
 """
 
 from __future__ import annotations
@@ -70,10 +70,10 @@ def jump_border(
     Raises
     ------
     InputError
-        If it is no map, or there is no such place for the work.
+        If it is not a map, or ``where`` is invalid.
     """
     if data.attrs.get("created_by") != CREATED_BY:
-        raise InputError("data: this is no map; a dataset of scenario_map is accepted")
+        raise InputError("data: this is not a map; a dataset of scenario_map is accepted")
     settings = json.loads(data.attrs["parameters"])
     x, y = settings["x"]["name"], settings["y"]["name"]
     along = next((name for name in FOLLOWED if name in (x, y)), None)

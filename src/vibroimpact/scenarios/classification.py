@@ -13,7 +13,7 @@ def scenario(found: Evidence, thresholds: Thresholds) -> Scenario:
     """Name the scenario; the first that fits, in this order.
 
     0. Unclassified if too little is known; if the resonance lies beyond the frequencies swept,
-       only S4 can be told.
+       only S4 can be recognised.
     1. S0: no bumper is hit.
     2. S5: the bumpers touch the mass at rest, and the curves are smooth.
     3. S1: the gap is nearly free flight's amplitude, and the bumpers are hardly deformed.
@@ -85,7 +85,7 @@ def alternatives(found: Evidence, thresholds: Thresholds) -> dict[tuple[str, flo
 def confidence(found: Evidence, thresholds: Thresholds) -> float:
     """Share of the threshold's variations (each halved, each doubled) with the same scenario.
 
-    1 says that no threshold matters by a factor of two; it says nothing of what lies outside
+    1 means that no threshold matters by a factor of two; it says nothing of what lies outside
     the frequencies that were swept.
     """
     return 1.0 - len(alternatives(found, thresholds)) / len(list(thresholds.variations()))

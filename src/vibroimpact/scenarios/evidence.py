@@ -58,7 +58,7 @@ class Irregular(NamedTuple):
 
 
 class Evidence(NamedTuple):
-    """What tells the scenario of a rig."""
+    """Features that determine the scenario of a rig."""
 
     natural_frequency: float
     """f0 in Hz."""

@@ -10,7 +10,7 @@ from vibroimpact.scenarios.thresholds import Thresholds
 
 
 def in_words(found: Evidence, thresholds: Thresholds) -> str:
-    """What the curves show, the features that tell the scenario first."""
+    """Describe the curves, beginning with the features that determine the scenario."""
     if found.contact is None:
         room = (
             "there is no bumper"

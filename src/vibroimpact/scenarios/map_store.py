@@ -60,7 +60,7 @@ class MapStore:
             self._array(name)[block] = part
 
     def inherit(self, scenarios: NDArray[np.int8]) -> None:
-        """Put the scenarios of all nodes; the levels tell which were computed."""
+        """Put the scenarios of all nodes; the levels show which were computed."""
         self._array("scenario")[:] = scenarios
 
     def done(self, level: int, row: int, column: int) -> bool:
@@ -72,11 +72,11 @@ class MapStore:
         self._array("done")[level, row, column] = 1
 
     def finished(self) -> bool:
-        """Whether the whole map is there."""
+        """Whether the map is complete."""
         return finished(self._group)
 
     def finish(self) -> None:
-        """Say that the whole map is there."""
+        """Mark the map as complete."""
         self._group.attrs["finished"] = True
 
     def dataset(self) -> xr.Dataset:

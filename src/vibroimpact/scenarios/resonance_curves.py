@@ -1,4 +1,4 @@
-"""The curves of one rig in both directions, as what its scenario is told from.
+"""The curves of one rig in both directions, from which its scenario is determined.
 
 They come from a dataset, or from a sweep of their own without one: a map has ten thousand.
 """
@@ -78,8 +78,8 @@ def each_curves(data: xr.Dataset) -> Iterator[Curves]:
     """
     if data.sizes["direction"] != 2:
         raise InputError(
-            f"data: the sweep went {data['direction'].values.tolist()}; one forward and backward "
-            "is accepted, for hysteresis is what tells the scenarios apart"
+            f"data: the sweep went {data['direction'].values.tolist()}; both forward and "
+            "backward are required because hysteresis distinguishes the scenarios"
         )
     most = data["displacement_max"].max(["direction", "frequency"]).values
     least = data["displacement_min"].min(["direction", "frequency"]).values
@@ -117,7 +117,7 @@ def swept_alone(
 ) -> tuple[Curves, Holds]:
     """Sweep a rig on this thread, as `sweeps` does; of no use if the tally has stopped it.
 
-    A motion that is plainly chaotic behind its transient (s) is measured at once.
+    A motion that is clearly chaotic after its transient (s) is measured at once.
     """
     ready = plan_sweep(rig, frequencies)
     settling = Settling(_TOLERANCE, max_cycles, window, _MAX_EVENTS)

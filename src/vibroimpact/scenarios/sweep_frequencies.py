@@ -144,7 +144,7 @@ def grid(high: float, step: float) -> NDArray[np.float64]:
     count = (high - LOW) / step - 1e-9
     if count > MOST and (high - LOW) / STEP <= MOST:
         raise InputError(
-            f"step: {step:g} takes {count:.3g} frequencies; a step that takes at most {MOST} is "
+            f"step: {step:g} gives {count:.3g} frequencies; a step that gives at most {MOST} is "
             "accepted"
         )
     if count > MOST:

@@ -1,1 +1,1 @@
-"""What is behind a response: growth of disturbances, kinds of motion, coexisting motions."""
+"""Analysis of motions: growth of disturbances, kinds of motion, coexisting motions."""

@@ -146,8 +146,8 @@ def bifurcation_curve(
         first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
     if first is None:
         raise InputError(
-            f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; one that "
-            "was found for it is accepted"
+            f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; a "
+            "bifurcation that was computed for it is accepted"
         )
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):

@@ -86,8 +86,8 @@ def as_dataset(
             data.attrs[f"{prefix}unexplained_changes"] = [v for pair in unexplained for v in pair]
             low, high = unexplained[0]
             warnings.warn(
-                f"stability changes {len(unexplained)} times along this branch where no "
-                f"bifurcation was found, first between {name} {low:.9g} and {high:.9g}: the list "
+                f"stability changes {len(unexplained)} times along this branch without a "
+                f"detected bifurcation, first between {name} {low:.9g} and {high:.9g}: the list "
                 "of bifurcations is incomplete there",
                 RuntimeWarning,
                 stacklevel=4,

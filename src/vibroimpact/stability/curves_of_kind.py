@@ -65,8 +65,8 @@ def curves_of_kind(
     if not low <= over.value <= high:
         quantity = over.other.quantity
         raise InputError(
-            f"spans[1]: {pretty(low, quantity)} to {pretty(high, quantity)} leaves out the rig's "
-            f"{second}, {pretty(over.value, quantity)}; a range that holds it is accepted"
+            f"spans[1]: {pretty(low, quantity)} to {pretty(high, quantity)} does not contain the "
+            f"rig's {second}, {pretty(over.value, quantity)}; a range that contains it is accepted"
         )
     if first == "frequency":
         data = resonance_diagram(rig, spans[0], phase=shaking.phase, progress=progress)

@@ -1,4 +1,4 @@
-"""Where a branch of orbits turns back, where nothing else is asked of it.
+"""Where a branch of orbits turns back, without further results.
 
 A linear isolator's free flight is one orbit at each frequency, the smaller the farther from its
 resonance. A branch that comes from contact into free flight therefore goes on away from the

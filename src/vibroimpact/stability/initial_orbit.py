@@ -76,13 +76,13 @@ def first_orbit(
 def _no_orbit(period: int, status: Status, failed: Orbit | None) -> InputError:
     if failed is not None and status is Status.NOT_SETTLED and _neutral(failed):
         return InputError(
-            f"start: the orbits of period {period} near it are not isolated, or a fold is near (a "
-            "multiplier of 1), so that Newton's method does not converge to one of them; some "
-            "isolator damping, or another start, is accepted"
+            f"start: the orbits of period {period} near it are not isolated, or a fold is near "
+            "(a multiplier of 1), so Newton's method does not converge; use some isolator "
+            "damping, or another start"
         )
     return InputError(
-        f"start: Newton's method finds no orbit of period {period} near it "
-        f"({told(status)}); a state nearer to one is accepted"
+        f"start: Newton's method finds no orbit of period {period} near it ({told(status)}); a "
+        "state closer to an orbit is accepted"
     )
 
 
@@ -117,7 +117,7 @@ def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Or
     begin = engine_state(fam.oscillator, equilibrium(fam.oscillator))
     rest = approach(fam.rig, begin)
     if rest.status not in (Status.DONE, Status.NOT_SETTLED):
-        raise InputError(f"start: the motion from rest is given up: {rest.status.advice}")
+        raise InputError(f"start: the motion from rest was given up: {rest.status.advice}")
     if period is None and not rest.period:
         raise InputError(
             f"start: the motion from rest does not settle at {fam.excitation.frequency:g} Hz; "

@@ -252,7 +252,7 @@ class Branch:
         return beyond(here.orbit, "orbit", f"{here.orbit.value:.9g}")
 
     def corner(self, here: Station, length: float) -> list[Station]:
-        """See `Path`: the last orbit with the contacts of `here`, and one just behind it."""
+        """See `Path`: the last orbit with the contacts of `here`, and one just after it."""
         contacts = here.orbit.contacts
         if (passed := self._through_rest(here, length)) is not None:
             return passed

@@ -1,6 +1,6 @@
 """A Zarr group in a folder: written block by block, by one writer, with checksums.
 
-The group is there with all its arrays or not at all. Each chunk carries a checksum, and each block
+The group exists with all its arrays or not at all. Each chunk carries a checksum, and each block
 a mark in the array ``done``, which is set when the block is complete. When a store is opened, every
 block that is marked is read once; a damaged one is marked as not done, so that whoever completes
 the store computes it again.
@@ -49,7 +49,7 @@ class Block(NamedTuple):
 
 
 def finished(group: zarr.Group) -> bool:
-    """Whether all of it is there."""
+    """Whether the store is complete."""
     return bool(group.attrs.get("finished", False))
 
 
@@ -108,7 +108,7 @@ def folder(
 ) -> Iterator[zarr.Group]:
     """Open a store, or make it; None keeps it in memory.
 
-    If blocks are damaged, a warning says how many; they are then marked as not done.
+    If blocks are damaged, a warning reports how many; they are then marked as not done.
 
     Parameters
     ----------

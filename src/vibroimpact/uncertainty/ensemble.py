@@ -51,7 +51,7 @@ def ensemble(
 
     The response is any function of a list of rigs that returns a dataset with the dim ``rig``:
     `sweeps`, `demands` and `lyapunov_exponents` are such functions, with their other arguments
-    fixed by `functools.partial`. `for_each_rig` makes one from a function of a single rig::
+    fixed by ``functools.partial``. `for_each_rig` makes one from a function of a single rig::
 
         vi.ensemble(case, {"gap": "normal:5%"}, functools.partial(vi.sweeps, frequencies=grid))
 

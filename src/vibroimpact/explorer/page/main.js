@@ -10,7 +10,7 @@ import { asPicture, copy, keep } from "./save.js";
 // Milliseconds after which a page that waits says so, and says why it may take so long.
 const PATIENCE = 400;
 const LONG = 3000;
-const FIRST = "computing … (what is used for the first time is compiled: up to a minute, once)";
+const FIRST = "computing … (compiling on first use: up to a minute, only once)";
 const id = (name) => document.getElementById(name);
 const status = id("status");
 let state = null;

@@ -87,7 +87,7 @@ export class Plane {
 
 export class Basins {
   constructor(parent) {
-    this.chart = new Chart(parent, { name: "Basins of attraction", x: "displacement at the start (mm)", y: "velocity at the start (mm/s)" });
+    this.chart = new Chart(parent, { name: "Basins of attraction", x: "initial displacement (mm)", y: "initial velocity (mm/s)" });
     this.chart.redraw = () => this.draw();
     this.legend = parent.appendChild(document.createElement("ul"));
     this.legend.className = "basins";
@@ -95,7 +95,7 @@ export class Basins {
 
   show(picture) {
     this.picture = picture;
-    const about = picture.motions.map((words, k) => `${words}, ${picture.excursions[k]} mm wide: ${(100 * picture.shares[k]).toPrecision(3)} % of the starts`);
+    const about = picture.motions.map((words, k) => `${words}, ${picture.excursions[k]} mm wide: ${(100 * picture.shares[k]).toPrecision(3)} % of the initial states`);
     this.legend.replaceChildren(
       ...about.map((words, k) => {
         const item = document.createElement("li");

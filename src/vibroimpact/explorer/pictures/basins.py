@@ -12,7 +12,7 @@ from vibroimpact.tasks.threads import Progress
 COARSE, FINE = 32, 128
 """Starts along each axis."""
 _PATIENCE = 500
-"""Cycles behind which a motion that has not settled is said to wander."""
+"""Cycles after which a motion that has not settled counts as wandering."""
 
 
 def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
@@ -21,7 +21,7 @@ def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
     Raises
     ------
     InputError
-        If nothing dies out, so that each start has its own motion.
+        If the rig has no dissipation, so that every state has its own motion.
     """
     data = basins(
         state.rig, nodes=FINE if fine else COARSE, max_cycles=_PATIENCE, progress=progress

@@ -1,4 +1,4 @@
-"""The branch of orbits through the motion that is looked at, stable or not."""
+"""The branch of orbits through the selected motion, stable or not."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ _HIGHEST = 16.0
 
 
 def at(state: State, data: xr.Dataset) -> tuple[Harmonic, xr.DataArray, float]:
-    """What shakes the motion that is looked at, its state, and its period, from a sweep.
+    """Return the excitation of the selected motion, its state, and its period, from a sweep.
 
     It is that of the nearest frequency that was held, on the curve that was chosen.
     """

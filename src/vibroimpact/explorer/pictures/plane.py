@@ -41,10 +41,12 @@ def plane(state: State) -> Plane:
     scaled = to_dimensionless(state.rig)
     stops = [stop for stop in (scaled.right, scaled.left) if stop is not None]
     if not stops or not all(isinstance(stop, DimensionlessBumper) for stop in stops):
-        raise InputError("map: it needs a bumper of spring and dashpot on some side")
+        raise InputError("map: the rig has no Kelvin-Voigt bumper; at least one is required")
     times = {float(f"{stop.relaxation_time:.6g}") for stop in stops}  # type: ignore[union-attr]
     if len(times) > 1 or rig.force:
-        raise InputError("map: the sides differ; one τ for both and no force are accepted")
+        raise InputError(
+            "map: the sides differ; the same τ on both sides and no constant force are accepted"
+        )
     return Plane(
         float(f"{scaled.damping_ratio:.6g}"),
         times.pop(),

@@ -1,4 +1,4 @@
-"""What carries the mass: its spring, what yields or rubs in it, and its damping; a law a file.
+"""Isolators: laws of the restoring force and the damping between base and mass, one law per file.
 
 A new law is a class derived from `IsolatorLaw` and an entry of `ISOLATORS` and `AnyIsolator`.
 """

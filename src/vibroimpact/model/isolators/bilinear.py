@@ -1,4 +1,4 @@
-"""Elastic until it yields, then less stiff: lead-rubber bearings."""
+"""Bilinear isolator, such as a lead-rubber bearing: elastic, then yielding."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from vibroimpact.model.validation import constructor
 
 
 class BilinearIsolator(YieldingLaw):
-    """Two stiffnesses and a yield force, with kinematic hardening, and a dashpot.
+    """A bilinear isolator: two stiffnesses, a yield force, kinematic hardening, and a dashpot.
 
-    A spring k_p stands beside an elastic, perfectly plastic element of stiffness k_e - k_p that
-    yields at ±u_y = F_y/k_e: k_p u + (k_e - k_p) z, where z' = v while ``|z| < u_y``, or where
-    v takes it back from there, and else 0. It starts with z = 0.
+    A spring k_p is parallel to an elastic, perfectly plastic element of stiffness k_e - k_p that
+    yields at ±u_y = F_y/k_e. The force is k_p u + (k_e - k_p) z, where z' = v while ``|z| < u_y``,
+    or while v reduces ``|z|``; otherwise z' = 0. It starts with z = 0.
 
     Its kind in a table is ``"bilinear"``.
 
@@ -24,7 +24,7 @@ class BilinearIsolator(YieldingLaw):
     post_yield_stiffness
         k_p in N/m, from 0 to k_e.
     yield_force
-        F_y in N, greater than 0: the force where it first yields; or text such as ``"1 kN"``.
+        F_y in N, greater than 0: the force at first yield; or text such as ``"1 kN"``.
     damping
         C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     damping_exponent
@@ -61,5 +61,5 @@ class BilinearIsolator(YieldingLaw):
 
     @property
     def strongest(self) -> float:
-        """∞, or F_y without a post-yield stiffness."""
+        """Largest static force (N): ∞, or F_y without a post-yield stiffness."""
         return super().strongest if self.post_yield_stiffness else self.yield_force

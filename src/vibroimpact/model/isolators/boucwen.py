@@ -1,4 +1,4 @@
-"""Smooth yielding: the model of Bouc and Wen."""
+"""Smooth yielding: the Bouc-Wen model."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _DIGITS = 290.0
 
 
 def _whole(value: Any) -> int:
-    """Read an exponent; 2.0 is 2."""
+    """Read an integer exponent; 2.0 counts as 2."""
     number: Any = value if isinstance(value, Integral | float) else math.nan
     if isinstance(value, bool) or not 1 <= number <= 100 or not float(number).is_integer():
         raise InputError(f"{shown(value)}; a whole number from 1 to 100 is accepted, such as 1")
@@ -29,12 +29,12 @@ def _whole(value: Any) -> int:
 
 
 class BoucWenIsolator(YieldingLaw):
-    """The smooth hysteresis of Bouc and Wen, with a dashpot.
+    """A smooth hysteretic isolator of Bouc and Wen, with a dashpot.
 
     The force is k_p u + (k_e - k_p) z with ``z' = v [1 - |z/u_y|ⁿ (γ + β sgn(v z))]`` and
-    u_y = F_y/k_e (Wen, J. Eng. Mech. Div. 102 (1976) 249). It starts with z = 0, and ``|z|`` comes
-    close to u_y/(β + γ)^(1/n) at most. The larger n is, the closer it comes to
-    `BilinearIsolator` with the same stiffnesses and yield force, if β + γ = 1.
+    u_y = F_y/k_e (Wen, J. Eng. Mech. Div. 102 (1976) 249). It starts with z = 0, and ``|z|`` stays
+    below u_y/(β + γ)^(1/n). If β + γ = 1, the model approaches the `BilinearIsolator` with the same
+    stiffnesses and yield force as n increases.
 
     Its kind in a table is ``"bouc-wen"``.
 
@@ -49,9 +49,9 @@ class BoucWenIsolator(YieldingLaw):
     damping
         C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     exponent
-        n, a whole number from 1 to 100: how sharply it yields.
+        n, a whole number from 1 to 100: sharpness of the yielding.
     beta
-        β, at least 0: what takes energy. 0 is a nonlinear elastic spring.
+        β, at least 0: hysteretic dissipation. 0 is a nonlinear elastic spring.
     gamma
         γ, with β + γ greater than 0. For γ = β it unloads with the elastic stiffness.
     damping_exponent
@@ -119,7 +119,7 @@ class BoucWenIsolator(YieldingLaw):
 
     @property
     def hysteretic_limit(self) -> float:
-        """What ``|z|`` never exceeds, u_y/(β + γ)^(1/n), in m."""
+        """Upper bound of ``|z|``, u_y/(β + γ)^(1/n) (m)."""
         return self.yield_displacement * float((self.beta + self.gamma) ** (-1.0 / self.exponent))
 
     def _loaded(self, displacement: float) -> float:
@@ -130,14 +130,14 @@ class BoucWenIsolator(YieldingLaw):
 
     @property
     def strongest(self) -> float:
-        """∞, or k_e times the limit of z without a post-yield stiffness."""
+        """Largest static force (N): ∞; without a post-yield stiffness, k_e times the limit of z."""
         if self.post_yield_stiffness:
             return super().strongest
         return self.elastic_stiffness * self.hysteretic_limit
 
 
 def _saturation(x: float, n: int) -> float:
-    """The y of dy/dx = 1 - yⁿ, y(0) = 0."""
+    """Return the solution y of dy/dx = 1 - yⁿ, y(0) = 0."""
     if n == 1:
         return -math.expm1(-x)
     if n == 2:

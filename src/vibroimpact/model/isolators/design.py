@@ -1,4 +1,4 @@
-"""What a designer knows of an isolator: numbers that make one only together with a mass."""
+"""Design values, such as periods, which define an isolator together with a mass."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _ACCEPTS = {
 
 
 def design(**given: object) -> list[float]:
-    """Read the numbers of a design, each by its name, in SI units.
+    """Read the numbers of a design by name, in SI units.
 
     Raises
     ------
@@ -56,12 +56,12 @@ def design(**given: object) -> list[float]:
 
 
 def force_of_strength(mass: float, strength: object) -> float:
-    """A strength in N, given as such or as a share of the weight of a mass (kg).
+    """Return a strength in N, from a force or a share of the weight of a mass (kg).
 
     Raises
     ------
     InputError
-        If it cannot be used.
+        If it is invalid.
     """
     number, quantity = one_of(strength, (DIMENSIONLESS, FORCE), "strength", above=0.0)
     if quantity is FORCE:
@@ -75,7 +75,7 @@ def force_of_strength(mass: float, strength: object) -> float:
 
 
 def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | None) -> Any:
-    """The isolator that a table describes by the arguments of one of its law's `designs`.
+    """Return the isolator of a table that holds the arguments of one of its law's `designs`.
 
     Parameters
     ----------
@@ -84,17 +84,17 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
     law
         The class of that kind.
     mass
-        What it carries, in kg; None if that cannot be used.
+        Mass that it carries (kg); None if the mass is invalid.
 
     Returns
     -------
     IsolatorLaw
-        Or the table itself, if it has none of those arguments.
+        The isolator, or the table itself if it has none of those arguments.
 
     Raises
     ------
     InputError
-        If one is missing, or cannot be used.
+        If an argument is missing or invalid.
     """
     asked = [(name, _arguments(law, name)) for name in law.designs]
     asked.sort(key=lambda one: -sum(p.name in table for p in one[1]))
@@ -103,7 +103,7 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
     if not given:
         return table
     if mass is None:
-        raise InputError(f"{given[0]}: needs a mass to go with; a mass is accepted")
+        raise InputError(f"{given[0]}: needs a mass; add a mass")
     for p in own:
         if p.default is p.empty and p.name not in table:
             raise InputError(f"{p.name}: missing beside {given[0]}; {_ACCEPTS[p.name].words()}")
@@ -112,11 +112,11 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
 
 
 def design_keys(law: type[IsolatorLaw]) -> list[str]:
-    """What a table of this law may hold instead of its fields."""
+    """Return the keys that a table of this law may hold instead of its fields."""
     return list(dict.fromkeys(p.name for name in law.designs for p in _arguments(law, name)))
 
 
 def _arguments(law: type[IsolatorLaw], name: str) -> list[inspect.Parameter]:
-    """What one of its designs is made of, besides the mass."""
+    """Return the arguments of one of its designs, other than the mass."""
     takes = inspect.signature(getattr(law, name)).parameters.values()
     return [p for p in takes if p.name in _ACCEPTS and p.name != "mass"]

@@ -19,15 +19,15 @@ _LARGEST = 300.0
 
 
 class ExponentialIsolator(IsolatorLaw):
-    """Hysteresis that fades exponentially after each reversal, with hardening, and a dashpot.
+    """A hysteretic isolator whose stiffness decays after each reversal, with a dashpot.
 
     With s = sgn v, the force is
 
         Q (e^{βu} - e^{-βu} - 2 βu) + k_b u + s f̄ - s (k_a - k_b)/α e^{-α(s u - u_j)},
 
-    f̄ = (k_a - k_b)/(2 α), and at each reversal u_j is such that the force goes on without a jump
+    f̄ = (k_a - k_b)/(2 α), and at each reversal u_j is chosen such that the force is continuous
     (Vaiana, Sessa, Marmo and Rosati, Nonlinear Dynamics 93 (2018) 1647,
-    doi 10.1007/s11071-018-4282-2, where Q is 1 in the unit of force). It starts with no force at
+    doi 10.1007/s11071-018-4282-2, where Q is 1 in the unit of force). It starts with zero force at
     u = 0.
 
     Its kind in a table is ``"exponential"``.
@@ -35,17 +35,16 @@ class ExponentialIsolator(IsolatorLaw):
     Parameters
     ----------
     reversal_stiffness
-        k_a in N/m, greater than 0: the tangent at u = 0 just behind the reversal of a large loop;
+        k_a in N/m, greater than 0: the tangent at u = 0 just after the reversal of a large loop;
         or text such as ``"500 kN/m"``.
     final_stiffness
-        k_b in N/m, from 0 to k_a: the tangent far behind a reversal, at u = 0.
+        k_b in N/m, from 0 to k_a: the tangent far after a reversal, at u = 0.
     decay
-        α in 1/m, greater than 0: how fast one goes over into the other.
+        α in 1/m, greater than 0: rate of the transition from k_a to k_b.
     damping
         C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     hardening
-        β in 1/m: how fast it hardens at large displacements; below 0 it softens there, and 0 is
-        neither.
+        β in 1/m: rate of hardening at large displacements. A negative β softens; 0 means neither.
     hardening_force
         Q in N, at least 0.
     damping_exponent
@@ -96,8 +95,8 @@ class ExponentialIsolator(IsolatorLaw):
             )
         if not self.hysteretic_force < math.inf:
             raise InputError(
-                f"decay: {pretty(self.decay, DECAY)} makes the half height of the loop no finite "
-                "number; a larger one is accepted"
+                f"decay: {pretty(self.decay, DECAY)} makes the half height of the loop infinite; "
+                "a larger value is accepted"
             )
         return self
 
@@ -108,17 +107,17 @@ class ExponentialIsolator(IsolatorLaw):
 
     @property
     def initial_stiffness(self) -> float:
-        """(k_a + k_b)/2, N/m: from the start, half of the hysteretic stiffness has faded."""
+        """Tangent stiffness at the start, (k_a + k_b)/2 (N/m)."""
         return 0.5 * (self.reversal_stiffness + self.final_stiffness)
 
     def elastic_force(self, displacement: float) -> float:
-        """The part without memory, Q (2 sinh βu - 2 βu) + k_b u, in N at a displacement in m."""
+        """Return the elastic force Q (2 sinh βu - 2 βu) + k_b u (N) at a displacement (m)."""
         # From |βu| = 300 on it stands still, which no rig lives to see.
         x = max(-_LARGEST, min(_LARGEST, self.hardening * displacement))
         return 2.0 * self.hardening_force * _sinh_rest(x) + self.final_stiffness * displacement
 
     def static_force(self, displacement: float) -> float:
-        """Force in N of a first loading to a displacement in m."""
+        """Return the force (N) of a first loading to a displacement (m)."""
         faded = -math.expm1(-self.decay * abs(displacement))
         return self.elastic_force(displacement) + math.copysign(
             self.hysteretic_force * faded, displacement
@@ -126,24 +125,24 @@ class ExponentialIsolator(IsolatorLaw):
 
     @property
     def remembers(self) -> bool:
-        """Whether it has a hysteretic part."""
+        """Whether the law has a hysteretic part."""
         return self.reversal_stiffness > self.final_stiffness
 
     def remembered(self, displacement: float) -> float:
-        """Its memory z (m) after a first loading to a displacement (m)."""
+        """Return the memory z (m) after a first loading to a displacement (m)."""
         spring = self.reversal_stiffness - self.final_stiffness
         held = self.static_force(displacement) - self.elastic_force(displacement)
         return held / spring if spring else 0.0
 
     @property
     def linear_and_bounded(self) -> tuple[float, float] | None:
-        """k_b and f̄, without hardening."""
+        """The pair (k_b, f̄) without hardening; otherwise None."""
         hardens = self.hardening * self.hardening_force != 0.0
         return None if hardens else (self.final_stiffness, self.hysteretic_force)
 
     @property
     def reach(self) -> float:
-        """Where a softening one has its largest static force, in m; ∞ if it hardens."""
+        """Displacement of the largest static force of a softening law (m); ∞ if it hardens."""
 
         def tangent(u: float) -> float:
             bent = 2.0 * math.sinh(0.5 * self.hardening * u) ** 2  # cosh βu - 1
@@ -158,17 +157,17 @@ class ExponentialIsolator(IsolatorLaw):
 
     @property
     def strongest(self) -> float:
-        """What the static force does not exceed within the reach, N."""
+        """Largest static force within the reach (N)."""
         flat = self.final_stiffness == 0.0 and not self.hardening * self.hardening_force
         return self.hysteretic_force if flat else super().strongest
 
     @property
     def restoring_reach(self) -> float:
-        """Where the part without memory of a softening one changes its sign, in m."""
+        """Displacement at which the elastic force of a softening law changes its sign (m)."""
         return self._falling_zero(lambda u: self.elastic_force(u) / u if u else 0.0)
 
     def _falling_zero(self, falling: Callable[[float], float]) -> float:
-        """Where a function of u > 0 falls to zero, if the law softens."""
+        """Return where a function of u > 0 falls to zero, if the law softens."""
         if not self.hardening * self.hardening_force < 0.0:
             return math.inf
         from scipy.optimize import brentq
@@ -183,7 +182,7 @@ class ExponentialIsolator(IsolatorLaw):
 
 
 def _sinh_rest(x: float) -> float:
-    """Sinh x - x, without the loss of digits of a small x."""
+    """Return sinh x - x without cancellation for small x."""
     if abs(x) > 1.0:
         return math.sinh(x) - x
     square, term, total = x * x, x, 0.0

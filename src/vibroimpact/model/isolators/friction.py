@@ -1,4 +1,4 @@
-"""A spring with dry friction, such as a friction pendulum."""
+"""Spring with dry friction, such as a friction pendulum bearing."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class FrictionIsolator(SpringLaw):
-    """A linear spring and dashpot with Coulomb friction beside them.
+    """A linear spring and dashpot with parallel Coulomb friction.
 
-    The force is K u + C v + F_c sgn v while the mass slides. It sticks where it stops and the
-    other forces do not exceed F_c, and stays until they do.
+    The force is K u + C v + F_c sgn v while the mass slides. If it stops and the other forces do
+    not exceed F_c, it sticks until they do.
 
     Its kind in a table is ``"friction"``.
 
@@ -27,7 +27,7 @@ class FrictionIsolator(SpringLaw):
     damping
         C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     friction
-        F_c in N, at least 0, sliding and sticking alike; or text such as ``"120 N"``.
+        F_c in N, at least 0, equal for sliding and sticking; or text such as ``"120 N"``.
     damping_exponent
         α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
 
@@ -66,21 +66,21 @@ class FrictionIsolator(SpringLaw):
         coefficient: float | str | None = None,
         **others: Any,
     ) -> Self:
-        """Return the isolator with this period while it slides, and friction.
+        """Return the isolator with a given period while sliding, and a given friction.
 
         Parameters
         ----------
         mass
-            What it carries, M in kg, greater than 0; or text such as ``"5000 t"``.
+            Mass that it carries, M in kg, greater than 0; or text such as ``"5000 t"``.
         period
             T in s of the spring, greater than 0; or text such as ``"2.5 s"``. A friction pendulum
-            of radius R has T = 2π √(R/g) whatever it carries.
+            of radius R has T = 2π √(R/g) for any mass.
         damping_ratio
-            ξ of the dashpot beside it, at least 0.
+            ξ of the parallel dashpot, at least 0.
         coefficient
             Coefficient of friction μ, at least 0, for F_c = μ M g.
         **others
-            ``friction``, the force F_c, in the place of the coefficient.
+            ``friction``, the force F_c, instead of the coefficient.
 
         Returns
         -------
@@ -94,7 +94,9 @@ class FrictionIsolator(SpringLaw):
         """
         if coefficient is not None:
             if "friction" in others:
-                raise InputError("friction: given beside coefficient; one of the two is accepted")
+                raise InputError(
+                    "friction: given together with coefficient; one of the two is accepted"
+                )
             m, mu = design(mass=mass, coefficient=coefficient)
             others["friction"] = mu * m * GRAVITY
         return super().from_period(mass, period, damping_ratio, **others)
@@ -107,12 +109,12 @@ class FrictionIsolator(SpringLaw):
         coefficient: float | str,
         damping: float | str = 0.0,
     ) -> Self:
-        """Return the isolator that a friction pendulum bearing is.
+        """Return the isolator of a friction pendulum bearing.
 
         Parameters
         ----------
         mass
-            What it carries, M in kg, greater than 0; or text such as ``"550 kg"``.
+            Mass that it carries, M in kg, greater than 0; or text such as ``"550 kg"``.
         radius
             Effective radius of the concave surface, R in m, greater than 0; or text such as
             ``"2.5 m"``.
@@ -143,15 +145,15 @@ class FrictionIsolator(SpringLaw):
 
     @property
     def linear_and_bounded(self) -> tuple[float, float]:
-        """K and F_c."""
+        """The pair (K, F_c)."""
         return self.stiffness, self.friction
 
     def static_force(self, displacement: float) -> float:
-        """K u + F_c sgn u in N, at a displacement in m; at rest it may be anything up to ±F_c."""
+        """Return K u + F_c sgn u (N) at a displacement (m); at rest the force is within ±F_c."""
         friction = math.copysign(self.friction, displacement) if displacement else 0.0
         return self.stiffness * displacement + friction
 
     @property
     def strongest(self) -> float:
-        """∞, or F_c without a spring."""
+        """Largest static force (N): ∞, or F_c without a spring."""
         return super().strongest if self.stiffness else self.friction

@@ -1,4 +1,4 @@
-"""What every isolator has: a dashpot, and a restoring force of its own."""
+"""Base classes of isolators: a dashpot, and a restoring force."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class IsolatorLaw(Named):
-    """Base of the isolators: a restoring force beside the viscous force ``c |v|^α sgn v``.
+    """Base of the isolators: a restoring force plus the viscous force ``c |v|^α sgn v``.
 
-    A new law says its `initial_stiffness` and its `static_force`, and where that force ends to grow
-    (`reach`) or is bounded (`strongest`).
+    A new law defines its `initial_stiffness` and its `static_force`, and where that force stops
+    growing (`reach`) or is bounded (`strongest`).
 
     Attributes
     ----------
@@ -48,35 +48,35 @@ class IsolatorLaw(Named):
 
     @property
     def linear(self) -> bool:
-        """Whether its force is K u + C v."""
+        """Whether the force is K u + C v."""
         return False
 
     @property
     def initial_stiffness(self) -> float:
-        """Tangent stiffness at rest, N/m."""
+        """Tangent stiffness at rest (N/m)."""
         raise NotImplementedError
 
     def static_force(self, displacement: float) -> float:
-        """Force (N) after a first, slow displacement (m) from rest: an odd function."""
+        """Return the force (N) after a first, slow displacement (m) from rest: an odd function."""
         raise NotImplementedError
 
     @property
     def remembers(self) -> bool:
-        """Whether its force depends on more than displacement and velocity: on a memory z."""
+        """Whether the force depends on a memory z as well as on displacement and velocity."""
         return False
 
     def remembered(self, displacement: float) -> float:
-        """Its memory z (m, see `State.isolator`) after a first loading to a displacement (m)."""
+        """Return the memory z (m, see `State`) after a first loading to a displacement (m)."""
         return 0.0
 
     @property
     def reach(self) -> float:
-        """Displacement (m) up to which the static force grows; ∞ if it grows on and on."""
+        """Displacement (m) up to which the static force grows; ∞ if it grows without end."""
         return math.inf
 
     @property
     def strongest(self) -> float:
-        """What the static force does not exceed within the reach, N; ∞ if it is unbounded."""
+        """Largest static force within the reach (N); ∞ if it is unbounded."""
         return math.inf if self.reach == math.inf else self.static_force(self.reach)
 
     @property
@@ -86,21 +86,21 @@ class IsolatorLaw(Named):
 
     @property
     def restoring_reach(self) -> float:
-        """Displacement (m) up to which its elastic part pushes back to rest; ∞ if everywhere."""
+        """Displacement (m) up to which the elastic force is restoring; ∞ if everywhere."""
         return math.inf
 
     def viscous_force(self, velocity: float) -> float:
-        """The ``c |v|^α sgn v`` in N, at a velocity in m/s."""
+        """Return ``c |v|^α sgn v`` (N) at a velocity (m/s)."""
         return math.copysign(self.damping * abs(velocity) ** self.damping_exponent, velocity)
 
     @classmethod
     def table_keys(cls) -> list[str]:
-        """What a table of it may hold."""
+        """Return the keys that a table of this law may hold."""
         return [*super().table_keys(), *design_keys(cls)]
 
     @classmethod
     def _designed(cls, by: str, made: dict[str, float], others: dict[str, Any]) -> Self:
-        """Make one of numbers that follow from a design, and of others that do not."""
+        """Make an isolator from the numbers of a design and other fields."""
         for name in ("damping_exponent", *made):
             if name in others:
                 raise InputError(f"{name}: given beside {by}; one of the two is accepted")
@@ -108,7 +108,7 @@ class IsolatorLaw(Named):
 
 
 class SpringLaw(IsolatorLaw):
-    """A linear spring K, and what the law has beside it."""
+    """Base of the laws with a linear spring K."""
 
     designs: ClassVar[tuple[str, ...]] = ("from_period",)
 
@@ -122,18 +122,18 @@ class SpringLaw(IsolatorLaw):
     def from_period(
         cls, mass: float | str, period: float | str, damping_ratio: float | str, **others: Any
     ) -> Self:
-        """Return the isolator that gives a mass this period and damping ratio.
+        """Return the isolator that gives a mass a period and a damping ratio.
 
         Parameters
         ----------
         mass
             What it carries, M in kg, greater than 0; or text such as ``"5000 t"``.
         period
-            T in s, greater than 0, of the linear spring; or text such as ``"2.5 s"``.
+            T of the linear spring in s, greater than 0; or text such as ``"2.5 s"``.
         damping_ratio
-            ξ of the dashpot beside it, at least 0; or text such as ``"15 %"``.
+            ξ of the parallel dashpot, at least 0; or text such as ``"15 %"``.
         **others
-            What else the law has.
+            Other fields of the law.
 
         Returns
         -------
@@ -143,8 +143,8 @@ class SpringLaw(IsolatorLaw):
         Raises
         ------
         InputError
-            If a value is not finite, has a wrong unit or lies outside its bounds, or says what
-            follows from the period.
+            If a value is not finite, has a wrong unit or lies outside its bounds, or is determined
+            by the period.
 
         Examples
         --------
@@ -162,15 +162,15 @@ class SpringLaw(IsolatorLaw):
 
 
 def spring_and_dashpot(mass: float, period: float, damping_ratio: float) -> dict[str, float]:
-    """The K (N/m) and C (N s/m) with which a mass (kg) has this period (s) and damping ratio."""
+    """Return the K (N/m) and C (N s/m) that give a mass (kg) a period (s) and a damping ratio."""
     omega = math.tau / period
     return {"stiffness": mass * omega**2, "damping": 2.0 * damping_ratio * mass * omega}
 
 
 class YieldingLaw(IsolatorLaw):
-    """A spring k_p beside an element of stiffness k_e - k_p that yields.
+    """Base of the laws with a spring k_p parallel to a yielding element of stiffness k_e - k_p.
 
-    Its force is k_p u + (k_e - k_p) z; how z moves is the law's own.
+    The force is k_p u + (k_e - k_p) z; the law defines the evolution of z.
     """
 
     designs: ClassVar[tuple[str, ...]] = ("from_strength",)
@@ -193,7 +193,7 @@ class YieldingLaw(IsolatorLaw):
         post_yield_damping_ratio: float | str = 0.0,
         **others: Any,
     ) -> Self:
-        """Return the isolator that a designer of lead-rubber bearings describes.
+        """Return the isolator with the design values of a lead-rubber bearing.
 
         Parameters
         ----------
@@ -205,12 +205,13 @@ class YieldingLaw(IsolatorLaw):
         yield_displacement
             u_y in m, greater than 0; or text such as ``"10 mm"``.
         post_yield_period
-            T_p in s, greater than 0: that of the mass on the post-yield stiffness alone; or text
+            T_p in s, greater than 0: period of the mass on the post-yield stiffness alone; or text
             such as ``"2.5 s"``.
         post_yield_damping_ratio
-            ξ_p of the dashpot, at least 0, by the post-yield period: what yields takes far more.
+            ξ_p of the dashpot, at least 0, relative to the post-yield period. Yielding dissipates
+            far more.
         **others
-            What else the law has.
+            Other fields of the law.
 
         Returns
         -------
@@ -221,8 +222,8 @@ class YieldingLaw(IsolatorLaw):
         Raises
         ------
         InputError
-            If a value is not finite, has a wrong unit or lies outside its bounds, or says what
-            follows from the strength.
+            If a value is not finite, has a wrong unit or lies outside its bounds, or is determined
+            by the strength.
 
         Examples
         --------
@@ -248,7 +249,7 @@ class YieldingLaw(IsolatorLaw):
 
     @model_validator(mode="after")
     def _yields(self) -> Self:
-        """Refuse a law that hardens where it yields, or yields nowhere."""
+        """Raise an error for a law that hardens where it yields, or never yields."""
         if self.post_yield_stiffness > self.elastic_stiffness:
             raise InputError(
                 f"post_yield_stiffness: {pretty(self.post_yield_stiffness, STIFFNESS)} is greater "
@@ -265,12 +266,12 @@ class YieldingLaw(IsolatorLaw):
 
     @property
     def yield_displacement(self) -> float:
-        """u_y = F_y/k_e in m."""
+        """Yield displacement u_y = F_y/k_e (m)."""
         return self.yield_force / self.elastic_stiffness
 
     @property
     def hysteretic_stiffness(self) -> float:
-        """k_e - k_p, N/m: that of the element that yields."""
+        """Stiffness of the yielding element, k_e - k_p (N/m)."""
         return self.elastic_stiffness - self.post_yield_stiffness
 
     @property
@@ -280,28 +281,28 @@ class YieldingLaw(IsolatorLaw):
 
     @property
     def linear_and_bounded(self) -> tuple[float, float]:
-        """k_p, and (k_e - k_p) times the limit of z."""
+        """The pair of k_p, and (k_e - k_p) times the limit of z."""
         return self.post_yield_stiffness, self.hysteretic_stiffness * self.hysteretic_limit
 
     @property
     def hysteretic_limit(self) -> float:
-        """What ``|z|`` never exceeds, m."""
+        """Upper bound of ``|z|`` (m)."""
         return self.yield_displacement
 
     def static_force(self, displacement: float) -> float:
-        """Force in N of a first loading to a displacement in m: k_p u + (k_e - k_p) z."""
+        """Return the force (N) of a first loading to a displacement (m): k_p u + (k_e - k_p) z."""
         held = self.hysteretic_stiffness * self._loaded(displacement)
         return self.post_yield_stiffness * displacement + held
 
     @property
     def remembers(self) -> bool:
-        """Whether anything of it yields."""
+        """Whether a part of the isolator yields."""
         return self.hysteretic_stiffness > 0.0
 
     def remembered(self, displacement: float) -> float:
-        """Its memory z (m) after a first loading to a displacement (m); 0 if nothing can yield."""
+        """Return the memory z (m) after a first loading to a displacement (m), or 0."""
         return self._loaded(displacement) if self.hysteretic_stiffness else 0.0
 
     def _loaded(self, displacement: float) -> float:
-        """The z (m) of a first loading."""
+        """Return the z (m) of a first loading."""
         raise NotImplementedError

@@ -9,9 +9,9 @@ from vibroimpact.model.validation import constructor
 
 
 class Isolator(SpringLaw):
-    """The linear spring and dashpot that carry the mass (the paper's damper D).
+    """A linear spring and dashpot that carry the mass (the paper's damper D).
 
-    Its kind, ``"linear"``, need not be named in a table.
+    Its kind, ``"linear"``, may be omitted in a table.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class Isolator(SpringLaw):
 
     @property
     def linear_and_bounded(self) -> tuple[float, float]:
-        """K, and nothing beside it."""
+        """The pair (K, 0)."""
         return self.stiffness, 0.0
 
     @property
@@ -55,10 +55,10 @@ class Isolator(SpringLaw):
         return self.damping_exponent == 1.0
 
     def static_force(self, displacement: float) -> float:
-        """K u in N, at a displacement in m."""
+        """Return K u (N) at a displacement (m)."""
         return self.stiffness * displacement
 
     @property
     def strongest(self) -> float:
-        """∞, or 0 without a spring."""
+        """Largest static force (N): ∞, or 0 without a spring."""
         return super().strongest if self.stiffness else 0.0

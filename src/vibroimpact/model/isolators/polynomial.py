@@ -1,4 +1,4 @@
-"""A spring that hardens or softens: Duffing's."""
+"""Hardening or softening spring of Duffing."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class PolynomialIsolator(SpringLaw):
-    """The restoring force K u + k₃ u³ + k₅ u⁵, and a dashpot.
+    """An isolator with the restoring force K u + k₃ u³ + k₅ u⁵ (Duffing), and a dashpot.
 
     Its kind in a table is ``"polynomial"``.
 
@@ -22,9 +22,9 @@ class PolynomialIsolator(SpringLaw):
     damping
         C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     cubic
-        k₃ in N/m³; or text such as ``"5 MN/m^3"``. Below 0 the spring softens.
+        k₃ in N/m³; or text such as ``"5 MN/m^3"``. A negative value softens the spring. Default: 0.
     quintic
-        k₅ in N/m⁵; or text such as ``"5 MN/m^5"``.
+        k₅ in N/m⁵; or text such as ``"5 MN/m^5"``. Default: 0.
     damping_exponent
         α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
 
@@ -57,35 +57,35 @@ class PolynomialIsolator(SpringLaw):
         )
 
     def static_force(self, displacement: float) -> float:
-        """K u + k₃ u³ + k₅ u⁵ in N, at a displacement in m."""
+        """Return K u + k₃ u³ + k₅ u⁵ (N) at a displacement (m)."""
         square = displacement * displacement
         return displacement * (self.stiffness + square * (self.cubic + square * self.quintic))
 
     @property
     def linear_and_bounded(self) -> tuple[float, float] | None:
-        """K, without powers."""
+        """The pair (K, 0) without powers; otherwise None."""
         return None if self.cubic or self.quintic else (self.stiffness, 0.0)
 
     @property
     def reach(self) -> float:
-        """The least u > 0 with K + 3 k₃ u² + 5 k₅ u⁴ = 0, in m; ∞ if there is none."""
+        """Least u > 0 with K + 3 k₃ u² + 5 k₅ u⁴ = 0 (m); ∞ if there is none."""
         return _first_zero(self.stiffness, 3.0 * self.cubic, 5.0 * self.quintic)
 
     @property
     def strongest(self) -> float:
-        """What the static force does not exceed within the reach, N; 0 without any spring."""
+        """Largest static force within the reach (N); 0 without any spring."""
         if not (self.stiffness or self.cubic or self.quintic):
             return 0.0
         return super().strongest
 
     @property
     def restoring_reach(self) -> float:
-        """The least u > 0 with K + k₃ u² + k₅ u⁴ = 0, in m; ∞ if there is none."""
+        """Least u > 0 with K + k₃ u² + k₅ u⁴ = 0 (m); ∞ if there is none."""
         return _first_zero(self.stiffness, self.cubic, self.quintic)
 
 
 def _first_zero(k: float, c: float, q: float) -> float:
-    """The least x > 0 from which on k + c x² + q x⁴ is below 0 (k at least 0); ∞ if nowhere."""
+    """Return the least x > 0 from which k + c x² + q x⁴ is negative (k ≥ 0); ∞ if none."""
     if k == 0.0 and (c < 0.0 or (c == 0.0 and q < 0.0)):
         return 0.0
     if k == 0.0:

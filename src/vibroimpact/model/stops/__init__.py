@@ -1,11 +1,11 @@
-"""What the mass can hit, a law a file.
+"""Stops that the mass can hit, one law per file.
 
-A stop pushes and never pulls. Its gap is the distance from the place of the mass at u = 0 to the
-stop at rest: u = gap on the right, u = -gap on the left. Where a gap is negative the stop
-presses the mass away from u = 0.
+A stop pushes and never pulls. Its gap is the distance from the mass at u = 0 to the stop at rest: u
+= gap on the right, u = -gap on the left. A stop with a negative gap presses the mass away from u =
+0.
 
-A new law is a class derived from `Named` and an entry of `STOPS` and `Stop`. It has a gap, says
-whether it is linear and, unless it is rigid, its `static_force`.
+A new law is a class derived from `Named` and an entry of `STOPS` and `Stop`. It has a gap, states
+whether it is `linear` and, unless it is rigid, defines its `static_force`.
 """
 
 from typing import TypeAlias

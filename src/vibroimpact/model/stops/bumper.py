@@ -1,4 +1,4 @@
-"""A spring and a dashpot in parallel: the bumper of Kelvin and Voigt."""
+"""Kelvin-Voigt bumper: a spring and a dashpot in parallel."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from vibroimpact.model.validation import Accepts, constructor
 class Bumper(Named):
     """A massless deformable stop: spring and dashpot in parallel (Kelvin-Voigt).
 
-    Its kind, ``"kelvin-voigt"``, need not be named in a table.
+    Its kind, ``"kelvin-voigt"``, may be omitted in a table.
 
     Parameters
     ----------
@@ -27,8 +27,8 @@ class Bumper(Named):
         C_j in N s/m, at least 0; or text such as ``"0.9 kN s/m"``.
     gap
         G0_j in m: the distance from the mass at u = 0 to the bumper at rest; or text such as
-        ``"7.5 mm"``. The total gap of a symmetric rig is twice as large. Below 0 the bumper is
-        preloaded: at u = 0 it is pressed by that much.
+        ``"7.5 mm"``. The total gap of a symmetric rig is twice as large. A negative gap is a
+        preload: at u = 0 the bumper is compressed by that much.
 
     Raises
     ------
@@ -55,11 +55,11 @@ class Bumper(Named):
         restitution: float | str,
         gap: float | str,
     ) -> Self:
-        """Return the bumper with the dashpot that makes impacts return a given restitution.
+        """Return the bumper whose dashpot gives a coefficient of restitution.
 
-        The impact is that of the mass against the bumper at rest while nothing else acts, and
-        ends when the contact force falls to zero. The isolator and the base change the return of
-        a real contact the less, the stiffer the bumper is.
+        It holds for an impact of the mass on the bumper at rest without other forces, which ends
+        when the contact force falls to zero. The isolator and the base change the restitution of a
+        real contact; the stiffer the bumper, the smaller the change.
 
         Parameters
         ----------
@@ -68,14 +68,16 @@ class Bumper(Named):
         stiffness
             K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
         restitution
-            Velocity of return over velocity of impact, above 0 and at most 1; 1 needs no dashpot.
+            Coefficient of restitution (rebound velocity divided by impact velocity), greater than 0
+            and at most 1; 1 needs no dashpot.
         gap
             G0_j in m; or text such as ``"7.5 mm"``.
 
         Returns
         -------
         Bumper
-            With C_j = 2 z √(K_j M), z from Schwager and Pöschel, Granular Matter 9 (2007) 465.
+            Bumper with C_j = 2 z √(K_j M), z from Schwager and Pöschel, Granular Matter 9 (2007)
+            465.
 
         Raises
         ------
@@ -94,33 +96,33 @@ class Bumper(Named):
 
     @classmethod
     def table_keys(cls) -> list[str]:
-        """What a table of it may hold."""
+        """Return the keys that a table of this stop may hold."""
         return [*super().table_keys(), "restitution"]
 
     @property
     def linear(self) -> bool:
-        """Whether its force is K_j d + C_j d'."""
+        """Whether the force is K_j d + C_j d'."""
         return True
 
     def static_force(self, deformation: float) -> float:
-        """Force in N of a bumper that is slowly pressed by a deformation in m."""
+        """Return the force (N) of a bumper that is slowly compressed by a deformation (m)."""
         return self.stiffness * max(deformation, 0.0)
 
 
 def returning(table: Mapping[str, Any], mass: float | None) -> Mapping[str, Any]:
-    """A table with the damping that a ``restitution`` in its place asks for, for a mass in kg.
+    """Return a table with the damping that gives its ``restitution``, for a mass (kg).
 
     Raises
     ------
     InputError
-        If it stands beside a damping, or cannot be used.
+        If the table also has a damping, or the restitution is invalid.
     """
     if "restitution" not in table:
         return table
     if "damping" in table:
-        raise InputError("restitution: given beside damping; one of the two is accepted")
+        raise InputError("restitution: given together with damping; one of the two is accepted")
     if mass is None:
-        raise InputError("restitution: needs a mass to go with; a mass is accepted")
+        raise InputError("restitution: needs a mass; add a mass")
     rest = {name: value for name, value in table.items() if name != "restitution"}
     if "stiffness" not in rest:
         return {**rest, "damping": 0.0}  # it is missed by who reads the table

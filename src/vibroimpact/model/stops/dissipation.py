@@ -1,8 +1,8 @@
-"""How much a contact k δⁿ (1 + χ δ') must take to return a restitution.
+"""Dissipation of a contact k δⁿ (1 + χ δ') that gives a coefficient of restitution.
 
-With χ = d/v₀, v₀ the closing speed, what returns depends on d alone: with w = -v/v₀ at the end,
-ln[(1 + d)/(1 - w d)] = d (1 + w), whatever n is. So the dissipation number d for a restitution e
-solves that with w = e; the relations in use are approximations of it.
+With χ = d/v₀ and v₀ the closing speed, the rebound depends on d alone: with w = -v/v₀ at the end,
+ln[(1 + d)/(1 - w d)] = d (1 + w), for any n. The dissipation number d for a restitution e therefore
+solves this equation with w = e. The common relations are approximations of it.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ _SMALL = 0.25
 
 
 def _exact(e: float) -> float:
-    """The root d between 0 and 1/e of ln[(1 + d)/(1 - e d)] = d (1 + e)."""
+    """Return the root d between 0 and 1/e of ln[(1 + d)/(1 - e d)] = d (1 + e)."""
     if e == 1.0:
         return 0.0
     from scipy.optimize import brentq
 
     def over_square(d: float) -> float:
-        """The left side less the right side, over d²; it rises through the root."""
+        """Return the difference of both sides divided by d²; it increases through the root."""
         if d > _SMALL:
             return (math.log1p(d) - math.log1p(-e * d) - d * (1.0 + e)) / d**2
         total, power = -0.5 * (1.0 - e) * (1.0 + e), d
@@ -65,7 +65,7 @@ def dissipation_number(restitution: float, relation: str) -> float:
     Raises
     ------
     InputError
-        If there is no such relation, or d is no finite number.
+        If the relation is unknown, or d is not finite.
     """
     if relation not in RELATIONS:
         *names, last = map(repr, RELATIONS)
@@ -75,8 +75,8 @@ def dissipation_number(restitution: float, relation: str) -> float:
     if relation in _DIVIDE and not restitution > 1e-300:
         others = " and ".join(repr(name) for name in RELATIONS if name not in _DIVIDE)
         raise InputError(
-            f"restitution: {restitution:g} needs a dissipation without bound by the relation "
+            f"restitution: {restitution:g} needs an infinite dissipation with the relation "
             f"{relation!r}; a restitution greater than 0 is accepted, or the relations {others}, "
-            "which stay finite"
+            "which give a finite one"
         )
     return RELATIONS[relation](restitution)

@@ -1,4 +1,4 @@
-"""Pounding of structures: a Hertz contact that takes energy while it closes."""
+"""Pounding of structures: a Hertz contact that dissipates energy while it closes."""
 
 from __future__ import annotations
 
@@ -14,11 +14,10 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class JankowskiBumper(Named):
-    """A stop without mass and memory that takes energy while the mass comes and none while it goes.
+    """A massless Hertz stop that dissipates energy in the approach only.
 
-    F = k δ^1.5 + 2 ξ √(m k √δ) δ' while δ' > 0, and k δ^1.5 after that, with δ the depth to which
-    the mass has gone into it (Jankowski, Earthquake Eng. Struct. Dyn. 34 (2005) 595; ξ of 35
-    (2006) 517).
+    F = k δ^1.5 + 2 ξ √(m k √δ) δ' while δ' > 0, and k δ^1.5 after that, where δ is the penetration
+    depth of the mass (Jankowski, Earthquake Eng. Struct. Dyn. 34 (2005) 595; ξ of 35 (2006) 517).
 
     Its kind in a table is ``"jankowski"``.
 
@@ -28,12 +27,13 @@ class JankowskiBumper(Named):
         k in N/m^1.5, greater than 0; or text such as ``"2 GN/m^1.5"``.
     gap
         Distance in m from the mass at u = 0 to the stop at rest; or text such as ``"7.5 mm"``.
-        Below 0 it is preloaded.
+        A negative gap is a preload.
     restitution
-        e, greater than 0 and at most 1: what an impact of the mass m returns, nearly.
+        e, greater than 0 and at most 1: approximate coefficient of restitution of an impact of the
+        mass m.
     mass
-        m in kg, greater than 0: the mass that hits it, m₁ m₂/(m₁ + m₂) of two; or text such as
-        ``"550 kg"``.
+        m in kg, greater than 0: the mass that hits the stop, m₁ m₂/(m₁ + m₂) for two bodies; or
+        text such as ``"550 kg"``.
 
     Raises
     ------
@@ -63,14 +63,14 @@ class JankowskiBumper(Named):
     def _damped_finitely(self) -> Self:
         if not self.damping_ratio < math.inf:
             raise InputError(
-                f"restitution: {self.restitution:g} needs a damping without bound; a larger "
+                f"restitution: {self.restitution:g} needs an infinite damping; a larger "
                 "restitution is accepted"
             )
         return self
 
     @property
     def damping_ratio(self) -> float:
-        """The ξ = (9√5/2) (1 - e²)/{e [e (9π - 16) + 16]} of its damping."""
+        """Damping ratio ξ = (9√5/2) (1 - e²)/{e [e (9π - 16) + 16]}."""
         e = self.restitution
         below = e * (e * (9.0 * math.pi - 16.0) + 16.0)
         lost = 4.5 * math.sqrt(5.0) * (1.0 - e) * (1.0 + e)
@@ -78,9 +78,9 @@ class JankowskiBumper(Named):
 
     @property
     def linear(self) -> bool:
-        """Whether its force is K_j d + C_j d'."""
+        """Whether the force is K_j d + C_j d'."""
         return False
 
     def static_force(self, deformation: float) -> float:
-        """Force in N of a stop that is slowly pressed by a deformation in m, k δ^1.5."""
+        """Return the force k δ^1.5 (N) of a stop that is slowly compressed by a deformation (m)."""
         return float(self.stiffness * max(deformation, 0.0) ** 1.5)

@@ -1,4 +1,4 @@
-"""Contact by a power of the deformation: Hertz, and Hunt and Crossley's damping."""
+"""Power-law contacts: Hertz, with the damping of Hunt and Crossley."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _EXPONENT = replace(DIMENSIONLESS, example="1.5", number=1.5)
 
 
 class PowerBumper(Named):
-    """A stop without mass and memory whose force is a power of its deformation.
+    """A massless stop whose force is a power of its deformation (Hertz, Hunt and Crossley).
 
-    F = k δⁿ (1 + χ δ') where δ > 0, never less than 0, with δ the depth to which the mass has gone
-    into it: n = 1.5 is Hertz's contact of curved surfaces, 1 a spring. It takes energy by χ, or by
-    the restitution that impacts shall return, by which each contact has its own χ = d/v₀, v₀ its
-    closing speed; with neither it is elastic. A contact that does not begin with an impact, as that
-    of a preloaded stop, has no closing speed, and takes nothing by a restitution until the mass has
-    left the stop.
+    F = k δⁿ (1 + χ δ') for δ > 0, and never less than 0, where δ is the penetration depth of the
+    mass. n = 1.5 is Hertz's contact of curved surfaces, n = 1 a spring. The dissipation is set by
+    χ, or by the coefficient of restitution of impacts, from which each contact gets its own χ =
+    d/v₀ with its closing speed v₀. With neither, the contact is elastic. A contact that does not
+    start with an impact, such as that of a preloaded stop, has no closing speed; with a restitution
+    it is elastic until the mass has left the stop.
 
     Its kind in a table is ``"power"``.
 
@@ -40,18 +40,18 @@ class PowerBumper(Named):
         k in N/mⁿ, greater than 0; or text such as ``"2 GN/m^1.5"``.
     gap
         Distance in m from the mass at u = 0 to the stop at rest; or text such as ``"7.5 mm"``.
-        Below 0 it is preloaded.
+        A negative gap is a preload.
     exponent
         n, at least 1.
     dissipation
-        χ in s/m, at least 0; or None.
+        χ in s/m, at least 0. Default: None, see above.
     restitution
-        e, from 0 to 1: velocity of return over velocity of impact while nothing else acts; or
-        None.
+        e, from 0 to 1: rebound velocity divided by impact velocity without other forces. Default:
+        None, see above.
     relation
-        How d follows from e: ``"exact"``, by which e returns; or one of the approximations
-        ``"hunt-crossley"``, ``"lankarani-nikravesh"``, ``"flores"`` and ``"gonthier"``. The exact
-        one and the last two need an e greater than 0.
+        Relation from which d is computed for e: ``"exact"`` (the default), which gives exactly e;
+        or one of the approximations ``"hunt-crossley"``, ``"lankarani-nikravesh"``, ``"flores"``
+        and ``"gonthier"``. The exact relation and the last two need an e greater than 0.
 
     Raises
     ------
@@ -105,13 +105,13 @@ class PowerBumper(Named):
         if self.restitution is None and self.relation != "exact":
             raise InputError(
                 f"relation: {self.relation!r} is given without a restitution; it is accepted "
-                "beside one"
+                "only with one"
             )
         return self
 
     @property
     def dissipation_number(self) -> float | None:
-        """The d = χ v₀ that all its impacts share; None for a given χ, by which they do not."""
+        """The d = χ v₀ of all impacts; None for a given χ, with which it depends on the impact."""
         if self.dissipation is not None:
             return None
         return (
@@ -120,9 +120,9 @@ class PowerBumper(Named):
 
     @property
     def linear(self) -> bool:
-        """Whether its force is K_j d + C_j d'."""
+        """Whether the force is K_j d + C_j d'."""
         return False
 
     def static_force(self, deformation: float) -> float:
-        """Force in N of a stop that is slowly pressed by a deformation in m, k δⁿ."""
+        """Return the force k δⁿ (N) of a stop that is slowly compressed by a deformation (m)."""
         return float(self.stiffness * max(deformation, 0.0) ** self.exponent)

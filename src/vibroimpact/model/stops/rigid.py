@@ -10,19 +10,19 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class RigidStop(Named):
-    """A wall that does not give way: the mass rebounds at once, and may come to rest on it.
+    """A rigid wall from which the mass rebounds at once; the mass may come to rest on it.
 
-    The mass that reaches the wall with velocity v towards it leaves with -e v. Where the wall
-    is pressed, e < 1 lets the mass fall ever faster on it again, infinitely often in a finite
-    time; then it rests on the wall until nothing presses it any more.
+    If the mass reaches the wall with velocity v, it leaves with -e v. If a force presses it against
+    the wall and e < 1, it chatters: infinitely many impacts occur in a finite time. Then it rests
+    on the wall until the pressing force vanishes.
 
     Parameters
     ----------
     restitution
-        e, from 0 to 1: velocity of return over velocity of impact.
+        Coefficient of restitution e, from 0 to 1: rebound velocity divided by impact velocity.
     gap
-        Distance in m from the mass at u = 0 to the wall; or text such as ``"7.5 mm"``. Below 0
-        the mass rests on the wall, away from u = 0, until it is shaken off.
+        Distance in m from the mass at u = 0 to the wall; or text such as ``"7.5 mm"``. With a
+        negative gap the mass rests on the wall, away from u = 0, until it is shaken off.
 
     Raises
     ------
@@ -41,5 +41,5 @@ class RigidStop(Named):
 
     @property
     def linear(self) -> bool:
-        """Whether the motion between its impacts is as linear as without it."""
+        """Whether the wall keeps the motion between impacts linear."""
         return True

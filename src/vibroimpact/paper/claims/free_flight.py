@@ -19,7 +19,7 @@ _CODES = tuple(f"B1-Ginf-{a}" for a in ACCELERATIONS)
     "Nothing: the model's isolator is linear, so that its free flight can show neither.",
 )
 def softening(study: PublishedStudy) -> Finding:
-    """The model cannot tell; that it has no hysteresis is computed."""
+    """The model cannot decide this; the computation shows that it has no hysteresis."""
     worst = float(apart(study.family(_CODES)).max())
     return Finding(
         None,

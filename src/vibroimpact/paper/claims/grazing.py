@@ -59,7 +59,7 @@ _FREE = tuple(
     Kind.RULES,
 )
 def hardly_deformed(study: PublishedStudy) -> Finding:
-    """In millimetres, for the paper says no number."""
+    """In millimetres because the paper gives no number."""
     gap = 0.5 * laboratory.GAPS["G4"]
     most = study.campaign()["displacement_max"].max(["direction", "frequency"])
     deep = [float(most.sel(rig=code)) - gap for code in _TESTS]

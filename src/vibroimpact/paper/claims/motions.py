@@ -1,4 +1,4 @@
-"""Section 4.3: the motions behind scenarios S1 to S3."""
+"""Section 4.3: the motions of scenarios S1 to S3."""
 
 from __future__ import annotations
 

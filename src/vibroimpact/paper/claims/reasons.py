@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 _EQUAL = (
     "In no test is it lower. Where it is equal, both sweeps pass over the same peak: the "
-    "hysteresis begins beyond it, or there is none. The tests marked S1 are grazing contact."
+    "hysteresis begins beyond it, or does not exist. The tests marked S1 are grazing contact."
 )
 _NARROW = (
     "The hysteresis is narrower than the 0.1 Hz by which the tests step, and than the 0.01 Hz of "
-    "the computed sweeps: only the branch of orbits shows it. A test cannot see it, so that the "
-    "paper's statement is what its tests would show of this model, too."
+    "the computed sweeps: only the branch of orbits shows it. A test cannot detect it, so tests "
+    "of this model would agree with the paper's statement."
 )
 
 REASONS: Mapping[str, str] = {
@@ -19,7 +19,7 @@ REASONS: Mapping[str, str] = {
     "forward-higher-displacement": _EQUAL,
     "upward-jump-with-bumper": (
         "In the model the backward sweep jumps up where the amplitude of free flight reaches the "
-        "gap, and up to there no bumper is felt. For B2 to B4 that is the same to a step of the "
+        "gap, and until then no bumper is touched. For B2 to B4 that is the same to a step of the "
         "sweep; only the softest one shifts it, by one step at most."
     ),
     "s3-secondary-without-hysteresis": _NARROW,
@@ -54,9 +54,10 @@ REASONS: Mapping[str, str] = {
         "well above that of free flight. The displacement stays close to it."
     ),
     "s4-quasi-periodic": (
-        "Disturbances grow exponentially, which no quasi-periodic motion does. Bumpers that forget "
-        "within a hundredth of a cycle make the motion from cycle to cycle a map of the plane that "
-        "contracts areas: it can have no attracting closed curve. What the paper describes of the "
+        "Disturbances grow exponentially, unlike those of a quasi-periodic motion. Bumpers that "
+        "relax within a hundredth of a cycle reduce the motion from cycle to cycle to a map of "
+        "the plane that contracts areas, which cannot have an attracting closed curve. What the "
+        "paper describes of the "
         "motion (the pair, its eccentricity, the changing number of impacts) is found."
     ),
     "s4-small-motion-reached": (
@@ -70,14 +71,14 @@ REASONS: Mapping[str, str] = {
     ),
     "s5-resonance": (
         "With the bumper of Table 1 attached on one side or the other, the natural frequency is "
-        "that of both springs together, √((K + K_j)/M)/2π, and hardly any damping shifts it. The "
+        "that of both springs together, √((K + K_j)/M)/2π, and damping hardly shifts it. The "
         "paper does not print the parameters of this computation."
     ),
     "grazing-is-free-flight": (
         "As soon as the mass presses a bumper at all, its force adds to the acceleration, and "
         "all but the softest bend the peak over: the branch of orbits has two folds. The "
-        "hysteresis is narrower than the tests' step of 0.1 Hz. Only with a gap of just free "
-        "flight's amplitude, or wider, do the curves coincide, and that by construction."
+        "hysteresis is narrower than the tests' step of 0.1 Hz. The curves coincide only if the "
+        "gap is at least the amplitude without stops, and then by construction."
     ),
     "jumps-along-stiffness": (
         "The downward jump rises. The backward sweep jumps up where free flight reaches the gap, "
@@ -101,8 +102,8 @@ REASONS: Mapping[str, str] = {
     ),
     "small-gap-region-is-s4": (
         "Towards the band's upper edge, and with soft bumpers throughout, the curves show "
-        "secondary resonances without left hysteresis, as in S3. The paper says itself that other "
-        "behaviour is possible there."
+        "secondary resonances without left hysteresis, as in S3. The paper itself states that "
+        "other behaviour is possible there."
     ),
 }
-"""By key of the claim. They are told only where the verdict, which is computed, is such."""
+"""By key of the claim. They are printed only if the computed verdict matches."""

@@ -219,7 +219,7 @@ def fixed_point(study: PublishedStudy) -> Finding:
     "frequencies where both settled, 48 tests.",
 )
 def coincide(study: PublishedStudy) -> Finding:
-    """By construction less than what tells two motions apart, and in fact far less."""
+    """By construction less than the distance between two distinct motions, and in fact far less."""
     data = study.campaign()
     differ = apart(data).where((data["motion"] == "periodic").all("direction"))
     worst = 0.0
