@@ -12,9 +12,9 @@ from vibroimpact.engine import batch
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.dispatch import build
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.flows import planned
+from vibroimpact.engine.event_loop import cycle
+from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Law, Stop, rig_vector

@@ -31,6 +31,7 @@ from .model import FrictionIsolator as FrictionIsolator
 from .model import Harmonic as Harmonic
 from .model import Isolator as Isolator
 from .model import JankowskiBumper as JankowskiBumper
+from .model import Law as Law
 from .model import Oscillator as Oscillator
 from .model import Periodic as Periodic
 from .model import PolynomialIsolator as PolynomialIsolator

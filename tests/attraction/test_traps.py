@@ -10,7 +10,7 @@ import vibroimpact as vi
 from samples import sample
 from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import NO_TRAPS, Stage, Traps, follow, parts
-from vibroimpact.engine.capture import CENTRE, FORM, REACH, TRAP
+from vibroimpact.engine.absorption import CENTRE, FORM, REACH, TRAP
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 

@@ -19,7 +19,7 @@ from vibroimpact.engine.earthquakes import respond
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.measure import measure_phases
 from vibroimpact.engine.parameters import Drive, Law, free_rig, rig_vector
-from vibroimpact.engine.recorded import follow
+from vibroimpact.engine.record_forcing import follow
 from vibroimpact.tasks.threads import available
 
 ONE_SINE = {

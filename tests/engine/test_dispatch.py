@@ -6,7 +6,7 @@ import inspect
 
 import pytest
 
-from vibroimpact.engine import dispatch, flows
+from vibroimpact.engine import dispatch, flow_dispatch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.parameters import Law, free_rig, rig_vector
 
@@ -18,7 +18,7 @@ NAMES = [
 
 
 def test_the_questions() -> None:
-    assert set(dispatch._MODULES) == set(range(3)), flows  # which says who answers
+    assert set(dispatch._MODULES) == set(range(3)), flow_dispatch  # which says who answers
     assert {"build", "carry", "grow", "look", "acceleration"} <= set(NAMES)
     assert len(NAMES) == 30
 

@@ -12,7 +12,7 @@ import pytest
 
 from engine.compiled import RIGS, compile_for, entries
 from vibroimpact.engine import jit
-from vibroimpact.engine.flows import _ADVANCE
+from vibroimpact.engine.flow_dispatch import _ADVANCE
 
 ENTRY = """\
 from vibroimpact.engine.entry import entry

@@ -47,18 +47,18 @@ def test_only_an_unusual_kind_is_written():
     [
         (
             {"right": {"kind": "hertz", "stiffness": 1}},
-            "rig.right.kind: 'hertz' is unknown; 'kelvin-voigt', 'rigid', 'power' or 'jankowski' "
-            "is accepted",
+            "rig.right.kind: 'hertz' is unknown; 'kelvin-voigt', 'rigid', 'power', 'jankowski' or "
+            "'formula' is accepted",
         ),
         (
             {"left": {"kind": 3}},
-            "rig.left.kind: 3 is unknown; 'kelvin-voigt', 'rigid', 'power' or 'jankowski' is "
-            "accepted",
+            "rig.left.kind: 3 is unknown; 'kelvin-voigt', 'rigid', 'power', 'jankowski' or "
+            "'formula' is accepted",
         ),
         (
             {"isolator": {"kind": "rubber"}},
             "rig.isolator.kind: 'rubber' is unknown; 'linear', 'friction', 'bilinear', "
-            "'polynomial', 'bouc-wen' or 'exponential' is accepted",
+            "'polynomial', 'bouc-wen', 'exponential' or 'formula' is accepted",
         ),
         (
             {"right": {**WALL, "restitution": 2}},

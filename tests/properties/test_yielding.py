@@ -12,7 +12,7 @@ import vibroimpact as vi
 from engine.yielding.rigs import followed, random_rig, started, vectors
 from samples import sample
 from vibroimpact.engine import motion as layout
-from vibroimpact.engine.flows import flow_of
+from vibroimpact.engine.flow_dispatch import flow_of
 from vibroimpact.engine.observers import record
 
 SMALL = 1e-9

@@ -24,6 +24,8 @@ def stored(oscillator: vi.Oscillator, data: xr.Dataset, at: int) -> float:
         case vi.ExponentialIsolator():
             held += quad(isolator.elastic_force, 0.0, u, epsabs=1e-14, epsrel=1e-13)[0]
             held += (isolator.reversal_stiffness - isolator.final_stiffness) * z**2
+        case vi.Law():
+            held += quad(isolator.static_force, 0.0, u, epsabs=1e-14, epsrel=1e-13)[0]
         case _:
             held += isolator.stiffness * u**2 / 2
     for stop, side in ((oscillator.right, 1), (oscillator.left, -1)):
@@ -34,6 +36,8 @@ def stored(oscillator: vi.Oscillator, data: xr.Dataset, at: int) -> float:
         if isinstance(stop, vi.Bumper):
             x = float(data["right_bumper" if side == 1 else "left_bumper"][at])
             held += stop.stiffness * x**2 / 2
+        elif touched and isinstance(stop, vi.Law):
+            held += quad(stop.read.value, 0.0, depth, (0.0,), epsabs=1e-14)[0]
         elif touched and not isinstance(stop, vi.RigidStop):
             power = getattr(stop, "exponent", 1.5)
             held += stop.stiffness * depth ** (power + 1) / (power + 1)

@@ -18,7 +18,7 @@ from scipy.linalg import solve_discrete_lyapunov
 
 from vibroimpact.attraction.label_states import Stage, images
 from vibroimpact.attraction.section_coordinates import met, remembered
-from vibroimpact.engine.capture import CENTRE, FORM, OWNER, REACH, TRAP
+from vibroimpact.engine.absorption import CENTRE, FORM, OWNER, REACH, TRAP
 
 _Array = NDArray[np.float64]
 

@@ -40,7 +40,7 @@ class Attractor(NamedTuple):
     """u, u̇, u_R, u_L, z at the sections of one period, or of many cycles; the deformations away
     from the mass."""
     traps: _Array
-    """Rows of `engine.capture`; none of a motion that wanders."""
+    """Rows of `engine.absorption`; none of a motion that wanders."""
 
     @property
     def visited(self) -> _Array:

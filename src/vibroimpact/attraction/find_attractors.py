@@ -22,7 +22,7 @@ from vibroimpact.attraction.attractors import Attractor, attractor
 from vibroimpact.attraction.label_states import NO_TRAPS, Points, Stage, Traps, follow
 from vibroimpact.attraction.section_coordinates import forgets
 from vibroimpact.engine import motion as layout
-from vibroimpact.engine.capture import GRID, LOW_U, LOW_V, STEP_U, STEP_V
+from vibroimpact.engine.absorption import GRID, LOW_U, LOW_V, STEP_U, STEP_V
 from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError
 from vibroimpact.stability.equivalence import ALIKE, distance, same

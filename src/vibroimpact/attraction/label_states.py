@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.attraction.state_grid import Lattice
-from vibroimpact.engine import capture
+from vibroimpact.engine import absorption
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator, Repeated
@@ -52,7 +52,7 @@ class Stage(NamedTuple):
 
 
 class Traps(NamedTuple):
-    """What catches states; see `engine.capture`."""
+    """What catches states; see `engine.absorption`."""
 
     rows: _Array
     cells: _Whole
@@ -60,7 +60,7 @@ class Traps(NamedTuple):
 
 
 NO_TRAPS = Traps(
-    np.empty((0, capture.TRAP)), np.empty((0, 0), dtype=np.int64), np.zeros(capture.GRID)
+    np.empty((0, absorption.TRAP)), np.empty((0, 0), dtype=np.int64), np.zeros(absorption.GRID)
 )
 
 
@@ -94,8 +94,8 @@ def follow_region(region: Region, tally: Tally) -> Followed:
     begun = len(points) > 0
     points = np.ascontiguousarray(points)
     states = np.zeros((len(points), layout.STATE)) if begun else np.ascontiguousarray(states).copy()
-    results = np.zeros((len(states), capture.RESULT), dtype=np.int64)
-    capture.caught(
+    results = np.zeros((len(states), absorption.RESULT), dtype=np.int64)
+    absorption.caught(
         engine_rig(stage.rig),
         stage.excitation.amplitude,
         stage.excitation.frequency,
@@ -109,11 +109,11 @@ def follow_region(region: Region, tally: Tally) -> Followed:
         results,
         tally,
     )
-    outcome = results[:, capture.OUTCOME].astype(np.int8)
+    outcome = results[:, absorption.OUTCOME].astype(np.int8)
     return Followed(
         states[outcome == Status.NOT_SETTLED],
-        results[:, capture.CAUGHT].astype(np.int8),
-        results[:, capture.CYCLES].astype(np.int32),
+        results[:, absorption.CAUGHT].astype(np.int8),
+        results[:, absorption.CYCLES].astype(np.int32),
         outcome,
     )
 
@@ -142,7 +142,7 @@ def follow(
         return Followed(np.empty((0, layout.STATE)), none, none.astype(np.int32), none)
     where = [slice(i, i + _REGION) for i in range(0, number, _REGION)]
     regions = [Region(stage, begun[part], held[part], traps, cycles) for part in where]
-    capture.caught.prepare(engine_rig(stage.rig))
+    absorption.caught.prepare(engine_rig(stage.rig))
     if len(regions) < _WORTH_IT and not isinstance(threads, int):
         threads = None
     found = each(follow_region, regions, steps=number, threads=threads, progress=progress)

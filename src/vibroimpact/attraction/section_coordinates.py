@@ -35,7 +35,7 @@ def met(stage: Stage, point: NDArray[np.float64]) -> NDArray[np.bool_]:
     rig = engine_rig(stage.rig)
     parts = np.zeros(PARTS, dtype=bool)
     for i, at in enumerate((par.BUMPER, par.BUMPER + par.WIDTH)):
-        curved = rig[at + par.KIND] in (par.POWER_LAW, par.JANKOWSKI)
+        curved = rig[at + par.KIND] in par.CURVED_STOPS
         parts[2 + i] = curved and rig[at + par.DISSIPATION] < 0.0 and point[2 + i] != 0.0
     return parts
 

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.flows import planned
+from vibroimpact.engine.event_loop import cycle
+from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import Motion, aged, finite, unpacked
 from vibroimpact.engine.observers.demand import Demand, unseen
 from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK

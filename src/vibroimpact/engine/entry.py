@@ -12,7 +12,7 @@ from numba.core import config
 from numba.core.sigutils import normalize_signature
 
 from vibroimpact.engine import cache, emission, jit
-from vibroimpact.engine.flows import flow_of
+from vibroimpact.engine.flow_dispatch import flow_of
 from vibroimpact.engine.parameters import free_rig
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.matrix import radius, solve
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion

@@ -1,6 +1,6 @@
 """One held frequency: wait until the motion has settled, then measure it.
 
-Free flight that nothing can disturb any more is known at once (`linear.undisturbed`). Any other
+Free flight that nothing can disturb any more is known at once (`linear.contact_free`). Any other
 motion of one cycle is pursued (`pursuit`); what is not found so is followed until it has
 settled. Settled means that the stroboscopic state repeats after n ≤ LONGEST cycles. The distance
 d_n(k) = ‖s_k − s_(k−n)‖ shrinks geometrically on the way to a stable orbit; from its decay over
@@ -17,16 +17,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.chaos_indicator import runs_away
 from vibroimpact.engine.dispatch import build, stiff_rate, too_much_work, undisturbed
+from vibroimpact.engine.event_loop import cycle
+from vibroimpact.engine.extrapolation import pursue
 from vibroimpact.engine.fixed_point import DYING
 from vibroimpact.engine.forcing.dispatch import begin
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, aged, finite
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers.extremes import NOTHING
-from vibroimpact.engine.pursuit import pursue
 from vibroimpact.engine.status import (
     DONE,
     NOT_FINITE,
@@ -35,7 +36,6 @@ from vibroimpact.engine.status import (
     TOO_MANY_EVENTS,
     TOO_MUCH_WORK,
 )
-from vibroimpact.engine.wandering import runs_away
 
 LONGEST = 16
 """Longest period, in forcing cycles, that is recognised."""

@@ -7,9 +7,9 @@ from typing import Any
 
 from vibroimpact.engine.dispatch import build, start_growth, stiff_rate, too_much_work
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.flows import planned
+from vibroimpact.engine.event_loop import cycle
+from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import TERMS, pointer, workspace
 from vibroimpact.engine.motion import finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED

@@ -31,7 +31,7 @@ from vibroimpact.engine.dispatch import (
     unkept,
 )
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.flows import planned
+from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.forcing.dispatch import change_rate, pull_series
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner

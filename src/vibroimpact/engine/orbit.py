@@ -7,10 +7,10 @@ from typing import Any
 
 from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.flows import planned
+from vibroimpact.engine.event_loop import cycle
+from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.hold import measure
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.matrix import solve
 from vibroimpact.engine.memory import pointer, stack, workspace
 from vibroimpact.engine.observers.margin import Margin

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ STIFFNESS = 0  # K/M, 1/s²
 DAMPING = 1  # C/M, 1/s
 BUMPER = 2
 WIDTH = 8
-KIND = 0  # ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW or JANKOWSKI
+KIND = 0  # ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI or FORMULA
 BUMPER_STIFFNESS = 1  # K_j/M, 1/s²
 BUMPER_DAMPING = 2  # C_j/M, 1/s
 GAP = 3  # G0_j, m; infinite where there is no bumper
@@ -44,17 +45,27 @@ YIELD = LOAD + 16  # of |z|, m; infinite if there is none
 FRICTION = LOAD + 17  # F_c/M, m/s²
 DRAG = LOAD + 18  # exponent of the velocity
 CURVED = LOAD + 19  # 1 if a law is not linear
-SIZE = LOAD + 20
+OWN = LOAD + 20
+"""Formulae of a user: that of the isolator and of each stop, `series.program` packed."""
+WORDS, OWN_NUMBERS = 5, 8
+OWN_FLAGS = WORDS
+OWN_FIRST = OWN_FLAGS + 1
+OWN_PER_MASS = OWN_FIRST + OWN_NUMBERS  # 1/M
+OWN_STIFFNESS = OWN_PER_MASS + 1  # at rest, per unit mass
+OWN_WIDTH = OWN_STIFFNESS + 1
+SIZE = OWN + 3 * OWN_WIDTH
 WEIGHTS = SIZE + 2
 """Where a vector goes on if there are several harmonics: behind the amplitude and the frequency
 of a system vector come the weights of sin nθ and cos nθ, two for each n from 1 on."""
 
 HARMONIC, SEVERAL, RAMP = 0.0, 1.0, 2.0
 
-ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI = 0.0, 1.0, 2.0, 3.0, 4.0
+ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI, FORMULA = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
+CURVED_STOPS = (POWER_LAW, JANKOWSKI, FORMULA)
 
-Stop = tuple[float, ...]
-"""K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop; a `PowerLaw`."""
+Stop = tuple[Any, ...]
+"""K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop; a `PowerLaw` or
+an `OwnStop`."""
 
 
 class PowerLaw(NamedTuple):
@@ -76,6 +87,21 @@ class PowerLaw(NamedTuple):
     exponent: float
     dissipation: float
     viscous: float
+    gap: float
+
+
+class OwnStop(NamedTuple):
+    """A bumper without memory that follows a formula of its deformation and the rate of that.
+
+    Attributes
+    ----------
+    own
+        The formula, from `series.program.pack`.
+    gap
+        G0_j (m).
+    """
+
+    own: tuple[float, ...]
     gap: float
 
 
@@ -134,6 +160,7 @@ def rig_vector(
     load: float = 0.0,
     drive: Drive = Drive(),  # noqa: B008 (it is immutable)
     law: Law = Law(),  # noqa: B008
+    own: Sequence[float] = (),
 ) -> NDArray[np.float64]:
     """Pack a rig for the kernels.
 
@@ -149,6 +176,8 @@ def rig_vector(
         What shakes it.
     law : Law
         What the isolator does besides.
+    own : sequence of float
+        A formula that it follows besides, from `series.program.pack`.
 
     Returns
     -------
@@ -157,8 +186,10 @@ def rig_vector(
     vector = np.zeros(WEIGHTS + 2 * len(drive.weights) if drive.weights else SIZE)
     vector[LOAD] = load / mass
     vector[CUBIC : DRAG + 1] = law
-    curved = isinstance(right, PowerLaw) or isinstance(left, PowerLaw)
-    vector[CURVED] = curved or law != Law()
+    curved = any(isinstance(stop, PowerLaw | OwnStop) for stop in (right, left))
+    vector[CURVED] = curved or law != Law() or bool(own)
+    vector[OWN : OWN + len(own)] = own
+    vector[OWN + OWN_STIFFNESS] /= mass
     for at in _PER_MASS:
         vector[at] /= mass
     vector[BASE], vector[SCALE], vector[POWER] = drive.base, drive.scale, drive.power
@@ -175,6 +206,11 @@ def rig_vector(
         vector[at + RATE] = np.inf
         if stop is None:
             continue
+        if isinstance(stop, OwnStop):
+            block = OWN + OWN_WIDTH * side
+            vector[at + KIND], vector[block : block + OWN_WIDTH] = FORMULA, stop.own
+            vector[block + OWN_STIFFNESS] /= mass
+            continue
         if len(stop) == 2:
             vector[at + KIND], vector[at + RESTITUTION] = RIGID, stop[0]
             continue
@@ -190,6 +226,7 @@ def rig_vector(
         vector[at + BUMPER_DAMPING] = bumper_damping / mass
         if bumper_damping:
             vector[at + RATE] = bumper_stiffness / bumper_damping
+    vector[[OWN + OWN_WIDTH * i + OWN_PER_MASS for i in range(3)]] = 1.0 / mass
     return vector
 
 
@@ -207,11 +244,11 @@ def laws(rig: NDArray[np.float64]) -> int:
     if not rig[CURVED]:
         return LINEAR
     sides = (BUMPER, BUMPER + WIDTH)
-    if any(rig[at + KIND] in (POWER_LAW, JANKOWSKI) for at in sides):
+    if any(rig[at + KIND] in CURVED_STOPS for at in sides):
         return BENT
     if rig[BUMPER + GAP] + rig[BUMPER + WIDTH + GAP] < 0.0 or rig[DRAG] != 1.0:
         return BENT
-    if rig[CUBIC] or rig[QUINTIC] or rig[SINH]:
+    if rig[CUBIC] or rig[QUINTIC] or rig[SINH] or rig[OWN]:
         return BENT
     yields = rig[HYSTERETIC] != 0.0 and rig[YIELD] < np.inf
     slides = rig[FRICTION] != 0.0

@@ -11,8 +11,8 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import build, too_much_work
+from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import FLIGHT, RIGHT, Clock, Motion, finite, mirrored
 from vibroimpact.engine.observers.tangent import DISTURBANCE, Tangent, unit_disturbances
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK

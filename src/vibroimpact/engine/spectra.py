@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from vibroimpact.engine.alone import single
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.line import largest, moved, responses
+from vibroimpact.engine.plain_entries import single
+from vibroimpact.engine.ramp_response import largest, moved, responses
 
 # What is found of an oscillator: the largest |u|, |u′|/ω and |u″ + A_t|/ω².
 DISPLACEMENT, VELOCITY, ACCELERATION = range(3)

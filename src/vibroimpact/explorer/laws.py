@@ -19,6 +19,7 @@ from vibroimpact.model import (
     FrictionIsolator,
     Isolator,
     JankowskiBumper,
+    Law,
     PolynomialIsolator,
     PowerBumper,
     RigidStop,
@@ -37,13 +38,13 @@ _PRESSED = 0.2
 
 
 def isolator_laws() -> list[str]:
-    """Kinds of isolators, by the names that a study file gives them."""
-    return list(ISOLATORS.classes)
+    """Kinds of isolators that can replace another one, by the names of a study file."""
+    return [kind for kind in ISOLATORS.classes if kind != Law.kind]
 
 
 def stop_laws() -> list[str]:
-    """Kinds of stops, by the names that a study file gives them."""
-    return [NONE, *STOPS.classes]
+    """Kinds of stops that can replace another one, by the names of a study file."""
+    return [NONE, *(kind for kind in STOPS.classes if kind != Law.kind)]
 
 
 def free_displacement(state: State) -> float:

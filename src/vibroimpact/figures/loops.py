@@ -22,6 +22,7 @@ from vibroimpact.model import (
     ExponentialIsolator,
     FrictionIsolator,
     JankowskiBumper,
+    Law,
     PowerBumper,
     to_si,
 )
@@ -70,7 +71,9 @@ def force_loop(
     size = to_si(amplitude, LENGTH, "amplitude", above=0.0)
     omega = math.tau * to_si(frequency, FREQUENCY, "frequency", minimum=0.0)
     ax = axes_or_new(ax, (5.2, 4.0), title)
-    if isinstance(law, Bumper | PowerBumper | JankowskiBumper):
+    if isinstance(law, Bumper | PowerBumper | JankowskiBumper) or (
+        isinstance(law, Law) and law.is_stop
+    ):
         u, v, _ = _sine(size, omega, 0.5)
         force, what = contact_force(law, u, v), "deformation (mm)"
     else:
@@ -113,6 +116,8 @@ def isolator_force(
     """
     u = np.asarray(displacement, dtype=np.float64)
     v = np.broadcast_to(np.asarray(velocity, dtype=np.float64), u.shape)
+    if isinstance(law, Law):
+        return np.array([law.read.value(*one) for one in zip(u.tolist(), v.tolist(), strict=True)])
     viscous = law.damping * np.abs(v) ** law.damping_exponent * np.sign(v)
     return np.fromiter(_restoring(law, u, np.sign(direction)), np.float64, len(u)) + viscous
 
@@ -159,7 +164,7 @@ def _moved_on(law: BoucWenIsolator, z: float, step: float) -> float:
 
 
 def contact_force(
-    law: Bumper | PowerBumper | JankowskiBumper, deformation: ArrayLike, velocity: ArrayLike
+    law: Bumper | PowerBumper | JankowskiBumper | Law, deformation: ArrayLike, velocity: ArrayLike
 ) -> _Array:
     """Return the force of a stop along one contact, which begins at its first sample.
 
@@ -181,6 +186,9 @@ def contact_force(
     v = np.asarray(velocity, dtype=np.float64)
     if isinstance(law, Bumper):
         return np.maximum(law.stiffness * d + law.damping * v, 0.0)
+    if isinstance(law, Law):
+        values = [law.read.value(*one) for one in zip(d.tolist(), v.tolist(), strict=True)]
+        return np.maximum(values, 0.0)
     if isinstance(law, PowerBumper):
         number, closing = law.dissipation_number, float(v[0])
         chi = law.dissipation if number is None else number / closing if closing else 0.0

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import batch, recorded
+from vibroimpact.engine import batch, record_forcing
 from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import DONE
 from vibroimpact.model import State
@@ -89,10 +89,10 @@ def under_record(rig: Rig, start: State, time: Array) -> Moved | None:
     lines = straight(record, 0.0)
     out = np.empty((observed.SAMPLE, len(lines) + 1))
     buffer = np.empty((_MAX_EVENTS + 1 + 20_000, observed.EVENT))
-    steepest = float(np.abs(lines[:, recorded.SLOPE]).max())
+    steepest = float(np.abs(lines[:, record_forcing.SLOPE]).max())
     numbers, done, outcome = engine_rig(rig), 0, int(DONE)
     while done < len(lines) and outcome == DONE:
-        done, _, outcome = recorded.follow(
+        done, _, outcome = record_forcing.follow(
             numbers, record.peak, steepest, lines, vector, done, 1, record.step, _MAX_EVENTS, out,
             buffer,
         )  # fmt: skip

@@ -22,6 +22,7 @@ from vibroimpact.model.isolators import (
 )
 from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.own_law import Law
 from vibroimpact.model.quantities import GRAVITY
 from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig
@@ -45,6 +46,7 @@ __all__ = [
     "Harmonic",
     "Isolator",
     "JankowskiBumper",
+    "Law",
     "Model",
     "Oscillator",
     "Periodic",

@@ -14,6 +14,7 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import ValidationInfo, field_validator, model_validator
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.built_in import as_isolator, as_stop
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
 from vibroimpact.model.isolators.design import designed
 from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
@@ -36,14 +37,14 @@ class Oscillator(Model):
         replace it, in N or as text such as ``"50 MN"``.
     isolator
         An `Isolator`, `FrictionIsolator`, `BilinearIsolator`, `PolynomialIsolator`,
-        `BoucWenIsolator` or `ExponentialIsolator`; or a mapping with the fields of one (with its
-        ``kind`` if it is not linear), or with the arguments of its ``from_period`` or
+        `BoucWenIsolator`, `ExponentialIsolator` or a `Law`; or a mapping with the fields of one
+        (with its ``kind`` if it is not linear), or with the arguments of its ``from_period`` or
         ``from_strength`` for this mass.
     right
         Stop at positive displacement: a `Bumper`, a `RigidStop`, a `PowerBumper`, a
-        `JankowskiBumper`, or a mapping with the fields of one (with its ``kind`` if it is not a
-        `Bumper`; a `Bumper` may have a ``restitution`` for this mass instead of its damping).
-        Default: None, no stop.
+        `JankowskiBumper`, a `Law` with a gap, or a mapping with the fields of one (with its
+        ``kind`` if it is not a `Bumper`; a `Bumper` may have a ``restitution`` for this mass
+        instead of its damping). Default: None, no stop.
     left
         Stop at negative displacement, as for ``right``.
     force
@@ -97,7 +98,8 @@ class Oscillator(Model):
         law = ISOLATORS.classes.get(ISOLATORS.kind_of(value))
         if not isinstance(value, Mapping) or law is None:
             return value
-        assert issubclass(law, IsolatorLaw)
+        if not issubclass(law, IsolatorLaw):
+            return value
         return designed(value, law, info.data.get("mass"))
 
     @field_validator("right", "left", mode="before")
@@ -106,6 +108,16 @@ class Oscillator(Model):
         if not isinstance(value, Mapping) or STOPS.kind_of(value) != Bumper.kind:
             return value
         return returning(value, info.data.get("mass"))
+
+    @field_validator("isolator", mode="after")
+    @classmethod
+    def _built_in_isolator(cls, value: AnyIsolator) -> AnyIsolator:
+        return as_isolator(value)
+
+    @field_validator("right", "left", mode="after")
+    @classmethod
+    def _built_in_stop(cls, value: Stop | None) -> Stop | None:
+        return as_stop(value)
 
     @model_validator(mode="after")
     def _frequency_exists(self) -> Self:

@@ -209,6 +209,48 @@ def accepted(
     return " ".join((quantity.phrase, *bounds, "is accepted, such as", example))
 
 
+def to_si_of_any(value: object, field: str) -> tuple[float, tuple[float, float, float] | None]:
+    """Read a number of any mechanical quantity, as that of a formula.
+
+    Returns
+    -------
+    value, dimension
+        In SI units, and the powers of mass, length and time; None for a plain number, whose unit
+        is not stated. An angle counts as a number.
+
+    Raises
+    ------
+    InputError
+        If it is not a finite number, or has a unit that cannot be read or is not mechanical.
+    """
+    if not isinstance(value, str) or _NUMBER.fullmatch(value.strip()):
+        return to_si(value, quantities.DIMENSIONLESS, field), None
+    clean = " ".join(value.replace("−", "-").split())
+    match = _NUMBER.match(clean)
+    try:
+        if match is None or len(clean) > _LONGEST:
+            raise _RefusalError("does not start with a number")
+        rest = _unit_text(clean[match.end() :].strip())
+        base = _with_unit(Decimal(match[0]), rest).to_base_units()
+        _check_used(rest)
+        powers = {str(name): float(power) for name, power in base.unit_items()}
+        powers.pop("radian", None)
+        mass, length, time = (powers.pop(name, 0.0) for name in ("kilogram", "meter", "second"))
+        if powers:
+            raise _RefusalError("is not a mechanical quantity")
+        number = float(base.magnitude)
+        if not math.isfinite(number):
+            raise _RefusalError("is not finite")
+    except ArithmeticError:
+        raise InputError(f"{field}: {shown(value)} is not finite") from None
+    except _RefusalError as refusal:
+        raise InputError(
+            f"{field}: {shown(value)} {refusal}; a number with its unit is accepted, such as "
+            '"26 kN/m"'
+        ) from None
+    return number + 0.0, (mass, length, time)
+
+
 def doubt_damping_ratio(value: float, field: str) -> None:
     """Issue a warning if a damping ratio was probably meant in percent."""
     if value >= _FAR_OVERDAMPED:
@@ -324,9 +366,7 @@ def _size(unit: str, quantity: Quantity) -> Decimal:
 
 def _measured(number: Decimal, rest: str, quantity: Quantity) -> Decimal | float:
     """A number with a unit in SI units."""
-    if _UNITS.fullmatch(rest) is None:
-        raise _RefusalError(f"has a unit that cannot be read, '{rest}'")
-    rest = _BARE_POWER.sub(r"**\1", rest.replace("·", "*").replace("⋅", "*"))
+    rest = _unit_text(rest)
     if quantity is ACCELERATION:
         rest = _GRAVITY_SYMBOL.sub(
             lambda m: ("milli" if m[1] else "") + "standard_gravity",
@@ -335,6 +375,20 @@ def _measured(number: Decimal, rest: str, quantity: Quantity) -> Decimal | float
         rest = _GAL.sub(lambda m: ("milli" if m[1] else "") + "galileo", rest)
     if quantity is MASS and _GRAVITY_SYMBOL.search(rest):
         raise _RefusalError("has a g, which is gravity here; write gram, kg or t")
+    magnitude = _from_pint(_with_unit(number, rest), quantity)
+    _check_used(rest)
+    return magnitude
+
+
+def _unit_text(rest: str) -> str:
+    """A unit as pint writes it."""
+    if _UNITS.fullmatch(rest) is None:
+        raise _RefusalError(f"has a unit that cannot be read, '{rest}'")
+    return _BARE_POWER.sub(r"**\1", rest.replace("·", "*").replace("⋅", "*"))
+
+
+def _with_unit(number: Decimal, rest: str) -> Any:
+    """A number with a unit, as pint's quantity."""
     names = _NAMES_IN.findall(rest)
     if rest not in FRACTIONS:
         for fraction in FRACTIONS:
@@ -348,20 +402,23 @@ def _measured(number: Decimal, rest: str, quantity: Quantity) -> Decimal | float
     registry = _registry()
     try:
         unit = registry.parse_units(rest)
-        measured = registry.Quantity(number, unit)
+        return registry.Quantity(number, unit)
     except AttributeError:  # pint.UndefinedUnitError, without importing pint by name
         raise _RefusalError("has an unknown unit") from None
     except Exception:
         # pint raises whatever its tokenizer and arithmetic raise; for text from a user
         # every one of them means the same.
         raise _RefusalError("has a unit that cannot be read") from None
-    magnitude = _from_pint(measured, quantity)
-    for name in names:
+
+
+def _check_used(rest: str) -> None:
+    """Refuse units that pint knows and nobody here means."""
+    registry = _registry()
+    for name in _NAMES_IN.findall(rest):
         # pint takes the first of several readings. It finds none for a sign such as °.
         readings = registry.parse_unit_name(name)
         if readings and not accepted_unit(readings[0][1]):
             raise _RefusalError(f"has a unit that is not used here, '{name}'")
-    return magnitude
 
 
 def _from_pint(measured: Any, quantity: Quantity) -> Decimal | float:

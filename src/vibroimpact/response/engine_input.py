@@ -18,7 +18,7 @@ from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Oscillator, Periodic, Record, RigidStop, State
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.law_numbers import isolator_numbers, stop_numbers
+from vibroimpact.response.law_numbers import isolator_numbers, own_numbers, stop_numbers
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
@@ -52,6 +52,7 @@ def engine_rig(rig: Rig) -> NDArray[np.float64]:
         oscillator.force,
         _drive(rig),
         law,
+        own_numbers(oscillator.isolator),
     )
 
 

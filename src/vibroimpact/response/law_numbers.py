@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.parameters import Law, PowerLaw
+from vibroimpact.engine.parameters import Law, OwnStop, PowerLaw
 from vibroimpact.engine.parameters import Stop as Numbers
+from vibroimpact.engine.series.program import SYMBOLS, Program, pack
 from vibroimpact.model import (
     BilinearIsolator,
     BoucWenIsolator,
@@ -16,6 +17,9 @@ from vibroimpact.model import (
     PowerBumper,
     RigidStop,
     Stop,
+)
+from vibroimpact.model import (
+    Law as OwnLaw,
 )
 from vibroimpact.model.isolators import AnyIsolator
 
@@ -61,8 +65,25 @@ def isolator_numbers(isolator: AnyIsolator) -> tuple[float, float, Law]:
                 drag=drag,
             )
             return isolator.final_stiffness - 2.0 * force * rate, damping, law
+        case OwnLaw():
+            parts = isolator.parts
+            law = Law(cubic=parts.cubic, quintic=parts.quintic, drag=2.0 if parts.square else 1.0)
+            return parts.stiffness, parts.square or parts.damping, law
         case _:
             return isolator.stiffness, damping, Law(drag=drag)
+
+
+def own_numbers(isolator: AnyIsolator) -> list[float]:
+    """The formula that an isolator follows beside those laws, packed for the engine."""
+    if not isinstance(isolator, OwnLaw):
+        return []
+    return _packed(isolator, isolator.initial_stiffness - isolator.parts.stiffness)
+
+
+def _packed(law: OwnLaw, stiffness: float) -> list[float]:
+    names, numbers = law.operations
+    symbols = [one if isinstance(one, int) else SYMBOLS.index(one) for one in names]
+    return pack(Program(tuple(symbols), tuple(numbers)), stiffness)
 
 
 def stop_numbers(stop: Stop | None) -> Numbers | None:
@@ -79,5 +100,8 @@ def stop_numbers(stop: Stop | None) -> Numbers | None:
         case JankowskiBumper():
             viscous = 2.0 * stop.damping_ratio * math.sqrt(stop.mass * stop.stiffness)
             return PowerLaw(stop.stiffness, 1.5, 0.0, viscous, stop.gap)
+        case OwnLaw():
+            assert stop.gap is not None
+            return OwnStop(tuple(_packed(stop, stop.initial_stiffness)), stop.gap)
         case _:
             return stop.stiffness, stop.damping, stop.gap

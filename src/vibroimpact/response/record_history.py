@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS, describe, oscillator_parameters
-from vibroimpact.engine import recorded
+from vibroimpact.engine import record_forcing
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
@@ -47,12 +47,12 @@ def through(
     count = int(np.ceil(ends / record.step * samples - 1e-6)) + 1 if samples else 0
     out = np.empty((observed.SAMPLE, count))
     buffer = np.empty((max_events + 1 + (EVENTS_AT_ONCE if samples else 0), observed.EVENT))
-    steepest = float(np.abs(lines[:, recorded.SLOPE]).max())
+    steepest = float(np.abs(lines[:, record_forcing.SLOPE]).max())
     found = []
     at, outcome = 0, int(Status.DONE)
     calls = Calls(len(lines), progress)
     while at < len(lines) and outcome == Status.DONE:
-        at, events, outcome = recorded.follow(
+        at, events, outcome = record_forcing.follow(
             numbers,
             record.peak,
             steepest,
@@ -111,9 +111,9 @@ def straight(record: Record, tail: float) -> _Array:
     rest = tail - whole * step
     lengths = [step] * whole + ([rest] if rest > 1e-9 * step else [])
     moving = len(values) - 1
-    lines = np.zeros((moving + len(lengths), recorded.LINE))
-    lines[:moving, recorded.BEGINS] = values[:-1]
-    lines[:moving, recorded.SLOPE] = np.diff(values) / step
-    lines[:moving, recorded.LASTS] = step
-    lines[moving:, recorded.LASTS] = lengths
+    lines = np.zeros((moving + len(lengths), record_forcing.LINE))
+    lines[:moving, record_forcing.BEGINS] = values[:-1]
+    lines[:moving, record_forcing.SLOPE] = np.diff(values) / step
+    lines[:moving, record_forcing.LASTS] = step
+    lines[moving:, record_forcing.LASTS] = lengths
     return lines

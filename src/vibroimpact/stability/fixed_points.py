@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import orbit, section_map
-from vibroimpact.engine.flows import carries
+from vibroimpact.engine.flow_dispatch import carries
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.model.rig import Rig

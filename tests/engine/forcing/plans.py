@@ -6,7 +6,7 @@ from types import ModuleType
 
 import numpy as np
 
-from vibroimpact.engine.flows import flow_of
+from vibroimpact.engine.flow_dispatch import flow_of
 from vibroimpact.engine.parameters import SIZE, Drive, rig_vector
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.flows import AnyStops, Recorded, Several, carries, flow_of
+from vibroimpact.engine.flow_dispatch import AnyStops, Recorded, Several, carries, flow_of
 from vibroimpact.engine.forcing import dispatch
 from vibroimpact.engine.parameters import Drive, rig_vector
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.flows import flow_of, planned
+from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.linear.flight import flight
 from vibroimpact.engine.linear.layout import TABLES, H
+from vibroimpact.engine.linear.table_search import BELOW, WITHIN, Bounds
 from vibroimpact.engine.linear.tables import build
-from vibroimpact.engine.linear.walk import BELOW, WITHIN, Bounds
 from vibroimpact.engine.motion import FLIGHT, Row
 from vibroimpact.engine.parameters import Drive, rig_vector
 

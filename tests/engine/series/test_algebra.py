@@ -9,8 +9,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from vibroimpact.engine.series.algebra import Rate, Shifted, State, exponential, power
+from vibroimpact.engine.series.algebra import Rate, Shifted, State
 from vibroimpact.engine.series.emit import Plain
+from vibroimpact.engine.series.functions import exponential, power
 
 DEGREE = 20
 STATE = [0.7, -0.4, 0.3, 0.11, -0.05, 0.02, 0.013, -0.004, 0.003]

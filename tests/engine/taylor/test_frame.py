@@ -10,7 +10,7 @@ import pytest
 import vibroimpact as vi
 from engine.taylor.rigs import ISOLATORS, SHAKEN, STOPS, between
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.flows import flow_of, planned
+from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
 from vibroimpact.engine.series.values import Push
 from vibroimpact.engine.taylor.frame import isolator_force, pushing, stuck

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.engine.flows import flow_of, planned
+from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.parameters import Law, rig_vector
 from vibroimpact.engine.taylor.plan import build, stiff_rate, too_much_work
 

@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import brentq
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.flows import flow_of, planned
+from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.motion import BOTH, FLIGHT, Motion
 from vibroimpact.engine.parameters import Law, PowerLaw, rig_vector
 from vibroimpact.engine.series.layout import DEGREE, X

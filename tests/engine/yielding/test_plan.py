@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from vibroimpact.engine.flows import flow_of, planned
+from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.linear import tables
 from vibroimpact.engine.linear.layout import COSINE, FINE, FINE_NODE, NODE, NODES, SINE, WIDTH, H
 from vibroimpact.engine.linear.layout import TABLES as LINEAR

@@ -8,7 +8,7 @@ from vibroimpact.engine.linear.contact import contact
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.flight import flight
 from vibroimpact.engine.linear.layout import LATE_TABLES, SIZE, SLOTS, TABLES, VALID_FROM, H
-from vibroimpact.engine.linear.walk import WITHIN, Bounds
+from vibroimpact.engine.linear.table_search import WITHIN, Bounds
 from vibroimpact.engine.motion import (
     BOTH,
     DETACHED,

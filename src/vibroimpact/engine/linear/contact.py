@@ -28,7 +28,7 @@ from vibroimpact.engine.linear.layout import (
     H,
 )
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
-from vibroimpact.engine.linear.walk import WITHIN, Bounds, Watched, ended, next_window, walk
+from vibroimpact.engine.linear.table_search import WITHIN, Bounds, Watched, ended, next_window, walk
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import DETACHED, LIMIT, Row
 

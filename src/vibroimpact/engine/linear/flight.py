@@ -26,7 +26,7 @@ from vibroimpact.engine.linear.layout import (
     H,
 )
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
-from vibroimpact.engine.linear.walk import (
+from vibroimpact.engine.linear.table_search import (
     ABOVE,
     BELOW,
     WITHIN,

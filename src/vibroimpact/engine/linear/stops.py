@@ -16,8 +16,8 @@ from vibroimpact.engine.linear.advance import Ended, bumpers, fly, press
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.flight import flight
 from vibroimpact.engine.linear.layout import STEEPEST
+from vibroimpact.engine.linear.table_search import BELOW, WITHIN, Bounds
 from vibroimpact.engine.linear.tables import overlapping, resting
-from vibroimpact.engine.linear.walk import BELOW, WITHIN, Bounds
 from vibroimpact.engine.motion import (
     BOTH,
     DETACHED,

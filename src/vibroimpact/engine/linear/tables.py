@@ -55,7 +55,13 @@ from vibroimpact.engine.linear.layout import (
     WAVE_S,
     H,
 )
-from vibroimpact.engine.linear.rows import coefficients, fill, late_series, power_series, swing_of
+from vibroimpact.engine.linear.table_rows import (
+    coefficients,
+    fill,
+    late_series,
+    power_series,
+    swing_of,
+)
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SEEN_LEFT
 
 

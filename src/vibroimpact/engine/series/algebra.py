@@ -115,9 +115,13 @@ class Series:
         return Square(self) if other is self else Product(self, other)
 
     def __truediv__(self, other: Any) -> Series:
-        return self * Power(other, -1.0) if isinstance(other, Series) else Scaled(self, 1.0 / other)
+        if not isinstance(other, Series):
+            return Scaled(self, 1.0 / other)
+        return self * (1.0 / other)
 
     def __rtruediv__(self, other: Any) -> Series:
+        from vibroimpact.engine.series.functions import Power
+
         return Scaled(Power(self, -1.0), other)
 
     def __pow__(self, exponent: int) -> Any:
@@ -330,64 +334,3 @@ class Square(Series):
             pairs += [(one.doubled(j), one[n - j]) for j in range((n + 1) // 2 - 1, 0, -1)]
             total = summed(self.machine, pairs)
         return one.add_older(n, total, one.doubled(0))
-
-
-class Exponential(Series):
-    """E raised to a series."""
-
-    def __init__(self, one: Series) -> None:
-        super().__init__(one.machine)
-        self.one = one
-
-    def first(self) -> Any:
-        """Return coefficient 0."""
-        return self.machine.exponential(self.one[0])
-
-    def slope(self) -> dict[Series, Any]:
-        """Return the slopes."""
-        return scaled(self.one.slopes, self[0])
-
-    def rest(self, n: int) -> Any:
-        """Return what is older of coefficient n."""
-        order = sorted(range(1, n), key=lambda j: max(j, n - j))
-        pairs = [(self[n - j], self.one[j] * (j / n)) for j in order]
-        return self.one.add_older(n, summed(self.machine, pairs), self[0])
-
-
-class Power(Series):
-    """A real power of a series that does not begin with 0."""
-
-    def __init__(self, one: Series, exponent: Any) -> None:
-        super().__init__(one.machine)
-        self.one, self.exponent = one, exponent
-
-    def first(self) -> Any:
-        """Return coefficient 0."""
-        self.inverse = 1.0 / self.one[0]
-        value = self.machine.power(self.one[0], self.exponent)
-        self.by = self.exponent * value * self.inverse
-        return value
-
-    def slope(self) -> dict[Series, Any]:
-        """Return the slopes."""
-        self[0]
-        return scaled(self.one.slopes, self.by)
-
-    def rest(self, n: int) -> Any:
-        """Return what is older of coefficient n."""
-        self[0]
-        more = (self.exponent + 1.0) * (1.0 / n)
-        order = sorted(range(1, n), key=lambda j: max(j, n - j))
-        pairs = [(self.one[j] * (more * float(j) - 1.0), self[n - j]) for j in order]
-        total = summed(self.machine, pairs) * self.inverse if pairs else 0.0
-        return self.one.add_older(n, total, self.by)
-
-
-def exponential(machine: Any, one: Any) -> Any:
-    """Raise e to a number or a series."""
-    return Exponential(one) if isinstance(one, Series) else machine.exponential(one)
-
-
-def power(machine: Any, one: Any, exponent: Any) -> Any:
-    """Raise a number or a series that is not 0 to a real power."""
-    return Power(one, exponent) if isinstance(one, Series) else machine.power(one, exponent)

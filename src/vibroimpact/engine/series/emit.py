@@ -256,6 +256,18 @@ class Code:
         """Return e to this power."""
         return self._call("llvm.exp.f64", a)
 
+    def sine(self, a: Any) -> Any:
+        """Return the sine."""
+        return self._call("llvm.sin.f64", a)
+
+    def cosine(self, a: Any) -> Any:
+        """Return the cosine."""
+        return self._call("llvm.cos.f64", a)
+
+    def signed(self, a: Any, b: Any) -> Any:
+        """Return the size of a with the sign of b."""
+        return self._call("llvm.copysign.f64", a, b)
+
     def power(self, a: Any, b: Any) -> Any:
         """Return a to the power of b."""
         return self._call("llvm.pow.f64", a, b)
@@ -314,6 +326,18 @@ class Plain:
     def exponential(self, a: float) -> float:
         """Return e to this power."""
         return math.exp(a) if a < 709.0 else math.inf
+
+    def sine(self, a: float) -> float:
+        """Return the sine."""
+        return math.sin(a) if abs(a) < math.inf else math.nan
+
+    def signed(self, a: float, b: float) -> float:
+        """Return the size of a with the sign of b."""
+        return math.copysign(a, b)
+
+    def cosine(self, a: float) -> float:
+        """Return the cosine."""
+        return math.cos(a) if abs(a) < math.inf else math.nan
 
     def power(self, a: float, b: float) -> float:
         """Return a to the power of b."""

@@ -19,7 +19,7 @@ from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.flight import leave
 from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
-from vibroimpact.engine.linear.walk import ABOVE, BELOW
+from vibroimpact.engine.linear.table_search import ABOVE, BELOW
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.series.layout import (
     A_A,

@@ -19,7 +19,7 @@ from numba.extending import intrinsic, overload
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.series import layout as at
-from vibroimpact.engine.series import root, step
+from vibroimpact.engine.series import program, root, slopes, step
 from vibroimpact.engine.series.emit import REAL, WHOLE, Code, Plain
 from vibroimpact.engine.series.laws import drag
 from vibroimpact.engine.series.root import Rooted
@@ -28,14 +28,20 @@ from vibroimpact.engine.series.step import LAWS, Shape
 NUMBERS = 7
 """Arguments of a kernel besides the plan."""
 
-AGAIN = 1
-"""From a slot that begins a step to that which finds its end at another time."""
+AGAIN, SLOPES = 1, 2
+"""From a slot that begins a step to that which finds its end at another time, and to that of the
+forces' slopes on it."""
 
+ASKS = 1
+"""From the slot of a formula's value to that of its series over the step in hand."""
+
+STRIDE = 3
+"""From a slot to the next."""
 
 MOST = 16
 """Power of a root that a kernel is made for; its code grows with it."""
 
-CALM = 10
+CALM = 15
 """From a slot to that where a drag is left out whose power is not a whole number."""
 
 _SQUARE, _ANY_POWER, _BITS = 8, 16, 1023
@@ -46,22 +52,25 @@ class Slot(IntEnum):
     """Where the addresses of a plan's kernels stand: by the stops that push by a power."""
 
     FREE = 0
-    RIGHT = 2
-    LEFT = 4
-    BOTH = 6
-    OTHER = 8
-    ROOT_RIGHT = 20
-    ROOT_LEFT = 22
+    RIGHT = 3
+    LEFT = 6
+    BOTH = 9
+    OTHER = 12
+    ROOT_RIGHT = 30
+    ROOT_LEFT = 33
+    OWN = 36  # of the isolator, and of each stop behind it
 
 
-def pushed(rig: Any, side: int) -> int:
+def pushed(rig: Any, side: int) -> Any:
     """What a `Shape` says of the stop on a side (1 right, 2 left)."""
     kind = rig[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
+    if kind == par.FORMULA:
+        return side, program.unpack(rig, side)
     return {par.POWER_LAW: 1, par.JANKOWSKI: 2}.get(kind, 0)
 
 
-Kernel = tuple[Callable[..., None], Callable[..., None], Any]
-"""Formulae of a step and of its end at another time, and the shape that they are made for."""
+Kernel = tuple[tuple[Callable[..., None], ...], Any]
+"""Formulae of a step, of its end at another time and of slopes; the shape they are made for."""
 
 
 def kernels(rig: Any) -> dict[int, Kernel]:
@@ -77,26 +86,32 @@ def kernels(rig: Any) -> dict[int, Kernel]:
         found[Slot.OTHER] = Shape(laws, 0, left)
         if right:
             found[Slot.BOTH] = Shape(laws, right, left)
-    every: dict[int, Kernel] = {
-        int(slot): (step.begun, step.again, shape) for slot, shape in found.items()
-    }
+    formulae = step.begun, step.again, slopes.slopes
+    every: dict[int, Kernel] = {int(slot): (formulae, shape) for slot, shape in found.items()}
     if laws[LAWS.index(drag)] == (0,):
-        calm = (*laws[:-1], ())
+        calm = tuple(() if module is drag else law for module, law in zip(LAWS, laws, strict=True))
         for slot, shape in found.items():
-            every[slot + CALM] = step.begun, step.again, shape._replace(laws=calm)
+            every[slot + CALM] = formulae, shape._replace(laws=calm)
+    for which in range(3):
+        symbols = program.unpack(rig, which)
+        if symbols:
+            every[Slot.OWN + STRIDE * which] = (slopes.valued, slopes.asked), (which, symbols)
     for side, slot in ((1, Slot.ROOT_RIGHT), (2, Slot.ROOT_LEFT)):
         deep = rooted(rig, side, laws)
         if deep is not None:
-            every[int(slot)] = root.rooted, root.again, deep
+            every[int(slot)] = (root.rooted, root.again), deep
     return every
 
 
 def rooted(rig: Any, side: int, laws: tuple[Any, ...]) -> Rooted | None:
     """The shape of the kernel in a root of a stop's deformation, if there is one."""
     kind = pushed(rig, side)
-    if not kind or rig[par.DRAG] not in (1.0, 2.0):
+    if kind not in (1, 2) or rig[par.DRAG] not in (1.0, 2.0):
         return None
-    exponent = float(rig[par.BUMPER + par.WIDTH * (side - 1) + par.EXPONENT])
+    at_stop = par.BUMPER + par.WIDTH * (side - 1)
+    if laws[-1]:
+        return None  # how far a formula bends on a step is told by steps in time alone
+    exponent = float(rig[at_stop + par.EXPONENT])
     for which in (2, 3, 4):
         power = round(which * exponent)
         if power == which * exponent and power <= MOST and (kind == 1 or which == 4):
@@ -141,6 +156,10 @@ _code, _covers = kernel(laws_code), kernel(covers)
 @kernel
 def lacks(plan: Vector) -> bool:
     """Whether a rig has laws that the kernels of its plan do not have: it was made for another."""
+    for i in range(3 * par.WORDS):
+        needed = plan[par.OWN + i // par.WORDS * par.OWN_WIDTH + i % par.WORDS]
+        if needed != plan[at.MADE + i] and needed != 0.0:
+            return True
     return not _covers(int(plan[at.LAWS]), _code(plan))
 
 
@@ -150,19 +169,26 @@ def drags_any_power(plan: Vector) -> bool:
     return int(plan[at.LAWS]) & _ANY_POWER != 0
 
 
+def operations(rig: Vector) -> Vector:
+    """The operations of a rig's own formulae, as its vector packs them."""
+    blocks = rig[par.OWN : par.OWN + 3 * par.OWN_WIDTH].reshape(3, par.OWN_WIDTH)
+    return blocks[:, : par.WORDS].ravel()
+
+
 def prepare(memory: Vector, rig: Vector) -> None:
     """Write the addresses of a rig's kernels into the memory of its plan."""
     memory[at.LAWS] = float(laws_code(rig))
+    memory[at.MADE : at.MADE + 3 * par.WORDS] = operations(rig)
     memory[at.ROOTS : at.ROOTS + 4] = np.nan
     addresses = memory.view(np.int64)
-    for slot, (begin, again, shape) in kernels(rig).items():
-        if slot >= Slot.ROOT_RIGHT:
-            side = slot - Slot.ROOT_RIGHT  # 0 or 2
-            exponent = rig[par.BUMPER + par.WIDTH * side // 2 + par.EXPONENT]
-            memory[at.ROOTS + side : at.ROOTS + side + 2] = exponent, shape.root
+    for slot, (formulae, shape) in kernels(rig).items():
+        if slot in (Slot.ROOT_RIGHT, Slot.ROOT_LEFT):
+            side = 0 if slot == Slot.ROOT_RIGHT else 1
+            exponent = rig[par.BUMPER + par.WIDTH * side + par.EXPONENT]
+            memory[at.ROOTS + 2 * side : at.ROOTS + 2 * side + 2] = exponent, shape.root
         if not config.DISABLE_JIT:  # type: ignore[attr-defined]
-            addresses[at.KERNELS + slot] = address(begin, shape)
-            addresses[at.KERNELS + slot + AGAIN] = address(again, shape)
+            for i, formula in enumerate(formulae):
+                addresses[at.KERNELS + slot + i] = address(formula, shape)
 
 
 _lock = threading.Lock()
@@ -225,9 +251,8 @@ def run(
     after: float,
 ) -> None:
     """Call the kernel of a slot: FOUND of the plan is what it finds."""
-    begin, again, shape = kernels(plan)[slot - slot % 2]
-    formula = again if slot % 2 else begin
-    formula(Plain(plan, (x, v, z, size, h, now, after)), shape)
+    formulae, shape = kernels(plan)[slot - slot % STRIDE]
+    formulae[slot % STRIDE](Plain(plan, (x, v, z, size, h, now, after)), shape)
 
 
 @intrinsic

@@ -7,6 +7,7 @@ here is that of the piece in hand. Times are in units of the plan's own, a power
 from __future__ import annotations
 
 from vibroimpact.engine.linear.layout import SIZE, TABLES
+from vibroimpact.engine.parameters import WORDS
 
 DEGREE = 20
 """Highest power of a step's series."""
@@ -19,7 +20,7 @@ HEADER = TABLES
 
 # Addresses of kernels, one for each case of `library.Slot`; then the laws that they have.
 KERNELS = TABLES + SIZE
-LAWS = KERNELS + 24
+LAWS = KERNELS + 48
 ROOTS = LAWS + 1  # of each side: the exponent for which a stop has a kernel in a root, and the root
 UNIT = ROOTS + 4  # s
 SHAKES_UNIT = UNIT + 1  # s, of what follows
@@ -60,7 +61,9 @@ NAMES = (
     "rate",
     "way",
     "closing",
+    "side",
     "per_unit",
+    "own_weight",
 )
 FOUND = NUMBERS + len(NAMES)
 # What a kernel finds: length, state and its rates at the end, bounds on second and third rates, by
@@ -71,23 +74,18 @@ FOUND = NUMBERS + len(NAMES)
 # Where a zero was last looked for: the time, and the state and its rates there.
 (A_T, A_X, A_V, A_A) = range(13, 17)
 
-ASKED = FOUND + 20  # what is asked of the motion: its acceleration, a force, a velocity
-U = ASKED + ROOM  # displacement, as the isolator has it
-SQUARE = U + ROOM
-FIFTH = SQUARE + ROOM
-RISING = FIFTH + ROOM
-FALLING = RISING + ROOM
-SPEED = FALLING + ROOM
-DRAG = SPEED + ROOM
-PRESSED = DRAG + ROOM
-PUSH = PRESSED + ROOM
-BY_X = PUSH + 8 * ROOM  # slopes of the forces: by displacement, by velocity, by the closing speeds
+SLOT = FOUND + 20  # the kernel that made the step in hand
+
+OWN_FORCE = SLOT + 1  # of an isolator's formula: its value and slopes
+MADE = OWN_FORCE + 3  # operations of the formulae that the kernels were made for
+ASKED = MADE + 3 * WORDS  # what is asked of the motion: its acceleration, a force, a velocity
+PUSH = ASKED + ROOM  # what the stops push with
+BY_X = PUSH + 2 * ROOM  # slopes of the forces: by displacement, by velocity, by the dissipations
 BY_V = BY_X + ROOM
-BY_SPEED = BY_V + ROOM
-BY_Z = BY_SPEED + 2 * ROOM  # of z′, by velocity and, with the sign turned, by z
+BY_CHI = BY_V + ROOM
+BY_Z = BY_CHI + 2 * ROOM  # of z′, by velocity and, with the sign turned, by z
 BY_Z_OF_Z = BY_Z + ROOM
 D_X = BY_Z_OF_Z + ROOM  # a disturbance
 D_V = D_X + ROOM
 D_Z = D_V + ROOM
-POWERS = D_Z + ROOM  # z², z³, … for which a plan has room to the end
-END = POWERS + ROOM  # of all but these powers
+END = D_Z + ROOM

@@ -55,7 +55,7 @@ _ROOT = int(Slot.ROOT_RIGHT)
 (
     _K, _C, _OFFSET, _CUBIC, _QUINTIC, _SINH, _STEEP, _HYSTERETIC, _SLOPE, _BEND, _DRAG, _POWER,
     _PUSH, _PUSH_N, _PUSH_CHI, _PUSH_C, _OTHER_K, _OTHER_N, _OTHER_CHI, _OTHER_C, _APART, _LOAD,
-    _RATE, _WAY, _CLOSING, _PER_UNIT,
+    _RATE, _WAY, _CLOSING, _SIDE, _PER_UNIT, _OWN_WEIGHT,
 ) = range(NUMBERS, NUMBERS + len(NAMES))  # fmt: skip
 
 
@@ -128,6 +128,7 @@ def number_isolator(plan: Vector, unit: float) -> None:
     plan[_HYSTERETIC] = plan[par.HYSTERETIC] * squared
     plan[_POWER] = plan[par.DRAG]
     plan[_PER_UNIT] = 1.0 / unit
+    plan[_OWN_WEIGHT] = plan[par.OWN + par.OWN_PER_MASS] * squared
 
 
 @inlined
@@ -139,7 +140,8 @@ def number(plan: Vector, frame: Frame, laws: Laws, unit: float) -> None:
         number_isolator(plan, unit)
     plan[_K], plan[_C] = frame.stiffness * squared, frame.damping * unit
     plan[_OFFSET] = frame.offset
-    plan[_SLOPE], plan[_BEND], plan[_WAY] = branch.slope, branch.bend, branch.way
+    plan[_SLOPE], plan[_BEND] = branch.slope, branch.bend
+    plan[_WAY], plan[_SIDE] = branch.way, branch.side
     _, rate, closes, _, _ = wave(plan, 1, False)
     plan[_RATE], plan[_CLOSING] = rate * unit, -closes * rate * unit
     plan[_LOAD] = (frame.load - branch.way * plan[par.FRICTION]) * squared

@@ -7,13 +7,16 @@ the last; that it holds is certified at its end by the last ones and by the equa
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import Any, NamedTuple
 
 from vibroimpact.engine.series import layout as at
-from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State, exponential, power
+from vibroimpact.engine.series import program
+from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State
 from vibroimpact.engine.series.emit import LANES, tree
-from vibroimpact.engine.series.laws import contact, drag, hysteresis, polynomial
+from vibroimpact.engine.series.functions import cosine, exponential, power, sine, tanh
+from vibroimpact.engine.series.laws import contact, drag, hysteresis, own, polynomial
 from vibroimpact.engine.series.laws import exponential as hardening
 
 EARLY = 6
@@ -33,19 +36,20 @@ a 400th of it."""
 
 ROUNDING = 2.0**-53
 
-LAWS = (polynomial, hardening, hysteresis, drag)
+LAWS = (polynomial, hardening, hysteresis, drag, own)
 """Of isolators."""
 
 
 class Shape(NamedTuple):
-    """What a kernel is made for: of each of `LAWS` what it has, and the stops that push by a power.
+    """What a kernel is made for: of each of `LAWS` what it has, and the curved stops that push.
 
-    `push` and `other` are 0 for none, 1 for k δⁿ (1 + χ δ′), 2 with a viscous part.
+    `push` and `other` are 0 for none, 1 for k δⁿ (1 + χ δ′), 2 with a viscous part, and for a
+    formula its side and its operations.
     """
 
     laws: tuple[tuple[Any, ...], ...]
-    push: int = 0
-    other: int = 0
+    push: Any = 0
+    other: Any = 0
 
 
 class Law:
@@ -68,6 +72,30 @@ class Law:
         """Return a to the power of b."""
         return power(self._machine, one, exponent)
 
+    def inverse(self, one: Any) -> Any:
+        """Return 1 over a number or a series."""
+        return 1.0 / one
+
+    def sine(self, one: Any) -> Any:
+        """Return the sine of a number or a series."""
+        return sine(self._machine, one)
+
+    def cosine(self, one: Any) -> Any:
+        """Return the cosine of a number or a series."""
+        return cosine(self._machine, one)
+
+    def tanh(self, one: Any) -> Any:
+        """Return the hyperbolic tangent of a number or a series."""
+        return tanh(self._machine, one)[0]
+
+    def size_of(self, one: Any, sign: Any) -> Any:
+        """Return the absolute value of a number or a series of a sign."""
+        return sign * one
+
+    def own(self, place: int) -> Any:
+        """Return a number of a user's formula, by its place in the rig's vector."""
+        return self._machine.load(place)
+
 
 def isolator(law: Law, shape: Any, u: Any, v: Any, z: Any) -> list[Any]:
     """What the laws of an isolator pull back with, each."""
@@ -85,9 +113,9 @@ def pushes(law: Law, shape: Shape, x: Any, v: Any) -> list[Any]:
     """What stops push with that follow a power of their deformation."""
     found = []
     if shape.push:
-        found.append(contact.force(law, "push", shape.push == 2, x, v))
+        found.append(contact.force(law, "push", shape.push, x, v))
     if shape.other:
-        found.append(-contact.force(law, "other", shape.other == 2, law.apart - x, -v))
+        found.append(-contact.force(law, "other", shape.other, law.apart - x, -v))
     return found
 
 
@@ -291,9 +319,50 @@ def ended(
     excess = (last * almost) * ((1.0 / (LAST * TOLERANCE)) / whole)
     if missing is not None:
         excess = machine.most(missing, excess)
+    bent = bends_of(machine, shape, law, along, reached, inverse)
+    if bent is not None:
+        square = bent * bent
+        eighth = square * square * (square * square)
+        excess = machine.most(eighth * eighth * square * bent, excess)  # its 19th power
     machine.store(at.FOUND + at.F_EXCESS, excess)
     machine.store(at.FOUND + at.F_OWES, machine.fma(pull, h * h, found.gain))
     machine.store(at.FOUND + at.F_WEIGHT, h * h)
+
+
+def bends_of(
+    machine: Any, shape: Shape, law: Law, along: Series, reached: list[Any], inverse: Any
+) -> Any:
+    """By how much users' formulae may bend on a step, over what a series shows; None if nowhere."""
+    own_law = shape.laws[LAWS.index(own)]
+    if not own_law and not any(isinstance(one, tuple) for one in (shape.push, shape.other)):
+        return None
+    far: Any = None
+    fast: Any = None
+    for i, powers_of_h in enumerate(reached):
+        orders = [LANES * i + j + 1 for j in range(LANES)]
+        sizes = (machine.lanes([along[n] for n in orders]) * powers_of_h).absolute()
+        far = sizes if far is None else far + sizes
+        fast = sizes.times(orders, fast)
+    x, v = along[0], along[1]
+    move, speed = far.total(), fast.total() * inverse
+    points = [(x, v), (x + move, v), (x - move, v), (x, v + speed), (x, v - speed)]
+    found = []
+    if own_law:
+        at_points = [(one + law.offset, rate * law.per_unit) for one, rate in points]
+        found.append(program.bends(machine, law, own_law, 0, at_points))
+    for kind, facing in ((shape.push, 1.0), (shape.other, -1.0)):
+        if not isinstance(kind, tuple):
+            continue
+        at_points = [
+            (
+                machine.most(one if facing > 0.0 else law.apart - one, 0.0),
+                rate * law.per_unit * facing,
+            )
+            for one, rate in points
+        ]
+        found.append(program.bends(machine, law, kind[1], kind[0], at_points))
+    some = [one for one in found if one is not None]
+    return functools.reduce(machine.most, some) if some else None
 
 
 def past(machine: Any, shape: Shape, law: Law, v: Any) -> Any:

@@ -16,11 +16,12 @@ class Frame(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """Which piece of the isolator's law holds: z′ = x′ (slope − bend zⁿ), and sgn x′."""
+    """Which piece of the isolator's law holds: z′ = x′ (slope − bend zⁿ), sgn x′ and sgn u."""
 
     slope: float
     bend: float
     way: float
+    side: float
 
 
 class Push(NamedTuple):

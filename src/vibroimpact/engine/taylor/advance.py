@@ -44,6 +44,7 @@ from vibroimpact.engine.taylor.frame import (
 from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, placed
 from vibroimpact.engine.taylor.press import MOST, pressed_for, root_of
 from vibroimpact.engine.taylor.watch import (
+    CENTRED,
     DETACHED_LEFT,
     EASED,
     NEITHER,
@@ -139,6 +140,12 @@ def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
         v = 0.0
     elif event == EASED:
         pass
+    elif event == CENTRED:
+        u = 0.0
+        if mode & RIGHT and plan[par.BUMPER + par.KIND] == par.KELVIN_VOIGT:
+            right = -gap_r
+        if mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.KELVIN_VOIGT:
+            left = -gap_l
     elif event == YIELDS:
         z = math.copysign(plan[par.YIELD], z)
     else:

@@ -10,11 +10,11 @@ from vibroimpact.engine.forcing.dispatch import pace
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion
-from vibroimpact.engine.series.layout import UNIT
+from vibroimpact.engine.series.layout import SLOT, UNIT
 from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.march import Shaken, number, slot_of, taken
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
-from vibroimpact.engine.taylor.frame import branch_of, curved_stop, stiffness_at
+from vibroimpact.engine.taylor.frame import branch_of, curved_stop, own_push, stiffness_at
 from vibroimpact.engine.taylor.laws import laws_of
 
 
@@ -43,24 +43,34 @@ NOT_YET = Ahead(1.0, 0.0, 0.0, 0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @inlined
-def stiffness_of(push: Push, depth: float) -> float:
+def stiffness_of(plan: Vector, side: int, push: Push, depth: float) -> float:
     """A bound on the tangent stiffness of a stop (1/s²)."""
     if push.stiffness == 0.0:
         return 0.0
+    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
+        return abs(own_push(plan, side, depth, 0.0)[1])
     return push.stiffness * push.exponent * depth ** (push.exponent - 1.0)  # type: ignore[no-any-return]
 
 
 @kernel
 def branched(plan: Vector, motion: Motion) -> bool:
-    """Whether the velocity's sign matters to a law."""
+    """Whether the sign of the velocity, or of the displacement, matters to a law."""
     mode = motion.mode
     return bool(
         plan[par.HYSTERETIC] != 0.0
         or plan[par.DRAG] != 1.0
         or plan[par.FRICTION] != 0.0
-        or (mode & RIGHT and plan[par.BUMPER + par.KIND] == par.JANKOWSKI)
-        or (mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.JANKOWSKI)
+        or plan[par.OWN + par.OWN_FLAGS] != 0.0
+        or (mode & RIGHT and _branches(plan, RIGHT))
+        or (mode & LEFT and _branches(plan, LEFT))
     )
+
+
+@inlined
+def _branches(plan: Vector, side: int) -> bool:
+    kind = plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
+    flags = plan[par.OWN + par.OWN_WIDTH * side + par.OWN_FLAGS]
+    return bool(kind == par.JANKOWSKI or flags != 0.0)
 
 
 @kernel
@@ -88,7 +98,7 @@ def ahead_of(
     `branches` and `anew` are what `branched` and `varies` say.
     """
     most, turning = longest, math.inf
-    branch = Branch(0.0, 0.0, 1.0)
+    branch = Branch(0.0, 0.0, 1.0, 1.0)
     if branches and not anew:
         branch = branch_of(plan, motion, frame.sign)
     laws = Laws(branch, NO_PUSH, NO_PUSH, 0.0, plan[par.DAMPING] if plan[par.DRAG] != 1.0 else 0.0)
@@ -100,12 +110,15 @@ def ahead_of(
         unit = 2.0 ** math.floor(math.log2(max(turning, 1e-290)))
     number(plan, frame, laws, unit)
     stiff = frame.stiffness - plan[par.STIFFNESS]
-    stiff += stiffness_of(laws.push, x) + stiffness_of(laws.other, laws.apart - x)
+    side = LEFT if motion.mode == LEFT else RIGHT
+    stiff += stiffness_of(plan, side, laws.push, x)
+    stiff += stiffness_of(plan, LEFT, laws.other, laws.apart - x)
     slow = frame.damping + pace(plan) + 1e-300
     u = abs(x + frame.offset)
     natural = 1.0 / (math.sqrt(stiffness_at(plan, u) + stiff) + slow)
     farther = abs(motion.v) * natural
-    if farther > u and (plan[par.CUBIC] != 0.0 or plan[par.QUINTIC] != 0.0):
+    curved = plan[par.CUBIC] != 0.0 or plan[par.QUINTIC] != 0.0 or plan[par.OWN] != 0.0
+    if farther > u and curved:
         natural = 1.0 / (math.sqrt(stiffness_at(plan, farther) + stiff) + slow)
     # A motion that nothing but a record's line moves changes while that lasts.
     natural = min(natural, 8.0 * plan[par.INTERVAL])
@@ -114,11 +127,13 @@ def ahead_of(
         # Where the mass turns a step is much shorter than the motion's time: the velocity must be
         # right there, too.
         fine = natural / unit
+    slot = slot_of(plan, laws, motion.mode == LEFT)
+    plan[SLOT] = slot
     return Ahead(
         frame.sign,
         frame.offset,
         laws.branch.way,
-        slot_of(plan, laws, motion.mode == LEFT),
+        slot,
         unit,
         1.0 / unit,
         natural / unit,

@@ -16,7 +16,7 @@ from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import DETACHED, LEFT, RIGHT, SETTLING, TURNED, Motion, Stretch
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY, contraction, rebound, tie
 from vibroimpact.engine.series.layout import (
-    BY_SPEED,
+    BY_CHI,
     BY_V,
     BY_X,
     BY_Z,
@@ -25,134 +25,62 @@ from vibroimpact.engine.series.layout import (
     D_X,
     D_Z,
     DEGREE,
-    DRAG,
-    FALLING,
-    FIFTH,
-    POWERS,
-    PRESSED,
-    PUSH,
-    RISING,
     ROOM,
-    SPEED,
-    SQUARE,
-    U,
-    X,
-    Z,
 )
-from vibroimpact.engine.series.values import Frame, Laws, Push
+from vibroimpact.engine.series.values import Frame, Laws
 from vibroimpact.engine.taylor.frame import (
     acceleration_of,
     branch_of,
     curved_stop,
     push_of,
-    pushing,
+    stop_force,
+    stop_push,
     stuck,
     without_friction,
 )
 from vibroimpact.engine.taylor.laws import laws_of
-from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at
-from vibroimpact.engine.taylor.powers import convolved, pushed, raised_to
+from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, sloped
 
 _YIELDED = 2.0**-40
 """Share of the largest memory by which rounding may leave a spring short of where it yields."""
 
 
 @kernel
-def _stop_slopes(
-    plan: Vector, push: Push, sign: float, deformation: int, at: int, h: float, speed: float, n: int
-) -> None:
-    """Add coefficient n of the slopes of a power-law stop, `sign` being that of δ′ to x′."""
-    exponent = push.exponent
-    raised_to(plan, deformation, exponent - 1.0, at, n)
-    plan[at + ROOM + n] = convolved(plan, at, deformation, n)  # δⁿ
-    squared = h * h
-    by_x = plan[at + n]
-    if push.dissipation != 0.0:
-        by_x += sign * push.dissipation / h * pushed(plan, at, n)
-        plan[BY_V + n] += h * push.stiffness * push.dissipation * plan[at + ROOM + n]
-        if speed > 0.0:
-            worked = sign * pushed(plan, at + ROOM, n) * h * push.stiffness * push.dissipation
-            plan[BY_SPEED + (0 if sign > 0.0 else ROOM) + n] -= worked / speed
-    plan[BY_X + n] += squared * push.stiffness * exponent * by_x
-    if push.viscous != 0.0:
-        raised_to(plan, deformation, -0.75, at + 2 * ROOM, n)
-        plan[at + 3 * ROOM + n] = convolved(plan, at + 2 * ROOM, deformation, n)
-        plan[BY_X + n] += 0.25 * h * push.viscous * sign * pushed(plan, at + 2 * ROOM, n)
-        plan[BY_V + n] += h * push.viscous * plan[at + 3 * ROOM + n]
+def _convolved(plan: Vector, a: int, b: int, n: int) -> float:
+    """Coefficient n of the product of two series."""
+    even = 0.0
+    odd = 0.0
+    for j in range(0, n, 2):
+        even += plan[a + j] * plan[b + n - j]
+        odd += plan[a + j + 1] * plan[b + n - j - 1]
+    if n % 2 == 0:
+        even += plan[a + n] * plan[b]
+    return even + odd
 
 
 @kernel
-def slopes(plan: Vector, motion: Motion, frame: Frame, laws: Laws, h: float) -> None:
-    """Write the series of the laws' slopes over the step in hand, which takes h seconds."""
-    squared = h * h
-    branch, push, other, apart, drag = laws
-    cubic, quintic = plan[par.CUBIC] * squared, plan[par.QUINTIC] * squared
-    sinh, steep = plan[par.SINH] * squared, plan[par.SINH_RATE]
-    sharpness = int(plan[par.SHARPNESS])
-    exponent = plan[par.DRAG]
-    mine = motion.left if motion.mode == LEFT else motion.right
-    # Only a speed that makes the dissipation matters.
-    side = LEFT if motion.mode == LEFT else RIGHT
-    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.DISSIPATION] >= 0.0:
-        mine = 0.0
-    others = motion.left
-    if plan[par.BUMPER + par.WIDTH + par.DISSIPATION] >= 0.0:
-        others = 0.0
-    for n in range(DEGREE + 1):
-        plan[U + n] = plan[X + n]
-        plan[PRESSED + n] = -plan[X + n]
-        for series in (BY_X, BY_V, BY_Z, BY_Z_OF_Z, BY_SPEED, BY_SPEED + ROOM):
-            plan[series + n] = 0.0
-    plan[U] += frame.offset
-    plan[PRESSED] += apart
-    plan[BY_X], plan[BY_V] = frame.stiffness * squared, frame.damping * h
-    if sinh != 0.0:
-        plan[RISING], plan[FALLING] = math.exp(steep * plan[U]), math.exp(-steep * plan[U])
-    for n in range(DEGREE):
-        if cubic != 0.0 or quintic != 0.0:
-            plan[SQUARE + n] = convolved(plan, U, U, n)
-            plan[BY_X + n] += 3.0 * cubic * plan[SQUARE + n]
-            if quintic != 0.0:
-                plan[FIFTH + n] = convolved(plan, SQUARE, SQUARE, n)
-                plan[BY_X + n] += 5.0 * quintic * plan[FIFTH + n]
-        if sinh != 0.0:
-            plan[BY_X + n] += sinh * steep * (plan[RISING + n] + plan[FALLING + n])
-            plan[RISING + n + 1] = steep * pushed(plan, RISING, n) / (n + 1)
-            plan[FALLING + n + 1] = -steep * pushed(plan, FALLING, n) / (n + 1)
-        if plan[par.HYSTERETIC] != 0.0:
-            plan[POWERS + n] = 1.0 if n == 0 else 0.0
-            power = POWERS
-            for _ in range(sharpness - 1):
-                plan[power + ROOM + n] = convolved(plan, power, Z, n)
-                power += ROOM
-            plan[BY_Z + n] = -branch.bend * convolved(plan, power, Z, n)
-            if n == 0:
-                plan[BY_Z] += branch.slope
-            plan[BY_Z_OF_Z + n] = sharpness * branch.bend * pushed(plan, power, n)
-        if drag != 0.0:
-            plan[SPEED + n] = branch.way * ((n + 1) * plan[X + n + 1])
-            if exponent == 2.0:
-                plan[DRAG + n] = plan[SPEED + n]
-            else:
-                raised_to(plan, SPEED, exponent - 1.0, DRAG, n)
-            plan[BY_V + n] += exponent * drag * h ** (2.0 - exponent) * plan[DRAG + n]
-        if push.stiffness != 0.0:
-            _stop_slopes(plan, push, 1.0, X, PUSH, h, mine, n)
-        if other.stiffness != 0.0:
-            _stop_slopes(plan, other, -1.0, PRESSED, PUSH + 4 * ROOM, h, others, n)
+def _by_speed(plan: Vector, mode: int, mirrored: bool, speed: float) -> float:
+    """From the slope by a stop's dissipation to that by the speed at which the stop was met.
+
+    Only of a stop of restitution does that speed make the dissipation.
+    """
+    side = LEFT if mirrored or mode == LEFT else RIGHT
+    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.DISSIPATION] >= 0.0 or not speed > 0.0:
+        return 0.0
+    return -1.0 / speed
 
 
 @kernel
 def _moved(plan: Vector, q: Vector, at: int, h: float, speeds: tuple[float, float]) -> None:
-    """Carry one disturbance over the step."""
+    """Carry one disturbance over the step; `speeds` are shares of the stops' dissipations."""
     plan[D_X], plan[D_V], plan[D_Z] = q[at], q[at + 1] * h, q[at + MEMORY]
     hysteretic = plan[par.HYSTERETIC] * h * h
     for n in range(DEGREE - 1):
-        force = convolved(plan, BY_X, D_X, n) + convolved(plan, BY_V, D_V, n)
-        force += plan[BY_SPEED + n] * speeds[0] + plan[BY_SPEED + ROOM + n] * speeds[1]
+        force = _convolved(plan, BY_X, D_X, n) + _convolved(plan, BY_V, D_V, n)
+        force += plan[BY_CHI + n] * speeds[0] + plan[BY_CHI + ROOM + n] * speeds[1]
         if hysteretic != 0.0:
             force += hysteretic * plan[D_Z + n]
-            grown = convolved(plan, BY_Z, D_V, n) - convolved(plan, BY_Z_OF_Z, D_Z, n)
+            grown = _convolved(plan, BY_Z, D_V, n) - _convolved(plan, BY_Z_OF_Z, D_Z, n)
             plan[D_Z + n + 1] = grown / (n + 1)
         plan[D_X + n + 1] = plan[D_V + n] / (n + 1)
         plan[D_V + n + 1] = -force / (n + 1)
@@ -230,13 +158,16 @@ def _along(plan: Vector, before: Motion, length: float, q: Vector, rows: int) ->
         frame, h = begun(plan, here, length - t)
         x = coordinate(plan, here)
         laws, _, _ = laws_of(plan, here, frame, x, length - t)
-        slopes(plan, here, frame, laws, h)
+        sloped(plan, h)
+        primary = _by_speed(plan, here.mode, False, here.left if here.mode == LEFT else here.right)
+        # A disturbance of the left stop's speed has the sign of the velocity.
+        other = -_by_speed(plan, here.mode, True, here.left)
         there = motion_at(plan, here, frame, 1.0)
         left_out = _left_out(plan, here, there, frame, laws)
         for i in range(rows):
             at = i * DISTURBANCE
             mine = q[at + 3] if here.mode == LEFT else q[at + 2]
-            _moved(plan, q, at, h, (mine, q[at + 3]))
+            _moved(plan, q, at, h, (primary * mine, other * q[at + 3]))
             q[at + 1] -= left_out * q[at]
         for n in range(DEGREE):
             lost += (plan[BY_V + n] + plan[BY_Z_OF_Z + n]) / (n + 1)
@@ -266,7 +197,7 @@ def _left_out(plan: Vector, here: Motion, there: Motion, frame: Frame, laws: Law
             memory = there.right if side == RIGHT else there.left
             push = push_of(plan, side, closing, memory)
             gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
-            found += pushing(push, sign * there.u - gap, closing) / closing
+            found += stop_force(plan, side, push, sign * there.u - gap, closing) / closing
     return found
 
 
@@ -290,6 +221,9 @@ def _event(
         elif curved_stop(plan, event):
             # Of its speed where it meets the stop, which it does sooner by δu/u̇.
             q[at + 1 + event] = 0.0
+            if plan[stop + par.KIND] == par.FORMULA and arrival != 0.0:
+                # A dashpot's force begins with a jump, sooner by δu/u̇.
+                q[at + 1] -= stop_push(plan, after, event) / abs(arrival) * u
             if plan[stop + par.DISSIPATION] < 0.0 and arrival != 0.0:
                 q[at + 1 + event] = v - acceleration_of(plan, after) / arrival * u
         else:

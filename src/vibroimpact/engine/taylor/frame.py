@@ -22,8 +22,12 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     Motion,
 )
+from vibroimpact.engine.series.layout import OWN_FORCE
+from vibroimpact.engine.series.kernels import STRIDE, Slot, run
 from vibroimpact.engine.series.values import Branch, Frame, Push
 from vibroimpact.engine.taylor.plan import stiff_rate
+
+_OWN = int(Slot.OWN)
 
 _CREEP = 2.0**-36
 """Of a velocity: what a strong drag leaves of it where the forces on the mass change their sign."""
@@ -72,8 +76,18 @@ def isolator_force(plan: Vector, u: float, v: float, z: float) -> float:
         force += plan[par.DAMPING] * v
     elif v != 0.0:
         force += math.copysign(plan[par.DAMPING] * abs(v) ** plan[par.DRAG], v)
+    if plan[par.OWN] != 0.0:
+        force += own_force(plan, u, v)[0]
     total: float = force + plan[par.HYSTERETIC] * z
     return total
+
+
+@apart
+def own_force(plan: Vector, u: float, v: float) -> tuple[float, float, float]:
+    """What an isolator's own formula pulls back with, and its slopes by u and u̇, per unit mass."""
+    way, side = math.copysign(1.0, v), math.copysign(1.0, u)
+    run(plan, _OWN, u, v, 0.0, side, way, 0.0, 0.0)
+    return plan[OWN_FORCE], plan[OWN_FORCE + 1], plan[OWN_FORCE + 2]
 
 
 @kernel
@@ -91,14 +105,16 @@ def stiffness_at(plan: Vector, u: float) -> float:
     if plan[par.SINH] != 0.0:
         rate = plan[par.SINH_RATE]
         k += 2.0 * abs(plan[par.SINH] * rate) * math.cosh(rate * u)
+    if plan[par.OWN] != 0.0:
+        k += abs(own_force(plan, u, 0.0)[1])
     return max(k, 0.0)
 
 
 @kernel
 def curved_stop(plan: Vector, side: int) -> bool:
-    """Whether the stop on this side follows a power of its deformation."""
+    """Whether the stop on this side follows a power of its deformation, or a formula."""
     kind = plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
-    return bool(kind in (par.POWER_LAW, par.JANKOWSKI))
+    return bool(kind in par.CURVED_STOPS)
 
 
 @kernel
@@ -109,6 +125,8 @@ def push_of(plan: Vector, side: int, closing: float, speed: float) -> Push:
     was met, which a law of restitution divides by.
     """
     at = par.BUMPER + par.WIDTH * (side - 1)
+    if plan[at + par.KIND] == par.FORMULA:
+        return Push(1.0, 1.0, 0.0, 0.0)  # which says that it pushes; how much, the formula says
     dissipation = plan[at + par.DISSIPATION]
     if dissipation < 0.0:
         met = speed > _UNMET * (plan[MOST] + abs(plan[par.LOAD])) / motion_rate(plan)
@@ -128,6 +146,24 @@ def pushing(push: Push, deformation: float, closing: float) -> float:
 
 
 @kernel
+def stop_force(plan: Vector, side: int, push: Push, deformation: float, closing: float) -> float:
+    """The force of a pressed stop by its law, per unit mass, never below 0."""
+    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] != par.FORMULA:
+        return pushing(push, deformation, closing)
+    return max(own_push(plan, side, deformation, closing)[0], 0.0)
+
+
+@apart
+def own_push(
+    plan: Vector, side: int, deformation: float, closing: float
+) -> tuple[float, float, float]:
+    """What a stop's own formula gives, and its slopes, per unit mass; below 0 it does not push."""
+    way = math.copysign(1.0, closing)
+    run(plan, _OWN + STRIDE * side, deformation, closing, 0.0, 1.0, way, 0.0, 0.0)
+    return plan[OWN_FORCE], plan[OWN_FORCE + 1], plan[OWN_FORCE + 2]
+
+
+@kernel
 def without_friction(plan: Vector, motion: Motion) -> float:
     """Acceleration ü relative to the base, from all forces but Coulomb's."""
     mode, _, u, v, right, left, z, _, clock = motion
@@ -143,7 +179,7 @@ def without_friction(plan: Vector, motion: Motion) -> float:
             a -= plan[at + par.BUMPER_DAMPING] * v
         elif curved_stop(plan, side):
             push = push_of(plan, side, sign * v, memory)
-            a -= sign * pushing(push, sign * u - plan[at + par.GAP], sign * v)
+            a -= sign * stop_force(plan, side, push, sign * u - plan[at + par.GAP], sign * v)
     return a
 
 
@@ -283,7 +319,9 @@ def stop_rounding(plan: Vector, motion: Motion, side: int) -> float:
     """Force of a pressed stop, of which its deformation's rounding is the same share (m/s²)."""
     at = par.BUMPER + par.WIDTH * (side - 1)
     slope: float = plan[at + par.BUMPER_STIFFNESS]
-    if curved_stop(plan, side):
+    if plan[at + par.KIND] == par.FORMULA:
+        slope = abs(own_push(plan, side, face(plan, motion, side), 0.0)[1])
+    elif curved_stop(plan, side):
         exponent = plan[at + par.EXPONENT]
         slope *= exponent * face(plan, motion, side) ** (exponent - 1.0)
     size: float = max(abs(motion.u), abs(plan[at + par.GAP]))
@@ -295,17 +333,18 @@ def branch_of(plan: Vector, motion: Motion, sign: float) -> Branch:
     """The branch of the law, in the frame with this sign."""
     way = way_of(plan, motion)
     z = motion.z
+    there = sign * (math.copysign(1.0, motion.u) if motion.u != 0.0 else way)
     if plan[par.HYSTERETIC] == 0.0:
-        return Branch(0.0, 0.0, sign * way)
+        return Branch(0.0, 0.0, sign * way, there)
     if abs(z) >= plan[par.YIELD] and way * z > 0.0:
-        return Branch(0.0, 0.0, sign * way)
+        return Branch(0.0, 0.0, sign * way, there)
     side = math.copysign(1.0, z) if z != 0.0 else way
     if int(plan[par.SHARPNESS]) % 2 == 1:
         # |z|ⁿ = s_z zⁿ; the frame turns z, and zⁿ with it.
         bend = sign * (plan[par.KNEE] * side + plan[par.TURNING] * way)
     else:
         bend = plan[par.KNEE] + plan[par.TURNING] * way * side
-    return Branch(plan[par.SLOPE], bend, sign * way)
+    return Branch(plan[par.SLOPE], bend, sign * way, there)
 
 
 @kernel
@@ -327,7 +366,7 @@ def stop_push(plan: Vector, motion: Motion, side: int) -> float:
     memory = motion.right if side == RIGHT else motion.left
     if curved_stop(plan, side):
         law = push_of(plan, side, closing, memory)
-        return pushing(law, face(plan, motion, side), closing)
+        return stop_force(plan, side, law, face(plan, motion, side), closing)
     push: float = plan[at + par.BUMPER_STIFFNESS] * memory + plan[at + par.BUMPER_DAMPING] * closing
     return push
 
@@ -342,7 +381,11 @@ def stop_power(plan: Vector, motion: Motion, side: int) -> float:
     push = stop_push(plan, motion, side)
     if push == 0.0:
         return 0.0
-    spring = plan[at + par.BUMPER_STIFFNESS] * face(plan, motion, side) ** plan[at + par.EXPONENT]
+    depth = face(plan, motion, side)
+    if plan[at + par.KIND] == par.FORMULA:
+        spring = own_push(plan, side, depth, 0.0)[0]
+    else:
+        spring = plan[at + par.BUMPER_STIFFNESS] * depth ** plan[at + par.EXPONENT]
     lost: float = (push - spring) * closing
     return lost
 
@@ -357,6 +400,8 @@ def isolator_power(plan: Vector, motion: Motion) -> float:
     if v == 0.0:
         return 0.0
     power = plan[par.DAMPING] * abs(v) ** (plan[par.DRAG] + 1.0) + plan[par.FRICTION] * abs(v)
+    if plan[par.OWN] != 0.0:
+        power += v * (own_force(plan, motion.u, v)[0] - own_force(plan, motion.u, 0.0)[0])
     if plan[par.HYSTERETIC] != 0.0:
         branch = branch_of(plan, motion, 1.0)
         kept = (branch.slope - branch.bend * motion.z ** int(plan[par.SHARPNESS])) / plan[par.SLOPE]

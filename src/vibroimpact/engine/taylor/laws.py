@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST, STEEPEST
@@ -21,6 +23,7 @@ from vibroimpact.engine.taylor.frame import (
     curved_stop,
     face,
     motion_rate,
+    own_push,
     push_of,
 )
 
@@ -32,6 +35,8 @@ _LEFT_OUT = 16.0
 
 _STABLE = 8.0
 """Times that in which a drag decays: a series of a step's degree grows with a longer one."""
+
+_PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 
 EVEN = 1e-14
 """1 + χ δ′ where a stop begins or ceases to push: its own rounding."""
@@ -143,14 +148,22 @@ def laws_of(
         if curved_stop(plan, side):
             push = push_of(plan, side, branch.way if v == 0.0 else v, memory)
             gains = frame.sign * acceleration_of(plan, motion)
-            push = pressing(push, v, gains)
-            push, longest = shallow(push, x, v, gains, plan[STEEPEST], grain, longest)
+            if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
+                push = own_pressing(plan, side, x, v, gains, grain)
+            else:
+                push = pressing(push, v, gains)
+                push, longest = shallow(push, x, v, gains, plan[STEEPEST], grain, longest)
         if mode == BOTH and curved_stop(plan, LEFT):
             apart = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
             other = push_of(plan, LEFT, -(branch.way if v == 0.0 else v), motion.left)
             gains = -frame.sign * acceleration_of(plan, motion)
-            other = pressing(other, -v, gains)
-            other, longest = shallow(other, apart - x, -v, gains, plan[STEEPEST], grain, longest)
+            if plan[par.BUMPER + par.WIDTH + par.KIND] == par.FORMULA:
+                other = own_pressing(plan, LEFT, apart - x, -v, gains, grain)
+            else:
+                other = pressing(other, -v, gains)
+                other, longest = shallow(
+                    other, apart - x, -v, gains, plan[STEEPEST], grain, longest
+                )
     drag, turning = 0.0, math.inf
     exponent = plan[par.DRAG]
     if exponent != 1.0:
@@ -164,6 +177,22 @@ def laws_of(
 
 
 @kernel
+def own_pressing(
+    plan: Vector, side: int, depth: float, closing: float, gains: float, grain: float
+) -> Push:
+    """As `pressing`, of a stop that follows a formula: it pushes where that is above 0.
+
+    `grain` is some rounding of a displacement.
+    """
+    force, by_depth, by_rate = own_push(plan, side, max(depth, 0.0), closing)
+    even = EVEN * (abs(by_depth * depth) + abs(by_rate * closing)) + abs(by_depth) * grain
+    rises = by_depth * closing + by_rate * gains
+    if force > even or (force >= -even and rises > 0.0):
+        return Push(1.0, 1.0, 0.0, 0.0)
+    return NO_PUSH
+
+
+@kernel
 def unkept(plan: Vector, before: Motion, after: Motion, side: int) -> float:
     """What a stop loses between two moments that would pull and does not push: of its spring's."""
     if not (before.mode & side and curved_stop(plan, side)):
@@ -172,10 +201,21 @@ def unkept(plan: Vector, before: Motion, after: Motion, side: int) -> float:
     memory = before.right if side == RIGHT else before.left
     closing = sign * before.v
     push = push_of(plan, side, closing, memory)
-    if pressing(push, closing, sign * acceleration_of(plan, before)).stiffness != 0.0:
+    gains = sign * acceleration_of(plan, before)
+    begun, ended = face(plan, before, side), face(plan, after, side)
+    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
+        gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
+        grain = 16.0 * ROUNDING * (abs(begun) + abs(gap))
+        if own_pressing(plan, side, begun, closing, gains, grain).stiffness != 0.0:
+            return 0.0
+        middle, half, kept = 0.5 * (begun + ended), 0.5 * (begun - ended), 0.0
+        for i in range(len(_PLACES)):
+            depth = middle + half * _PLACES[i]
+            kept += half * _WEIGHTS[i] * own_push(plan, side, depth, 0.0)[0]
+        return kept
+    if pressing(push, closing, gains).stiffness != 0.0:
         return 0.0
     power = push.exponent + 1.0
-    begun, ended = face(plan, before, side), face(plan, after, side)
     return push.stiffness / power * (begun**power - ended**power)  # type: ignore[no-any-return]
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.chords import ANYWHERE, Enclosed
+from vibroimpact.engine.linear.chord_bounds import ANYWHERE, Enclosed
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.layout import RATE, RESTING, SCALED_W, H
 from vibroimpact.engine.linear.tables import resting
@@ -22,12 +22,15 @@ from vibroimpact.engine.series.layout import (
     ASKED,
     DEGREE,
     HEADER,
-    PRESSED,
+    NUMBERS_UNIT,
     PUSH,
+    ROOM,
     SHAKEN,
+    SLOT,
     X,
     Z,
 )
+from vibroimpact.engine.series.kernels import SLOPES, run
 from vibroimpact.engine.series.march import at, headed, scale, shake, stay
 from vibroimpact.engine.series.values import Frame
 from vibroimpact.engine.taylor.ahead import ahead_of, branched, stepped_on, varies
@@ -39,8 +42,6 @@ from vibroimpact.engine.taylor.frame import (
     stuck,
     way_of,
 )
-from vibroimpact.engine.taylor.laws import laws_of
-from vibroimpact.engine.taylor.powers import pressed
 
 _SMALL = 0.4  # rad, over which `turn` is right to rounding
 
@@ -87,12 +88,12 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
     x = coordinate(plan, motion)
     z = frame.sign * motion.z
     held = resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion)
+    matters, anew = branched(plan, motion), varies(plan, motion.mode)
+    ahead = ahead_of(plan, motion, frame, x, longest, matters, anew)
     if held:
         length = min(longest, 1.0 / max(pace(plan), 1e-300))
         stay(plan, frame, x, z, motion.clock, length)
     else:
-        matters, anew = branched(plan, motion), varies(plan, motion.mode)
-        ahead = ahead_of(plan, motion, frame, x, longest, matters, anew)
         unit = ahead.unit
         v = frame.sign * motion.v * unit
         h, _ = stepped_on(plan, motion.clock, x, v, z, ahead, longest / unit)
@@ -236,23 +237,22 @@ def push_series(plan: Vector, mode: int, side: int) -> None:
 
 
 @kernel
+def sloped(plan: Vector, length: float) -> None:
+    """Write the slopes of the forces and what stops push with, on the step in hand (s long)."""
+    for n in range(2 * ROOM):
+        plan[PUSH + n] = 0.0  # of stops that are left out
+    slot = int(plan[SLOT])
+    run(plan, slot + SLOPES, 0.0, 0.0, 0.0, 0.0, length / plan[NUMBERS_UNIT], 0.0, 0.0)
+
+
+@kernel
 def power_series(plan: Vector, cursor: Cursor, side: int) -> None:
     """As `push_series`, of a stop that follows a power: nothing where its push is left out."""
-    start = cursor.start
-    facing = facing_of(start.mode, side)
-    frame = frame_of(plan, start.mode)
-    laws, _, _ = laws_of(plan, start, frame, coordinate(plan, start), cursor.step)
-    push = laws.push if facing > 0.0 else laws.other
+    sloped(plan, cursor.step)
+    facing = facing_of(cursor.start.mode, side)
+    pushes = PUSH if facing > 0.0 else PUSH + ROOM
     for n in range(DEGREE + 1):
-        plan[ASKED + n] = 0.0
-        plan[PRESSED + n] = facing * plan[X + n]
-    if push.stiffness == 0.0:
-        return
-    if facing < 0.0:
-        plan[PRESSED] += laws.apart
-    h = cursor.step
-    for n in range(DEGREE):
-        plan[ASKED + n] = pressed(plan, push, facing, PRESSED, PUSH, h, n) / (h * h)
+        plan[ASKED + n] = plan[pushes + n] / (cursor.step * cursor.step)
 
 
 @kernel

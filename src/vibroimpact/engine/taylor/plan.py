@@ -33,6 +33,7 @@ def stiff_rate(plan: Vector) -> float:
     """What makes a velocity of a displacement: ω0 of small motions, or ω without a spring."""
     k = plan[par.STIFFNESS] + plan[par.HYSTERETIC]
     k += 2.0 * plan[par.SINH] * plan[par.SINH_RATE]
+    k += plan[par.OWN + par.OWN_STIFFNESS]
     return math.sqrt(k) if k > 0.0 else plan[OMEGA]
 
 

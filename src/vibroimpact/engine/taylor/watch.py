@@ -6,8 +6,9 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.advance import bumpers
+from vibroimpact.engine.linear.roots import NONE, Clearance
 from vibroimpact.engine.linear.tables import overlapping
 from vibroimpact.engine.motion import (
     BOTH,
@@ -27,11 +28,14 @@ from vibroimpact.engine.series.events import (
     Ends,
     Free,
     Line,
+    first_in_step,
     first_zero,
     met,
     searched,
 )
 from vibroimpact.engine.series.layout import (
+    ASKED,
+    DEGREE,
     F_A,
     F_BEND,
     F_BEND_Z,
@@ -41,18 +45,27 @@ from vibroimpact.engine.series.layout import (
     F_X,
     F_Z,
     FOUND,
+    NAMES,
+    NUMBERS,
+    SLOT,
     X,
     Z,
 )
+from vibroimpact.engine.series.kernels import ASKS, CALM, STRIDE, Slot, run
+from vibroimpact.engine.series.program import ABSOLUTE_X
 from vibroimpact.engine.series.values import Frame
 from vibroimpact.engine.taylor.frame import balanced, curved_stop, push_of, steep
 from vibroimpact.engine.taylor.laws import EVEN
 from vibroimpact.engine.taylor.pieces import facing_of
 
+SIDE, WAY = NUMBERS + NAMES.index("side"), NUMBERS + NAMES.index("way")
+_OWN, _RIGHT, _LEFT = int(Slot.OWN), int(Slot.RIGHT), int(Slot.LEFT)
+_BOTH, _OTHER = int(Slot.BOTH), int(Slot.OTHER)
+
 _FADED = 1e-18
 """A bumper's memory, as a share of the displacement, that does not move where it is met."""
 
-DETACHED_LEFT, YIELDS, UNBENT, EASED = 16, 17, 18, 19
+DETACHED_LEFT, YIELDS, UNBENT, EASED, CENTRED = 16, 17, 18, 19, 20
 """Events of a step besides those of a stretch."""
 
 NEITHER = -1
@@ -121,6 +134,8 @@ def lets_go(
     level = 0.0
     if facing < 0.0:
         level = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
+    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
+        found = own_eases(plan, side, level, facing, ends, found)
     memory = motion.right if side == RIGHT else motion.left
     chi = push_of(plan, side, 0.0, memory).dissipation * facing / unit
     if chi != 0.0:
@@ -135,6 +150,30 @@ def lets_go(
         g = max(g, 0.0)
     event = DETACHED if side == RIGHT else DETACHED_LEFT
     return earlier(found, event, first_zero(plan, Line(level, facing, 0.0, 0.0), ends, g))
+
+
+@apart
+def own_eases(
+    plan: Vector, side: int, level: float, facing: float, ends: Ends, found: Found
+) -> Found:
+    """Take the moment into account at which a stop's own formula changes its sign."""
+    way = facing * plan[WAY]
+    run(plan, _OWN + STRIDE * side + ASKS, level, facing, 0.0, 0.0, ends.h, way, 0.0)
+    slot = int(plan[SLOT]) % CALM
+    pushes = slot == _BOTH or slot == (_RIGHT if side == RIGHT else _LEFT)
+    if side == LEFT and slot == _OTHER:
+        pushes = True
+    spread = 0.0
+    for n in range(DEGREE + 1):
+        if not pushes:
+            plan[ASKED + n] = -plan[ASKED + n]
+        spread += abs(plan[ASKED + n])
+    # It is on this side of 0 by construction: what is not is rounding.
+    plan[ASKED] = max(plan[ASKED], 0.0)
+    if 2.0 * plan[ASKED] > spread:
+        return found
+    y = first_in_step(plan, Clearance(0.0, 1.0, 0.0, 0.0, False), False, False)
+    return earlier(found, EASED, y * ends.h) if y != NONE else found
 
 
 @kernel
@@ -166,6 +205,19 @@ def turns(
         line = Line(0.0, 0.0, 0.0, sign * side)
         found = earlier(found, UNBENT, first_zero(plan, line, ends, abs(z)))
     return found
+
+
+@kernel
+def passes_centre(
+    plan: Vector, motion: Motion, offset: float, ends: Ends, since: float, found: Found
+) -> Found:
+    """Take the moment into account at which u changes its sign."""
+    side = plan[SIDE]
+    line = Line(side * offset, side, 0.0, 0.0)
+    if motion.u == 0.0 and motion.v == 0.0 and since == 0.0:
+        return earlier(found, CENTRED, searched(plan, line, FIXED, 0.0, True, ends.h))
+    g = max(side * (offset + ends.x), 0.0)
+    return earlier(found, CENTRED, first_zero(plan, line, ends, g))
 
 
 @inlined
@@ -202,4 +254,6 @@ def search(
         found = earlier(found, side, met(plan, level, sign, free, ends, _FADED * size))
     if ways != 0.0:
         found = turns(plan, motion, ways, frame.sign, ends, since, found)
+    if int(plan[par.OWN + par.OWN_FLAGS]) & ABSOLUTE_X:
+        found = passes_centre(plan, motion, frame.offset, ends, since, found)
     return found

@@ -10,7 +10,7 @@ from vibroimpact.engine.linear.evaluate import moved
 from vibroimpact.engine.linear.flight import leave
 from vibroimpact.engine.linear.layout import MIDDLE, ORDER, RATE, TAYLOR, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
-from vibroimpact.engine.linear.walk import ABOVE, BELOW
+from vibroimpact.engine.linear.table_search import ABOVE, BELOW
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
 from vibroimpact.engine.yielding.leg import (

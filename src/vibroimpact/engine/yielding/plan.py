@@ -32,7 +32,7 @@ from vibroimpact.engine.linear.layout import (
     WIDTH,
     H,
 )
-from vibroimpact.engine.linear.rows import (
+from vibroimpact.engine.linear.table_rows import (
     coefficients,
     compose,
     expanded_at,

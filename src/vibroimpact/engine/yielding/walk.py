@@ -26,7 +26,7 @@ from vibroimpact.engine.linear.layout import (
     H,
 )
 from vibroimpact.engine.linear.roots import NONE
-from vibroimpact.engine.linear.walk import ended, next_window
+from vibroimpact.engine.linear.table_search import ended, next_window
 from vibroimpact.engine.motion import Row
 from vibroimpact.engine.yielding.careful import careful
 from vibroimpact.engine.yielding.layout import BEND_0, PUSH_0, PUSH_E, ROOT, TURN_0, TURN_E

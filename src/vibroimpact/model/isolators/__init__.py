@@ -13,6 +13,7 @@ from vibroimpact.model.isolators.law import IsolatorLaw
 from vibroimpact.model.isolators.linear import Isolator
 from vibroimpact.model.isolators.polynomial import PolynomialIsolator
 from vibroimpact.model.law_registry import Kinds
+from vibroimpact.model.own_law import Law
 
 AnyIsolator: TypeAlias = (
     Isolator
@@ -21,6 +22,7 @@ AnyIsolator: TypeAlias = (
     | PolynomialIsolator
     | BoucWenIsolator
     | ExponentialIsolator
+    | Law
 )
 """Whatever can carry the mass."""
 
@@ -31,6 +33,7 @@ ISOLATORS = Kinds(
     PolynomialIsolator,
     BoucWenIsolator,
     ExponentialIsolator,
+    Law,
 )
 
 __all__ = [
@@ -42,5 +45,6 @@ __all__ = [
     "FrictionIsolator",
     "Isolator",
     "IsolatorLaw",
+    "Law",
     "PolynomialIsolator",
 ]

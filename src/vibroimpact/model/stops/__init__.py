@@ -11,14 +11,15 @@ whether it is `linear` and, unless it is rigid, defines its `static_force`.
 from typing import TypeAlias
 
 from vibroimpact.model.law_registry import Kinds
+from vibroimpact.model.own_law import Law
 from vibroimpact.model.stops.bumper import Bumper
 from vibroimpact.model.stops.jankowski import JankowskiBumper
 from vibroimpact.model.stops.power import PowerBumper
 from vibroimpact.model.stops.rigid import RigidStop
 
-Stop: TypeAlias = Bumper | RigidStop | PowerBumper | JankowskiBumper
+Stop: TypeAlias = Bumper | RigidStop | PowerBumper | JankowskiBumper | Law
 """Whatever the mass can hit."""
 
-STOPS = Kinds(Bumper, RigidStop, PowerBumper, JankowskiBumper)
+STOPS = Kinds(Bumper, RigidStop, PowerBumper, JankowskiBumper, Law)
 
-__all__ = ["STOPS", "Bumper", "JankowskiBumper", "PowerBumper", "RigidStop", "Stop"]
+__all__ = ["STOPS", "Bumper", "JankowskiBumper", "Law", "PowerBumper", "RigidStop", "Stop"]

@@ -15,14 +15,14 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine.chaos_indicator import runs_away
+from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.fixed_point import DYING, PARTS, close_in, parts_of
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, finite
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.section_map import placed
-from vibroimpact.engine.wandering import runs_away
 
 _HELD = 3
 """States that are held, the newest first: x and f of each."""

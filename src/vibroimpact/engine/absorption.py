@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.dispatch import build, too_much_work
 from vibroimpact.engine.entry import entry
+from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.fixed_point import PARTS, parts_of
-from vibroimpact.engine.flows import planned
+from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import MODE, Motion, finite, pack, unpacked
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.section_map import placed

@@ -9,7 +9,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.chords import NOWHERE, Enclosed, chords, enclosed, glance
+from vibroimpact.engine.linear.chord_bounds import NOWHERE, Enclosed, chords, enclosed, glance
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.pieces import (

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.engine import fixed_point, pursuit
+from vibroimpact.engine import extrapolation, fixed_point
 
 
 def held(rig: vi.Oscillator, frequencies, **options):
@@ -96,15 +96,15 @@ def test_two_secants_tell_an_affine_map() -> None:
     rng = np.random.default_rng(0)
     matrix = np.array([[0.3, -0.7], [0.6, 0.5]])
     goal = rng.normal(size=2)
-    room = np.zeros(pursuit.ROOM)
+    room = np.zeros(extrapolation.ROOM)
     state = rng.normal(size=2)
     for _ in range(4):
         image = goal + matrix @ (state - goal)
         before, after = (_motion(*one) for one in (state, image))
-        pursuit.hold_on(room, before, after)
+        extrapolation.hold_on(room, before, after)
         state = image
         if _ >= 2:
-            way, moved, contracts = pursuit.guess(room, 1.0)
+            way, moved, contracts = extrapolation.guess(room, 1.0)
     assert contracts
     assert moved < 1e-13
     assert way == pytest.approx(abs(goal - state).max(), rel=1e-10)

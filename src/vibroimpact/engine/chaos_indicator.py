@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import Clock, Motion, finite
 from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.section_map import placed

@@ -12,9 +12,9 @@ import vibroimpact as vi
 from samples import sample
 from vibroimpact.engine import batch
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.flows import planned
+from vibroimpact.engine.event_loop import cycle
+from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.linear.tables import build
-from vibroimpact.engine.loop import cycle
 from vibroimpact.engine.motion import DETACHED, LIMIT, STATE, unpacked
 from vibroimpact.engine.observe import observer
 from vibroimpact.engine.observers import record

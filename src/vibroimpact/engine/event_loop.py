@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine.flows import advance
+from vibroimpact.engine.flow_dispatch import advance
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import GIVEN_UP, LIMIT, Clock, Motion, Stretch, at_section
 from vibroimpact.engine.observe import observe

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine.entry import Entry
-from vibroimpact.engine.flows import (
+from vibroimpact.engine.flow_dispatch import (
     AnyStops,
     Apart,
     Curved,

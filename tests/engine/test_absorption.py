@@ -14,7 +14,7 @@ from vibroimpact.attraction.label_states import (
     Traps,
     follow_region,
 )
-from vibroimpact.engine.capture import CENTRE, FORM, OWNER, REACH, TRAP
+from vibroimpact.engine.absorption import CENTRE, FORM, OWNER, REACH, TRAP
 from vibroimpact.engine.status import Status
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.prepared_rig import prepare

@@ -12,7 +12,7 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import count, wave
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.rows import swing_of
+from vibroimpact.engine.linear.table_rows import swing_of
 from vibroimpact.engine.motion import FLIGHT, RIGHT, Clock, Motion
 
 _WITHIN = 1.0 - 1e-9

@@ -25,7 +25,7 @@ from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.linear import advance as linear_advance
 from vibroimpact.engine.linear import carry as linear_carry
-from vibroimpact.engine.linear import chords, forces, pieces, tables, undisturbed
+from vibroimpact.engine.linear import chord_bounds, contact_free, forces, pieces, tables
 from vibroimpact.engine.linear import growth as linear_growth
 from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
@@ -150,11 +150,11 @@ _TAYLOR = (
 answer(
     par.LINEAR,
     tables,
-    undisturbed,
+    contact_free,
     linear_advance,
     forces,
     pieces,
-    chords,
+    chord_bounds,
     linear_carry,
     linear_growth,
 )
@@ -202,6 +202,7 @@ def carries(rig: Vector, other: Vector) -> bool:
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
     if rig[par.CURVED]:
         same = same and library.covers(library.laws_code(rig), library.laws_code(other))
+        same = same and bool((library.operations(rig) == library.operations(other)).all())
     return bool(same and _flow(rig) in (AnyStops, *_CURVED.values(), _flow(other)))
 
 

@@ -9,11 +9,11 @@ import sys
 import numpy as np
 
 from vibroimpact.engine import jit, spectra
-from vibroimpact.engine.alone import Alone
+from vibroimpact.engine.plain_entries import Alone
 
 LOAD = """\
 from vibroimpact.engine import spectra
-from vibroimpact.engine.alone import Alone
+from vibroimpact.engine.plain_entries import Alone
 spectra.respond.prepare()
 stats = spectra.respond._compiled[Alone].stats
 assert stats.cache_hits and not stats.cache_misses

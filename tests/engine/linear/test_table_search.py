@@ -15,8 +15,8 @@ import pytest
 from vibroimpact.engine.linear.contact import contact
 from vibroimpact.engine.linear.flight import flight, parted
 from vibroimpact.engine.linear.layout import PLAN
+from vibroimpact.engine.linear.table_search import ABOVE, BELOW, WITHIN, Bounds
 from vibroimpact.engine.linear.tables import build
-from vibroimpact.engine.linear.walk import ABOVE, BELOW, WITHIN, Bounds
 from vibroimpact.engine.motion import DETACHED, FLIGHT, LIMIT, RIGHT, Row
 from vibroimpact.engine.parameters import SIZE, rig_vector
 

@@ -1,0 +1,52 @@
+"""A law given as a formula that is one of the built-in laws becomes that one."""
+
+from __future__ import annotations
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.isolators import AnyIsolator, Isolator, PolynomialIsolator
+from vibroimpact.model.own_law import Law
+from vibroimpact.model.stops import Bumper, PowerBumper, Stop
+
+
+def as_isolator(law: AnyIsolator) -> AnyIsolator:
+    """Return the built-in isolator that a formula describes, or the law as it is.
+
+    Raises
+    ------
+    InputError
+        If it is a stop's law.
+    """
+    if not isinstance(law, Law):
+        return law
+    if law.is_stop:
+        raise InputError("gap: an isolator has none; a law of u and v without a gap is accepted")
+    parts = law.parts
+    if parts.rest:
+        return law
+    damping, exponent = (parts.square, 2.0) if parts.square else (parts.damping, 1.0)
+    if parts.cubic or parts.quintic:
+        return PolynomialIsolator(
+            parts.stiffness, damping, parts.cubic, parts.quintic, damping_exponent=exponent
+        )
+    return Isolator(parts.stiffness, damping, damping_exponent=exponent)
+
+
+def as_stop(law: Stop | None) -> Stop | None:
+    """Return the built-in stop that a formula describes, or the law as it is.
+
+    Raises
+    ------
+    InputError
+        If it is an isolator's law.
+    """
+    if not isinstance(law, Law):
+        return law
+    if law.gap is None:
+        raise InputError("gap: missing; a stop's law has a gap, such as '7.5 mm'")
+    parts = law.parts
+    if not parts.rest:
+        return Bumper(parts.stiffness, parts.damping, law.gap)
+    if law.power is None:
+        return law
+    stiffness, exponent, dissipation = law.power
+    return PowerBumper(stiffness, law.gap, exponent, dissipation=dissipation)
