@@ -262,7 +262,7 @@ def bisected(plan: Vector, line: Line, h: float, bend: float, whole: Span) -> fl
 
 @kernel
 def first_in_step(plan: Vector, clearance: Clearance, launched: bool, released: bool) -> float:
-    """The first root of what is asked, a share of the step, or NONE."""
+    """The first root of the event function, as a share of the step, or NONE."""
     offset, sign, memory, rate, _ = clearance
     room = workspace()
     pace = rate / PIECES  # per piece

@@ -86,7 +86,7 @@ def grown(series: Series, n: int) -> Any:
 
 
 def rooted(machine: Any, shape: Rooted) -> None:
-    """Write the series of a step from (w, δ̇, z), and what is found at its end."""
+    """Write the series of a step from (w, δ̇, z), and the values at its end."""
     first, speed, kept, size, longest, now, after = machine.arguments
     law, degree = Law(machine), at.DEGREE
     w, v, z, t = (State(machine, [one]) for one in (first, speed, kept, 0.0))
@@ -149,7 +149,7 @@ def again(machine: Any, shape: Rooted) -> None:
 def ended(
     machine: Any, shape: Rooted, law: Law, w: Series, t: Series, z: Any, h: Any, size: Any
 ) -> None:
-    """Write what is found at the end of a step."""
+    """Write the values at the end of a step."""
     degree = at.DEGREE
     reached = powers(machine, h, degree)
     found, times = sums(machine, w, reached), total(machine, t, reached)

@@ -120,7 +120,7 @@ def pushes(law: Law, shape: Shape, x: Any, v: Any) -> list[Any]:
 
 
 def begun(machine: Any, shape: Shape) -> None:
-    """Write the series of a step from (x, x′, z), and what is found at its end.
+    """Write the series of a step from (x, x′, z), and the values at its end.
 
     The arguments are the state, the motion's size, how long the step may be, and what the shaking
     is now: that of its table's even terms, and that of the odd ones.
@@ -268,7 +268,7 @@ def powers(machine: Any, h: Any, degree: int) -> list[Any]:
 def ended(
     machine: Any, shape: Shape, law: Law, along: Series, memo: Any, h: Any, size: Any
 ) -> None:
-    """Write what is found at the end of a step."""
+    """Write the values at the end of a step."""
     degree = at.DEGREE
     reached = powers(machine, h, degree)
     found = sums(machine, along, reached)

@@ -111,7 +111,7 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
 
 @kernel
 def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
-    """The motion just behind the event, exactly there."""
+    """The motion just after the event, exactly there."""
     mode, _, u, v, right, left, z, _, clock = here
     gap_r, gap_l, _, _ = bumpers(plan)
     if event in (RIGHT, LEFT):
@@ -231,7 +231,7 @@ def stretch_end(plan: Vector, event: int, here: Motion, t: float, limit: float) 
 
 @kernel
 def smooth(plan: Vector, motion: Motion, limit: float) -> tuple[float, Motion]:
-    """How long a motion follows one piece of its laws, stops left out, and what is behind it."""
+    """How long a motion follows one piece of its laws, without stops, and what comes after it."""
     event, t, _, after = advance_taylor(plan, motion, limit)
     if event == TURNED:
         return t, after

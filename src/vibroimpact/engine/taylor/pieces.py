@@ -109,7 +109,7 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
 
 @kernel
 def clock_at(plan: Vector, clock: Clock, y: float) -> Clock:
-    """The clock y pieces behind the step's start."""
+    """The clock y pieces after the step's start."""
     angle = plan[HEADER + SCALED_W] * y
     if abs(angle) < _SMALL:
         return turn(plan, clock[0], clock[1], angle)  # type: ignore[no-any-return]
@@ -187,7 +187,7 @@ def following(plan: Vector, cursor: Cursor) -> Cursor:
 def glance(
     plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, room: Vector
 ) -> tuple[bool, Enclosed]:
-    """Nothing is looked at ahead, for a piece's series is there already."""
+    """Nothing is computed ahead, because a piece's series is known already."""
     return False, seen
 
 

@@ -15,7 +15,7 @@ from vibroimpact.engine.series.march import prepare
 
 @kernel
 def build(plan: Vector, amplitude: float, omega: float) -> None:
-    """Take a forcing, as `parameters.rig_vector` was told: its size (m/s², m or N), and ω."""
+    """Take a forcing, as passed to `parameters.rig_vector`: its size (m/s², m or N), and ω."""
     begin(plan, amplitude, omega)
     prepare(plan, stiff_rate(plan) + plan[par.DAMPING] + change_rate(plan))
 
