@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numba
 import pytest
 
-from vibroimpact.engine import emission
+from vibroimpact.engine import emission, flows, jit
 
 _SCRIPT = """
 import sys
@@ -62,3 +63,12 @@ def test_only_the_entry_becomes_machine_code(tmp_path):
     same, kernels, entries, own = _ran(tmp_path / "all", "no such version")
     assert (kernels, entries, own) == ("1", "1", "3.0")
     assert same == number
+
+
+def test_kernels_that_are_kept_apart_have_names_of_their_own() -> None:
+    """They are found by name: another one of that name would be kept apart, and round otherwise."""
+    folder = Path(flows.__file__).parent  # which has all kernels defined
+    sources = [path.read_text(encoding="utf-8") for path in folder.rglob("*.py")]
+    assert jit.APART
+    for name in jit.APART:
+        assert sum(source.count(f"\ndef {name}(") for source in sources) == 1, name

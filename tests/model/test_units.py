@@ -374,12 +374,12 @@ def test_units_in_which_a_quantity_is_written_mean_what_pint_says(quantity):
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("1 m%", "has a % together with a unit"),
-        ("1 m %", "has a % together with a unit"),
-        ("1 % m", "has a % together with a unit"),
-        ("1 m*%", "has a % together with a unit"),
-        ("1 m percent", "has a percent together with a unit"),
-        ("1 ppm m", "has a ppm together with a unit"),
+        ("1 m%", "has a % and a unit"),
+        ("1 m %", "has a % and a unit"),
+        ("1 % m", "has a % and a unit"),
+        ("1 m*%", "has a % and a unit"),
+        ("1 m percent", "has a percent and a unit"),
+        ("1 ppm m", "has a ppm and a unit"),
         ("1e-9999999999999999999m", "is smaller than any number that can be kept"),
         ("1e-9999999999999999999", "is smaller than any number that can be kept"),
         ("1e9999999999999999999m", "is not finite"),

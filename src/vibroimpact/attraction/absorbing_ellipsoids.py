@@ -2,7 +2,7 @@
 
 Near a stable fixed point x of the map P over the period there is a norm in which P contracts; in it
 balls are traps. A ball of radius r is taken as long as on its surface, and on those of all smaller
-ones that are looked at, P brings each point nearer to x: what is in the plane inside the image of a
+ones that are checked, P brings each point nearer to x: what is in the plane inside the image of a
 circle stays inside, for P is continuous and one to one there. The first circle on which a point is
 not brought nearer ends it (docs/decisions/0015-basins.md).
 

@@ -70,7 +70,7 @@ def refined(
     Returns
     -------
     points, ended
-        What there is up to where it cannot be told, and why; else "".
+        The part up to where the curve cannot be continued, and the reason; "" if it is complete.
     """
     parameters = np.linspace(begin, end, 17)
     points = at(parameters)

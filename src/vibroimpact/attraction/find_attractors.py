@@ -5,9 +5,10 @@
    for it; where it is a known one, its trap is small or the way long.
 3. The rest goes on from where it is, for twice as many cycles, until none is left.
 
-So a motion is known as soon as one state that is looked at leads to it, whatever its period, and no
-state is given a motion that it does not lead to. What wanders and has no closed set of cells is
-told by the distribution of its displacements, state by state, as `coexisting_motions` does.
+So a motion is known as soon as one of the states leads to it, whatever its period, and no
+state is given a motion that it does not lead to. A wandering motion without a closed set of cells
+is identified by the distribution of its displacements, state by state, as `coexisting_motions`
+does.
 """
 
 from __future__ import annotations
@@ -36,13 +37,13 @@ _Tiny = NDArray[np.int8]
 MOST = 64
 """Motions that are told apart."""
 _PILOT = 500
-"""States that are looked at first."""
+"""Number of states that are simulated first."""
 _FIRST = 100
 """Cycles in which most states are caught."""
 _SETTLED = 200
-"""Cycles behind which what is not caught within a set of cells wanders as it always will."""
+"""Cycles after which a motion that is not caught within a set of cells counts as wandering."""
 _WATCHED = 1000
-"""Cycles by which a motion that no trap has caught is told."""
+"""Cycles by which a motion that no trap has caught is identified."""
 _LOOKS = 20
 """Cycles over which it is then watched."""
 

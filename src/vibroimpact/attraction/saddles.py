@@ -1,8 +1,8 @@
 """Saddles: orbits whose disturbances grow in one direction and die out in the other.
 
 Those on a border between basins are found from the border: of two states close to each other that
-lead to different motions, the middle is followed. It stays on the border as long as halving has
-told the border, passes near the saddle there, and Newton's method does the rest.
+lead to different motions, the middle is followed. It stays on the border as long as bisection has
+located the border, passes near the saddle there, and Newton's method does the rest.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
     Raises
     ------
     InputError
-        If it is no saddle; the line begins with `where`.
+        If it is not a saddle; the message begins with `where`.
     """
     full = orbit.section.simpler(orbit.section.count, mirror=False)
     one = Section(full.family, 1, False, full.scale)

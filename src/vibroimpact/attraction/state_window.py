@@ -1,4 +1,4 @@
-"""Which states are looked at where none are given: those that steady motions reach, and more."""
+"""Default range of states: those that steady motions reach, and more."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ PEAKS = (
     "peak_force",
     "penetration",
 )
-"""What is found of each rig, in m, m/s² and N."""
+"""Results of each rig, in m, m/s² and N."""
 
 
 class Asked(Protocol):

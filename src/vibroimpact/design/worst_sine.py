@@ -33,7 +33,7 @@ _LEVELS = 2
 _ALIKE = 1e-6
 """Difference of two largest holds that are one motion."""
 _FAR = 0.8
-"""A sweep whose largest hold is smaller than this share of the other's is not looked at more."""
+"""A sweep whose largest hold is smaller than this share of the other's is not refined."""
 _TOLERANCE = 1e-9
 _LEAST_CYCLES, _WINDOW = 300, 100
 _SOUND = (int(Status.DONE), int(Status.NOT_SETTLED))
@@ -58,7 +58,7 @@ class Worst(NamedTuple):
 
 
 class _Holds(NamedTuple):
-    """Frequencies in the order in which they were held, with what was found."""
+    """Frequencies in the order in which they were held, with the results."""
 
     frequency: _Array
     rows: HoldRows
@@ -160,7 +160,7 @@ class _Search:
         return _Holds(frequency, rows, states)
 
     def _finer(self, held: _Holds, at: int) -> _Holds:
-        """From the hold before the largest to the one behind it, in the sweep's own direction."""
+        """From the hold before the largest to the one after it, in the sweep's own direction."""
         first, last = max(at - 1, 0), min(at + 1, len(held.frequency) - 1)
         places = np.linspace(
             held.frequency[first], held.frequency[last], _FINER * (last - first) + 1

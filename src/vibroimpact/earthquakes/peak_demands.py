@@ -1,6 +1,6 @@
 """Many rigs through records, at several scales each: their peaks as plain arrays.
 
-All that looks at more motions than a few goes through `peaks`: no dataset is made of a run, and no
+Every computation of many motions uses `peaks`: no dataset is made of a run, and no
 history is kept.
 """
 
@@ -34,7 +34,7 @@ PEAKS = (
     "impact_count_right",
     "impact_count_left",
 )
-"""What is found of each run, in m, m/s², N and N s; infinite forces are those of rigid stops."""
+"""Results of each run, in m, m/s², N and N s; infinite forces are those of rigid stops."""
 
 ENERGIES = ("total_supplied", "total_isolator", "total_bumpers")
 """In J, over the record and the tail."""
@@ -83,7 +83,7 @@ def peaks(
     max_events
         See `MAX_EVENTS`.
     threads
-        How many run at once, None for one a processor; or a cluster. No result depends on it.
+        Number of threads (default: one per processor); or a cluster. It does not affect the result.
     progress
         Called from the calling thread with the runs done and all there are.
     by_line

@@ -344,7 +344,7 @@ def _refusal(error: Exception) -> Callable[[Progress], Message]:
 
 
 def _without_frequency(state: State) -> Hashable:
-    """What shakes a sweep: the frequency that is looked at is no part of it."""
+    """The excitation of a sweep, without the frequency of the selected motion."""
     shaken = state.shaking
     return shaken.amplitude, shaken.of, shaken.phase
 

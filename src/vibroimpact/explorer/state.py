@@ -44,7 +44,7 @@ class State(NamedTuple):
 
     @property
     def rig(self) -> Rig:
-        """What vibrates and what shakes it, at the frequency whose motion is looked at."""
+        """The rig, at the frequency of the selected motion."""
         return Rig(self.oscillator, self.shaking)
 
 

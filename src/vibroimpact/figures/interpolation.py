@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 _Array = NDArray[np.float64]
 
 _PARTS = 15
-"""Of each cell, a side. Odd: what is taken from the nearest node changes between two points."""
+"""Points per side of a cell. Odd, so that the nearest node changes between two points."""
 
 
 def finer_axis(axis: Axis, nodes: _Array) -> _Array:

@@ -20,7 +20,7 @@ _CLEAR = np.array([0.08, 0.045])
 _ON = 0.01
 """A curve that passes so close to a name has that name."""
 _STEP = 0.005
-"""Spacing of the points that a curve is looked at."""
+"""Spacing of the points at which a curve is checked."""
 _LETTER = 0.07
 """Width of a letter, in inches."""
 

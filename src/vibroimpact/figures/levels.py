@@ -31,7 +31,7 @@ _ROOM = 0.25
 _BEND = 0.035
 """What a line may bend away from its number, which is straight."""
 _STEP = 0.02
-"""Spacing of the points that a line is looked at."""
+"""Spacing of the points at which a line is checked."""
 _NOWHERE: _Array = np.empty((0, 2))
 
 

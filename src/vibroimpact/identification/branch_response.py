@@ -12,7 +12,7 @@ passes one of them. So each measured jump is given the jump of the rig that it b
 Near a fit both jump in the same step, and a sweep alone is all that is needed.
 
 A jump of the rig that the test does not tell, since it is small or at an end, may still pass one of
-its frequencies. The two holds beside it have the value of the other branch, too: that behind the
+its frequencies. The two holds beside it have the value of the other branch, too: that after the
 jump followed back, and that before it at its end. A point belongs to the nearer one.
 """
 

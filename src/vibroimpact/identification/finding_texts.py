@@ -23,7 +23,7 @@ from vibroimpact.model.units import pretty
 _WEAK = 0.25
 """Of a value: an interval whose half is wider leaves a parameter all but undetermined."""
 _BOUND = 0.95
-"""Correlation from which on two parameters are said to stand for each other."""
+"""Correlation above which two parameters are reported as interchangeable."""
 _SAME = 1e-3
 """Difference, as a share, up to which a value of another rig is the same."""
 _BLIND = "excursions do not tell right from left; maxima and minima, or time histories, do"
@@ -31,7 +31,7 @@ _FEW = 2
 _ABSURD = 100.0
 """Gap over the largest displacement that was measured, from which on it is reported as absurd."""
 _FAR = 5.0
-"""So many times the noise: something is wrong with what was given, such as the amplitude."""
+"""So many times the noise: some input is wrong, such as the amplitude."""
 
 
 def findings(
@@ -82,7 +82,7 @@ def findings(
 
 
 def _absurd_gaps(data: xr.Dataset, problem: Problem) -> list[str]:
-    """Gaps far beyond where the mass was seen: they stand for a fault in what was given."""
+    """Gaps far beyond the measured displacements, which indicate an error in the input."""
     lines = []
     for one, value in zip(problem.free, data["fitted_value"].values.tolist(), strict=True):
         swings = [test.swing for test in problem.tests if one.test in (None, test.name)]

@@ -82,7 +82,7 @@ def frees(
     rigs
         The rig and shaking of each test.
     each
-        Names of those that every test has its own of, as a list or a text with commas.
+        Names of parameters that are fitted separately per test, as a list or a text with commas.
     priors
         Mean and standard deviation by name; None for no prior.
     swings

@@ -88,7 +88,7 @@ def search(
     problem
         What is fitted.
     tried
-        Places that are looked at, by Sobol's sequence over the ranges of what is free.
+        Number of points that are tried, by Sobol's sequence over the ranges of the free parameters.
     starts
         Local fits: from the problem's own start, and from the best of these places.
     seed

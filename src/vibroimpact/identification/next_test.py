@@ -44,7 +44,7 @@ _WILD = 0.5
 _LITTLE = 0.98
 """Of a standard error, beyond which a hold is hardly worth it."""
 _NOISE = 0.02
-"""Of a hold to come, where the fit's tests were no curves."""
+"""Noise of a future hold, if the tests of the fit were not curves."""
 
 
 def next_test(

@@ -21,7 +21,7 @@ _LAGS = ((1, 1.0), (2, 0.5))
 _SAME = 1e-3
 """Share by which what the model has in both directions may differ where it is one motion."""
 TOLD = {"curves": 0.1, "history": 0.2}
-"""Degrees of freedom, a value, of a noise that is told by a quantile of differences."""
+"""Degrees of freedom, a value, of a noise that is estimated from a quantile of differences."""
 _RUN = 5
 """Neighbouring points over which residuals are averaged, to say where they are large."""
 
@@ -65,7 +65,7 @@ def structure(
     rows
         All residuals.
     size
-        Their root mean square, as a share; 0 where it is no noise at all.
+        Their root mean square, as a share; 0 where it is not noise.
     noise
         Standard deviation of the noise as a share, from differences of the values; None if it is
         not known.

@@ -36,7 +36,7 @@ def moments(tail: float) -> Soft:
 
 
 _MANY = 8
-"""Values of a quantity from which on its noise is told by itself."""
+"""Number of values of a quantity from which its noise is estimated separately."""
 _RATIO = 0.05
 """A quantity's noise is taken as no smaller a share of all."""
 _LEAST = 1e-9

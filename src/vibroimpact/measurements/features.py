@@ -24,9 +24,10 @@ _NOISES = 6.0
 _ENOUGH = 8
 """Values that are needed for an estimate."""
 _APART = 8.0
-"""Standard deviations from the median of its hold from which on a value is no noise."""
+"""Standard deviations from the median of its hold above which a value is not noise."""
 _QUIET = 1e-3
-"""Noise is taken as no smaller a share, and a share of a value is told of no smaller a one."""
+"""Noise is taken as no smaller a share, and a share of a value is reported for larger values
+only."""
 _WORDS = {
     "eta_a": "η_a",
     "eta_d": "η_d",

@@ -11,7 +11,7 @@ from vibroimpact.measurements.curves import Known
 from vibroimpact.measurements.names import HISTORIES
 
 _EVEN = 0.01
-"""By how much of a step a time may be off before a record is told to be uneven."""
+"""Share of a step by which a time may be off before the record counts as uneven."""
 
 
 def history(table: Columns, known: Known, notes: list[str], facts: list[str]) -> xr.Dataset:

@@ -105,7 +105,7 @@ def _pointed(text: str, decimal: str) -> str:
 
 
 def _said(text: str) -> tuple[str, str] | None:
-    """A name and what it is said to be; behind a semicolon, a number."""
+    """A name and its stated value; after a semicolon, a number."""
     found = _SAID.match(text)
     if found is None or (found[2] == ";" and not is_number(found[3])):
         return None

@@ -32,7 +32,7 @@ class About(NamedTuple):
     unit: str = ""
     """Of the file's values."""
     notes: tuple[str, ...] = ()
-    """What was taken for granted, and what was changed, in order."""
+    """Assumptions and changes, in order."""
 
 
 def read_values(

@@ -39,7 +39,7 @@ def check_name(name: Any, field: str) -> str:
 
 
 def literal(name: str) -> str:
-    """A name for a figure, where a dollar sign is no mathematics."""
+    """Return a name for a figure, in which a dollar sign does not start mathematics."""
     return printable(name).replace("$", r"\$")
 
 

@@ -22,7 +22,7 @@ _RESOLVED = 1.5
 
 
 _OFF = 0.05
-"""Share of the peak from which on a mean that is left in is told."""
+"""Share of the peak above which a remaining mean is reported."""
 _DEGREES = {"mean": 0, "line": 1}
 
 LEAST_STEP, MOST_STEP = 1e-12, 1e9

@@ -393,9 +393,7 @@ def _with_unit(number: Decimal, rest: str) -> Any:
     if rest not in FRACTIONS:
         for fraction in FRACTIONS:
             if any(fraction in name for name in names):
-                raise _RefusalError(
-                    f"has a {fraction} together with a unit; one of the two is accepted"
-                )
+                raise _RefusalError(f"has a {fraction} and a unit; one of the two is accepted")
     for name in names:
         if meant := two_meanings(name):
             raise _RefusalError(f"has the ambiguous unit '{name}'; write {meant}")

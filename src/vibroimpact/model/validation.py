@@ -117,7 +117,7 @@ else:
 class _Listed(ModelMetaclass):
     """Lists what is the model's own: ``help`` shows that, and not a page of pydantic.
 
-    A misspelt keyword is told as a misspelt key of a table is.
+    A misspelt keyword is reported like a misspelt key of a table.
     """
 
     def __call__(cls, *args: Any, **values: Any) -> Any:  # noqa: N805

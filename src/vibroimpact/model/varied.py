@@ -16,7 +16,7 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import doubt_damping_ratio, to_si
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
-"""Parameters that set a damping too, which one that is named behind them replaces."""
+"""Parameters that also set a damping, which a damping that is named after them replaces."""
 
 _LAST = ("stiffness_ratio", "damping_ratio", "gap_ratio", "relaxation_time")
 """Parameters that are made of others, which are set before; the last is made of the first."""

@@ -36,7 +36,7 @@ class Shown(NamedTuple):
 
 
 class Judged(NamedTuple):
-    """A statement and what was found."""
+    """A statement and its verdict."""
 
     claim: Claim
     finding: Finding

@@ -73,7 +73,7 @@ class PublishedStudy:
     Parameters
     ----------
     threads
-        How many sweeps run at once; None for one a processor.
+        Number of threads (default: one per processor).
     parameters
         Of the cases, unless one is asked for with its own.
     """

@@ -43,7 +43,7 @@ _STEP = re.compile(
 )
 _END = re.compile(r"\W*end\W+(?:of\W+)?(?:the\W+)?(?:data|file|record)\W*", re.IGNORECASE)
 _WORD = re.compile(r"[^\s(\[]+(?:\s*(?:\([^)]*\)|\[[^\]]*\]))?")
-"""A name between spaces, with the unit in brackets behind it."""
+"""A name between spaces, with the unit in brackets after it."""
 _IN_A_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "-": 1.0, "": 1.0}
 _Array = NDArray[np.float64]
 

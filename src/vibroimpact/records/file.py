@@ -98,8 +98,8 @@ class File:
         Raises
         ------
         InputError
-            If the file ends before, a line holds what is no finite number, or the last line holds
-            more than there should be.
+            If the file ends before, a line contains something other than finite numbers, or the
+            last line holds more than there should be.
         """
         parts: list[str] = []
         at = first
@@ -131,7 +131,7 @@ class File:
         return [line[i : i + width].strip() for i in range(0, len(line), width)]
 
     def _damaged(self, first: int, behind: int, width: int | None) -> InputError | None:
-        """What is no finite number, and where; None if all are."""
+        """Find a value that is not finite, and where; None if all are finite."""
         for at in range(first, behind):
             for part in self._cut(at, width):
                 try:

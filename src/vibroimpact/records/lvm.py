@@ -86,7 +86,7 @@ def _names(line: str, mark: str) -> bool:
 
 
 def _header(file: File, at: int, mark: str, about: dict[str, list[str]]) -> int:
-    """Read lines of keys; return the line behind them."""
+    """Read lines of keys; return the line after them."""
     first = at
     while at < len(file.lines):
         key, *values = _cells(file.lines[at], mark)

@@ -24,7 +24,7 @@ _HEAD = 48
 _GAP = 1.5
 """Steps from the last sample of a part to the first of the next from which on obspy fills a gap."""
 _KINDS = {6: "displacements", 7: "velocities", 50: "volts"}
-"""SAC's kinds of quantities that are no acceleration."""
+"""SAC's kinds of quantities that are not accelerations."""
 
 
 def is_sac(file: File) -> bool:

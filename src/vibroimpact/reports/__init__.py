@@ -1,1 +1,1 @@
-"""Reports of what was found: figures, tables and words, in files."""
+"""Reports of results as files: figures, tables and text."""

@@ -41,7 +41,7 @@ _LONGEST, _SHORTEST = 0.1, 1e-6
 _WARY = 8
 """Orbits to be found one after the other before they are taken to be isolated again."""
 _LEAST = 1e-6
-"""The same, where nothing can be told."""
+"""The same, where nothing is known."""
 _STABLE = 1.0 + 1e-9
 """Largest multiplier of an orbit on which a motion stays."""
 _PATIENTLY, SOON = 2000, 32

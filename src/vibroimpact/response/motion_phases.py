@@ -355,9 +355,9 @@ def _along_lines(motion: xr.Dataset, record: Record, events: _Events) -> Phases:
 def _touched(
     side: int, kinds: NDArray[np.int64], sides: NDArray[np.int64], sampled: int
 ) -> NDArray[np.bool_]:
-    """Whether a side is touched before the first event and behind each.
+    """Whether a side is touched before the first event and after each.
 
-    Its first contact or detachment tells what was before; the first sample may lie behind it.
+    Its first contact or detachment shows the earlier state; the first sample may lie after it.
     """
     change = np.where(sides == side, (kinds == CONTACT_BEGINS) * 1 - (kinds == DETACHMENT), 0)
     events = change[change != 0]
@@ -384,7 +384,7 @@ def relaxation_loss(origin: Recorded[Any], parts: Phases) -> _Array:
 def chattered(parts: Phases) -> NDArray[np.bool_]:
     """Which phases are the rest of a chatter: from an impact to rest on the same wall.
 
-    The engine completes it at once, so that the phase is no flight.
+    The engine completes it at once, so that the phase is not a flight.
     """
     rests = (parts.struck[1:] == 0) & touches(parts.contact[1:], parts.struck[:-1])
     ends = rests & (parts.struck[:-1] != 0) & (parts.last[:-1, 1] == 0.0)

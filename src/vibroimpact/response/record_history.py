@@ -100,7 +100,7 @@ def through(
 
 
 def straight(record: Record, tail: float) -> _Array:
-    """The record's straight lines, and those of no acceleration behind it."""
+    """The record's straight lines, and those of no acceleration after it."""
     values, step = record.acceleration, record.step
     if tail / step > MOST_SAMPLES:
         raise InputError(

@@ -1,4 +1,4 @@
-"""The sweep of one rig as plain numbers: what datasets are made from, and maps look at."""
+"""The sweep of one rig as plain numbers, from which datasets and maps are made."""
 
 from __future__ import annotations
 

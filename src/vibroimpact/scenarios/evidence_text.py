@@ -56,7 +56,7 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
 
 
 def _irregular(found: Evidence, thresholds: Thresholds) -> list[str]:
-    """Ranges that are not regular, those of both directions that overlap told once."""
+    """Ranges that are not regular, where overlapping ranges of both directions are merged."""
     lines = []
     for item in found.irregular_once:
         kinds = " and ".join(item.kinds)

@@ -19,7 +19,7 @@ _STEEP = 1.5
 least 1 / (2^(1/3) - 1) = 3.8 times as high, and more with a jump; beyond the ends of a sweep
 nothing is known, and nothing stands beside it."""
 _FLAT = 0.003
-"""Of a curve's height: what is no higher than that is no step."""
+"""Least height of a step, as a share of the curve's height."""
 _SAME = 1e-6
 """Of a curve's height: by more two directions do not differ that follow the same motions."""
 

@@ -1,4 +1,4 @@
-"""One node of a map: its rig swept, looked at, and named."""
+"""One node of a map: its rig is swept and classified."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def classified(
 def _seen(
     rig: Rig, thresholds: Thresholds, step: float, max_cycles: int | None, tally: Tally
 ) -> Evidence:
-    """What the sweep of a rig shows, and the orbits behind it where the map needs them."""
+    """What the sweep of a rig shows, and its orbits where the map needs them."""
 
     def check() -> None:
         if tally[1]:

@@ -29,7 +29,7 @@ _LONGER = 20
 """How many times as long a motion is followed that seems quasi-periodic."""
 _MAX_EVENTS = 10_000
 _RELAXATIONS = 20.0
-"""Relaxation times in a forcing cycle behind which a bumper has forgotten."""
+"""Relaxation times in a forcing cycle after which a bumper has relaxed."""
 
 Check = Callable[[], None]
 

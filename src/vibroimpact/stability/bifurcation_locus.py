@@ -194,7 +194,7 @@ class Locus:
     def _carried(self, here: Place, phase: float) -> _Array | None:
         """The curve's tangent as the motion itself carries it over to another section.
 
-        Of a grazing, behind which a motion may be another, only what no section changes: the sense
+        Of a grazing, after which a motion may be another, only what no section changes: the sense
         along both parameters.
         """
         if here.system.kind == GRAZING:

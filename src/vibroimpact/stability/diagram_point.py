@@ -38,7 +38,7 @@ _ROOM = 4096  # contacts that are written between two looks at the clock
 
 
 class Look(NamedTuple):
-    """How a motion is looked at."""
+    """How the section of a motion is recorded."""
 
     section: Kind
     points: int

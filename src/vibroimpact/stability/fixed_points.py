@@ -164,7 +164,7 @@ class Orbit:
 
     @cached_property
     def missed(self) -> tuple[float, _Array] | None:
-        """By how much it is no fixed point of the simpler map, and from it to its image, scaled."""
+        """Residual as a fixed point of the simpler map, and the step to its image, scaled."""
         simpler = self.section.parent()
         if simpler is None:
             return None

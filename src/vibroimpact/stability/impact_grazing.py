@@ -36,7 +36,7 @@ _Array = NDArray[np.float64]
 _SHALLOW = 1e-4
 """Scaled depth below which an impact is seen to die out."""
 _BACK = (0.3, 0.1, 0.03)
-"""Of w, by which the branch is looked at on its way to the grazing."""
+"""Steps of w at which the branch is checked on its way to the grazing."""
 _ASIDE = (1e-6, 1e-5, 1e-7, 1e-4)
 """Scaled change of the parameter at which the orbit without the impact is sought."""
 _CLOSE, _GRAZES = 1e-14, 1e-10

@@ -60,7 +60,7 @@ _LOOK = 12  # bisections after which a grazing must show
 _BEYOND = (1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7)
 """Scaled distances behind a grazing at which the map must have the new contacts."""
 _RESTART = (1e-6, 1e-5, 1e-4, 1e-7, 1e-3)
-"""Scaled distances behind a grazing at which the branch is taken up again."""
+"""Scaled distances after a grazing at which the branch is continued."""
 
 
 @dataclass(frozen=True, eq=False)

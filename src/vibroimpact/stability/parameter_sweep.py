@@ -78,7 +78,7 @@ def stepped(
     settling
         How long each is held.
     seen
-        Called with what was found of each.
+        Function that is called with the result of each value.
     tally
         See `response.threads.each`; a hold is one step.
     carry

@@ -29,7 +29,7 @@ class Settled(NamedTuple):
     engine: PreparedRig
     """The phase of its shaking is that of the section."""
     state: _Array
-    """At the section behind the last cycle, as the engine's vector."""
+    """State at the section after the last cycle, as the engine's vector."""
     period: int
     """In forcing cycles; 0 if it did not settle."""
     cycles: int

@@ -21,7 +21,7 @@ _Found = TypeVar("_Found")
 
 _PROTOCOL = pickle.HIGHEST_PROTOCOL
 _LASTS = 0.25
-"""Seconds that a bundle takes for each worker there is, at most: progress is told as often."""
+"""Seconds that a bundle takes for each worker there is, at most: progress is reported as often."""
 _QUICK, _DEALT = 1 / 32, 1 / 250
 """Seconds that a bundle takes at least; and for each worker there is, since one deals to all."""
 _GROWS = 8
@@ -55,7 +55,7 @@ class Hands(Protocol):
 
 
 def bundle(task: bytes, items: bytes) -> tuple[bytes, float]:
-    """Do a task for some items; what was found, and how long it took (s)."""
+    """Do a task for some items; return the results, and the time that it took (s)."""
     begin = time.perf_counter()
     one = pickle.loads(task)
     found = [alone(one, item) for item in pickle.loads(items)]

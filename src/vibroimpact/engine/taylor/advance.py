@@ -187,7 +187,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
                 event, step, here = pressed_for(plan, here, frame, root, limit - t, t == 0.0)
                 t += step
                 if event != NEITHER:
-                    return ended(plan, event, freed(plan, here, t), t, limit)
+                    return stretch_end(plan, event, freed(plan, here, t), t, limit)
             x, z, clock = coordinate(plan, here), sign * here.z, here.clock
             if anew and creeps(plan, here):
                 return happened(plan, TURNED, freed(plan, here, t), t)
@@ -212,14 +212,14 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         here = Motion(mode, 0, 0.0, speed, right, left, sign * z, age, clock)
         t += step
         if event != LIMIT or not t < limit:
-            return ended(plan, event, freed(plan, placed(plan, here, x), t), t, limit)
+            return stretch_end(plan, event, freed(plan, placed(plan, here, x), t), t, limit)
         if anew:
             here = placed(plan, here, x)
     return GIVEN_UP, t, here.v, freed(plan, placed(plan, here, x), t)
 
 
 @apart
-def ended(plan: Vector, event: int, here: Motion, t: float, limit: float) -> Ended:
+def stretch_end(plan: Vector, event: int, here: Motion, t: float, limit: float) -> Ended:
     """What a stretch ends with, where the motion is there."""
     if event == LIMIT:
         return LIMIT, limit, here.v, here

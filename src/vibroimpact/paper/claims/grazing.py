@@ -22,7 +22,7 @@ _COMPUTED = "B3-65mm-A3"
 _LIKE_FREE = 0.1
 """Largest difference from free flight's maximum of curves that are called similar to it."""
 _COINCIDE = 0.01
-"""That of curves that are said to coincide with it."""
+"""Acceleration of curves that coincide with it according to the paper."""
 _SHALLOW = 0.1
 """Largest penetration over the gap of one side of bumpers that are hardly deformed."""
 

@@ -72,7 +72,7 @@ def s3_contact(study: PublishedStudy) -> Finding:
 @claim(
     "s3-coincident-below",
     "4.3, Fig. 8",
-    "At the secondary resonance and in the valley behind it, forward and backward sweep reach the "
+    "At the secondary resonance and in the valley after it, forward and backward sweep reach the "
     "same motion.",
     "Difference of the two excursions at f_I and f_II, read off the curves; and no left hysteresis "
     "on the secondary resonance, between exact folds of the branch either.",
@@ -262,7 +262,7 @@ def s2(study: PublishedStudy) -> Finding:
     "with the parameters fitted to this test: each within one step.",
 )
 def s2_contact(study: PublishedStudy) -> Finding:
-    """The same with the parameters of all tests is told beside it."""
+    """The same with the parameters of all tests is reported next to it."""
     told, holds = [], []
     for parameters, name in _SETS.items():
         data = study.tested(_S2, parameters).sel(direction="forward")

@@ -20,7 +20,7 @@ from vibroimpact.scenarios.evidence import SAME
 TEST_STEP = 0.1
 """Step of the tests' sweeps in Hz: a frequency that the paper gives as "about" may be off by it."""
 ROUNDING = 1e-9
-"""Largest difference, of numbers about 1, that is told as none."""
+"""Largest difference of numbers of about 1 that is reported as none."""
 ALMOST_ONE_LINE = 0.1
 """All higher harmonics together over the first one, below which that one is predominant."""
 

@@ -40,7 +40,7 @@ _CURVES: tuple[tuple[str, str, Curve], ...] = (
     ("displacement", "Fig. 6", "eta_d"),
 )
 _CROSS = 0.05
-"""Largest spread of four curves that are said to cross, over their mean."""
+"""Largest spread of four curves that cross according to the paper, over their mean."""
 
 
 @claim(
