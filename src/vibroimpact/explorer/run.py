@@ -18,7 +18,7 @@ LOOPBACK = ("127.0.0.1", "::1", "localhost")
 
 
 def serve(
-    first: State, told: Callable[[str], None], host: str = LOOPBACK[0], port: int = 0
+    first: State, ready: Callable[[str], None], host: str = LOOPBACK[0], port: int = 0
 ) -> None:
     """Serve pages until the program is interrupted.
 
@@ -26,7 +26,7 @@ def serve(
     ----------
     first
         Initial state of a page.
-    told
+    ready
         Function that is called with the address as soon as the server is ready.
     host
         Host name or address to listen on. If it is reachable from other machines, the address
@@ -39,14 +39,14 @@ def serve(
     InputError
         If the websocket library is missing, or the host or port is invalid or in use.
     """
-    asyncio.run(serving(first, host, port, told))
+    asyncio.run(serving(first, host, port, ready))
 
 
 async def serving(
     first: State,
     host: str,
     port: int,
-    told: Callable[[str], None],
+    ready: Callable[[str], None],
     stop: asyncio.Event | None = None,
 ) -> None:
     """Do what `serve` does, until `stop` is set."""
@@ -62,7 +62,7 @@ async def serving(
             "of this machine is accepted, and 0 chooses one"
         ) from None
     async with server:
-        told(where)
+        ready(where)
         await (stop or asyncio.Event()).wait()
 
 
@@ -126,13 +126,13 @@ def _background() -> str:
             ready = threading.Event()
             failed: list[BaseException] = []
 
-            def told(where: str) -> None:
+            def started(where: str) -> None:
                 _RUNNING.append(where)
                 ready.set()
 
             def run() -> None:
                 try:
-                    serve(preset(FIRST), told)
+                    serve(preset(FIRST), started)
                 except BaseException as error:
                     failed.append(error)
                     ready.set()

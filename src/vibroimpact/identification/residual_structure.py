@@ -52,7 +52,7 @@ class Structure(NamedTuple):
 
 
 def structure(
-    rows: list[Row], size: float, noise: float | None, freedom: float, told: float
+    rows: list[Row], size: float, noise: float | None, freedom: float, noise_freedom: float
 ) -> Structure:
     """Judge residuals.
 
@@ -69,7 +69,7 @@ def structure(
     noise
         Standard deviation of the noise as a share, from differences of the values; None if it is
         not known.
-    freedom, told
+    freedom, noise_freedom
         Degrees of freedom: of the residuals, and of that noise.
     """
     if size == 0.0:
@@ -94,7 +94,7 @@ def structure(
     excess, excess_chance = math.nan, 1.0
     if noise is not None and noise > 0.0:
         excess = size / noise
-        excess_chance = float(fisher.sf(excess**2, freedom, told))
+        excess_chance = float(fisher.sf(excess**2, freedom, noise_freedom))
     return Structure(share, float(norm.sf(score)), excess, excess_chance, _worst(rows))
 
 

@@ -40,7 +40,7 @@ ITEMS = (
             "all frequencies swept both directions agree on it, but its branch of orbits turns "
             "back between two of them: a left hysteresis of less than 0.01 Hz, which no test would "
             "show. The marked frequencies are read off the computed curve: I the secondary "
-            "resonance, II the valley behind it, III just before the downward jump. Contact begins "
+            "resonance, II the valley after it, III just before the downward jump. Contact begins "
             "below 0.5 Hz."
         ),
         draw=lambda study: curves_of(study, S3),

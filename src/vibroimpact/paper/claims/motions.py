@@ -167,7 +167,7 @@ def s3_two(study: PublishedStudy) -> Finding:
     "4.3, Fig. 8",
     "Both motions at f_III are periodic with one predominant harmonic.",
     "All higher harmonics of the displacement together over the first one: below 10 %. The text "
-    "does not name the quantity; the acceleration's are told as well.",
+    "does not name the quantity; the acceleration's are listed as well.",
 )
 def s3_one_line(study: PublishedStudy) -> Finding:
     """Of the displacement."""
@@ -188,7 +188,7 @@ def s3_one_line(study: PublishedStudy) -> Finding:
     "From the valley to the primary resonance the phase portraits turn into ellipses.",
     "Higher harmonics of the displacement, which a portrait shows, over the first at five "
     "frequencies from f_II to f_III: falling throughout, to below 10 %. The acceleration's are "
-    "told as well.",
+    "listed as well.",
 )
 def s3_ellipses(study: PublishedStudy) -> Finding:
     """A single harmonic is an ellipse."""
