@@ -56,11 +56,11 @@ def branch(
     parameter
         Name of the parameter that is varied: "frequency", "amplitude", "force" (constant); "gap",
         "bumper_stiffness", "bumper_damping" or "restitution" of both sides, "right_gap",
-        "left_gap", "right_stiffness" and so on for one side; "stiffness", "damping" and any other number of the
-        isolator, such as "yield_force"; other numbers of the stops, such as "dissipation",
-        "bumper_exponent" or "bumper_mass"; "proportional_stiffness" and "stiffness_ratio" (λ) of
-        the bumpers at a fixed C_j/K_j, "stiffness_at_restitution" at a fixed restitution,
-        "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
+        "left_gap", "right_stiffness" and so on for one side; "stiffness", "damping" and any other
+        number of the isolator, such as "yield_force"; other numbers of the stops, such as
+        "dissipation", "bumper_exponent" or "bumper_mass"; "proportional_stiffness" and
+        "stiffness_ratio" (λ) of the bumpers at a fixed C_j/K_j, "stiffness_at_restitution" at a
+        fixed restitution, "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
     span
         Lowest and highest value of the parameter, in SI units or as text.
     period
