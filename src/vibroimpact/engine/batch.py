@@ -59,7 +59,7 @@ def sweep(
     results, states : ndarray, shape (frequency, hold.RESULTS), (frequency, motion.STATE)
         Written: the measurements, and the state at the end of each hold.
     progress : ndarray, shape (2,) or (3,)
-        [0] is raised by one a hold; the sweep stops when [1] becomes nonzero; [2] is how many
+        [0] is raised by one per hold; the sweep stops when [1] becomes nonzero; [2] is how many
         cycles of the hold are done.
     """
     options = (tolerance, max_cycles, window, max_events, transient)

@@ -1,7 +1,7 @@
 """The demand of records on a rig: its peaks at many scales of one record, without its history.
 
-Each record is followed line by line, as `recorded.follow` does, and the base stands still behind
-it. Nothing is allocated: a call is as good for one scale as for many.
+Each record is followed line by line, as `recorded.follow` does, and the base stands still after it.
+Nothing is allocated: a call is as good for one scale as for many.
 """
 
 from __future__ import annotations

@@ -3,8 +3,8 @@
 numba optimises every function that it compiles, with all that it calls, and makes machine code of
 it, also of one that nothing calls: half of the time in which the engine compiles. The entry, into
 which all are merged, is optimised as a whole anyway. numba has no option to leave it out, so its
-code generator is told while an entry is compiled, in the versions whose inside is known to be of
-this shape; any other compiles the same code in a longer time.
+code generator is informed while an entry is compiled, in the versions whose inside is known to be
+of this shape; any other compiles the same code in a longer time.
 """
 
 from __future__ import annotations

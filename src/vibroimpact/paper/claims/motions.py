@@ -167,7 +167,7 @@ def s3_two(study: PublishedStudy) -> Finding:
     "4.3, Fig. 8",
     "Both motions at f_III are periodic with one predominant harmonic.",
     "All higher harmonics of the displacement together over the first one: below 10 %. The text "
-    "does not name the quantity; the acceleration's are told as well.",
+    "does not name the quantity; those of the acceleration are reported as well.",
 )
 def s3_one_line(study: PublishedStudy) -> Finding:
     """Of the displacement."""

@@ -141,7 +141,7 @@ def _by_cycle(motion: xr.Dataset) -> dict[str, list[int]]:
     "In the non-regular resonance the number of impacts changes from cycle to cycle: the inner "
     "loop of each of the two mirrored motions crosses one bumper now and then, always the same "
     "one.",
-    "Impacts in each cycle of the record at f_II: one a cycle on one side, a changing number on "
+    "Impacts in each cycle of the record at f_II: one per cycle on one side, a changing number on "
     "the other.",
 )
 def changing(study: PublishedStudy) -> Finding:
