@@ -150,7 +150,13 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     InputWarning
         If the file has no checksum, because another program has changed it.
     """
-    if not check_path(path, "file").is_file():
+    file_path = check_path(path, "file")
+    if file_path.is_dir():
+        raise InputError(
+            f"file: {str(path)!r} is a folder; a NetCDF file, or the store of a map or of demands as "
+            "`store` of the call that wrote it, is accepted"
+        )
+    if not file_path.is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")
     try:
         content, is_sealed = _unsealed(Path(path).read_bytes())
